@@ -38,7 +38,7 @@ impl<'a> Builder<'a> {
     }
 
     fn is_leaf(&self, id: NodeId) -> bool {
-        self.given.holds(self.graph, id) || self.graph.constant_value(id).is_some()
+        self.given.holds(self.graph, id) || self.given.constant(self.graph, id).is_some()
     }
 
     /// The value of a constant, a symbol or a given expression; `None` for other nodes.
@@ -53,7 +53,7 @@ impl<'a> Builder<'a> {
             }
             _ => match self.given.values.get(&id) {
                 Some(symbol) => Value::Symbol(*symbol),
-                None => return self.graph.constant_value(id).map(|value| self.constant(Number::Float(value))),
+                None => return self.given.constant(self.graph, id).map(|value| self.constant(Number::Float(value))),
             },
         };
         Some(self.positive(value))
@@ -196,7 +196,7 @@ impl<'a> Builder<'a> {
         let mut negative = false;
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for &(base, exponent) in factors {
-            if let Some(value) = self.graph.constant_value(base) {
+            if let Some(value) = self.given.constant(self.graph, base) {
                 constant = constant.multiply(Number::Float(value.powi(exponent)));
                 continue;
             }
