@@ -6,6 +6,7 @@ use quote::quote;
 use super::expression::literal;
 use super::functions;
 use super::names::{ident, string};
+use super::types::other_scalar;
 use crate::lower::Code;
 use crate::program::{Family, Program};
 
@@ -16,7 +17,7 @@ pub(super) fn of_driver(program: &Program<Code>, place: Span) -> Option<TokenStr
     let [p, u, v, q] =
         [mechanism.parameters.len(), signatures.unknowns(), signatures.inputs(), signatures.components()].map(literal);
     let fields = mechanism.parameters.iter().map(|parameter| ident(&parameter.name.field));
-    let error = ident("PositionError");
+    let (error, other) = (ident("PositionError"), other_scalar(mechanism));
     let functions = any.functions.iter().map(|function| functions::function(function, &error, place));
     let parameters = mechanism.parameters.iter().map(|parameter| string(&parameter.name.text));
     let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(mechanism));
@@ -45,7 +46,7 @@ pub(super) fn of_driver(program: &Program<Code>, place: Span) -> Option<TokenStr
         impl __rt::Certifiable for #name<f64> {
             type P = __rt::D<#p>;
             type Q = __rt::D<#q>;
-            type Over<N: __rt::Number> = #name<N>;
+            type Over<#other: __rt::Number> = #name<#other>;
             const PARAMETERS: &'static [&'static str] = &[#(#parameters),*];
             const QUANTITIES: &'static [&'static str] = &[#(#quantities),*];
             const UNKNOWN_PERIODS: &'static [u32] = &[#(#of_unknowns),*];
