@@ -58,11 +58,7 @@ pub fn of_boxes<F: Fixture + Certifiable>() {
         let found = values::<F, Interval>(&wide);
         for _ in 0..3 {
             let mut inner = |value: f64, radius: f64| value + radius * random.random_range(-1.0..1.0);
-            let other = oracle.moved(
-                sample,
-                |parameter| inner(parameter, of_parameters),
-                |coordinate| coordinate,
-            );
+            let other = oracle.moved(sample, |parameter| inner(parameter, of_parameters), |coordinate| coordinate);
             let other = oracle.moved(&other, |parameter| parameter, |coordinate| inner(coordinate, radius));
             contain::<F>(&found, &oracle.precisely(&tape, &other));
         }

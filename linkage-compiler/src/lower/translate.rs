@@ -162,14 +162,20 @@ impl<'a> Builder<'a> {
         terms
     }
 
+    /// The product of two numbers, if it is finite, and exact where it must be.
+    fn folded(&self, one: Number, other: Number) -> Option<Number> {
+        let product = one.multiply(other);
+        let is_exact = matches!(product, Number::Ratio(..));
+        (product.is_finite() && (is_exact || !self.given.is_exact)).then_some(product)
+    }
+
     /// Collects equal factors of a product into squares, and all numbers into one.
     fn gathered(&mut self, mut constant: Number, mut factors: Vec<ValueId>) -> (Number, Vec<ValueId>) {
-        factors.retain(|factor| match self.values[factor.0] {
-            Value::Constant(number) if constant.multiply(number).is_finite() => {
-                constant = constant.multiply(number);
-                false
-            }
-            _ => true,
+        factors.retain(|factor| {
+            let Value::Constant(number) = self.values[factor.0] else { return true };
+            let product = self.folded(constant, number);
+            constant = product.unwrap_or(constant);
+            product.is_none()
         });
         while has_twice(factors.iter().copied()) {
             factors.sort_unstable();
@@ -261,7 +267,10 @@ impl<'a> Builder<'a> {
             return value;
         }
         match self.values[value.0].clone() {
-            Value::Constant(number) => self.constant(number.multiply(factor)).value,
+            Value::Constant(number) => match self.folded(number, factor) {
+                Some(product) => self.constant(product).value,
+                None => self.multiply(factor, vec![value]),
+            },
             Value::Product(factors) => self.multiply(factor, factors),
             Value::Quotient(above, below) => {
                 let above = self.scaled(factor, above);
