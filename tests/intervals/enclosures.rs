@@ -1,6 +1,4 @@
 //! Over intervals the formulas contain the values of the derivation's expressions in 48 digits.
-//!
-//! With `INTERVALS=3000`, optimised: see `docs` below for the number of comparisons.
 
 use linkage::{Certifiable, Interval};
 use linkage_gallery::Fixture;

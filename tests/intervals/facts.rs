@@ -1,9 +1,10 @@
 //! What the trait `Certifiable` says of a mechanism.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use linkage::{Certifiable, Column, Formulas, linkage};
-use linkage_gallery::{CamRocker, Fixture, Kinematics};
+use linkage::{Certifiable, Column, Formulas, Interval, linkage};
+use linkage_gallery::cam_rocker::CamRocker;
+use linkage_gallery::{Fixture, Kinematics};
 use linkage_oracle::{Oracle, all_close};
 
 use crate::formulas::{At, column, title};
@@ -67,4 +68,35 @@ fn a_user_function_is_named_in_its_group() {
     assert_eq!(named, [&"turn"]);
     let parameters: Column<f64, _> = Certifiable::parameters(&CamRocker::default());
     assert_eq!(parameters.as_slice(), Kinematics::parameters(&CamRocker::default()));
+}
+
+linkage! {
+    /// Constants that no double holds.
+    mechanism Constants {
+        param r = 1;
+        input phi;
+        output third = r / 3;
+        output root = sqrt(2) * r;
+        output half_turn = 180deg * r;
+        output large = 3002399751580331 * 3 * r;
+        output turned = phi;
+        derive intervals;
+    }
+}
+
+#[test]
+fn constants_are_not_rounded() {
+    let over = <Constants as Certifiable>::Over::<Interval>::with_parameters(Column::from([Interval::from(1.0)]));
+    let inputs = Column::from([Interval::from(1.0)]);
+    let [third, root, half_turn, large, turned] = over.quantities(&Column::from([]), &inputs).into();
+    for (value, what) in [(third, "third"), (root, "root"), (half_turn, "half turn"), (large, "large")] {
+        assert!(value.least() < value.most(), "{what}: {value:?}");
+        assert!(value.width() <= 8.0 * f64::EPSILON * value.magnitude(), "{what}: {value:?}");
+    }
+    assert!((third + third + third).contains(1.0) && root.square().contains(2.0));
+    // pi is above its double by 1.2e-16.
+    assert!(half_turn.contains(PI) && half_turn.contains(PI.next_up()));
+    // 2^53 + 1.
+    assert!(large.contains(9_007_199_254_740_992.0) && large.contains(9_007_199_254_740_994.0));
+    assert_eq!((turned.least(), turned.most()), (1.0, 1.0));
 }

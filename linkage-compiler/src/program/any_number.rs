@@ -82,7 +82,7 @@ impl Plan<'_, '_> {
 
     fn gamma_of_columns(&mut self) -> Function<Body> {
         let gamma = self.derivation.gamma.to_vec();
-        let mut doc = lines(["The quadratic velocity term (Psi_q q')_q q'."]);
+        let mut doc = lines(["The quadratic velocity term `(Psi_q q')_q q'`."]);
         doc.extend(self.numbered("gamma", &gamma));
         let kernel = self.kernel_of_columns(unnamed(gamma), true);
         self.function_of_columns(self.signatures.gamma_of_columns(), doc, kernel)
