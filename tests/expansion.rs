@@ -130,6 +130,8 @@ snapshots! {
     open_chain: implementation("cart_pendulum", "CartPendulum", "Mechanism");
     columns: structures(expand(source::tokens_of("scotch_yoke")), &["ScotchYokeColumns"]);
     lanes: implementation("scotch_yoke", "ScotchYoke", "Lanes");
+    formulas: implementation("scotch_yoke", "ScotchYoke", "Formulas");
+    certifiable: implementation("scotch_yoke", "ScotchYoke", "Certifiable");
     derivation_constant: derivation("scotch_yoke", &["mechanism", "inputs", "residual", "blocks", "ratios"]);
     stub_on_error: stub();
 }
@@ -155,13 +157,14 @@ fn expansion_is_repeatable() {
     }
 }
 
-/// Without `derive lanes` nothing of them is emitted, and with it all else stays as it is.
+/// Without `derive lanes, intervals` nothing of them is emitted, and with it all else stays as it is.
 #[test]
-fn lanes_are_emitted_if_asked_for() {
+fn lanes_and_intervals_are_emitted_if_asked_for() {
     let with = source::tokens_of("scotch_yoke");
     let without = source::with_statements(with.clone(), |statement| !statement.starts_with("derive"));
     let text = unparse(expand(without.clone()));
     assert!(!["Lanes", "Columns", "lane", "batch"].iter().any(|word| text.contains(word)), "{text}");
+    assert!(!["Formulas", "Certifiable", "Number"].iter().any(|word| text.contains(word)), "{text}");
     let (with, without) = (surface(with), surface(without));
     assert!(with.len() == without.len() + 1 && with.contains_key("ScotchYokeColumns"), "{:?}", with.keys());
     for (name, members) in without {

@@ -18,7 +18,7 @@ const PRELUDE: &str = "Copy Send Sized Sync Unpin Drop Fn FnMut FnOnce AsyncFn d
 
 const TYPES: &str = "bool char str u8 u16 u32 u64 u128 usize i8 i16 i32 i64 i128 isize f32 f64 Rc Arc Cell RefCell Mutex \
     HashMap BTreeMap Path Instant Duration Ordering Range Error Add Sub Mul Div Neg Index Display Write Read Matrix \
-    Vector2 Point2 SVector Complex Real Mechanism Scene Assembly AssemblyMode Branches Memory Loops Pose Branch Motion Side Elbow Column Slope Slider core \
+    Vector2 Point2 SVector Complex Real Mechanism Scene Assembly AssemblyMode Branches Memory Loops Pose Branch Motion Side Elbow Number Formulas Certifiable Column Slope Slider core \
     std alloc nalgebra linkage";
 
 const LETTERS: &str = "a b c d e f g h i j k l m n o p q r s t u v w x y z A B C D E F G H I J K L M N O P Q R S T U V W \
@@ -44,21 +44,31 @@ const ROLES: [Role; 4] = [
     ("params", |names| {
         let sum = names.join(" + ");
         format!(
-            "pub mechanism M0 {{ param {} = 1; input v0; unknown u0; equation u0 = v0 * ({sum}); }}",
+            "pub mechanism M0 {{ derive intervals; param {} = 1; input v0; unknown u0; equation u0 = v0 * ({sum}); }}",
             names.join(" = 1, ")
         )
     }),
     ("unknowns", |names| {
         let equations: Vec<String> = names.iter().map(|name| format!("equation {name} = 2 * v0;")).collect();
-        format!("pub mechanism M0 {{ input v0; unknown {}; {} }}", names.join(", "), equations.concat())
+        format!(
+            "pub mechanism M0 {{ derive intervals; input v0; unknown {}; {} }}",
+            names.join(", "),
+            equations.concat()
+        )
     }),
     ("points", |names| {
         let points: Vec<String> = names.iter().map(|name| format!("point {name} = u0@v0;")).collect();
-        format!("pub mechanism M0 {{ input v0; unknown u0; equation u0 = 2 * v0; {} }}", points.concat())
+        format!(
+            "pub mechanism M0 {{ derive intervals; input v0; unknown u0; equation u0 = 2 * v0; {} }}",
+            points.concat()
+        )
     }),
     ("outputs", |names| {
         let outputs: Vec<String> = names.iter().map(|name| format!("output {name} = u0 * sin(v0);")).collect();
-        format!("pub mechanism M0 {{ input v0; unknown u0; equation u0 = 2 * v0; {} }}", outputs.concat())
+        format!(
+            "pub mechanism M0 {{ derive intervals; input v0; unknown u0; equation u0 = 2 * v0; {} }}",
+            outputs.concat()
+        )
     }),
 ];
 
@@ -66,10 +76,10 @@ const ROLES: [Role; 4] = [
 fn types(name: &str) -> [String; 2] {
     [
         format!(
-            "pub mechanism {name} {{ param p0 = 2; input v0; unknown u0; equation u0 = p0 * v0; point P0 = u0@v0; }}"
+            "pub mechanism {name} {{ derive intervals; param p0 = 2; input v0; unknown u0; equation u0 = p0 * v0; point P0 = u0@v0; }}"
         ),
         format!(
-            "pub mechanism M0 {{ param p0 = 2, m0 = 1; input v0; unknown u0; equation u0 = p0 * v0; \
+            "pub mechanism M0 {{ derive intervals; param p0 = 2, m0 = 1; input v0; unknown u0; equation u0 = p0 * v0; \
              body b0 {{ mass m0; center (u0, 0); }} scene {name} {{ inertia; energy; }} }}"
         ),
     ]

@@ -238,7 +238,8 @@ fn constants_beyond_the_range_are_rejected() {
 fn a_hundred_thousand_tokens_of_honest_input_are_within_the_budget() {
     use linkage_compiler::budget::{Budget, MOST_STEPS};
     const LEGS: usize = 345;
-    let leg = source::tokens_of("jansen").to_string();
+    let leg = source::tokens_of("jansen").to_string().replace(" , intervals", "").replace(", intervals", "");
+    assert!(!leg.contains("intervals"));
     let steps = |legs: usize| {
         let budget = Budget::default();
         let legs: String = (0..legs).map(|number| leg.replace("Jansen", &format!("Jansen{number}"))).collect();

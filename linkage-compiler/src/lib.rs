@@ -47,13 +47,15 @@ pub struct Facade {
     pub has_dynamics: bool,
     /// True if its feature `serde` is on: `derive serde` needs it.
     pub has_serde: bool,
+    /// True if its feature `interval` is on: `derive intervals` needs it.
+    pub has_intervals: bool,
 }
 
 impl Facade {
     /// The crate at this path with all features on.
     #[must_use]
     pub fn complete(path: &TokenStream) -> Self {
-        Self { path: path.clone(), has_dynamics: true, has_serde: true }
+        Self { path: path.clone(), has_dynamics: true, has_serde: true, has_intervals: true }
     }
 }
 
@@ -69,13 +71,7 @@ pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> To
         if !facade.has_dynamics {
             report_scenes(&mut mechanism, &mut diagnostics);
         }
-        if !facade.has_serde
-            && let Some(span) = mechanism.requests_at.remove(&Request::Serde)
-        {
-            mechanism.requests.remove(&Request::Serde);
-            let advice = "`derive serde` needs the feature `serde` of `linkage`: enable it in Cargo.toml";
-            diagnostics.error(span, advice);
-        }
+        report_requests(&mut mechanism, facade, &mut diagnostics);
         clash::within(&mut mechanism, &mut diagnostics);
         if budget.is_spent() {
             diagnostics = Diagnostics::default();
@@ -109,6 +105,20 @@ fn report_scenes(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
     for scene in std::mem::take(&mut mechanism.scenes).iter() {
         diagnostics
             .error(scene.name.span(), "a scene needs the feature `dynamics` of `linkage`: enable it in Cargo.toml");
+    }
+}
+
+/// Reports and removes the requests whose features are off.
+fn report_requests(mechanism: &mut Mechanism, facade: &Facade, diagnostics: &mut Diagnostics) {
+    let needed = [
+        (Request::Serde, facade.has_serde, "`derive serde` needs the feature `serde`"),
+        (Request::Intervals, facade.has_intervals, "`derive intervals` needs the feature `interval`"),
+    ];
+    for (request, is_on, message) in needed {
+        if !is_on && let Some(span) = mechanism.requests_at.remove(&request) {
+            mechanism.requests.remove(&request);
+            diagnostics.error(span, format_args!("{message} of `linkage`: enable it in Cargo.toml"));
+        }
     }
 }
 

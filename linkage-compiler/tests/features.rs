@@ -1,4 +1,4 @@
-//! Expansion for a `linkage` crate without its features `dynamics` and `serde`.
+//! Expansion for a `linkage` crate without its features `dynamics`, `serde` and `interval`.
 
 use linkage_compiler::Facade;
 use linkage_compiler::budget::Budget;
@@ -10,7 +10,8 @@ fn expanded(statement: &str, has_features: bool) -> String {
         "mechanism Crank {{ param r = 1, m = 2; input phi; unknown x; equation x = r * cos(phi); \
          body rod {{ mass m; center (x, 0); }} {statement} }}"
     );
-    let facade = Facade { path: "::linkage".parse().unwrap(), has_dynamics: has_features, has_serde: has_features };
+    let path = "::linkage".parse().unwrap();
+    let facade = Facade { path, has_dynamics: has_features, has_serde: has_features, has_intervals: has_features };
     let tokens: TokenStream = crank.parse().unwrap();
     linkage_compiler::expand_within(tokens, &facade, &Budget::default()).to_string()
 }
@@ -34,4 +35,13 @@ fn serde_needs_the_feature() {
     assert!(without.contains("`derive serde` needs the feature `serde` of `linkage`"), "{without}");
     assert!(without.contains("struct Crank") && !without.contains("Serialize"), "{without}");
     assert!(expanded("derive serde;", true).contains("Serialize"));
+}
+
+#[test]
+fn intervals_need_the_feature() {
+    let without = expanded("derive intervals;", false);
+    assert!(without.contains("`derive intervals` needs the feature `interval` of `linkage`"), "{without}");
+    assert!(without.contains("struct Crank") && !without.contains("Formulas"), "{without}");
+    let accepted = expanded("derive intervals;", true);
+    assert!(!accepted.contains("compile_error") && accepted.contains("Formulas") && accepted.contains("Certifiable"));
 }

@@ -14,6 +14,11 @@ pub fn linkage(input: TokenStream) -> TokenStream {
     // The macro of the facade passes its own path as the first token.
     let mut tokens = proc_macro2::TokenStream::from(input).into_iter();
     let root = tokens.next().into_iter().collect();
-    let facade = Facade { path: root, has_dynamics: cfg!(feature = "dynamics"), has_serde: cfg!(feature = "serde") };
+    let facade = Facade {
+        path: root,
+        has_dynamics: cfg!(feature = "dynamics"),
+        has_serde: cfg!(feature = "serde"),
+        has_intervals: cfg!(feature = "interval"),
+    };
     linkage_compiler::expand_within(tokens.collect(), &facade, &Budget::default()).into()
 }

@@ -8,7 +8,7 @@ use quote::ToTokens;
 use syn::{Expr, Item, Stmt};
 
 /// All `derive` requests; those that a mechanism lacks are added.
-const REQUESTS: [&str; 4] = ["limits", "jerk", "velocity_ratio_derivatives", "sensitivity"];
+const REQUESTS: [&str; 5] = ["limits", "jerk", "velocity_ratio_derivatives", "sensitivity", "intervals"];
 
 /// Folders and files with mechanisms.
 const SOURCES: [&str; 3] =

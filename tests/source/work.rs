@@ -24,6 +24,10 @@ struct Visitor {
 
 impl Visit<'_> for Visitor {
     fn visit_item_impl(&mut self, item: &syn::ItemImpl) {
+        if item.trait_.is_some() {
+            // A function of a trait has the name of another.
+            return;
+        }
         if let syn::Type::Path(path) = &*item.self_ty {
             self.of = path.path.segments.last().expect("a name").ident.to_string();
         }

@@ -12,6 +12,9 @@ use nalgebra::DMatrix;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
+use crate::precise::{Big, big};
+use crate::tape::Tape;
+
 /// One driver of one mechanism, read from its file of the gallery.
 pub struct Oracle {
     mechanism: Mechanism,
@@ -74,6 +77,48 @@ impl Oracle {
         let graph = &self.derivation.graph;
         let bind = |symbol| sample.values[graph.symbol_name(symbol)];
         graph.evaluate_with(nodes, bind, |external, arguments| self.external(external, arguments))
+    }
+
+    /// Expressions for repeated evaluation by [`precisely`](Self::precisely).
+    #[must_use]
+    pub fn tape(&self, nodes: &[NodeId]) -> Tape {
+        Tape::new(&self.derivation.graph, nodes, &[])
+    }
+
+    /// The values of a tape in 48 digits.
+    #[must_use]
+    pub fn precisely(&self, tape: &Tape, sample: &Sample) -> Vec<Big> {
+        let graph = &self.derivation.graph;
+        let bind = |symbol| big(sample.values[graph.symbol_name(symbol)]);
+        tape.evaluate(bind, |external, arguments| self.external(external, arguments))
+    }
+
+    /// The sums of the magnitudes of the terms of expressions.
+    #[must_use]
+    pub fn magnitudes(&self, sample: &Sample, nodes: &[NodeId]) -> Vec<f64> {
+        let graph = &self.derivation.graph;
+        let bind = |symbol| sample.values[graph.symbol_name(symbol)];
+        self.tape(nodes).magnitudes(bind, |external, arguments| self.external(external, arguments))
+    }
+
+    /// Another sample, with its parameters changed by one function and its coordinates and rates by another.
+    pub fn moved(
+        &self,
+        sample: &Sample,
+        parameter: impl FnMut(f64) -> f64,
+        mut coordinate: impl FnMut(f64) -> f64,
+    ) -> Sample {
+        let parameters: Vec<f64> = sample.parameters.iter().copied().map(parameter).collect();
+        let mut all = |list: &[f64]| list.iter().map(|&value| coordinate(value)).collect::<Vec<f64>>();
+        let (q, rates) = (all(&sample.q), all(&sample.rates));
+        let accelerations = sample.accelerations.clone();
+        let mut values = sample.values.clone();
+        values.extend(self.mechanism.parameters.iter().map(|one| one.name.field.clone()).zip(parameters.clone()));
+        for (coordinate, (&q, &rate)) in self.derivation.coordinates.iter().zip(q.iter().zip(&rates)) {
+            values.insert(coordinate.name.clone(), q);
+            values.insert(format!("{}_rate", coordinate.name), rate);
+        }
+        Sample { parameters, q, rates, accelerations, values }
     }
 
     /// A derivative of one of the cam laws.

@@ -87,9 +87,9 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     };
     for request in &mechanism.requests {
         match request {
-            // Limits are derived from the assembly when they are emitted; lanes have the formulas of `kinematics`; `serde`
-            // changes types only.
-            Request::Limits | Request::Lanes | Request::Serde | Request::Fpcore => {}
+            // Limits are derived from the assembly when they are emitted; lanes have the formulas of `kinematics`, and
+            // intervals those of Psi and its derivatives; `serde` changes types only.
+            Request::Limits | Request::Lanes | Request::Serde | Request::Fpcore | Request::Intervals => {}
             Request::Drawing => {
                 derivation.skeleton = Some(Skeleton::of(mechanism, driver, &mut derivation.graph));
             }

@@ -22,6 +22,7 @@ mod limits;
 mod linear;
 mod motion;
 mod multipliers;
+mod periods;
 mod plane;
 mod position_formulas;
 mod ratio_derivatives;

@@ -35,6 +35,7 @@ fn binding(value: &Expression) -> Binding {
         Expression::Sum(_) | Expression::All(_) | Expression::Closure { .. } => Binding::Sum,
         Expression::Product(_) | Expression::Quotient(_) | Expression::Square(_) => Binding::Product,
         Expression::Number(number) if parts_of_pi(*number).is_some() => Binding::Product,
+        Expression::Exact(number) if is_long(*number) => Binding::Product,
         // -a * b parses as (-a) * b, which is equal and costs the same.
         Expression::Negative(inside) => match binding(inside) {
             Binding::Product => Binding::Product,
@@ -49,6 +50,7 @@ fn written(value: &Expression) -> TokenStream {
     match value {
         Expression::Name(name) => ident(name).into_token_stream(),
         Expression::Number(number) => turn(*number).unwrap_or_else(|| constant(*number)),
+        Expression::Exact(number) => exact(*number),
         Expression::Sum(terms) => sum(terms),
         Expression::Product(factors) => {
             let mut factors = factors.iter();
@@ -288,6 +290,10 @@ impl ToTokens for Type {
                 let count = literal(*count);
                 quote!([#item; #count])
             }
+            Self::Column(item, count) => {
+                let count = literal(*count);
+                quote!(__rt::Column<#item, __rt::D<#count>>)
+            }
             Self::Tuple(items) => quote!((#(#items),*)),
             Self::Kinematics { pose, rates, unknowns, inputs } => {
                 let [pose, rates] = [pose, rates].map(|name| ident(name));
@@ -307,6 +313,7 @@ fn path(of: &Type) -> TokenStream {
     match of {
         Type::Own(name) | Type::Bare(name) | Type::Each(name, _) => ident(name).into_token_stream(),
         Type::Runtime(name, _) | Type::Sized(name, _) => runtime(name),
+        Type::List(..) => quote!(<#of>),
         other => other.to_token_stream(),
     }
 }
@@ -384,6 +391,35 @@ pub(super) fn constant(number: Number) -> TokenStream {
         Number::Float(value) => {
             let literal = separated(value);
             quote!(__rt::real::<T>(#literal))
+        }
+    }
+}
+
+/// True if a part of this ratio is no double, so that it is a quotient of two numbers.
+fn is_long(number: Number) -> bool {
+    matches!(number, Number::Ratio(_, d) if d != 1 && number.as_quotient().is_none())
+}
+
+/// A constant as a number of any kind: a ratio exactly.
+fn exact(number: Number) -> TokenStream {
+    let plain = Literal::f64_unsuffixed;
+    match (number, number.as_quotient()) {
+        // Dividing a double by a power of two is exact.
+        (Number::Ratio(_, d), Some([above, below])) if d.count_ones() == 1 => {
+            let value = plain(above / below);
+            quote!(T::exactly(#value))
+        }
+        (_, Some([above, below])) => {
+            let (above, below) = (plain(above), plain(below));
+            quote!(T::ratio(#above, #below))
+        }
+        (Number::Ratio(n, d), None) if d != 1 => {
+            let (n, d) = (plain(n as f64), plain(d as f64));
+            quote!(T::near(#n) / T::near(#d))
+        }
+        _ => {
+            let value = separated(number.to_f64());
+            quote!(T::near(#value))
         }
     }
 }

@@ -12,8 +12,8 @@ use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value
 /// Emits a function with its doc comment, at a place; `error` is its error type. Without a body it is a stub.
 pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
-    // Only public functions show their operation counts.
-    let work = body.as_ref().filter(|_| access.is_public()).map(|code| code.operations);
+    // Only functions that others call show their operation counts.
+    let work = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
     let doc = description(doc, work.unwrap_or_default());
     let name = Ident::new(name, place);
     let itself = is_method.then(|| quote!(&self));
@@ -45,6 +45,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
         Access::Inlined => quote!(#[inline]),
         Access::Layer | Access::Lane => quote!(#[inline(always)]),
         Access::Cold => quote!(#[cold]),
+        Access::OfTrait => TokenStream::new(),
     };
     let body = match body {
         Some(Code { statements, value, .. }) => {

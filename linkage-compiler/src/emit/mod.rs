@@ -1,5 +1,6 @@
 //! Printers of a lowered program: as Rust with the user's names and with formulas in doc comments, and as text.
 
+mod any_number;
 mod document;
 mod drawing;
 mod expression;
@@ -64,6 +65,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     if mechanism.requests.contains(&Request::Drawing) {
         implemented.extend(drawing::of_driver(program, derivation));
     }
+    implemented.extend(any_number::of_driver(program, place));
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
     let implemented = places::located(quote!(#of_pose #implemented), place, 1);

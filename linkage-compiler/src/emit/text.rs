@@ -24,6 +24,7 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
             Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
             Access::Inlined | Access::Layer | Access::Lane => "inlined ",
             Access::Cold => "cold ",
+            Access::OfTrait => "of a trait ",
             Access::Deprecated => "deprecated ",
         };
         let or_error = if function.is_fallible { " or an error" } else { "" };
@@ -100,6 +101,7 @@ fn expression(value: &Expression) -> String {
         Expression::Number(Number::Ratio(n, 1)) => n.to_string(),
         Expression::Number(Number::Ratio(n, d)) => format!("({n}/{d})"),
         Expression::Number(Number::Float(value)) => value.to_string(),
+        Expression::Exact(number) => format!("exactly {number}"),
         Expression::Sum(terms) => {
             let mut text = String::new();
             for (place, (is_negative, term)) in terms.iter().enumerate() {

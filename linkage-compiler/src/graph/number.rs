@@ -119,6 +119,15 @@ impl Number {
         }
     }
 
+    /// Numerator and denominator, if both are doubles.
+    #[must_use]
+    pub fn as_quotient(self) -> Option<[f64; 2]> {
+        match self {
+            Self::Ratio(n, d) => (exact_in_f64(n) && exact_in_f64(d)).then_some([n as f64, d as f64]),
+            Self::Float(_) => None,
+        }
+    }
+
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         match (self, other) {

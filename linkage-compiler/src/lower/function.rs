@@ -169,7 +169,8 @@ impl<'a> Formulas<'a> {
     fn of(kernel: &Kernel, is_layer: bool, context: &Context<'a>) -> Self {
         let derivation = context.derivation;
         let nothing = Given::default();
-        let given = if kernel.is_on_pose { &context.pose.given } else { &nothing };
+        let of_pose = if kernel.is_on_pose { &context.pose.given } else { &nothing };
+        let given = kernel.any_number.as_ref().unwrap_or(of_pose);
         let nodes: Vec<NodeId> = kernel.results.iter().map(|output| output.node).collect();
         // Preferred names of values: those of results, then those given by the user.
         let results = kernel.results.iter().filter_map(|output| Some((output.node, output.name.clone()?)));

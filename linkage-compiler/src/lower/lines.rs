@@ -72,6 +72,11 @@ impl<'a, 'n> Writer<'a, 'n> {
         matches!(self.kernel.failure, Failure::Flag)
     }
 
+    /// True if it computes with numbers of any kind.
+    fn is_exact(&self) -> bool {
+        self.kernel.any_number.is_some()
+    }
+
     /// Flags arguments for which the form of a function without branches has another value.
     fn flag_range(&mut self, value: &'a Value) {
         let Value::Call(function, arguments) = value else { return };
@@ -400,8 +405,14 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let [(above_sign, above), (below_sign, below)] = [above, below].map(|&part| self.parts_of(part));
                 (above_sign != below_sign, Expression::Quotient(Box::new([above, below])))
             }
-            Value::Square(base) => (false, Expression::Square(Box::new(self.parts_of(*base).1))),
+            Value::Square(base) => {
+                let base = self.parts_of(*base).1;
+                (false, if self.is_exact() { base.method("square", []) } else { Expression::Square(Box::new(base)) })
+            }
             Value::Symbol(symbol) => (false, Expression::Name(self.names.symbol(*symbol))),
+            Value::Constant(number) if self.is_exact() && !number.is_zero() && !number.is_one() => {
+                (false, Expression::Exact(*number))
+            }
             Value::Constant(number) => (false, Expression::Number(*number)),
             Value::Sum(terms) => (false, self.sum(terms)),
             Value::Call(function, arguments) => {

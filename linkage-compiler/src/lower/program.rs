@@ -9,10 +9,11 @@ use crate::program::{Access, Body, Derived, Function, Operations, Program, Scene
 /// Lowers all functions of a driver and of its scenes.
 #[must_use]
 pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Program<'a, Code> {
-    let Program { signatures, position, functions, scenes, derived } = planned;
+    let Program { signatures, position, functions, scenes, any_number, derived } = planned;
     let Some(derived) = derived else {
         let functions = functions.into_iter().map(Function::without_body).collect();
-        return Program { signatures, position, functions, scenes: Vec::new(), derived: None };
+        let any_number = any_number.map(|any_number| any_number.map(Function::without_body));
+        return Program { signatures, position, functions, scenes: Vec::new(), any_number, derived: None };
     };
     let reserved = signatures.arguments.reserved();
     let mut context = context(derivation, &derived, &reserved, &signatures.arguments, BTreeMap::new());
@@ -21,6 +22,7 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
     let functions = ordered(functions, &signatures.all(&position));
     let works = context.works.iter().map(|(name, work)| (signatures.types.function(name), *work));
     let works: BTreeMap<String, Operations> = works.collect();
+    let any_number = any_number.map(|any_number| any_number.map(|planned| function(planned, &mut context)));
     let scenes = scenes.into_iter().map(|scene| {
         let SceneProgram { signatures, functions } = scene;
         let mut reserved = signatures.arguments.reserved();
@@ -31,7 +33,7 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
         SceneProgram { signatures, functions }
     });
     let scenes = scenes.collect();
-    Program { signatures, position, functions, scenes, derived: Some(derived) }
+    Program { signatures, position, functions, scenes, any_number, derived: Some(derived) }
 }
 
 /// Removes the functions for a lane that have branches, and those after them: lanes are then computed one by one.

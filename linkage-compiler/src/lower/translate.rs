@@ -38,7 +38,7 @@ impl<'a> Builder<'a> {
     }
 
     fn is_leaf(&self, id: NodeId) -> bool {
-        self.given.holds(self.graph, id) || self.graph.constant_value(id).is_some()
+        self.given.holds(self.graph, id) || self.given.constant(self.graph, id).is_some()
     }
 
     /// The value of a constant, a symbol or a given expression; `None` for other nodes.
@@ -53,7 +53,7 @@ impl<'a> Builder<'a> {
             }
             _ => match self.given.values.get(&id) {
                 Some(symbol) => Value::Symbol(*symbol),
-                None => return self.graph.constant_value(id).map(|value| self.constant(Number::Float(value))),
+                None => return self.given.constant(self.graph, id).map(|value| self.constant(Number::Float(value))),
             },
         };
         Some(self.positive(value))
@@ -162,14 +162,20 @@ impl<'a> Builder<'a> {
         terms
     }
 
+    /// The product of two numbers, if it is finite, and exact where it must be.
+    fn folded(&self, one: Number, other: Number) -> Option<Number> {
+        let product = one.multiply(other);
+        let is_exact = matches!(product, Number::Ratio(..));
+        (product.is_finite() && (is_exact || !self.given.is_exact)).then_some(product)
+    }
+
     /// Collects equal factors of a product into squares, and all numbers into one.
     fn gathered(&mut self, mut constant: Number, mut factors: Vec<ValueId>) -> (Number, Vec<ValueId>) {
-        factors.retain(|factor| match self.values[factor.0] {
-            Value::Constant(number) if constant.multiply(number).is_finite() => {
-                constant = constant.multiply(number);
-                false
-            }
-            _ => true,
+        factors.retain(|factor| {
+            let Value::Constant(number) = self.values[factor.0] else { return true };
+            let product = self.folded(constant, number);
+            constant = product.unwrap_or(constant);
+            product.is_none()
         });
         while has_twice(factors.iter().copied()) {
             factors.sort_unstable();
@@ -196,7 +202,7 @@ impl<'a> Builder<'a> {
         let mut negative = false;
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for &(base, exponent) in factors {
-            if let Some(value) = self.graph.constant_value(base) {
+            if let Some(value) = self.given.constant(self.graph, base) {
                 constant = constant.multiply(Number::Float(value.powi(exponent)));
                 continue;
             }
@@ -261,7 +267,10 @@ impl<'a> Builder<'a> {
             return value;
         }
         match self.values[value.0].clone() {
-            Value::Constant(number) => self.constant(number.multiply(factor)).value,
+            Value::Constant(number) => match self.folded(number, factor) {
+                Some(product) => self.constant(product).value,
+                None => self.multiply(factor, vec![value]),
+            },
             Value::Product(factors) => self.multiply(factor, factors),
             Value::Quotient(above, below) => {
                 let above = self.scaled(factor, above);

@@ -26,11 +26,13 @@ pub enum Request {
     Serde,
     /// The formulas of the functions as FPCore.
     Fpcore,
+    /// The formulas over numbers without order, such as intervals.
+    Intervals,
 }
 
 impl Request {
     /// The keywords.
-    pub const ALL: [(&str, Self); 8] = [
+    pub const ALL: [(&str, Self); 9] = [
         ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),
@@ -39,6 +41,7 @@ impl Request {
         ("drawing", Self::Drawing),
         ("serde", Self::Serde),
         ("fpcore", Self::Fpcore),
+        ("intervals", Self::Intervals),
     ];
 }
 

@@ -14,6 +14,8 @@ pub enum Expression {
 
     // Arithmetic.
     Number(Number),
+    /// A number of any kind, to which no double is close enough.
+    Exact(Number),
     /// The terms, each with true if it is subtracted.
     Sum(Vec<(bool, Expression)>),
     Product(Vec<Expression>),
@@ -127,6 +129,8 @@ pub enum Type {
     Bare(String),
     /// One quantity for each of the points or outputs: `Name<Item>`.
     Each(String, Box<Type>),
+    /// A column with its length as a type: `Column<Item, D<2>>`.
+    Column(Box<Type>, usize),
     Vector(usize),
     Matrix(usize, usize),
     /// `Point2<T>`
@@ -302,8 +306,13 @@ impl Expression {
                 statements.iter().for_each(|statement| statement.each_name(visit));
                 value.each_name(visit);
             }
-            Self::Result(_) | Self::Local(_) | Self::Number(_) | Self::Text(_) | Self::Count(_) | Self::Constant(_) => {
-            }
+            Self::Result(_)
+            | Self::Local(_)
+            | Self::Number(_)
+            | Self::Exact(_)
+            | Self::Text(_)
+            | Self::Count(_)
+            | Self::Constant(_) => {}
         }
     }
 

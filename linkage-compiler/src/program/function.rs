@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::operations::Operations;
+use super::pose::Given;
 use crate::derivation::Step;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::BlockId;
@@ -47,6 +48,8 @@ pub enum Access {
     Lane,
     /// Private, called only after an error: `#[cold]`.
     Cold,
+    /// A function of a trait.
+    OfTrait,
 }
 
 impl Access {
@@ -119,6 +122,8 @@ pub struct Kernel {
     pub error_name: Option<String>,
     /// True if sines and cosines come from a pose.
     pub is_on_pose: bool,
+    /// For a kernel over numbers of any kind: pi and the user functions, which are given.
+    pub any_number: Option<Given>,
     pub steps: Vec<Step>,
     pub results: Vec<Output>,
     /// The index of each angle with a given turn, in the list of turns.

@@ -3,6 +3,7 @@
 //! [`plan`] makes the functions of a driver and of its scenes: name, arguments, return type, the steps and formulas of
 //! the kernel, and the value made of their results. [`stub`] makes those of a mechanism with mistakes.
 
+mod any_number;
 mod branch;
 mod doc;
 mod equations;
@@ -28,6 +29,7 @@ mod signatures;
 
 use std::collections::BTreeSet;
 
+pub use any_number::AnyNumber;
 pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
 pub use expression::{Expression, Pattern, Statement, Type};
@@ -41,7 +43,7 @@ pub use signatures::{Family, Signatures};
 use crate::derivation::{ClosedForm, Derivation, Formulas};
 use crate::graph::NodeId;
 use crate::ids::{BlockId, Table};
-use crate::model::{Driver, Mechanism};
+use crate::model::{Driver, Mechanism, Request};
 use plan::Plan;
 use scene::ScenePlan;
 
@@ -51,6 +53,8 @@ pub struct Program<'a, B> {
     pub position: Position,
     pub functions: Vec<Function<B>>,
     pub scenes: Vec<SceneProgram<'a, B>>,
+    /// The formulas over numbers of any kind, on request.
+    pub any_number: Option<AnyNumber<B>>,
     /// `None` in a stub.
     pub derived: Option<Derived>,
 }
@@ -75,6 +79,7 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
         }
         scenes.extend(ScenePlan::of(&mut plan, scene, number).map(ScenePlan::into_program));
     }
+    let any_number = mechanism.requests.contains(&Request::Intervals).then(|| plan.any_number());
     let closed_forms = plan.derivation.closed_forms(&plan.assembly);
     let Plan { signatures, position, functions, pose, formulas, named, .. } = plan;
     // A private function is kept only if a function of a scene or a later function calls it.
@@ -91,7 +96,8 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
     }
     kept.reverse();
     let functions = kept;
-    Program { signatures, position, functions, scenes, derived: Some(Derived { pose, formulas, closed_forms, named }) }
+    let derived = Some(Derived { pose, formulas, closed_forms, named });
+    Program { signatures, position, functions, scenes, any_number, derived }
 }
 
 /// The program of a mechanism with mistakes: functions without bodies.
@@ -104,5 +110,11 @@ pub fn stub<'a, B>(mechanism: &'a Mechanism, driver: &'a Driver) -> Program<'a, 
         SceneProgram { signatures, functions }
     });
     let scenes = scenes.collect();
-    Program { signatures, position, functions, scenes, derived: None }
+    let any_number = mechanism.requests.contains(&Request::Intervals).then(|| AnyNumber {
+        functions: signatures.of_columns().into_iter().map(Function::without_body).collect(),
+        unknown_periods: Vec::new(),
+        input_periods: Vec::new(),
+        user_functions: Vec::new(),
+    });
+    Program { signatures, position, functions, scenes, any_number, derived: None }
 }

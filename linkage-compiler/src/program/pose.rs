@@ -17,6 +17,8 @@ pub struct Given {
     pub directions: BTreeSet<NodeId>,
     /// Expressions with the symbol that holds their value.
     pub values: FxHashMap<NodeId, SymbolId>,
+    /// True if an expression without symbols is computed when the function runs, not rounded to a double.
+    pub is_exact: bool,
 }
 
 impl Given {
@@ -26,6 +28,11 @@ impl Given {
             Node::Call(Function::Sin | Function::Cos, angle) => self.directions.contains(&angle[0]),
             _ => self.values.contains_key(&id),
         }
+    }
+
+    /// The value of an expression without symbols, if it is rounded to a double.
+    pub fn constant(&self, graph: &Graph, id: NodeId) -> Option<f64> {
+        graph.constant_value(id).filter(|_| !self.is_exact)
     }
 }
 
@@ -111,7 +118,7 @@ impl PosePlan {
             of_functions.push((id, field.clone(), graph.symbol(field)));
         }
         let by_name = of_functions.iter().map(|(node, _, symbol)| (*node, *symbol)).collect();
-        let given = Given { directions: angles, values: by_name };
+        let given = Given { directions: angles, values: by_name, is_exact: false };
         Self { directions, values, determinants, externals: of_functions, given }
     }
 

@@ -33,5 +33,6 @@ linkage! {
         point C = (xc, yc);
         /// Length of the spring.
         output spring = norm(D - C);
+        derive intervals;
     }
 }

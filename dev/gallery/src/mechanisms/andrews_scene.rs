@@ -42,5 +42,6 @@ linkage! {
             power;
             reactions;
         }
+        derive intervals;
     }
 }

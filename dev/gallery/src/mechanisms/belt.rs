@@ -22,5 +22,6 @@ linkage! {
             drive z = speed * t;
             stop z in -1..1, restitution 0.5;
         }
+        derive intervals;
     }
 }

@@ -43,5 +43,6 @@ linkage! {
             torque -m * g on x;
             stop height in lower..upper, restitution e;
         }
+        derive intervals;
     }
 }

@@ -27,5 +27,6 @@ linkage! {
         /// The profile of the cam: what the roller envelops.
         point Profile = Contact@(-theta);
         output pressure = atan(-aside / reach);
+        derive intervals;
     }
 }

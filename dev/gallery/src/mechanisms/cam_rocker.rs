@@ -23,6 +23,6 @@ linkage! {
         point Pitch = (Roller + (distance, 0))@(-theta);
         output mu = beta - phi;
 
-        derive lanes;
+        derive lanes, intervals;
     }
 }

@@ -20,5 +20,6 @@ linkage! {
         point Rim = Centre + planet@roll;
         point Pen = Centre + pen@roll;
         output slide = x(Rim);
+        derive intervals;
     }
 }

@@ -26,6 +26,6 @@ linkage! {
         /// The track shakes the pivot.
         scene Shaken { inertia; gravity (0, -g); drive x = 0.1 * sin(9 * t); equilibrium; energy; power; }
 
-        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

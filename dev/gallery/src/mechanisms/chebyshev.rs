@@ -25,5 +25,6 @@ linkage! {
         point C = D + rocker@theta4;
         point P = B + (coupler/2)@theta3;
         output height = y(P);
+        derive intervals;
     }
 }

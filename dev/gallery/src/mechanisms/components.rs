@@ -14,6 +14,6 @@ linkage! {
         point C = (l1, 0) - l4@theta4;
         output mu = theta3 - theta4;
 
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

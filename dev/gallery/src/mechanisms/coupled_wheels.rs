@@ -20,5 +20,6 @@ linkage! {
         point C = D + crank@follower;
         point Middle = B + (base/2)@rod;
         output lag = theta - follower;
+        derive intervals;
     }
 }

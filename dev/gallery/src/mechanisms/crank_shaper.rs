@@ -24,6 +24,6 @@ linkage! {
         point Ram = (x, height);
         output swing = psi - 90deg;
 
-        derive lanes;
+        derive lanes, intervals;
     }
 }

@@ -9,7 +9,7 @@ linkage! {
             arm = 50, stay = 65, post_x = -40, post_y = 20;
         input theta2;
         unknown x, y, u, v, s, z_x, z_y, phi;
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
 
         equation norm((x, y) - a@theta2) = b;
         equation norm((x, y) - (d, 0)) = c;

@@ -35,6 +35,6 @@ linkage! {
         point J = b + (jx, jy)@rocker;
         output swing = rocker;
 
-        derive limits, jerk, velocity_ratio_derivatives, sensitivity;
+        derive limits, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

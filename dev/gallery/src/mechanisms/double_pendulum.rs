@@ -31,6 +31,6 @@ linkage! {
         /// The lower rod turns at a given speed.
         scene Half { inertia; gravity (0, -g); drive theta2 = 0.3 + 2 * t; equilibrium; energy; power; }
 
-        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

@@ -22,5 +22,6 @@ linkage! {
         point Nut = (nut, 0.5);
         point Tilted = 2@tilt;
         output travel = rack;
+        derive intervals;
     }
 }

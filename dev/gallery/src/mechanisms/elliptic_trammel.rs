@@ -20,6 +20,6 @@ linkage! {
         point Pen = A + reach@theta;
         output radius = norm(Pen);
 
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

@@ -28,6 +28,6 @@ linkage! {
         output f_power = powi(u, 3) / w ^ 2 + (u + v).powi(-1);
         output f_vector = dot(P, (1, 2)) + cross(P, (u, v)) + norm(P) + angle(P + (40, 0)) + x(P) * y(P) + pi / 7;
 
-        derive lanes, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

@@ -14,6 +14,6 @@ linkage! {
         point Pen = P + (0.3, -0.2)@theta2;
         output reach = norm(P);
 
-        derive lanes, limits, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, limits, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

@@ -57,5 +57,6 @@ linkage! {
             inertia;
             friction brake1, 1 + rate(theta3)^2 on theta1 * sin(theta2);
         }
+        derive intervals;
     }
 }

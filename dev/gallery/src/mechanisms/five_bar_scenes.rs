@@ -40,5 +40,6 @@ linkage! {
             energy;
             power;
         }
+        derive intervals;
     }
 }

@@ -27,5 +27,6 @@ linkage! {
         body bar4 { mass m; inertia j; center (3 * l, 0) + l@phi3 + (l/2)@psi4; angle psi4; }
         body bar5 { mass m; inertia j; center (4 * l, 0) + l@phi4 + (l/2)@psi5; angle psi5; }
         scene FiveFalling { inertia; gravity (0, -g); energy; }
+        derive intervals;
     }
 }

@@ -17,5 +17,6 @@ linkage! {
         point G4 = C + (l4/2)@theta4;
         /// Transmission angle.
         output mu = theta3 - theta4;
+        derive intervals;
     }
 }

@@ -61,5 +61,6 @@ linkage! {
         scene Mounted { inertia; gravity (0, -g); spring k, s0 between C and (xp, yp); damper c on theta4; }
         scene Smooth { inertia; gravity (0, -g); spring k, s0 between C and (xp, yp); spring kt, phi0 on theta4; damper c on theta4; force (0, -f * t) at C; torque t0 - kw * rate(theta2) + sin(t) on theta2; }
         scene Everything { inertia; gravity (0, -g); spring k, s0 between C and (xp, yp); spring kt, phi0 on theta4; damper c on theta4; force (0, -f * t) at C; torque t0 - kw * rate(theta2) + sin(t) on theta2; friction mu, radius, load on theta4; stop theta4 in lower..upper, restitution e; }
+        derive intervals;
     }
 }

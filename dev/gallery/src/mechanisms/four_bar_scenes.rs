@@ -65,5 +65,6 @@ linkage! {
             reactions;
             equilibrium;
         }
+        derive intervals;
     }
 }

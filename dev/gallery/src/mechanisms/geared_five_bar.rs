@@ -15,6 +15,6 @@ linkage! {
         point P = a@theta1 + b@theta2;
         output slip = theta4 / theta1;
 
-        derive lanes, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

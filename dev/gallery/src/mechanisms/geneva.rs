@@ -22,6 +22,6 @@ linkage! {
         point Mouth = Wheel + (crank / tan(pi / slots))@(psi + 180deg);
         output depth = crank / tan(pi / slots) - s;
 
-        derive lanes;
+        derive lanes, intervals;
     }
 }

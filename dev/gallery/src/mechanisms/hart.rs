@@ -28,5 +28,6 @@ linkage! {
         point D = a + short@beta;
         point Q = b + ((1 - part) * short)@gamma;
         output product = dot(P, Q);
+        derive intervals;
     }
 }

@@ -21,5 +21,6 @@ linkage! {
         point C = D + rocker@theta4;
         point P = B + reach@theta3;
         output height = y(P);
+        derive intervals;
     }
 }

@@ -8,7 +8,7 @@ linkage! {
         param a = 20, b = 55, c = 45, d = 60, e = 50, f = 60, pivot_x = 110, pivot_y = 35;
         input theta2;
         unknown theta3, theta4, theta5, theta6;
-        derive jerk, velocity_ratio_derivatives, sensitivity, lanes;
+        derive jerk, velocity_ratio_derivatives, sensitivity, lanes, intervals;
 
         loop a@theta2 + b@theta3 = d@0 + c@theta4;
         loop d@0 + c@theta4 + e@theta5 = (pivot_x, pivot_y) + f@theta6;

@@ -13,5 +13,6 @@ linkage! {
 
         point P = z1@phi1 + z2@phi2;
         output slope = tan(phi2 / 4);
+        derive intervals;
     }
 }

@@ -22,6 +22,6 @@ linkage! {
         point B = D + c@theta4;
         output slide_angle = theta4 + gamma;
 
-        derive lanes;
+        derive lanes, intervals;
     }
 }

@@ -27,6 +27,6 @@ linkage! {
         point Foot = Knee + i@angle_i;
         output bend = angle_h - angle_d;
 
-        derive lanes, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

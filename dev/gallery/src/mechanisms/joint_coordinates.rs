@@ -8,7 +8,7 @@ linkage! {
         param a = 20, b = 55, c = 45, d = 60, e = 50, f = 60, pivot_x = 110, pivot_y = 35;
         input theta2;
         unknown x, y, theta3, theta4, u, v, theta5, theta6;
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
 
         loop a@theta2 + b@theta3 = (x, y);
         loop (x, y) = d@0 + c@theta4;

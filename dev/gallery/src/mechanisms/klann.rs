@@ -33,6 +33,6 @@ linkage! {
         point Foot = knee + knee_foot@(leg + knee_bend);
         output height = y(Foot);
 
-        derive lanes;
+        derive lanes, intervals;
     }
 }

@@ -13,7 +13,7 @@ linkage! {
             knee_hip = 0.8966, knee_foot = 0.8966, knee_bend = 150deg;
         input theta;
         unknown arm, lower_angle, leg, upper_angle;
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
 
         let pin = (crank_x, crank_y) + crank@theta;
         let elbow = pin + pin_elbow@arm;

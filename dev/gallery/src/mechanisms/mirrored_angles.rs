@@ -8,7 +8,7 @@ linkage! {
         param a = 20, b = 55, c = 45, d = 60, rod = 90, guide = 12, pivot_x = -70, pivot_y = 15, arm = 8, slope = 10deg;
         input theta2;
         unknown beta, theta4, psi, s, chi, slide;
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
 
         loop a@theta2 + b@(-beta) = d@0 + c@(pi - theta4);
         loop d@0 + c@(pi - theta4) + rod@(-psi) = (0, guide) + s@slope;

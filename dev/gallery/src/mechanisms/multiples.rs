@@ -18,5 +18,6 @@ linkage! {
         point Fifth = 1@(5*u - 6*w);
         output difference = sin(u - w);
         output opposite = cos(1 - w) + sin(-2*u);
+        derive intervals;
     }
 }

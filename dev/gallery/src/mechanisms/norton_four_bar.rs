@@ -14,6 +14,6 @@ linkage! {
         point P = a@theta2 + (b/2, 30)@theta3;
         output mu = theta4 - theta3;
 
-        derive lanes, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

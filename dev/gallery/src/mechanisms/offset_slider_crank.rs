@@ -19,6 +19,6 @@ linkage! {
         /// Angle between rod and slideway.
         output mu = 180deg - theta3;
 
-        derive lanes, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

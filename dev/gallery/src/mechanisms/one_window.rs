@@ -15,5 +15,6 @@ linkage! {
         body upright1 { mass m; inertia j; center (1 * l, 0) + (l/2)@phi1; angle phi1; }
         body bar1 { mass m; inertia j; center (0 * l, 0) + l@phi0 + (l/2)@psi1; angle psi1; }
         scene OneFalling { inertia; gravity (0, -g); energy; }
+        derive intervals;
     }
 }

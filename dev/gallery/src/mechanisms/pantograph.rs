@@ -24,5 +24,6 @@ linkage! {
         point B = knee + b@delta;
         point Pen = knee + (ratio * b)@delta;
         output opening = beta - alpha;
+        derive intervals;
     }
 }

@@ -25,5 +25,6 @@ linkage! {
         point Lower = long@lower;
         point Q = Upper + short@upper_tip;
         output product = norm(P) * norm(Q);
+        derive intervals;
     }
 }

@@ -22,6 +22,6 @@ linkage! {
         /// A journal bearing: its friction by the force that it carries.
         scene Worn { inertia; gravity (0, -g); friction mu, r, reaction on theta; reactions; energy; power; }
 
-        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

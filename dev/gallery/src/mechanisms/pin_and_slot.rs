@@ -17,5 +17,6 @@ linkage! {
         point Pointer = 10@out;
         point Small = 3@small;
         output lag = small - month;
+        derive intervals;
     }
 }

@@ -11,7 +11,7 @@ linkage! {
         param track = 1.4, arm = 0.14, inset = 12deg, rack_length = 0.62, setback = 0.18, rod = 0.365, pinion = 0.008;
         input wheel;
         unknown rack, left, left_rod, right, right_rod;
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
 
         equation rack = -pinion * wheel;
         let left_end = (rack - rack_length/2, -setback);

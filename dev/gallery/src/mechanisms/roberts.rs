@@ -21,5 +21,6 @@ linkage! {
         point C = D + side@theta4;
         point P = B + (coupler/2, -height)@theta3;
         output deviation = y(P);
+        derive intervals;
     }
 }

@@ -12,5 +12,6 @@ linkage! {
 
         point Slide = (xa, ya) + z1@phi1;
         output reach = norm((xa - xb, ya - yb));
+        derive intervals;
     }
 }

@@ -12,5 +12,6 @@ linkage! {
 
         point Elbow = (xa, ya) - z1@phi1;
         output elbow = phi1 - phi2;
+        derive intervals;
     }
 }

@@ -8,7 +8,7 @@ linkage! {
         param bar = 2;
         input foot;
         unknown up1, back1, up2, back2, up3, back3, up4, back4, up5, back5;
-        derive jerk, velocity_ratio_derivatives, sensitivity;
+        derive jerk, velocity_ratio_derivatives, sensitivity, intervals;
 
         let r0 = (foot, 0);
         loop (bar/2)@up1 = r0 + (bar/2)@back1;

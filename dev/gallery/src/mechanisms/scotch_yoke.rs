@@ -13,6 +13,6 @@ linkage! {
         point Slider = (x, 0);
         output lift = r - x;
 
-        derive lanes;
+        derive lanes, intervals;
     }
 }

@@ -14,5 +14,6 @@ linkage! {
         point P = d@0 + e@(theta3 - delta);
         point Q = P + f@theta4;
         output swing = theta5 - theta3;
+        derive intervals;
     }
 }

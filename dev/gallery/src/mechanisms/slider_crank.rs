@@ -16,5 +16,6 @@ linkage! {
 
         point Pin = z1@phi1;
         output stroke = z3 - (z2 - z1);
+        derive intervals;
     }
 }

@@ -25,5 +25,6 @@ linkage! {
             friction mu, r3, n1 on psi;
             friction mu, normal on z;
         }
+        derive intervals;
     }
 }

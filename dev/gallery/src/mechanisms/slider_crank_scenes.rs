@@ -49,5 +49,6 @@ linkage! {
             energy;
             power;
         }
+        derive intervals;
     }
 }

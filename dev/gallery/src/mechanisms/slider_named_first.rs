@@ -16,5 +16,6 @@ linkage! {
         point A = s@k;
         point B = d@0 + reach@swing;
         output width = y(B);
+        derive intervals;
     }
 }

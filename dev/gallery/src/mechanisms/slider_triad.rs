@@ -23,5 +23,6 @@ linkage! {
         point P = B + (px, py)@coupler;
         point Q = F + f@swing;
         output travel = slide;
+        derive intervals;
     }
 }

@@ -24,5 +24,6 @@ linkage! {
         point Q = P + e@rod;
         point R = C + g@link;
         output drive = crank;
+        derive intervals;
     }
 }

@@ -23,5 +23,6 @@ linkage! {
         point Q = D + (qx, qy)@theta4;
         point R = P + e@theta5;
         output mu = theta5 - theta6;
+        derive intervals;
     }
 }

@@ -26,6 +26,6 @@ linkage! {
         point E = G + r@rho;
         output turn = tau - theta;
 
-        derive lanes;
+        derive lanes, intervals;
     }
 }

@@ -23,5 +23,6 @@ linkage! {
         point P = B + (px, py)@theta3;
         point Q = P + e@theta5;
         output swing = theta6;
+        derive intervals;
     }
 }

@@ -24,5 +24,6 @@ linkage! {
         point P = B + (px, py)@coupler;
         point Q = F + f@swing;
         output free = reach;
+        derive intervals;
     }
 }

@@ -50,6 +50,6 @@ linkage! {
             drive phi3 = t^2 / 3;
         }
 
-        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity;
+        derive lanes, drawing, jerk, velocity_ratio_derivatives, sensitivity, intervals;
     }
 }

@@ -25,5 +25,6 @@ linkage! {
         point B = (x, y) + radius@(platform + 330deg);
         point C = (x, y) + radius@(platform + 90deg);
         output turn = platform;
+        derive intervals;
     }
 }

@@ -12,5 +12,6 @@ linkage! {
         point Slider = (x, h);
         output travel = x;
         equation k * x = c * psi + d * sin(phi);
+        derive intervals;
     }
 }

@@ -19,5 +19,6 @@ linkage! {
         point First = r@psi + b@u1;
         point Second = r@u1 + b@w1;
         output turn = w2;
+        derive intervals;
     }
 }

@@ -18,5 +18,6 @@ linkage! {
         body bar1 { mass m; inertia j; center (0 * l, 0) + l@phi0 + (l/2)@psi1; angle psi1; }
         body bar2 { mass m; inertia j; center (1 * l, 0) + l@phi1 + (l/2)@psi2; angle psi2; }
         scene TwoFalling { inertia; gravity (0, -g); energy; }
+        derive intervals;
     }
 }

@@ -20,5 +20,6 @@ linkage! {
         point Front = s_front@front;
         point Rear = s_rear@rear;
         output displaced = s_front + s_rear;
+        derive intervals;
     }
 }

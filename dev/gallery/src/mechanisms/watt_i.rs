@@ -26,5 +26,6 @@ linkage! {
         /// The pin of the dyad: it floats, two links away from the ground.
         point R = P + e@theta5;
         output mu = theta5 - theta6;
+        derive intervals;
     }
 }

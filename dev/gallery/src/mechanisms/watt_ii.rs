@@ -23,5 +23,6 @@ linkage! {
         point P = D + e@(theta4 - delta);
         point Q = P + f@theta5;
         output swing = theta6 - theta4;
+        derive intervals;
     }
 }

@@ -23,5 +23,6 @@ linkage! {
         point C = right + arm@psi;
         point P = B + half_link@phi;
         output deviation = x(P);
+        derive intervals;
     }
 }

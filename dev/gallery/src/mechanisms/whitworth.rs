@@ -24,5 +24,6 @@ linkage! {
         point E = pivot + arm@(psi + 180deg);
         point Ram = (x, -offset);
         output stroke = x - (rod - arm);
+        derive intervals;
     }
 }

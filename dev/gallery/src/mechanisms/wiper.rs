@@ -24,5 +24,6 @@ linkage! {
         point FirstTip = First + blade@(first - lead);
         point SecondTip = Second + blade@(second - lead);
         output mu = first - phi;
+        derive intervals;
     }
 }

@@ -17,5 +17,6 @@ linkage! {
             torque torque on phi;
             friction force on x;
         }
+        derive intervals;
     }
 }

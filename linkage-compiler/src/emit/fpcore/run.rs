@@ -167,7 +167,7 @@ impl Run {
         use Expression as E;
         match expression {
             E::Name(name) => scope.get(name).cloned().unwrap_or(Value::Unknown),
-            E::Number(number) => self.made(Operation::Number(*number)),
+            E::Number(number) | E::Exact(number) => self.made(Operation::Number(*number)),
             E::Sum(terms) => {
                 let terms = terms.iter().map(|(sign, term)| Some((*sign, self.number(of, term, scope)?)));
                 let terms: Option<Vec<_>> = terms.collect();

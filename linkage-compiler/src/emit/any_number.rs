@@ -1,0 +1,60 @@
+//! The implementations of the runtime's traits for formulas over numbers of any kind.
+
+use proc_macro2::{Literal, Span, TokenStream};
+use quote::quote;
+
+use super::expression::literal;
+use super::functions;
+use super::names::{ident, string};
+use super::types::other_scalar;
+use crate::lower::Code;
+use crate::program::{Family, Program};
+
+/// Implements `Formulas` over every number, and `Certifiable` over `f64`.
+pub(super) fn of_driver(program: &Program<Code>, place: Span) -> Option<TokenStream> {
+    let (signatures, any) = (&program.signatures, program.any_number.as_ref()?);
+    let (name, mechanism) = (&signatures.driver.name, signatures.mechanism);
+    let [p, u, v, q] =
+        [mechanism.parameters.len(), signatures.unknowns(), signatures.inputs(), signatures.components()].map(literal);
+    let fields = mechanism.parameters.iter().map(|parameter| ident(&parameter.name.field));
+    let (error, other) = (ident("PositionError"), other_scalar(mechanism));
+    let functions = any.functions.iter().map(|function| functions::function(function, &error, place));
+    let parameters = mechanism.parameters.iter().map(|parameter| string(&parameter.name.text));
+    let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(mechanism));
+    let quantities = quantities.map(|name| string(&name));
+    let [of_unknowns, of_inputs] = [&any.unknown_periods, &any.input_periods]
+        .map(|periods| periods.iter().map(|&period| Literal::u32_unsuffixed(period)).collect::<Vec<_>>());
+    let users = any.user_functions.iter().map(|user| match user {
+        Some(name) => {
+            let name = string(name);
+            quote!(__rt::Some(#name))
+        }
+        None => quote!(__rt::None),
+    });
+    Some(quote! {
+        impl<T: __rt::Number> __rt::Formulas for #name<T> {
+            type Number = T;
+            type P = __rt::D<#p>;
+            type U = __rt::D<#u>;
+            type V = __rt::D<#v>;
+            type Q = __rt::D<#q>;
+            fn with_parameters(parameters: __rt::Column<T, __rt::D<#p>>) -> Self {
+                <[T; #p]>::from(parameters).into()
+            }
+            #(#functions)*
+        }
+        impl __rt::Certifiable for #name<f64> {
+            type P = __rt::D<#p>;
+            type Q = __rt::D<#q>;
+            type Over<#other: __rt::Number> = #name<#other>;
+            const PARAMETERS: &'static [&'static str] = &[#(#parameters),*];
+            const QUANTITIES: &'static [&'static str] = &[#(#quantities),*];
+            const UNKNOWN_PERIODS: &'static [u32] = &[#(#of_unknowns),*];
+            const INPUT_PERIODS: &'static [u32] = &[#(#of_inputs),*];
+            const USER_FUNCTIONS: &'static [__rt::Option<&'static str>] = &[#(#users),*];
+            fn parameters(&self) -> __rt::Column<f64, __rt::D<#p>> {
+                [#(self.#fields),*].into()
+            }
+        }
+    })
+}

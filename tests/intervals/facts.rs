@@ -1,0 +1,102 @@
+//! What the trait `Certifiable` says of a mechanism.
+
+use std::f64::consts::{PI, TAU};
+
+use linkage::{Certifiable, Column, Formulas, Interval, linkage};
+use linkage_gallery::cam_rocker::CamRocker;
+use linkage_gallery::{Fixture, Kinematics};
+use linkage_oracle::{Oracle, all_close};
+
+use crate::formulas::{At, column, title};
+
+/// Psi repeats after the turns of each unknown and of each input.
+pub fn periods_leave_the_residual<F: Fixture + Certifiable>() {
+    let oracle = Oracle::of::<F>();
+    assert_eq!(F::UNKNOWN_PERIODS.len(), F::UNKNOWNS.len());
+    assert_eq!(F::INPUT_PERIODS.len(), F::INPUTS.len());
+    assert_eq!(F::USER_FUNCTIONS.len(), F::GROUPS.len());
+    for sample in oracle.samples(3) {
+        let at = At::of(&sample, &oracle.derivation);
+        let before = residual::<F>(&at);
+        for (place, &turns) in F::UNKNOWN_PERIODS.iter().chain(F::INPUT_PERIODS).enumerate() {
+            let mut turned = at.map(|value| value);
+            *turned.unknowns.iter_mut().chain(&mut turned.inputs).nth(place).unwrap() += TAU * f64::from(turns);
+            let scale = at.parameters.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
+            let what = format!("{} after {turns} turns of coordinate {place}", title::<F>());
+            all_close(&what, &residual::<F>(&turned), &before, scale, 1e-12);
+        }
+    }
+}
+
+/// Psi where no user function makes it NaN.
+fn residual<F: Certifiable>(at: &At<f64>) -> Vec<f64> {
+    let over = <F::Over<f64> as Formulas>::with_parameters(column(&at.parameters));
+    let all = over.residual(&column(&at.unknowns), &column(&at.inputs));
+    all.into_iter().filter(|psi| !psi.is_nan()).collect()
+}
+
+linkage! {
+    /// Angles that enter by halves and thirds, bare, by a parameter, and not at all.
+    mechanism Geared {
+        param a = 3, b = 2, c = 1, n = 2;
+        input phi, idle;
+        unknown x, y, psi, chi, delta;
+        loop a@(phi/2) + b@(psi - phi/3) = (x, y);
+        equation c * cos(3 * psi) = 0.1 * y;
+        equation c * sin(2/5 * chi) + sin(chi/2) = 0.3 * x;
+        equation sin(n * delta) + c * sin(delta) = 0.2 * x;
+        output turned = phi;
+        point P = a@idle;
+        derive intervals;
+    }
+}
+
+#[test]
+fn periods_are_those_of_the_multiples_of_an_angle() {
+    // An output that is the angle itself leaves its period.
+    assert_eq!(Geared::INPUTS, ["phi", "idle"]);
+    assert_eq!(Geared::INPUT_PERIODS, [6, 1]);
+    assert_eq!(Geared::UNKNOWNS, ["x", "y", "psi", "chi", "delta"]);
+    assert_eq!(Geared::UNKNOWN_PERIODS, [0, 0, 1, 10, 0]);
+    assert_eq!(Geared::PARAMETERS, ["a", "b", "c", "n"]);
+    assert_eq!(<Geared as Certifiable>::QUANTITIES, ["p_x", "p_y", "turned"]);
+}
+
+#[test]
+fn a_user_function_is_named_in_its_group() {
+    let named: Vec<_> = CamRocker::USER_FUNCTIONS.iter().flatten().collect();
+    assert_eq!(named, [&"turn"]);
+    let parameters: Column<f64, _> = Certifiable::parameters(&CamRocker::default());
+    assert_eq!(parameters.as_slice(), Kinematics::parameters(&CamRocker::default()));
+}
+
+linkage! {
+    /// Constants that no double holds.
+    mechanism Constants {
+        param r = 1;
+        input phi;
+        output third = r / 3;
+        output root = sqrt(2) * r;
+        output half_turn = 180deg * r;
+        output large = 3002399751580331 * 3 * r;
+        output turned = phi;
+        derive intervals;
+    }
+}
+
+#[test]
+fn constants_are_not_rounded() {
+    let over = <Constants as Certifiable>::Over::<Interval>::with_parameters(Column::from([Interval::from(1.0)]));
+    let inputs = Column::from([Interval::from(1.0)]);
+    let [third, root, half_turn, large, turned] = over.quantities(&Column::from([]), &inputs).into();
+    for (value, what) in [(third, "third"), (root, "root"), (half_turn, "half turn"), (large, "large")] {
+        assert!(value.least() < value.most(), "{what}: {value:?}");
+        assert!(value.width() <= 8.0 * f64::EPSILON * value.magnitude(), "{what}: {value:?}");
+    }
+    assert!((third + third + third).contains(1.0) && root.square().contains(2.0));
+    // pi is above its double by 1.2e-16.
+    assert!(half_turn.contains(PI) && half_turn.contains(PI.next_up()));
+    // 2^53 + 1.
+    assert!(large.contains(9_007_199_254_740_992.0) && large.contains(9_007_199_254_740_994.0));
+    assert_eq!((turned.least(), turned.most()), (1.0, 1.0));
+}

@@ -1,0 +1,49 @@
+//! `derive intervals`: the formulas over numbers of any kind, of every mechanism of the gallery.
+//!
+//! ```text
+//! INTERVALS=3000 cargo test --release --all-features --test intervals -- --nocapture    poses of each mechanism
+//! ```
+
+mod doubles;
+mod duals;
+mod enclosures;
+mod facts;
+mod formulas;
+
+use linkage_gallery::all_mechanisms;
+
+/// Poses of each mechanism.
+fn poses() -> usize {
+    std::env::var("INTERVALS").ok().and_then(|count| count.parse().ok()).unwrap_or(10)
+}
+
+macro_rules! tests {
+    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
+        mod $file {
+            use linkage_gallery::$file::{$($Mechanism),+};
+
+            #[test]
+            fn doubles_are_those_of_a_position() {
+                $(super::doubles::are_those_of_a_position::<$Mechanism>();)+
+            }
+            #[test]
+            fn derivatives_are_dual_numbers() {
+                $(super::duals::are_the_derivatives::<$Mechanism>();)+
+            }
+            #[test]
+            fn points_are_enclosed() {
+                $(super::enclosures::of_points::<$Mechanism>();)+
+            }
+            #[test]
+            fn boxes_are_enclosed() {
+                $(super::enclosures::of_boxes::<$Mechanism>();)+
+            }
+            #[test]
+            fn periods_leave_the_residual() {
+                $(super::facts::periods_leave_the_residual::<$Mechanism>();)+
+            }
+        }
+    )*};
+}
+
+all_mechanisms!(tests);
