@@ -27,6 +27,8 @@ pub use linkage_interval::Interval;
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_report::{Document, FpCore, Table, sheet};
+#[cfg(all(feature = "rounding", any(feature = "std", feature = "libm")))]
+pub use linkage_rounding::Rounded;
 #[cfg(feature = "std")]
 pub use linkage_runtime::circuits;
 #[cfg(any(feature = "std", feature = "libm"))]
