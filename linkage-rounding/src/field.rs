@@ -7,9 +7,9 @@ use nalgebra::{ComplexField, Field, RealField, SimdValue};
 use num_traits::{FromPrimitive, Num, One, Signed, Zero};
 use simba::scalar::{SubsetOf, SupersetOf};
 
+use crate::Rounded;
 use crate::functions::{self, one_of, whole};
 use crate::residual::half_ulp;
-use crate::Rounded;
 
 impl Rounded {
     /// A double that may be the rounded value of a constant, see the type.
@@ -211,6 +211,15 @@ macro_rules! from_functions {
     )*};
 }
 
+/// Functions of which no error is known.
+macro_rules! without_bound {
+    ($($name:ident)*) => {$(
+        fn $name(self) -> Self {
+            Self::unknown(ComplexField::$name(self.value))
+        }
+    )*};
+}
+
 macro_rules! to_whole_numbers {
     ($($name:ident)*) => {$(
         #[inline]
@@ -223,9 +232,9 @@ macro_rules! to_whole_numbers {
 impl ComplexField for Rounded {
     type RealField = Self;
 
-    from_functions! {
-        tan asin acos atan exp exp2 exp_m1 ln ln_1p log2 log10 sinh cosh tanh asinh acosh atanh cbrt
-    }
+    from_functions! { tan asin acos atan exp exp2 exp_m1 ln ln_1p log2 }
+
+    without_bound! { log10 sinh cosh tanh asinh acosh atanh cbrt }
 
     to_whole_numbers! { floor ceil round trunc }
 

@@ -7,8 +7,9 @@
 //!
 //! | trusted, not proven here | relative error |
 //! |---|---|
-//! | sine and cosine up to 1e5, arctangent: `linkage_runtime` | 2 u |
-//! | all other elementary functions: the platform's | 1 ulp, 2 u |
+//! | sine and cosine up to 1e5, `atan2`: `linkage_runtime` | 2 u |
+//! | sine and cosine beyond, tan, asin, acos, atan, exp, ln, powers: the platform's | 2 u, 1 ulp |
+//! | hyperbolic functions, cbrt, log10: the platform's | unknown |
 //!
 //! u is 2^-53. Addition, subtraction, multiplication, division and square root round to nearest, as IEEE 754 requires.
 
@@ -46,8 +47,8 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAss
 /// ```
 ///
 /// - Comparisons, signs and rounding to whole numbers are decided by the value, as in `f64`. The bound is that of the
-///   formulas that were computed; it does not say whether the exact numbers would have been compared otherwise. An
-///   angle of `atan2` is compared with the exact angle on the same side of the cut.
+///   formulas that were computed; it does not say whether the exact numbers would have been compared otherwise. The
+///   bound of an angle by `atan2` holds up to whole turns.
 /// - A constant in the text of a mechanism, such as the 0.1 of `0.1 * l2`, is rounded to a double. Each double that is
 ///   converted by `nalgebra::convert` counts as such a constant, with an error of half an ulp, but for whole numbers up
 ///   to 2^53 and for fractions of at most 33 bits, such as 0.375, which are exact.

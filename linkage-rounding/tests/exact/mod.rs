@@ -16,10 +16,6 @@ pub fn double(value: &Big) -> f64 {
     value.to_f64().value()
 }
 
-fn exp(x: &Big) -> Big {
-    x.exp()
-}
-
 /// None outside the domain.
 pub fn evaluate(name: &str, x: &Big, y: &Big) -> Option<Big> {
     let (zero, one, two) = (big(0.0), big(1.0), big(2.0));
@@ -43,28 +39,13 @@ pub fn evaluate(name: &str, x: &Big, y: &Big) -> Option<Big> {
         "asin" if is_sine() => x.asin(),
         "acos" if is_sine() => x.acos(),
         "atan" => x.atan(),
-        "exp" => exp(x),
-        "exp_m1" => exp(x) - one,
-        "exp2" => exp(&(x * two.ln())),
+        "exp" => x.exp(),
+        "exp_m1" => x.exp_m1(),
+        "exp2" => (x * two.ln()).exp(),
         "ln" if *x > zero => x.ln(),
-        "ln_1p" if *x > -one.clone() => (x + one).ln(),
+        "ln_1p" if *x > -one.clone() => x.ln_1p(),
         "log2" if *x > zero => x.ln() / two.ln(),
-        "log10" if *x > zero => x.ln() / big(10.0).ln(),
-        "sinh" => (exp(x) - one / exp(x)) / two,
-        "cosh" => (exp(x) + one / exp(x)) / two,
-        "tanh" => {
-            let square = exp(&(x * two));
-            (&square - &one) / (square + one)
-        }
-        "asinh" => {
-            let size = if *x < zero { -x.clone() } else { x.clone() };
-            let value = (&size + (&size * &size + one).sqrt()).ln();
-            if *x < zero { -value } else { value }
-        }
-        "atanh" if -one.clone() < *x && *x < one => ((&one + x) / (&one - x)).ln() / two,
-        // By the logarithm: 390 bits remain.
-        "cbrt" if *x > zero => exp(&(x.ln() / big(3.0))),
-        "powf" if *x > zero => exp(&(x.ln() * y)),
+        "powf" if *x > zero => (x.ln() * y).exp(),
         _ => return None,
     })
 }
