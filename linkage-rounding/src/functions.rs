@@ -6,25 +6,22 @@
 
 use core::f64::consts::{FRAC_PI_2, LN_2, PI};
 
-use linkage_runtime::Real;
+use linkage_runtime::{Real, lane};
 use nalgebra::{ComplexField, RealField};
 
 use crate::Rounded;
 use crate::residual::{TINY, UNIT};
 use crate::rules::times;
 
-/// Relative error of the runtime's sine and cosine of angles up to `LARGEST_ANGLE`, in u.
-const SINE: f64 = 2.0;
+/// Relative error of the runtime's sine and cosine of moderate angles, in u: 1.283 is proved.
+const SINE: f64 = 1.29;
 
-/// The largest angle, in radians, with a sine of the runtime.
-const LARGEST_ANGLE: f64 = 1e5;
+/// Relative error of the runtime's arctangent of two arguments that are not extreme, in u: 1.244 is proved.
+const ARCTANGENT: f64 = 1.25;
 
-/// Relative error of the runtime's arctangent of two arguments, in u. Its tests find at most 0.73 ulp, 1.46 u.
-const ARCTANGENT: f64 = 2.0;
-
-/// Relative error of the runtime's hypotenuse, in u. The squares and their sum have relative errors of u each, so that the
-/// sum is off by 2 u, its root by u, and rounding adds u; second-order terms are below 1e-15 u.
-const HYPOTENUSE: f64 = 2.001;
+/// Relative error of the runtime's hypotenuse, in u. The squares and their sum have relative errors of u / (1 + u) each,
+/// so that the root of the sum is off by about u, and rounding adds u: less than 2 u by nearly u^2.
+const HYPOTENUSE: f64 = 2.0;
 
 /// Relative error of the platform's functions, in u: 1 ulp. This is an assumption. For exp, ln, pow, tan, asin, acos, atan
 /// and their variants the libraries of the common platforms are found to be better: B. Gladman, V. Innocente, J. Mather,
@@ -73,7 +70,7 @@ pub(crate) fn sine_cosine(x: Rounded) -> (Rounded, Rounded) {
     if x.value == 0.0 && x.error == 0.0 {
         return (sine.into(), cosine.into());
     }
-    let relative = if x.value.abs() <= LARGEST_ANGLE { SINE } else { PLATFORM };
+    let relative = if lane::is_moderate(x.value) { SINE } else { PLATFORM };
     let part = |value: f64, other: f64| {
         // The slope is itself rounded, by less than 4 u of itself, and e / 2 is more than that of e.
         let slope = (other.abs() + x.error).min(1.0);
@@ -117,16 +114,17 @@ pub(crate) fn atan(x: Rounded) -> Rounded {
 /// |a| <= asin s <= s + (pi/2 - 1) s^3. If d >= |p|, P may have any direction: |a| <= pi.
 pub(crate) fn atan2(y: Rounded, x: Rounded) -> Rounded {
     let value = Real::arctangent2(y.value, x.value);
+    let relative = if lane::has_arctangent2(y.value, x.value) { ARCTANGENT } else { PLATFORM };
     if y.error == 0.0 && x.error == 0.0 {
         let is_zero = value == 0.0 && y.value == 0.0;
-        return if is_zero { value.into() } else { evaluated(value, ARCTANGENT, 0.0) };
+        return if is_zero { value.into() } else { evaluated(value, relative, 0.0) };
     }
     let cross = times(x.value.abs(), y.error) + times(y.value.abs(), x.error);
     let length = Real::hypotenuse(x.value, y.value) / SLOPE_MARGIN;
     let least = length - (x.error + y.error);
     let sine = if least > 0.0 && length.is_finite() { cross / length / least * SLOPE_MARGIN } else { 1.0 };
     let moved = if sine < 1.0 { sine + (FRAC_PI_2 - 1.0) * sine * sine * sine } else { PI };
-    evaluated(value, ARCTANGENT, moved * SLOPE_MARGIN)
+    evaluated(value, relative, moved * SLOPE_MARGIN)
 }
 
 /// |P| - |p| = (P - p) (P + p) / (|P| + |p|) in magnitude at most (2 (|x| e_x + |y| e_y) + e_x^2 + e_y^2) / |p|, and at

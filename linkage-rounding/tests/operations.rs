@@ -22,21 +22,21 @@ const OPERATIONS: [(&str, Arguments, f64); 22] = [
     ("rem", Arguments::Similar, 0.0),
     ("mul_add", Arguments::Any, 2.0),
     ("sqrt", Arguments::Positive, 1.3),
-    ("hypot", Arguments::Any, 3.1),
-    ("atan2", Arguments::Any, 3.1),
-    ("sin", Arguments::Angle, 3.0),
-    ("cos", Arguments::Angle, 3.0),
-    ("tan", Arguments::Angle, 3.1),
-    ("asin", Arguments::Sine, 3.1),
-    ("acos", Arguments::Sine, 3.1),
-    ("atan", Arguments::Any, 3.1),
-    ("exp", Arguments::Exponent, 3.1),
-    ("exp_m1", Arguments::Exponent, 3.1),
-    ("exp2", Arguments::Exponent, 3.1),
-    ("ln", Arguments::Positive, 3.1),
-    ("ln_1p", Arguments::Positive, 3.1),
-    ("log2", Arguments::Positive, 3.1),
-    ("powf", Arguments::Power, 3.1),
+    ("hypot", Arguments::Any, 2.1),
+    ("atan2", Arguments::Any, 2.1),
+    ("sin", Arguments::Angle, 2.1),
+    ("cos", Arguments::Angle, 2.1),
+    ("tan", Arguments::Angle, 2.1),
+    ("asin", Arguments::Sine, 2.1),
+    ("acos", Arguments::Sine, 2.1),
+    ("atan", Arguments::Any, 2.1),
+    ("exp", Arguments::Exponent, 2.1),
+    ("exp_m1", Arguments::Exponent, 2.1),
+    ("exp2", Arguments::Exponent, 2.1),
+    ("ln", Arguments::Positive, 2.1),
+    ("ln_1p", Arguments::Positive, 2.1),
+    ("log2", Arguments::Positive, 2.1),
+    ("powf", Arguments::Power, 2.1),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -185,11 +185,13 @@ fn results_are_within_their_bounds() {
             let slack = 1e-110 * found.value().abs();
             assert!(off <= found.error() + slack, "{} is off by {off:e}", context());
             if x.error() == 0.0 && y.error() == 0.0 {
-                // Near underflow the smallest double is an ulp or more.
-                let most = if found.value().abs() > 1e-300 { ulps + 1e-9 } else { ulps + 4.0 };
+                // Near underflow and overflow the rounding error is not computed.
+                let moderate = |number: Rounded| (1e-280..1e280).contains(&number.value().abs());
+                let is_moderate = moderate(found) && [x, y].iter().all(|x| x.value() == 0.0 || moderate(*x));
+                let most = if is_moderate { ulps + 1e-9 } else { ulps + 4.0 };
                 assert!(found.ulps() <= most, "{}: {} ulp", context(), found.ulps());
             } else {
-                worst = worst.max(off / found.error());
+                worst = worst.max((off - slack) / found.error());
             }
         }
         println!("{name}: {known} results, at most {worst:.3} of the bound");

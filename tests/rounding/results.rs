@@ -54,7 +54,7 @@ fn at_pose<T: Real, M: Kinematics<T>>(m: &M, pose: &M::Pose, arguments: &Argumen
         ("determinant", Ok(vec![m.determinant(pose)])),
         ("jacobian", entries(Ok(m.jacobian(pose)))),
         ("gamma", Ok(m.gamma_of(pose, &arguments.rates))),
-        ("solve_jacobian", listed(m.solve_jacobian(pose, m.residual(pose)).map(unknowns))),
+        ("solve_jacobian", listed(m.solve_jacobian(pose, &m.residual(pose)).map(unknowns))),
         ("velocity ratios", entries(m.velocity_ratios(pose))),
         ("velocity", listed(velocity)),
         ("acceleration", listed(acceleration)),

@@ -43,7 +43,7 @@ linkage! {
 #[test]
 fn a_generic_function_has_a_bound() {
     let x = Rounded::from(0.7);
-    let bead = Bead::<Rounded>::default();
+    let bead = Bead::<Rounded>::new();
     let found = bead.kinematics(x, BeadBranch::default(), Rounded::from(1.0), Rounded::from(0.0)).unwrap();
     let height = found.pose.coordinates().height;
     assert!(height.error() > 0.0 && height.ulps() < 2.0, "{height:?}");
