@@ -27,6 +27,36 @@ pub use linkage_interval::Interval;
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
 pub use linkage_report::{Document, FpCore, Table, sheet};
+/// A four-bar near a dead point, where coupler and rocker are parallel to within 1e-6 rad: the velocity at stored angles
+/// keeps its digits, but not if the angles themselves are measured, to 1e-9 rad.
+///
+/// ```
+/// use linkage::Rounded;
+///
+/// linkage::linkage! {
+///     #[derive(Clone)]
+///     mechanism FourBar {
+///         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
+///         input theta2;
+///         unknown theta3, theta4;
+///         loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+///     }
+/// }
+/// let four_bar = FourBar::default().map(Rounded::from);
+/// let ulps = |[theta2, theta3, theta4]: [Rounded; 3]| {
+///     let pose = four_bar.pose_at(&FourBarCoordinates { theta2, theta3, theta4 });
+///     let velocity = four_bar.velocity(&pose, Rounded::from(1.0))?;
+///     println!("theta3' = {}, within {:.1} ulp", velocity.theta3, velocity.theta3.ulps());
+///     Ok::<f64, linkage::Error>(velocity.theta3.ulps())
+/// };
+/// let angles = [1.0, -0.4, -0.4 + 1e-6];
+/// // theta3' = 401703.6.., within 4.. ulp
+/// assert!(ulps(angles.map(Rounded::from))? < 10.0);
+/// assert!(ulps(angles.map(|angle| Rounded::with_error(angle, 1e-9)))? > 1e12);
+/// # Ok::<(), linkage::Error>(())
+/// ```
+#[cfg(all(feature = "rounding", any(feature = "std", feature = "libm")))]
+pub use linkage_rounding::Rounded;
 #[cfg(feature = "std")]
 pub use linkage_runtime::circuits;
 #[cfg(any(feature = "std", feature = "libm"))]

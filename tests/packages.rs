@@ -79,6 +79,6 @@ fn serde_is_built_on_request_only() {
         cargo(&["tree", "--package=linkage", "--edges=normal", "--prefix=none", "--no-default-features", features])
     };
     let has_serde = |tree: &str| tree.lines().any(|line| line.starts_with("serde"));
-    assert!(!has_serde(&tree("--features=std,dynamics,drawing,sheet,double-double,simd")));
+    assert!(!has_serde(&tree("--features=std,dynamics,drawing,sheet,double-double,rounding,simd")));
     assert!(has_serde(&tree("--features=std,serde")));
 }

@@ -42,6 +42,7 @@
 //! POSES=100000 cargo test --release --all-features --test forty_digits -- --nocapture
 //! ```
 
+mod bounds;
 mod dimensions;
 mod errors;
 mod reference;
@@ -89,6 +90,11 @@ macro_rules! tests {
             #[test]
             fn eight_ulps() {
                 $(super::eight_ulps::<$Mechanism>();)+
+            }
+
+            #[test]
+            fn within_bounds() {
+                $(super::bounds::within_bounds::<$Mechanism>();)+
             }
         }
     )*};

@@ -1,7 +1,7 @@
 //! Text that does not fit a type is an error, never a value without meaning.
 
 use linkage::integrate::Tolerance;
-use linkage::{Column, D, DoubleDouble, Matrix};
+use linkage::{Column, D, DoubleDouble, Matrix, Rounded};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, from_str, from_value, json, to_value};
 
@@ -37,6 +37,10 @@ fn numbers_that_are_not_finite() {
     assert!(from_str::<FourBar>(r#"{ "l1": 1e999 }"#).is_err());
     let infinite = DoubleDouble::from(f64::INFINITY);
     assert!(message::<DoubleDouble>(to_value(infinite).unwrap()).contains("null"));
+    // A bound that is not known is none.
+    let unknown = to_value(Rounded::unknown(0.5)).unwrap();
+    assert_eq!(unknown, json!({ "value": 0.5, "error": null }));
+    assert_eq!(serde_json::from_value::<Rounded>(unknown).unwrap().error(), f64::INFINITY);
 }
 
 /// The length of a direction is 1, in each type that holds a pose.
@@ -76,4 +80,6 @@ fn invariants() {
     let mut changed = third.clone();
     changed["low"] = json!(0.1);
     assert_eq!(message::<DoubleDouble>(changed), "`high` is not the double nearest to `high + low`");
+    let negative = json!({ "value": 0.5, "error": -1.0 });
+    assert_eq!(message::<Rounded>(negative), "`error` is negative or not a number");
 }

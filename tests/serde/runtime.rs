@@ -6,7 +6,9 @@ use linkage::drawing::DrawingError;
 use linkage::extremes::{Extreme, Extremes};
 use linkage::integrate::{Crossing, Tolerance, dop853};
 use linkage::simulation::{AtSingularity, simulate};
-use linkage::{Column, ContactLaw, D, DoubleDouble, Elbow, Matrix, Mode, Prescribed, Scene, Slider, Slope, linkage};
+use linkage::{
+    Column, ContactLaw, D, DoubleDouble, Elbow, Matrix, Mode, Prescribed, Rounded, Scene, Slider, Slope, linkage,
+};
 
 use crate::{comes_back, four_bar};
 
@@ -46,6 +48,7 @@ fn columns_and_matrices() {
     comes_back(Matrix::<f64, D<0>, D<2>>::zeros());
     comes_back(Matrix::<f64, D<2>, D<0>>::zeros());
     comes_back(DoubleDouble::from(1.0) / DoubleDouble::from(3.0));
+    comes_back(Rounded::from(1.0) / Rounded::from(3.0));
 }
 
 #[test]

@@ -41,6 +41,38 @@ pub trait Kinematics<T: Real>: Mechanism<Scalar = T> + Sized {
     fn output_ratios(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError>;
     /// All of it in one call.
     fn motion(&self, q: &[T], input_rates: &[T], inputs: &[T]) -> Result<Motion<T>, PositionError>;
+
+    /// The number of branches; 1 if the position is found by Newton's method.
+    fn branch_count() -> usize;
+    /// The coordinates that Newton's method finds from a guess.
+    fn solved(&self, guess: &[T]) -> Result<Vec<T>, PositionError>;
+    /// The position at the inputs of q, on a branch or by Newton's method from q.
+    fn position(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError>;
+    /// Position, velocity and acceleration in one computation, from q as in `position`, or from q on its branch by
+    /// Newton's method; with points and outputs if `full`.
+    fn moving(
+        &self,
+        q: &[T],
+        branch: usize,
+        input_rates: &[T],
+        given: &[T],
+        full: bool,
+    ) -> Result<Moving<Self::Pose, T>, PositionError>;
+    /// Position, velocity and acceleration by separate calls.
+    fn moving_by_parts(
+        &self,
+        q: &[T],
+        branch: usize,
+        input_rates: &[T],
+        given: &[T],
+    ) -> Result<Moving<Self::Pose, T>, PositionError> {
+        let pose = self.assembled(q, branch)?;
+        let rates = self.velocity(&pose, input_rates)?;
+        let accelerations = self.acceleration(&pose, &rates, given)?;
+        Ok(Moving { pose, rates, accelerations, points: None, outputs: None })
+    }
+    /// The position that `moving` starts from.
+    fn assembled(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError>;
 }
 
 /// A motion in lists: each with its first and second derivative.
@@ -83,38 +115,6 @@ pub trait Fixture: Kinematics<f64> + Default {
     const FILE: &'static str;
     /// The mechanism in another scalar.
     type Of<T: Real>: Kinematics<T>;
-
-    /// The number of branches; 1 if the position is found by Newton's method.
-    fn branch_count() -> usize;
-    /// The coordinates that Newton's method finds from a guess.
-    fn solved(&self, guess: &[f64]) -> Result<Vec<f64>, PositionError>;
-    /// The position at the inputs of q, on a branch or by Newton's method from q.
-    fn position(&self, q: &[f64], branch: usize) -> Result<Self::Pose, PositionError>;
-    /// Position, velocity and acceleration in one computation, from q as in `position`, or from q on its branch by
-    /// Newton's method; with points and outputs if `full`.
-    fn moving(
-        &self,
-        q: &[f64],
-        branch: usize,
-        input_rates: &[f64],
-        given: &[f64],
-        full: bool,
-    ) -> Result<Moving<Self::Pose, f64>, PositionError>;
-    /// Position, velocity and acceleration by separate calls.
-    fn moving_by_parts(
-        &self,
-        q: &[f64],
-        branch: usize,
-        input_rates: &[f64],
-        given: &[f64],
-    ) -> Result<Moving<Self::Pose, f64>, PositionError> {
-        let pose = self.assembled(q, branch)?;
-        let rates = self.velocity(&pose, input_rates)?;
-        let accelerations = self.acceleration(&pose, &rates, given)?;
-        Ok(Moving { pose, rates, accelerations, points: None, outputs: None })
-    }
-    /// The position that `moving` starts from.
-    fn assembled(&self, q: &[f64], branch: usize) -> Result<Self::Pose, PositionError>;
 }
 
 /// A fixture with higher orders.
@@ -136,7 +136,11 @@ macro_rules! fixtures {
     ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
         $(
             $crate::fixture::kinematics!($file $Mechanism $method);
-            $crate::fixture::position!($file $Mechanism $method);
+            $crate::fixture::closed_form!($file $Mechanism $method);
+            impl Fixture for $file::$Mechanism {
+                const FILE: &'static str = stringify!($file);
+                type Of<T: Real> = $file::$Mechanism<T>;
+            }
         )+
         $crate::fixture::higher_orders!($file [$($Mechanism $method)+] $($orders)?);
     )*};
@@ -164,6 +168,10 @@ macro_rules! kinematics {
             fn inputs_of(q: &[T]) -> Vec<T> {
                 <Self as Mechanism>::inputs(&Self::named(q)).iter().copied().collect()
             }
+            fn solved(&self, guess: &[T]) -> Result<Vec<T>, PositionError> {
+                newton(self, &Self::named(guess)).map(|solution| column(solution.coordinates))
+            }
+            $crate::fixture::position!($method);
             $crate::fixture::equations!($method);
             fn velocity(&self, pose: &Self::Pose, input_rates: &[T]) -> Result<Vec<T>, PositionError> {
                 self.velocity(pose, inputs::<Self>(input_rates)).map(column)
@@ -249,27 +257,15 @@ macro_rules! equations {
 }
 
 macro_rules! position {
-    ($file:ident $Mechanism:ident $method:ident) => {
-        impl Fixture for $file::$Mechanism {
-            const FILE: &'static str = stringify!($file);
-            type Of<T: Real> = $file::$Mechanism<T>;
-
-            fn solved(&self, guess: &[f64]) -> Result<Vec<f64>, PositionError> {
-                newton(self, &Self::named(guess)).map(|solution| column(solution.coordinates))
-            }
-            $crate::fixture::position!(@ $method);
-        }
-        $crate::fixture::closed_form!($file $Mechanism $method);
-    };
     (@ moving $kinematics:ident $full_kinematics:ident $assemble:ident, |$m:ident, $q:ident, $branch:ident| $from:expr, $on:expr) => {
         fn moving(
             &self,
-            q: &[f64],
+            q: &[T],
             branch: usize,
-            input_rates: &[f64],
-            given: &[f64],
+            input_rates: &[T],
+            given: &[T],
             full: bool,
-        ) -> Result<Moving<Self::Pose, f64>, PositionError> {
+        ) -> Result<Moving<Self::Pose, T>, PositionError> {
             let ($m, $q, $branch) = (self, q, branch);
             let (rates, bent) = (inputs::<Self>(input_rates), inputs::<Self>(given));
             if !full {
@@ -295,29 +291,29 @@ macro_rules! position {
                 ]),
             })
         }
-        fn assembled(&self, q: &[f64], branch: usize) -> Result<Self::Pose, PositionError> {
+        fn assembled(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError> {
             let ($m, $q, $branch) = (self, q, branch);
             self.$assemble($from, $on)
         }
     };
-    (@ closed) => {
+    (closed) => {
         $crate::fixture::position!(@ moving kinematics full_kinematics assemble, |_m, q, branch| inputs::<Self>(&Self::inputs_of(q)), Self::all_branches()[branch]);
         fn branch_count() -> usize {
             Self::all_branches().len()
         }
-        fn position(&self, q: &[f64], branch: usize) -> Result<Self::Pose, PositionError> {
+        fn position(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError> {
             self.assemble(inputs::<Self>(&Self::inputs_of(q)), Self::all_branches()[branch])
         }
     };
-    (@ open) => {
-        $crate::fixture::position!(@ closed);
+    (open) => {
+        $crate::fixture::position!(closed);
     };
-    (@ newton) => {
+    (newton) => {
         $crate::fixture::position!(@ moving kinematics_near full_kinematics_near assemble_near, |m, q, _branch| &Self::named(q), m.branch_of(&m.pose(q)));
         fn branch_count() -> usize {
             1
         }
-        fn position(&self, q: &[f64], _branch: usize) -> Result<Self::Pose, PositionError> {
+        fn position(&self, q: &[T], _branch: usize) -> Result<Self::Pose, PositionError> {
             Ok(self.pose(&self.solved(q)?))
         }
     };

@@ -1,0 +1,415 @@
+//! The traits that nalgebra requires of a real scalar.
+
+use core::f64::consts;
+
+use approx::{AbsDiffEq, RelativeEq, UlpsEq};
+use nalgebra::{ComplexField, Field, RealField, SimdValue};
+use num_traits::{FromPrimitive, Num, One, Signed, Zero};
+use simba::scalar::{SubsetOf, SupersetOf};
+
+use crate::Rounded;
+use crate::functions::{self, one_of, whole};
+use crate::residual::half_ulp;
+
+impl Rounded {
+    /// A double that may be the rounded value of a constant, see the type.
+    fn constant(value: f64) -> Self {
+        /// 2^53: below it all whole numbers are doubles.
+        const WHOLE: f64 = 9_007_199_254_740_992.0;
+        /// The lowest 20 of the 53 bits are zero: for a rounded constant a chance of one in a million.
+        const SHORT: u32 = 20;
+        let is_whole = value.abs() <= WHOLE && value == ComplexField::trunc(value);
+        let is_exact = is_whole || value.to_bits().trailing_zeros() >= SHORT;
+        // Infinity and NaN have no rounding error.
+        if is_exact || !value.is_finite() { Self::from(value) } else { Self::nearest(value) }
+    }
+
+    /// The double nearest to a number.
+    fn nearest(value: f64) -> Self {
+        Self::with_error(value, half_ulp(value))
+    }
+}
+
+impl Zero for Rounded {
+    fn zero() -> Self {
+        Self::from(0.0)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.value == 0.0
+    }
+}
+
+impl One for Rounded {
+    fn one() -> Self {
+        Self::from(1.0)
+    }
+}
+
+impl Num for Rounded {
+    type FromStrRadixErr = <f64 as Num>::FromStrRadixErr;
+
+    /// Parses a double as a constant.
+    fn from_str_radix(text: &str, radix: u32) -> Result<Self, Self::FromStrRadixErr> {
+        f64::from_str_radix(text, radix).map(Self::constant)
+    }
+}
+
+impl Signed for Rounded {
+    /// ||X| - |x|| <= |X - x|
+    fn abs(&self) -> Self {
+        Self { value: self.value.abs(), error: self.error }
+    }
+
+    fn abs_sub(&self, other: &Self) -> Self {
+        if self <= other { Self::zero() } else { *self - *other }
+    }
+
+    fn signum(&self) -> Self {
+        whole(self.value.signum())
+    }
+
+    fn is_positive(&self) -> bool {
+        RealField::is_sign_positive(self)
+    }
+
+    fn is_negative(&self) -> bool {
+        RealField::is_sign_negative(self)
+    }
+}
+
+impl FromPrimitive for Rounded {
+    fn from_i64(n: i64) -> Option<Self> {
+        Some(Self::constant(n as f64))
+    }
+
+    fn from_u64(n: u64) -> Option<Self> {
+        Some(Self::constant(n as f64))
+    }
+
+    fn from_f64(n: f64) -> Option<Self> {
+        Some(Self::constant(n))
+    }
+}
+
+impl AbsDiffEq for Rounded {
+    type Epsilon = Self;
+
+    fn default_epsilon() -> Self {
+        Self::from(f64::EPSILON)
+    }
+
+    fn abs_diff_eq(&self, other: &Self, epsilon: Self) -> bool {
+        self.value.abs_diff_eq(&other.value, epsilon.value)
+    }
+}
+
+impl RelativeEq for Rounded {
+    fn default_max_relative() -> Self {
+        Self::from(f64::EPSILON)
+    }
+
+    fn relative_eq(&self, other: &Self, epsilon: Self, max_relative: Self) -> bool {
+        self.value.relative_eq(&other.value, epsilon.value, max_relative.value)
+    }
+}
+
+impl UlpsEq for Rounded {
+    fn default_max_ulps() -> u32 {
+        f64::default_max_ulps()
+    }
+
+    fn ulps_eq(&self, other: &Self, epsilon: Self, max_ulps: u32) -> bool {
+        self.value.ulps_eq(&other.value, epsilon.value, max_ulps)
+    }
+}
+
+/// A SIMD value of one lane.
+impl SimdValue for Rounded {
+    const LANES: usize = 1;
+    type Element = Self;
+    type SimdBool = bool;
+
+    fn splat(value: Self) -> Self {
+        value
+    }
+
+    fn extract(&self, _: usize) -> Self {
+        *self
+    }
+
+    #[expect(unsafe_code, reason = "declared so by the trait")]
+    unsafe fn extract_unchecked(&self, _: usize) -> Self {
+        *self
+    }
+
+    fn replace(&mut self, _: usize, value: Self) {
+        *self = value;
+    }
+
+    #[expect(unsafe_code, reason = "declared so by the trait")]
+    unsafe fn replace_unchecked(&mut self, _: usize, value: Self) {
+        *self = value;
+    }
+
+    fn select(self, condition: bool, other: Self) -> Self {
+        if condition { self } else { other }
+    }
+}
+
+impl Field for Rounded {}
+
+impl SubsetOf<Self> for Rounded {
+    fn to_superset(&self) -> Self {
+        *self
+    }
+
+    fn from_superset_unchecked(element: &Self) -> Self {
+        *element
+    }
+
+    fn is_in_subset(_: &Self) -> bool {
+        true
+    }
+}
+
+impl SupersetOf<f64> for Rounded {
+    fn is_in_subset(&self) -> bool {
+        true
+    }
+
+    fn to_subset_unchecked(&self) -> f64 {
+        self.value
+    }
+
+    fn from_subset(element: &f64) -> Self {
+        Self::constant(*element)
+    }
+}
+
+impl SupersetOf<f32> for Rounded {
+    fn is_in_subset(&self) -> bool {
+        true
+    }
+
+    fn to_subset_unchecked(&self) -> f32 {
+        self.value as f32
+    }
+
+    /// An `f32` has fewer digits than a constant that was rounded to a double.
+    fn from_subset(element: &f32) -> Self {
+        Self::from(f64::from(*element))
+    }
+}
+
+macro_rules! from_functions {
+    ($($name:ident)*) => {$(
+        #[inline]
+        fn $name(self) -> Self {
+            functions::$name(self)
+        }
+    )*};
+}
+
+/// Functions of which no error is known.
+macro_rules! without_bound {
+    ($($name:ident)*) => {$(
+        fn $name(self) -> Self {
+            Self::unknown(ComplexField::$name(self.value))
+        }
+    )*};
+}
+
+macro_rules! to_whole_numbers {
+    ($($name:ident)*) => {$(
+        #[inline]
+        fn $name(self) -> Self {
+            whole(ComplexField::$name(self.value))
+        }
+    )*};
+}
+
+impl ComplexField for Rounded {
+    type RealField = Self;
+
+    from_functions! { tan asin acos atan exp exp2 exp_m1 ln ln_1p log2 }
+
+    without_bound! { log10 sinh cosh tanh asinh acosh atanh cbrt }
+
+    to_whole_numbers! { floor ceil round trunc }
+
+    #[inline]
+    fn from_real(re: Self) -> Self {
+        re
+    }
+
+    #[inline]
+    fn real(self) -> Self {
+        self
+    }
+
+    #[inline]
+    fn imaginary(self) -> Self {
+        Self::zero()
+    }
+
+    fn modulus(self) -> Self {
+        Signed::abs(&self)
+    }
+
+    fn modulus_squared(self) -> Self {
+        self * self
+    }
+
+    fn argument(self) -> Self {
+        if self.value >= 0.0 { Self::zero() } else { Self::pi() }
+    }
+
+    fn norm1(self) -> Self {
+        Signed::abs(&self)
+    }
+
+    #[inline]
+    fn scale(self, factor: Self) -> Self {
+        self * factor
+    }
+
+    #[inline]
+    fn unscale(self, factor: Self) -> Self {
+        self / factor
+    }
+
+    fn fract(self) -> Self {
+        self - self.trunc()
+    }
+
+    #[inline]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self.fused(a, b)
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        Signed::abs(&self)
+    }
+
+    fn hypot(self, other: Self) -> Self {
+        functions::hypot(self, other)
+    }
+
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+
+    #[inline]
+    fn conjugate(self) -> Self {
+        self
+    }
+
+    fn sin(self) -> Self {
+        functions::sine_cosine(self).0
+    }
+
+    fn cos(self) -> Self {
+        functions::sine_cosine(self).1
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        functions::sine_cosine(self)
+    }
+
+    fn log(self, base: Self) -> Self {
+        functions::log(self, base)
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        self.root()
+    }
+
+    fn powi(self, n: i32) -> Self {
+        functions::powi(self, n)
+    }
+
+    fn powf(self, n: Self) -> Self {
+        functions::powf(self, n)
+    }
+
+    fn powc(self, n: Self) -> Self {
+        functions::powf(self, n)
+    }
+
+    /// True if the value is finite, as in `f64`; the bound may be infinite.
+    fn is_finite(&self) -> bool {
+        self.value.is_finite()
+    }
+
+    fn try_sqrt(self) -> Option<Self> {
+        (self.value >= 0.0).then(|| self.root())
+    }
+}
+
+macro_rules! constants {
+    ($($name:ident $value:ident;)*) => {$(
+        fn $name() -> Self {
+            Self::nearest(consts::$value)
+        }
+    )*};
+}
+
+impl RealField for Rounded {
+    fn is_sign_positive(&self) -> bool {
+        self.value.is_sign_positive()
+    }
+
+    fn is_sign_negative(&self) -> bool {
+        self.value.is_sign_negative()
+    }
+
+    fn copysign(self, sign: Self) -> Self {
+        Self { value: self.value.copysign(sign.value), error: self.error }
+    }
+
+    fn max(self, other: Self) -> Self {
+        one_of(self, other, RealField::max(self.value, other.value))
+    }
+
+    fn min(self, other: Self) -> Self {
+        one_of(self, other, RealField::min(self.value, other.value))
+    }
+
+    fn clamp(self, min: Self, max: Self) -> Self {
+        let value = RealField::clamp(self.value, min.value, max.value);
+        one_of(one_of(self, min, value), max, value)
+    }
+
+    fn atan2(self, other: Self) -> Self {
+        functions::atan2(self, other)
+    }
+
+    fn min_value() -> Option<Self> {
+        Some(f64::MIN.into())
+    }
+
+    fn max_value() -> Option<Self> {
+        Some(f64::MAX.into())
+    }
+
+    constants! {
+        pi PI;
+        two_pi TAU;
+        frac_pi_2 FRAC_PI_2;
+        frac_pi_3 FRAC_PI_3;
+        frac_pi_4 FRAC_PI_4;
+        frac_pi_6 FRAC_PI_6;
+        frac_pi_8 FRAC_PI_8;
+        frac_1_pi FRAC_1_PI;
+        frac_2_pi FRAC_2_PI;
+        frac_2_sqrt_pi FRAC_2_SQRT_PI;
+        e E;
+        log2_e LOG2_E;
+        log10_e LOG10_E;
+        ln_2 LN_2;
+        ln_10 LN_10;
+    }
+}

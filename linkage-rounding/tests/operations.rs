@@ -1,0 +1,268 @@
+//! Each operation against 400 bits: the exact arguments are anywhere within their bounds, and the exact result must be
+//! within the bound of the result. Values are those of `f64`, and the bounds of exact arguments are not too large.
+//!
+//! ```text
+//! EVALUATIONS=1000000 cargo test --release -p linkage-rounding --test operations -- --nocapture
+//! ```
+
+mod exact;
+
+use exact::{Big, big, double, evaluate};
+use linkage_rounding::Rounded;
+use nalgebra::{ComplexField, RealField};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+/// Operations of one or two arguments; what limits their arguments; the largest bound for exact arguments, in ulps.
+const OPERATIONS: [(&str, Arguments, f64); 22] = [
+    ("add", Arguments::Any, 0.5),
+    ("sub", Arguments::Any, 0.5),
+    ("mul", Arguments::Any, 1.0),
+    ("div", Arguments::Any, 1.0),
+    ("rem", Arguments::Similar, 0.0),
+    ("mul_add", Arguments::Any, 2.0),
+    ("sqrt", Arguments::Positive, 1.3),
+    ("hypot", Arguments::Any, 2.1),
+    ("atan2", Arguments::Any, 2.1),
+    ("sin", Arguments::Angle, 2.1),
+    ("cos", Arguments::Angle, 2.1),
+    ("tan", Arguments::Angle, 2.1),
+    ("asin", Arguments::Sine, 2.1),
+    ("acos", Arguments::Sine, 2.1),
+    ("atan", Arguments::Any, 2.1),
+    ("exp", Arguments::Exponent, 2.1),
+    ("exp_m1", Arguments::Exponent, 2.1),
+    ("exp2", Arguments::Exponent, 2.1),
+    ("ln", Arguments::Positive, 2.1),
+    ("ln_1p", Arguments::Positive, 2.1),
+    ("log2", Arguments::Positive, 2.1),
+    ("powf", Arguments::Power, 2.1),
+];
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Arguments {
+    /// Every magnitude from the smallest to the largest double.
+    Any,
+    /// Ratios up to 1000.
+    Similar,
+    Positive,
+    Angle,
+    Sine,
+    Exponent,
+    Power,
+}
+
+fn evaluations() -> usize {
+    let all = std::env::var("EVALUATIONS").ok().and_then(|count| count.parse().ok()).unwrap_or(3_000_usize);
+    all / OPERATIONS.len()
+}
+
+fn rounded(name: &str, x: Rounded, y: Rounded) -> Rounded {
+    of(name, x, y)
+}
+
+/// The operation in any scalar.
+fn of<T: RealField + Copy>(name: &str, x: T, y: T) -> T {
+    match name {
+        "add" => x + y,
+        "sub" => x - y,
+        "mul" => x * y,
+        "div" => x / y,
+        "rem" => x % y,
+        "mul_add" => x.mul_add(y, x),
+        "sqrt" => x.sqrt(),
+        "hypot" => linkage_runtime::Real::hypotenuse(x, y),
+        "atan2" => linkage_runtime::Real::arctangent2(x, y),
+        "sin" => linkage_runtime::Real::sine(x),
+        "cos" => linkage_runtime::Real::cosine(x),
+        "tan" => x.tan(),
+        "asin" => x.asin(),
+        "acos" => x.acos(),
+        "atan" => x.atan(),
+        "exp" => x.exp(),
+        "exp_m1" => x.exp_m1(),
+        "exp2" => x.exp2(),
+        "ln" => x.ln(),
+        "ln_1p" => x.ln_1p(),
+        "log2" => x.log2(),
+        "powf" => x.powf(y),
+        other => panic!("{other}"),
+    }
+}
+
+/// Arguments: moderate, extreme, of few bits, nearly equal.
+fn draw(random: &mut SmallRng, arguments: Arguments) -> [f64; 2] {
+    let mut signed = |exponents: std::ops::Range<i32>| -> f64 {
+        let size = random.random_range(1.0..2.0_f64) * 2_f64.powi(random.random_range(exponents));
+        let size = if random.random_bool(0.1) { f64::from(size as f32) } else { size };
+        if random.random_bool(0.5) { -size } else { size }
+    };
+    match arguments {
+        Arguments::Any => {
+            let [x, y] = match signed(0..3).abs() {
+                0.0..2.0 => [signed(-3..3), signed(-3..3)],
+                2.0..4.0 => [signed(-1022..1023), signed(-1022..1023)],
+                _ => [signed(-40..40), signed(-1074..-1000)],
+            };
+            // Cancellation.
+            let near = x * (1.0 + f64::EPSILON * signed(0..10).round());
+            let kind = signed(0..4).abs();
+            [
+                x,
+                if kind < 2.0 {
+                    -near
+                } else if kind < 2.1 {
+                    0.0
+                } else {
+                    y
+                },
+            ]
+        }
+        Arguments::Similar => [signed(-3..10), signed(0..3)],
+        Arguments::Positive => {
+            let near_one = 1.0 + signed(-50..-1);
+            [if signed(0..2) > 0.0 { near_one } else { signed(-1022..1023).abs() }, 1.0]
+        }
+        Arguments::Angle => {
+            let turns = (signed(0..15) * 0.5).round() * std::f64::consts::FRAC_PI_2;
+            [if signed(0..2) > 0.0 { turns } else { signed(-40..18) }, 1.0]
+        }
+        Arguments::Sine => {
+            let x = signed(-30..-1);
+            [if signed(0..2) > 0.0 { x } else { (1.0 - signed(-50..-1).abs()).copysign(x) }, 1.0]
+        }
+        Arguments::Exponent => [signed(-40..9), 1.0],
+        Arguments::Power => [signed(-10..10).abs(), signed(-3..5)],
+    }
+}
+
+/// A bound of zero, of some ulps, or comparable with the value.
+fn bound(random: &mut SmallRng, value: f64, kinds: u32) -> f64 {
+    match random.random_range(0..kinds) {
+        0 => 0.0,
+        1 => value.abs() * f64::EPSILON * random.random_range(0.0..4.0),
+        2 => value.abs() * 2_f64.powi(random.random_range(-40..0)),
+        _ => value.abs() * 2_f64.powi(random.random_range(-2..2)),
+    }
+}
+
+/// A number within the bound, often at its end.
+fn within(random: &mut SmallRng, number: Rounded) -> Big {
+    let part = if random.random_bool(0.5) { random.random_range(-1.0..1.0) } else { 1.0 };
+    let part = if random.random_bool(0.5) { part } else { -part };
+    big(number.value()) + big(number.error()) * big(part)
+}
+
+#[test]
+fn results_are_within_their_bounds() {
+    let mut random = SmallRng::seed_from_u64(53);
+    for (name, arguments, ulps) in OPERATIONS {
+        let (mut known, mut worst) = (0, 0.0_f64);
+        for round in 0..evaluations() {
+            let [x, y] = draw(&mut random, arguments);
+            if !(x.is_finite() && y.is_finite()) {
+                continue;
+            }
+            // The count of a remainder is decided by the values.
+            let kinds = if name == "rem" { 2 } else { 4 };
+            let mut error = |value: f64| if round % 2 == 0 { 0.0 } else { bound(&mut random, value, kinds) };
+            let (x, y) = (Rounded::with_error(x, error(x)), Rounded::with_error(y, error(y)));
+            let found = rounded(name, x, y);
+            let plain = of(name, x.value(), y.value());
+            let context = || format!("{name}({x:?}, {y:?}) = {found:?}");
+            assert!(found.value().to_bits() == plain.to_bits() || plain.is_nan(), "{} is not {plain:e}", context());
+            if !found.error().is_finite() {
+                assert!(x.error() > 0.0 || y.error() > 0.0 || !plain.is_finite(), "{}", context());
+                continue;
+            }
+            let (exact_x, exact_y) = (within(&mut random, x), within(&mut random, y));
+            let Some(exact) = evaluate(name, &exact_x, &exact_y) else { continue };
+            known += 1;
+            let off = double(&(exact - big(found.value()))).abs();
+            // The cut is a decision of the value.
+            let off = if name == "atan2" { off.min((off - std::f64::consts::TAU).abs()) } else { off };
+            // The last of the 400 bits.
+            let slack = 1e-110 * found.value().abs();
+            assert!(off <= found.error() + slack, "{} is off by {off:e}", context());
+            if x.error() == 0.0 && y.error() == 0.0 {
+                // Near underflow and overflow the rounding error is not computed.
+                let moderate = |number: Rounded| (1e-280..1e280).contains(&number.value().abs());
+                let is_moderate = moderate(found) && [x, y].iter().all(|x| x.value() == 0.0 || moderate(*x));
+                let most = if is_moderate { ulps + 1e-9 } else { ulps + 4.0 };
+                assert!(found.ulps() <= most, "{}: {} ulp", context(), found.ulps());
+            } else {
+                worst = worst.max((off - slack) / found.error());
+            }
+        }
+        println!("{name}: {known} results, at most {worst:.3} of the bound");
+        assert!(known > evaluations() / 3, "{name}: {known}");
+        // Bounds that are never approached are too large.
+        assert!(worst > 0.3, "{name}: at most {worst} of the bound");
+    }
+}
+
+/// Operations without a rounding error have none.
+#[test]
+fn exact_operations() {
+    let [x, zero, one] = [0.1, 0.0, 1.0].map(Rounded::from);
+    for exact in [x + zero, x * one, x - x, x * zero, x / one, zero / x, (one + one).sqrt() * zero, zero.sqrt()] {
+        assert_eq!(exact.error(), 0.0, "{exact}");
+    }
+    let [five, twelve] = [5.0, 12.0].map(Rounded::from);
+    assert_eq!((five * five + twelve * twelve).sqrt().error(), 0.0);
+    assert_eq!(Rounded::from(2.0).powf(Rounded::from(-7.0)).error(), 0.0);
+    assert_eq!(zero.sin_cos(), (zero, one));
+    assert_eq!((zero.sin().error(), zero.cos().error()), (0.0, 0.0));
+}
+
+/// Nothing is known of a quotient whose divisor may be zero, and of what follows from it.
+#[test]
+fn unknown() {
+    let near = Rounded::with_error(1.0, 1.0);
+    let unknown = Rounded::from(1.0) / near;
+    assert_eq!((unknown.value(), unknown.error()), (1.0, f64::INFINITY));
+    let zero = Rounded::from(0.0);
+    for number in [
+        unknown + near,
+        unknown * zero,
+        unknown.sqrt(),
+        unknown.exp(),
+        near.ln(),
+        unknown.mul_add(zero, near),
+        zero.sinh(),
+    ] {
+        assert_eq!(number.error(), f64::INFINITY, "{number}");
+        assert!(number.is_finite());
+    }
+    // Sines and angles are bounded.
+    assert!(unknown.sin().error() < 2.1 && unknown.atan2(near).error() < 3.2);
+    assert_eq!(Rounded::from(f64::MAX).powi(2).error(), f64::INFINITY);
+    for error in [f64::NAN, -1.0] {
+        assert_eq!(Rounded::with_error(1.0, error).error(), f64::INFINITY);
+    }
+}
+
+/// A converted double may be a rounded constant; the given one is exact.
+#[test]
+fn constants() {
+    let of = |value: f64| nalgebra::convert::<f64, Rounded>(value);
+    for exact in [0.0, 1.0, -3.0, 0.375, 1e15, 1e22, 2_f64.powi(-1000)] {
+        assert_eq!(of(exact).error() == 0.0, exact != 1e22, "{exact}");
+    }
+    let tenth = of(0.1);
+    assert!(double(&(big(1.0) / big(10.0) - big(0.1))).abs() <= tenth.error() && tenth.ulps() < 1.0);
+    assert_eq!(Rounded::from(0.1).error(), 0.0);
+    let pi = Rounded::pi();
+    assert!(1.224_646_799_147_353_2e-16 <= pi.error() && pi.ulps() < 1.0);
+}
+
+/// Decisions are those of the values; a whole number is exact, and a choice is off by the larger error.
+#[test]
+fn decisions() {
+    let (small, large) = (Rounded::with_error(1.0, 5.0), Rounded::with_error(2.0, 1.0));
+    assert!(small < large && small == Rounded::from(1.0));
+    assert_eq!((RealField::max(small, large).value(), RealField::max(small, large).error()), (2.0, 5.0));
+    assert_eq!((small.floor().error(), (-small).abs().error(), small.copysign(-large).value()), (0.0, 5.0, -1.0));
+    assert_eq!(format!("{small}"), "1 ± 5.0e0");
+    assert_eq!(Rounded::with_error(1.0, f64::EPSILON).ulps(), 1.0);
+}
