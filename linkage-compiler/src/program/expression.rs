@@ -199,6 +199,16 @@ impl Expression {
         Self::Dereferenced(Box::new(self))
     }
 
+    /// The name of the argument that this is, as it is or converted.
+    pub fn stored(&self) -> Option<&str> {
+        match self {
+            Self::Name(name) => Some(name),
+            Self::Dereferenced(inside) | Self::Borrowed(inside) => inside.stored(),
+            Self::Method(inside, name, arguments) if name == "into" && arguments.is_empty() => inside.stored(),
+            _ => None,
+        }
+    }
+
     pub fn runtime(name: &'static str, arguments: impl IntoIterator<Item = Self>) -> Self {
         Self::Runtime(name, arguments.into_iter().collect())
     }
