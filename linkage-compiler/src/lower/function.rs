@@ -5,13 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::finished::Finished;
 use super::lines::{Writer, direction_name};
 use super::names::Names;
-use super::rounding::{Bound, Roundings};
+use super::rounding::{Bound, DIRECTION, Roundings};
 use super::schedule::Schedule;
 use super::scheduling::schedule;
 use super::stretches;
 use super::value::{Value, ValueId};
 use crate::derivation::Derivation;
-use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
+use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::BlockId;
 use crate::program::{
     Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement, Taken,
@@ -57,12 +57,16 @@ pub struct Code {
 pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code> {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = planned;
     let is_layer = matches!(access, Access::Layer | Access::PublicLayer);
-    let is_stored = |source: &Source| {
-        source.from.stored().is_some_and(|name| name == "self" || arguments.iter().any(|of| of.name == name))
+    let is_stored = |source: &Source| match source.from.stored() {
+        Some(name) => name == "self" || arguments.iter().any(|of| of.name == name),
+        None => source.shape.symbols().iter().all(|symbol| context.roundings.knows(*symbol)),
     };
     let has_bound = access.is_public()
         && access != Access::Hidden
-        && body.iter().filter_map(|body| body.kernel.as_ref()).all(|kernel| kernel.sources.iter().all(is_stored));
+        && body.as_ref().is_some_and(|body| match (&body.kernel, &body.value) {
+            (Some(kernel), Returned::Plain(value)) => kernel.sources.iter().all(is_stored) && value.is_of_results(),
+            _ => false,
+        });
     let mut body = body.map(|body| self::body(body, (is_layer, has_bound), context));
     if let (Some(code), Access::Cold) = (&mut body, access) {
         // It is called only after an error.
@@ -242,26 +246,34 @@ impl<'a> Formulas<'a> {
 /// The bound of the rounding errors of a kernel whose arguments are stored.
 fn bound(kernel: &Kernel, schedule: &Schedule, context: &mut Context) -> Option<Bound> {
     let graph = &context.derivation.graph;
-    let names = kernel.results.iter().zip(&schedule.results).map(|(output, result)| {
-        let symbol = graph.as_symbol(output.node).map(|symbol| graph.symbol_name(symbol));
+    let fields = taken_by_others(kernel, context);
+    let results = kernel.results.iter().zip(&schedule.results).enumerate();
+    let names = results.map(|(place, (output, result))| {
+        let symbol = graph.as_symbol(output.node);
+        let symbol = symbol.or_else(|| fields.iter().find(|(other, _)| *other == place).map(|(_, symbol)| *symbol));
+        let symbol = symbol.map(|symbol| graph.symbol_name(symbol));
+        let is_circular = matches!(graph.node(output.node), Node::Call(Elementary::Sin | Elementary::Cos, _));
+        let symbol = if is_circular { Some(DIRECTION) } else { symbol };
         let name = output.name.as_deref().or(symbol).or(schedule.name(result.value).map(|(name, _)| name));
         name.unwrap_or_default().to_owned()
     });
     let names = names.collect::<Vec<_>>();
-    if !kernel.is_on_pose {
-        context.roundings.keep_pose(graph, schedule, &fields_of_pose(kernel, context));
-    }
-    context.roundings.bound(graph, schedule, &names, kernel.is_on_pose)
+    context.roundings.keep_pose(graph, schedule, &fields);
+    context.roundings.bound(graph, schedule, &names)
 }
 
-/// The results that are determinants of a pose, with their symbols.
-fn fields_of_pose(kernel: &Kernel, context: &Context) -> Vec<(usize, SymbolId)> {
+/// The results that other functions take, with their symbols: the determinants of a pose, and velocity ratios.
+fn taken_by_others(kernel: &Kernel, context: &Context) -> Vec<(usize, SymbolId)> {
+    let graph = &context.derivation.graph;
+    let ratios: BTreeSet<SymbolId> = context.derivation.ratios.iter().flatten().copied().collect();
     let places = kernel.results.iter().enumerate();
     let of = |(place, output): (usize, &Output)| {
         let is_it = |(block, ..): &&(BlockId, String, SymbolId)| {
             context.derivation.blocks[*block].determinant.is_some_and(|determinant| determinant.value == output.node)
         };
-        context.pose.determinants.iter().find(is_it).map(|(.., symbol)| (place, *symbol))
+        let determinant = context.pose.determinants.iter().find(is_it).map(|(.., symbol)| *symbol);
+        let ratio = graph.as_symbol(output.node).filter(|symbol| ratios.contains(symbol));
+        Some((place, determinant.or(ratio)?))
     };
     places.filter_map(of).collect()
 }

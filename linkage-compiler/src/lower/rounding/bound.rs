@@ -13,8 +13,6 @@ use crate::lower::schedule::{Line, Schedule};
 #[derive(Debug, Clone)]
 pub struct Bound {
     pub(super) results: Vec<Of>,
-    /// True if it takes a pose: the bound starts from the coordinates of `pose_at`.
-    pub(super) is_on_pose: bool,
 }
 
 /// The error of a result x is at most (relative |x| + scattered size) 2^-53.
@@ -83,10 +81,7 @@ impl Names<'_> {
     }
 
     fn of(&self, place: usize, name: String, tracked: &Tracked) -> Option<Of> {
-        let size = match tracked.scattered.is_zero() {
-            true => Vec::new(),
-            false => tracked.size.simplified()?.0.iter().map(|one| self.product(one)).collect(),
-        };
+        let size = tracked.size.simplified()?.0.iter().map(|one| self.product(one)).collect();
         let [relative, scattered] = [&tracked.relative, &tracked.scattered].map(|count| self.law(count));
         Some(Of { place, name, relative, scattered, size })
     }
@@ -99,7 +94,6 @@ impl Roundings {
         graph: &Graph,
         schedule: &Schedule,
         names: &[String],
-        is_on_pose: bool,
     ) -> Option<Bound> {
         let is_iterated = |line: &Line| matches!(line, Line::Newton { .. } | Line::Modes { .. } | Line::Chord { .. });
         if schedule.lines.iter().any(is_iterated) {
@@ -112,7 +106,7 @@ impl Roundings {
         let rounded = tracked.iter().zip(names).enumerate();
         let rounded = rounded.filter(|(_, (of, _))| !of.relative.is_zero() || !of.scattered.is_zero());
         let results = rounded.map(|(place, (of, name))| texts.of(place, name.clone(), of)).collect::<Option<Vec<_>>>()?;
-        (!results.is_empty()).then_some(Bound { results, is_on_pose })
+        (!results.is_empty()).then_some(Bound { results })
     }
 
     /// Keeps the errors of these results, which are fields of a pose.
@@ -120,7 +114,7 @@ impl Roundings {
         for &(place, symbol) in fields {
             let mut following = Following::new(graph, schedule, self);
             let tracked = schedule.results.get(place).and_then(|result| following.signed(*result));
-            if tracked.is_some() {
+            if tracked.is_some() && !self.knows(symbol) {
                 self.pose.insert(symbol, tracked);
             }
         }
@@ -139,7 +133,7 @@ impl Bound {
     pub fn at(&self, place: usize, result: f64, value: &dyn Fn(&str) -> f64) -> Option<f64> {
         let of = self.results.iter().find(|of| of.place == place)?;
         let size: f64 = of.size.iter().map(|product| product.at(value)).sum();
-        let scattered = if of.size.is_empty() { 0.0 } else { of.scattered.at(value) * size };
+        let scattered = of.scattered.at(value) * size;
         // 2^-53
         Some((of.relative.at(value) * result.abs() + scattered) * f64::EPSILON / 2.0)
     }

@@ -29,10 +29,14 @@ use tracked::Tracked;
 /// The relative error of a sine or a cosine of an angle up to 1e5, in units of 2^-53.
 pub(super) const SINE: f64 = 1.8;
 
+/// The name of a sine or cosine among the results of `pose_at`.
+pub(super) const DIRECTION: &str = "directions";
+
 /// What functions lowered before know: the angles, and the errors of the determinants of a pose.
 #[derive(Debug)]
 pub struct Roundings {
     angles: Angles,
+    /// Determinants and velocity ratios.
     pose: FxHashMap<SymbolId, Option<Tracked>>,
 }
 
@@ -42,5 +46,10 @@ impl Roundings {
         let determinants = pose.determinants.iter().map(|(.., symbol)| *symbol);
         let unknown = determinants.chain(pose.externals.iter().map(|(.., symbol)| *symbol));
         Self { angles: Angles::default(), pose: unknown.map(|symbol| (symbol, None)).collect() }
+    }
+
+    /// True for a result of a function before, with a known error.
+    pub fn knows(&self, symbol: SymbolId) -> bool {
+        matches!(self.pose.get(&symbol), Some(Some(_)))
     }
 }
