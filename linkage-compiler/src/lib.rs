@@ -20,6 +20,8 @@ pub mod program;
 pub mod structure;
 pub mod syntax;
 
+use std::collections::BTreeMap;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -202,6 +204,36 @@ pub fn formulas(mechanism: &Mechanism) -> Vec<[String; 3]> {
     let drivers = mechanism.drivers.iter().flat_map(|driver| {
         let mut derivation = derivation::derive(mechanism, driver);
         emit::formulas(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation))
+    });
+    drivers.collect()
+}
+
+/// The bounds of the rounding errors of the functions of one driver.
+#[derive(Debug, Clone)]
+pub struct Bounds {
+    pub driver: String,
+    /// The names of the parameters in the bounds.
+    pub parameters: Vec<String>,
+    /// The names of the coordinates in the bounds, of their rates and accelerations.
+    pub coordinates: Vec<[String; 3]>,
+    pub functions: BTreeMap<String, lower::Bound>,
+}
+
+/// Returns the bounds of the rounding errors of the functions of a checked mechanism, one for each driver.
+#[must_use]
+pub fn bounds(mechanism: &Mechanism) -> Vec<Bounds> {
+    let drivers = mechanism.drivers.iter().map(|driver| {
+        let mut derivation = derivation::derive(mechanism, driver);
+        let lowered = lower::program(program::plan(mechanism, driver, &mut derivation), &derivation);
+        let name = |symbol| derivation.graph.symbol_name(symbol).to_owned();
+        let parameters = mechanism.parameters.iter().map(|parameter| name(parameter.symbol)).collect();
+        let coordinates = derivation.coordinates.iter().map(|one| [one.value, one.rate, one.acceleration].map(name));
+        let bounds = lowered.functions.iter().filter_map(|function| {
+            let bound = function.body.as_ref()?.bound.clone()?;
+            Some((function.name.clone(), bound))
+        });
+        let (functions, coordinates) = (bounds.collect(), coordinates.collect());
+        Bounds { driver: driver.name.to_string(), parameters, coordinates, functions }
     });
     drivers.collect()
 }

@@ -14,7 +14,8 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
     // Only functions that others call show their operation counts.
     let work = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
-    let doc = description(doc, work.unwrap_or_default());
+    let bound = body.as_ref().and_then(|code| code.bound.as_ref()?.sentence());
+    let doc = description(doc, work.unwrap_or_default(), bound);
     let name = Ident::new(name, place);
     let itself = is_method.then(|| quote!(&self));
     let arguments = arguments.iter().map(|Argument { name, passed }| {
@@ -67,11 +68,14 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
     }
 }
 
-/// The doc comment: the lines, and the operation counts if there are any.
-fn description(lines: &[String], work: Operations) -> TokenStream {
+/// The doc comment: the lines, the operation counts and the bound of the rounding errors if there are any.
+fn description(lines: &[String], work: Operations, bound: Option<String>) -> TokenStream {
     let mut lines: Vec<String> = lines.to_vec();
     if work != Operations::default() {
         lines.extend([String::new(), format!("Operations: {}.", count(work))]);
+    }
+    if let Some(bound) = bound {
+        lines.extend([String::new(), bound]);
     }
     let lines = lines.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
     let text = comment(&lines.collect::<Vec<_>>().join("\n"));

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::graph::Number;
-use crate::lower::Code;
+use crate::lower::{Bound, Code};
 use crate::program::{Access, Expression, Function, Operations, Pattern, Program, Statement, Type, Value, count};
 
 /// The functions of a driver and of its scenes.
@@ -32,6 +32,9 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
         let Some(code) = &function.body else { continue };
         if code.operations != Operations::default() {
             let _ = writeln!(text, "    # {}", count(code.operations));
+        }
+        if let Some(bound) = code.bound.as_ref().and_then(Bound::sentence) {
+            let _ = writeln!(text, "    # {bound}");
         }
         for statement in &code.statements {
             let _ = writeln!(text, "    {}", self::statement(statement));

@@ -5,15 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::finished::Finished;
 use super::lines::{Writer, direction_name};
 use super::names::Names;
+use super::rounding::{Bound, DIRECTION, Roundings};
 use super::schedule::Schedule;
 use super::scheduling::schedule;
 use super::stretches;
 use super::value::{Value, ValueId};
 use crate::derivation::Derivation;
-use crate::graph::{ExternalId, Function as Elementary, NodeId, SymbolId};
+use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::BlockId;
 use crate::program::{
-    Access, Body, Expression, Function, Given, Kernel, Operations, Pattern, PosePlan, Shape, Source, Statement, Taken,
+    Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement, Taken,
     Type, Value as Returned,
 };
 
@@ -32,6 +33,8 @@ pub struct Context<'a> {
     pub memory: &'a str,
     /// The operation counts of the functions lowered so far.
     pub works: BTreeMap<String, Operations>,
+    /// The rounding errors of a pose.
+    pub roundings: Roundings,
 }
 
 /// The lowered body of a function.
@@ -46,13 +49,25 @@ pub struct Code {
     pub externals: BTreeSet<ExternalId>,
     /// True if its formulas need no iteration, no pivoting and no function of the user or of a library.
     pub is_branch_free: bool,
+    /// A bound of the rounding errors of its results, if one is known.
+    pub bound: Option<Bound>,
 }
 
 /// Lowers a function.
 pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code> {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = planned;
     let is_layer = matches!(access, Access::Layer | Access::PublicLayer);
-    let mut body = body.map(|body| self::body(body, is_layer, context));
+    let is_stored = |source: &Source| match source.from.stored() {
+        Some(name) => name == "self" || arguments.iter().any(|of| of.name == name),
+        None => source.shape.symbols().iter().all(|symbol| context.roundings.knows(*symbol)),
+    };
+    let has_bound = access.is_public()
+        && access != Access::Hidden
+        && body.as_ref().is_some_and(|body| match (&body.kernel, &body.value) {
+            (Some(kernel), Returned::Plain(value)) => kernel.sources.iter().all(is_stored) && value.is_of_results(),
+            _ => false,
+        });
+    let mut body = body.map(|body| self::body(body, (is_layer, has_bound), context));
     if let (Some(code), Access::Cold) = (&mut body, access) {
         // It is called only after an error.
         code.operations = Operations::default();
@@ -63,13 +78,15 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
     Function { name, doc, access, is_method, arguments, returns, is_fallible, body }
 }
 
-fn body(body: Body, is_layer: bool, context: &Context) -> Code {
+fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) -> Code {
     let Body { before, kernel, after, value, locals, calls, mut operations } = body;
     for call in calls {
         operations += context.works.get(&call).copied().unwrap_or_default();
     }
-    let mut formulas =
-        kernel.map_or_else(|| Formulas::none(context), |kernel| Formulas::of(&kernel, is_layer, context));
+    let mut formulas = match kernel {
+        Some(kernel) => Formulas::of(&kernel, (is_layer, has_bound), context),
+        None => Formulas::none(context),
+    };
     operations += formulas.operations;
     let locals: Vec<String> = locals.iter().map(|preferred| formulas.taken.unique(preferred)).collect();
     let computed = std::mem::take(&mut formulas.statements);
@@ -94,8 +111,8 @@ fn body(body: Body, is_layer: bool, context: &Context) -> Code {
     let before = needed(before, &mut uses);
     let mut statements: Vec<Statement> = before.into_iter().chain(computed).chain(after).collect();
     let value = unnamed(&mut statements, value);
-    let Formulas { externals, is_branch_free, .. } = formulas;
-    Code { statements, value, operations, uses, externals, is_branch_free }
+    let Formulas { externals, is_branch_free, bound, .. } = formulas;
+    Code { statements, value, operations, uses, externals, is_branch_free, bound }
 }
 
 /// Returns the value of the last `let` instead of its name, if the function returns that name.
@@ -143,6 +160,7 @@ pub(super) struct Formulas<'a> {
     /// The checks of a kernel that only flags failed ones.
     pub(super) flags: Vec<Expression>,
     is_branch_free: bool,
+    bound: Option<Bound>,
     pub(super) taken: Taken<'a>,
     externals: BTreeSet<ExternalId>,
     operations: Operations,
@@ -160,13 +178,14 @@ impl<'a> Formulas<'a> {
             factors: Vec::new(),
             flags: Vec::new(),
             is_branch_free: true,
+            bound: None,
             taken: Taken::new(context.reserved),
             externals: BTreeSet::new(),
             operations: Operations::default(),
         }
     }
 
-    fn of(kernel: &Kernel, is_layer: bool, context: &Context<'a>) -> Self {
+    fn of(kernel: &Kernel, (is_layer, has_bound): (bool, bool), context: &mut Context<'a>) -> Self {
         let derivation = context.derivation;
         let nothing = Given::default();
         let of_pose = if kernel.is_on_pose { &context.pose.given } else { &nothing };
@@ -176,6 +195,7 @@ impl<'a> Formulas<'a> {
         let results = kernel.results.iter().filter_map(|output| Some((output.node, output.name.clone()?)));
         let named: Vec<(NodeId, String)> = results.chain(context.named.iter().cloned()).collect();
         let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named, is_layer);
+        let bound = has_bound.then(|| self::bound(kernel, &schedule, context)).flatten();
         let is_proven = schedule.proven(kernel.conclusive.clone());
         let mut names = Names::new(&derivation.graph, context.reserved);
         // The symbols of the user are named first, so that they keep their names.
@@ -220,11 +240,47 @@ impl<'a> Formulas<'a> {
             factors: factors.into_values().collect(),
             flags,
             is_branch_free,
+            bound,
             taken,
             externals,
             operations,
         }
     }
+}
+
+/// The bound of the rounding errors of a kernel whose arguments are stored.
+fn bound(kernel: &Kernel, schedule: &Schedule, context: &mut Context) -> Option<Bound> {
+    let graph = &context.derivation.graph;
+    let fields = taken_by_others(kernel, context);
+    let results = kernel.results.iter().zip(&schedule.results).enumerate();
+    let names = results.map(|(place, (output, result))| {
+        let symbol = graph.as_symbol(output.node);
+        let symbol = symbol.or_else(|| fields.iter().find(|(other, _)| *other == place).map(|(_, symbol)| *symbol));
+        let symbol = symbol.map(|symbol| graph.symbol_name(symbol));
+        let is_circular = matches!(graph.node(output.node), Node::Call(Elementary::Sin | Elementary::Cos, _));
+        let symbol = if is_circular { Some(DIRECTION) } else { symbol };
+        let name = output.name.as_deref().or(symbol).or(schedule.name(result.value).map(|(name, _)| name));
+        name.unwrap_or_default().to_owned()
+    });
+    let names = names.collect::<Vec<_>>();
+    context.roundings.keep_pose(graph, schedule, &fields);
+    context.roundings.bound(graph, schedule, &names)
+}
+
+/// The results that other functions take, with their symbols: the determinants of a pose, and velocity ratios.
+fn taken_by_others(kernel: &Kernel, context: &Context) -> Vec<(usize, SymbolId)> {
+    let graph = &context.derivation.graph;
+    let ratios: BTreeSet<SymbolId> = context.derivation.ratios.iter().flatten().copied().collect();
+    let places = kernel.results.iter().enumerate();
+    let of = |(place, output): (usize, &Output)| {
+        let is_it = |(block, ..): &&(BlockId, String, SymbolId)| {
+            context.derivation.blocks[*block].determinant.is_some_and(|determinant| determinant.value == output.node)
+        };
+        let determinant = context.pose.determinants.iter().find(is_it).map(|(.., symbol)| *symbol);
+        let ratio = graph.as_symbol(output.node).filter(|symbol| ratios.contains(symbol));
+        Some((place, determinant.or(ratio)?))
+    };
+    places.filter_map(of).collect()
 }
 
 /// Moves the statement that reads the parameters to their first use: what is computed before, such as the sines of the

@@ -18,6 +18,7 @@ mod operations;
 mod order;
 mod program;
 mod proven;
+mod rounding;
 mod schedule;
 mod scheduling;
 mod sharing;
@@ -27,6 +28,7 @@ mod value;
 
 pub use function::Code;
 pub use program::program;
+pub use rounding::{Bound, Roundings};
 pub use schedule::{Circular, Line, Schedule};
 pub use scheduling::schedule;
 pub use value::{Signed, Value, ValueId};

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::function::{Code, Context, function};
+use super::rounding::Roundings;
 use crate::derivation::Derivation;
 use crate::program::{Access, Body, Derived, Function, Operations, Program, SceneProgram};
 
@@ -70,5 +71,6 @@ fn context<'c>(
         turn: &arguments.turn,
         memory: &arguments.memory,
         works,
+        roundings: Roundings::new(&derived.pose),
     }
 }

@@ -207,6 +207,38 @@ impl Expression {
         Self::Dereferenced(Box::new(self))
     }
 
+    /// True if its numbers are results of the kernel and arguments, unchanged.
+    pub fn is_of_results(&self) -> bool {
+        const UNCHANGED: [&str; 7] = [
+            "unit",
+            "finite_points",
+            "finite_vectors",
+            "finite_outputs",
+            "finite_matrices",
+            "point_motions",
+            "output_motions",
+        ];
+        match self {
+            Self::Result(_) | Self::Name(_) | Self::Number(_) | Self::Constant(_) | Self::Text(_) => true,
+            Self::List(all) | Self::Tuple(all) => all.iter().all(Self::is_of_results),
+            Self::Associated(_, name, all) => name == "from" && all.iter().all(Self::is_of_results),
+            Self::Runtime(name, all) => UNCHANGED.contains(name) && all.iter().all(Self::is_of_results),
+            Self::Struct(_, members, None) => members.iter().all(|(_, value)| value.is_of_results()),
+            Self::Dereferenced(inside) | Self::Borrowed(inside) | Self::Try(inside) => inside.is_of_results(),
+            _ => false,
+        }
+    }
+
+    /// The name of the argument that this is, as it is or converted.
+    pub fn stored(&self) -> Option<&str> {
+        match self {
+            Self::Name(name) => Some(name),
+            Self::Dereferenced(inside) | Self::Borrowed(inside) => inside.stored(),
+            Self::Method(inside, name, arguments) if name == "into" && arguments.is_empty() => inside.stored(),
+            _ => None,
+        }
+    }
+
     pub fn runtime(name: &'static str, arguments: impl IntoIterator<Item = Self>) -> Self {
         Self::Runtime(name, arguments.into_iter().collect())
     }

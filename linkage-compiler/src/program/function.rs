@@ -185,6 +185,16 @@ impl Shape {
         Self::Fields { of, fields: fields.collect(), is_whole }
     }
 
+    /// The symbols that it takes out of the source.
+    pub fn symbols(&self) -> Vec<SymbolId> {
+        match self {
+            Self::Symbol(symbol) => vec![*symbol],
+            Self::Ignored => Vec::new(),
+            Self::Fields { fields, .. } => fields.iter().flat_map(|(_, shape)| shape.symbols()).collect(),
+            Self::List(shapes) | Self::Tuple(shapes) => shapes.iter().flat_map(Self::symbols).collect(),
+        }
+    }
+
     pub fn list(symbols: &[SymbolId]) -> Self {
         Self::List(symbols.iter().copied().map(Self::Symbol).collect())
     }
