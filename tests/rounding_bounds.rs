@@ -51,7 +51,8 @@ fn coordinates(rng: &mut SmallRng, count: usize) -> Vec<f64> {
 
 /// The results of a mechanism in any scalar, by function, in the order of the code.
 fn results<T: linkage::Real, M: Kinematics<T>>(m: &M, motion: &[Vec<f64>; 3]) -> BTreeMap<&'static str, Vec<T>> {
-    let [q, rates, bent] = motion.each_ref().map(|list| list.iter().copied().map(linkage::nalgebra::convert).collect::<Vec<T>>());
+    let [q, rates, bent] =
+        motion.each_ref().map(|list| list.iter().copied().map(linkage::nalgebra::convert).collect::<Vec<T>>());
     let pose = m.pose(&q);
     let [v_rates, v_bent] = [&rates, &bent].map(|list| M::inputs_of(list));
     let flat = |matrices: Vec<linkage::nalgebra::DMatrix<T>>| {
@@ -83,7 +84,8 @@ where
     let mut rng = SmallRng::seed_from_u64(31);
     let mut ratios = Ratios::new();
     for _ in 0..poses() {
-        let parameters: Vec<f64> = F::default().parameters().iter().map(|value| value * rng.random_range(0.7..1.3)).collect();
+        let parameters: Vec<f64> =
+            F::default().parameters().iter().map(|value| value * rng.random_range(0.7..1.3)).collect();
         let count = bounds.coordinates.len();
         let motion = [coordinates(&mut rng, count), numbers(&mut rng, count), numbers(&mut rng, count)];
         let precise: Vec<DoubleDouble> = parameters.iter().map(|value| DoubleDouble::from(*value)).collect();
@@ -95,7 +97,9 @@ where
         }
         let value = |name: &str| *values.get(name).unwrap_or_else(|| panic!("no {name}"));
         for (function, list) in emitted {
-            let (Some(bound), Some(precise)) = (bounds.functions.get(function), precise.get(function)) else { continue };
+            let (Some(bound), Some(precise)) = (bounds.functions.get(function), precise.get(function)) else {
+                continue;
+            };
             for (place, (found, exact)) in list.iter().zip(precise).enumerate() {
                 let error = (*exact - DoubleDouble::from(*found)).high().abs();
                 match bound.at(place, exact.high(), &value) {
@@ -179,8 +183,10 @@ fn ratios_of_the_four_bar_in_48_digits() {
     for _ in 0..200 {
         let names = bounds.coordinates.iter().map(|[name, ..]| name.as_str());
         let q = coordinates(&mut rng, 3);
-        let values: BTreeMap<&str, f64> =
-            names.zip(q.iter().copied()).chain(bounds.parameters.iter().map(String::as_str).zip(parameters.iter().copied())).collect();
+        let values: BTreeMap<&str, f64> = names
+            .zip(q.iter().copied())
+            .chain(bounds.parameters.iter().map(String::as_str).zip(parameters.iter().copied()))
+            .collect();
         let Ok(ratios) = m.velocity_ratios(&m.pose(&q)) else { continue };
         let exact = |name: &str| big(values[name]);
         let sine = |a: &str, b: &str| (exact(a) - exact(b)).sin_cos().0;

@@ -14,8 +14,8 @@ use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::BlockId;
 use crate::program::{
-    Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement, Taken,
-    Type, Value as Returned,
+    Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement,
+    Taken, Type, Value as Returned,
 };
 
 /// The data that the functions of one driver or scene share.

@@ -89,6 +89,11 @@ impl<M: Certifiable> Curve<M> {
         q.is_some_and(|q| self.tubes.iter().any(|tube| returned(&self.system, tube, &q).is_some()))
     }
 
+    /// The scale of the input.
+    pub(super) fn input_scale(&self) -> f64 {
+        self.system.scales.last().copied().unwrap_or(1.0)
+    }
+
     /// Encloses the smallest and the largest value of each coordinate of a point and each output over the curve.
     #[must_use]
     pub fn quantities(&self) -> Column<Enclosure, <M as Certifiable>::Q> {

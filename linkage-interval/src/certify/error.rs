@@ -58,6 +58,13 @@ pub enum CertifyError {
         /// The derivative: J, A or gamma.
         what: &'static str,
     },
+    /// The certified motion is not the one that a path has found.
+    OtherMotion {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The difference: modes or dead points.
+        what: &'static str,
+    },
     /// The bound of the work is reached.
     Exhausted {
         /// The mechanism, or the driver of one.
@@ -99,6 +106,9 @@ impl fmt::Display for CertifyError {
             ),
             Self::Contradiction { mechanism, what } => {
                 write!(f, "the emitted {what} of {mechanism} contradicts the derivatives of Psi")
+            }
+            Self::OtherMotion { mechanism, what } => {
+                write!(f, "the certified motion of {mechanism} has other {what} than the one found by path following")
             }
             Self::Exhausted { mechanism, boxes, input } => {
                 write!(

@@ -35,6 +35,7 @@
 //! A. Guillemot, P. Lairez, "Validated numerics for algebraic path tracking", ISSAC 2024 (arXiv 2401.17973).
 
 mod certificate;
+mod circuits;
 mod curve;
 mod dead_point;
 mod error;
