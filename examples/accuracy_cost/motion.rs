@@ -14,10 +14,21 @@ const RIGHT: f64 = 34.0;
 /// The least distance of two numbers, in pixels.
 const APART: f64 = 12.0;
 
-/// Colours: methods that are not dominated are orange.
-pub const STYLE: &str = ".curve{fill:none;stroke:currentColor;stroke-opacity:.4;stroke-width:1.2}\
-    .offered .curve{stroke:#d9730d;stroke-opacity:1;stroke-width:1.6}.offered text{fill:#d9730d}\
-    .dead{stroke:currentColor;stroke-opacity:.55;stroke-dasharray:3 3}.number{font-size:10px;font-weight:600}";
+/// Colours: closed forms orange, Newton's method blue, tables green; dominated methods are pale.
+pub const STYLE: &str = ".curve{fill:none;stroke-width:1.5}.number{font-size:10px;font-weight:600}.pale{opacity:.45}\
+    .closed .curve{stroke:#d9730d}.closed .number{fill:#d9730d}\
+    .newton .curve{stroke:#3b82d6}.newton .number{fill:#3b82d6}\
+    .table .curve{stroke:#3f9a63}.table .number{fill:#3f9a63}\
+    .dead{stroke:currentColor;stroke-opacity:.55;stroke-dasharray:3 3}";
+
+/// The class of a method in the style.
+fn family(method: usize) -> &'static str {
+    match METHODS[method].split([' ', ',']).next() {
+        Some("Newton") => "newton",
+        Some("table") => "table",
+        _ => "closed",
+    }
+}
 
 /// The errors of all methods along a motion.
 pub struct Motion {
@@ -53,7 +64,7 @@ impl Motion {
         errors.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::max)
     }
 
-    /// The curves over the input in degrees. Those of dominated methods are grey.
+    /// The curves over the input in degrees.
     pub fn panel(&self, dominated: &[Option<usize>]) -> String {
         let points = || self.curves.iter().flatten().filter_map(|(input, error)| Some((*input, (*error)?)));
         let errors = decades(points().map(|(_, error)| error.max(LEAST)));
@@ -104,7 +115,7 @@ impl Motion {
             Some((method, y(error)))
         });
         for (method, at) in apart(ends.collect(), bottom) {
-            let class = if dominated[method].is_none() { "offered" } else { "other" };
+            let (family, pale) = (family(method), if dominated[method].is_none() { "" } else { " pale" });
             let mut path = String::new();
             let mut pen = 'M';
             for (input, error) in &self.curves[method] {
@@ -117,7 +128,7 @@ impl Motion {
                 pen = 'L';
             }
             push(format_args!(
-                "<g class=\"{class}\"><title>{}</title><path class=\"curve\" d=\"{path}\"/>\
+                "<g class=\"{family}{pale}\"><title>{}</title><path class=\"curve\" d=\"{path}\"/>\
                  <text class=\"number\" x=\"{:.1}\" y=\"{:.1}\">{}</text></g>",
                 METHODS[method],
                 right + 6.0,

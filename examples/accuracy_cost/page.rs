@@ -14,7 +14,8 @@ pub fn html(comparisons: &[Comparison]) -> String {
          <p>The largest error against 45 digits and the median time of one evaluation; the methods are timed alternately. \
          Orange: clearly more accurate than every faster method. The error of positions is in radians; that of \
          velocities is relative to the largest one, that of accelerations to the larger of the largest one and the square of the \
-         largest velocity. Along a motion a line is broken where its method returns an error; dashed: dead points.</p>\n<ol class=\"methods\">",
+         largest velocity. Along a motion closed forms are orange, Newton's \
+         method is blue, tables are green; a line is broken where its method returns an error; dashed: dead points.</p>\n<ol class=\"methods\">",
         price::STYLE,
         axes::STYLE,
         chart::STYLE,

@@ -12,6 +12,7 @@
 //! | [`scenes`] | all effects of a scene; dry friction and stops |
 //! | [`dead_points`], [`change_points`] | motions through positions where the input cannot drive, and where motions cross |
 //! | [`circuits`] | all positions at one input, and which of them are connected by motion |
+//! | [`certificates`] | proofs that a motion has no jump, and enclosures of its extremes |
 //! | [`errors`] | messages of the macro, errors at run time |
 //! | [`speed`], [`accuracy`], [`stability`] | times, errors and hard cases, as measured |
 //! | [`examples`] | the examples of the repository, with what they measure |
@@ -72,6 +73,11 @@ pub mod change_points {}
 ///
 #[doc = include_str!("circuits.md")]
 pub mod circuits {}
+
+/// Proofs that a motion has no jump, no gap and no dead point, and enclosures of its extremes.
+///
+#[doc = include_str!("certificates.md")]
+pub mod certificates {}
 
 /// Mistakes while compiling, and results that do not exist.
 ///
