@@ -83,7 +83,7 @@ fn infinite_bounds() {
     assert_eq!([above.width(), above.magnitude(), above.mignitude()], [INFINITY, INFINITY, 2.0]);
 }
 
-/// Where a function or quotient is defined for some of the numbers only, nothing is known.
+/// Nothing is known of a function or quotient that is defined for some of the numbers only.
 #[test]
 fn outside_the_domain() {
     let mixed = interval(-0.5, 2.0);

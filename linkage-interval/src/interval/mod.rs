@@ -44,20 +44,20 @@ use rounding::sum;
 ///
 /// # Accuracy
 ///
-/// The result for single numbers has at most this many doubles between its bounds, in 1e6 evaluations of each against 48
+/// The result for single numbers has at most this many doubles between its bounds, in 1e5 evaluations of each against 48
 /// digits. Where a magnitude is outside 2^-900 to 2^900, `*`, `/`, `square` and `sqrt` have one more.
 ///
 /// | function                        | doubles |
 /// |---------------------------------|---------|
 /// | `+`, `-`, `abs`                 | 0       |
 /// | `*`, `/`, `square`, `sqrt`      | 0       |
-/// | `sine`, `cosine`                | ?       |
-/// | `tan`                           | ?       |
-/// | `atan`, `arctangent2`           | ?       |
-/// | `asin`, `acos`                  | ?       |
-/// | `exp`                           | ?       |
-/// | `ln`                            | ?       |
-/// | `hypotenuse`                    | ?       |
+/// | `sine`, `cosine`                | 3       |
+/// | `tan`                           | 9       |
+/// | `atan`, `arctangent2`           | 3       |
+/// | `asin`, `acos`                  | 7       |
+/// | `exp`                           | 4       |
+/// | `ln`                            | 3       |
+/// | `hypotenuse`                    | 4       |
 ///
 /// The bounds of `+ - * /`, `square` and `sqrt` are the nearest there are, so that parts of operands give parts of the
 /// result. The bounds of the other functions for a part may be beyond those for the whole by so many doubles.
@@ -65,8 +65,8 @@ use rounding::sum;
 /// # Trust
 ///
 /// The bounds rest on IEEE 754: + - * / and the square root are rounded to nearest. No function of a C library is called.
-/// The errors of sine, cosine and arctangent are [proved](linkage_runtime::Real) by the tests from that; exponential
-/// function and logarithm are series of intervals. Beyond 1e5 the sine and cosine are -1 to 1 and the tangent unknown.
+/// The errors of sine, cosine and arctangent are proved from that by the test `kernels`; exponential function and logarithm
+/// are series of intervals. Beyond 1e5 the sine and cosine are -1 to 1 and the tangent unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     least: f64,

@@ -6,9 +6,9 @@ use linkage_interval::Interval;
 
 pub type Big = FBig<HalfEven, 2>;
 
-/// A double, exactly.
+/// A double, exactly; zero without its sign, which would choose a side of the cut of an angle.
 pub fn big(value: f64) -> Big {
-    Big::try_from(value).expect("a finite number").with_precision(160).value()
+    Big::try_from(if value == 0.0 { 0.0 } else { value }).expect("a finite number").with_precision(160).value()
 }
 
 /// True if the number is between the bounds.

@@ -33,7 +33,7 @@ fn series(first: u32) -> Vec<FBig<HalfEven, 2>> {
 
 struct Proof {
     reduction: Reduction,
-    /// Of (r - sin r) / r^3 and (1 - r^2/2 - cos r) / r^4.
+    /// Those of (r - sin r) / r^3 and (1 - r^2/2 - cos r) / r^4.
     polynomials: [Approximation; 2],
 }
 

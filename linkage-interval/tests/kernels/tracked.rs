@@ -57,7 +57,7 @@ impl Tracked {
         sum(self.errors.iter().map(|error| error.magnitude()))
     }
 
-    /// The same without the rounding error of the last operation.
+    /// An upper bound of the difference before the last operation is rounded.
     pub fn inner_error(&self) -> f64 {
         let last = self.errors.iter().rposition(|error| error.magnitude() > 0.0).unwrap_or(0);
         sum(self.errors[..last].iter().map(|error| error.magnitude()))
