@@ -4,7 +4,7 @@
 //! is another coordinate, and the dead point a position like any other (W. C. Rheinboldt, J. V. Burkardt, "A locally
 //! parameterized continuation process", 1983).
 
-use linkage_runtime::{Certifiable, Column, Number};
+use linkage_runtime::{Certifiable, Column};
 
 use super::Certify;
 use super::certificate::Moved;
