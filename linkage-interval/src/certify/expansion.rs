@@ -193,11 +193,7 @@ impl Expansion {
 }
 
 /// The columns of [J A], and the inverse of those of all coordinates but the parameter.
-fn inverse_at<M: Certifiable>(
-    system: &System<M>,
-    parameter: usize,
-    q: &[f64],
-) -> Option<(Floats, Floats)> {
+fn inverse_at<M: Certifiable>(system: &System<M>, parameter: usize, q: &[f64]) -> Option<(Floats, Floats)> {
     let columns = system.float_jacobian(q);
     let square: Vec<&[f64]> = others(parameter, &columns).map(Vec::as_slice).collect();
     let inverse = inverse(&square, &system.rows)?;
