@@ -2,7 +2,7 @@
 
 use linkage_runtime::{Certifiable, Number};
 
-use super::matrix::{apply, defect, fixed_point, inverse, product, times};
+use super::matrix::{Floats, apply, defect, fixed_point, inverse, product, times};
 use super::series::Series;
 use super::system::{Dimensions, System};
 use crate::Interval;
@@ -30,7 +30,7 @@ pub(super) struct Expansion {
     pub(super) w: Vec<f64>,
     /// The accelerations a; 0 for the parameter.
     pub(super) a: Vec<f64>,
-    y: Vec<Vec<f64>>,
+    y: Floats,
 }
 
 /// A coefficient matrix Y J(box), as I - Y J, with J by columns.
@@ -193,11 +193,7 @@ impl Expansion {
 }
 
 /// The columns of [J A], and the inverse of those of all coordinates but the parameter.
-fn inverse_at<M: Certifiable>(
-    system: &System<M>,
-    parameter: usize,
-    q: &[f64],
-) -> Option<(Vec<Vec<f64>>, Vec<Vec<f64>>)> {
+fn inverse_at<M: Certifiable>(system: &System<M>, parameter: usize, q: &[f64]) -> Option<(Floats, Floats)> {
     let columns = system.float_jacobian(q);
     let square: Vec<&[f64]> = others(parameter, &columns).map(Vec::as_slice).collect();
     let inverse = inverse(&square, &system.rows)?;

@@ -184,6 +184,13 @@ impl<M: Certifiable> Certificate<M> {
         Column::from_fn(|place| enclosure(&self.system, &self.tubes, Measure::Quantity(place)))
     }
 
+    /// Encloses the smallest and the largest value of one quantity, by its index; `None` if there is none of this index.
+    #[must_use]
+    pub fn quantity(&self, index: usize) -> Option<Enclosure> {
+        let measure = Measure::Quantity(index);
+        (index < <<M as Certifiable>::Q as Dim>::COUNT).then(|| enclosure(&self.system, &self.tubes, measure))
+    }
+
     /// Encloses the smallest and the largest derivative of each unknown by the input over the motion: the velocity
     /// ratios W.
     #[must_use]

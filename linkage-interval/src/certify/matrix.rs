@@ -4,10 +4,13 @@ use linkage_runtime::Number;
 
 use crate::Interval;
 
+/// A matrix of floats by its rows or columns.
+pub(super) type Floats = Vec<Vec<f64>>;
+
 /// The rows of the inverse of a matrix given by its columns; `None` if it is singular or not finite.
 ///
 /// Gauss-Jordan elimination; `rows` are the scales of the rows, so that the pivots do not depend on units.
-pub(super) fn inverse(columns: &[&[f64]], rows: &[f64]) -> Option<Vec<Vec<f64>>> {
+pub(super) fn inverse(columns: &[&[f64]], rows: &[f64]) -> Option<Floats> {
     let count = columns.len();
     let mut work: Vec<Vec<f64>> = rows
         .iter()
@@ -83,7 +86,7 @@ pub(super) fn fixed_point(defect: &[Vec<Interval>], c: &[Interval], scales: &[f6
     };
     let whole: Vec<Interval> = scales.iter().map(|&scale| symmetric(scale)).collect();
     let d = relative(&apply(defect, &whole));
-    if !(d < 1.0) {
+    if d >= 1.0 {
         return None;
     }
     let bound = Interval::from(relative(c)) / (Interval::one() - Interval::from(d));
