@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::{Certifiable, Column, Formulas, Interval, linkage};
+use linkage::{Certifiable, Column, Formulas, Interval, Mechanism, Number, linkage};
 use linkage_gallery::cam_rocker::CamRocker;
 use linkage_gallery::{Fixture, Kinematics};
 use linkage_oracle::{Oracle, all_close};
@@ -54,11 +54,11 @@ linkage! {
 #[test]
 fn periods_are_those_of_the_multiples_of_an_angle() {
     // An output that is the angle itself leaves its period.
-    assert_eq!(Geared::INPUTS, ["phi", "idle"]);
+    assert_eq!(Geared::<f64>::INPUTS, ["phi", "idle"]);
     assert_eq!(Geared::INPUT_PERIODS, [6, 1]);
-    assert_eq!(Geared::UNKNOWNS, ["x", "y", "psi", "chi", "delta"]);
+    assert_eq!(Geared::<f64>::UNKNOWNS, ["x", "y", "psi", "chi", "delta"]);
     assert_eq!(Geared::UNKNOWN_PERIODS, [0, 0, 1, 10, 0]);
-    assert_eq!(Geared::PARAMETERS, ["a", "b", "c", "n"]);
+    assert_eq!(Geared::<f64>::PARAMETERS, ["a", "b", "c", "n"]);
     assert_eq!(<Geared as Certifiable>::QUANTITIES, ["p_x", "p_y", "turned"]);
 }
 
