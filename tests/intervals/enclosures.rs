@@ -11,7 +11,7 @@ use rand::{Rng, SeedableRng};
 use crate::formulas::{At, is_known, nodes, title, values};
 use crate::poses;
 
-/// At numbers, where only roundings make an interval wide.
+/// At numbers, where only rounding errors make an interval wide.
 pub fn of_points<F: Fixture + Certifiable>() {
     let mut oracle = Oracle::of::<F>();
     let nodes = nodes(&mut oracle);

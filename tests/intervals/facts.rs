@@ -1,4 +1,4 @@
-//! What the trait `Certifiable` says of a mechanism.
+//! Facts about a mechanism in the trait `Certifiable`.
 
 use std::f64::consts::{PI, TAU};
 
