@@ -76,7 +76,7 @@ linkage! {
         param r = 1;
         input phi;
         output third = r / 3;
-        output root = sqrt(2) * r;
+        output root = sqrt(7) * r;
         output half_turn = 180deg * r;
         output large = 3002399751580331 * 3 * r;
         output turned = phi;
@@ -93,7 +93,7 @@ fn constants_are_not_rounded() {
         assert!(value.least() < value.most(), "{what}: {value:?}");
         assert!(value.width() <= 8.0 * f64::EPSILON * value.magnitude(), "{what}: {value:?}");
     }
-    assert!((third + third + third).contains(1.0) && root.square().contains(2.0));
+    assert!((third + third + third).contains(1.0) && root.square().contains(7.0));
     // pi is above its double by 1.2e-16.
     assert!(half_turn.contains(PI) && half_turn.contains(PI.next_up()));
     // 2^53 + 1.
