@@ -42,6 +42,6 @@ fn intervals_need_the_feature() {
     let without = expanded("derive intervals;", false);
     assert!(without.contains("`derive intervals` needs the feature `interval` of `linkage`"), "{without}");
     assert!(without.contains("struct Crank") && !without.contains("Formulas"), "{without}");
-    let accepted = expanded("derive intervals;", true);
+    let accepted = expanded("derive intervals; scene Turning { inertia; }", true);
     assert!(!accepted.contains("compile_error") && accepted.contains("Formulas") && accepted.contains("Certifiable"));
 }

@@ -20,7 +20,7 @@ pub trait Formulas: Sized {
 
     /// The mechanism with these parameters, in declared order.
     fn with_parameters(parameters: Column<Self::Number, Self::P>) -> Self;
-    /// Psi, the residual of the closure equations.
+    /// Psi, the residual of the loop equations and constraints.
     fn residual(
         &self,
         unknowns: &Column<Self::Number, Self::U>,
@@ -77,7 +77,7 @@ pub trait Certifiable: Mechanism<Scalar = f64> {
     /// angle that enters otherwise than by sine, cosine and tangent of its multiples. Points and outputs may differ after
     /// them: an output may be the angle itself.
     const UNKNOWN_PERIODS: &'static [u32];
-    /// The same for each input.
+    /// For each input the number of such turns.
     const INPUT_PERIODS: &'static [u32];
     /// The name of the first user function in the equations of each group, in the order of
     /// [`GROUPS`](Mechanism::GROUPS).

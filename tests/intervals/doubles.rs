@@ -7,9 +7,9 @@ use linkage_oracle::Oracle;
 use crate::formulas::{At, column, is_known, nodes, title, values};
 use crate::poses;
 
-/// Both ways round each operation, and the arguments of sines, in an order of their own: this many roundings of the
-/// magnitudes of the terms.
-const ROUNDINGS: f64 = 64.0;
+/// Most ulps of the sum of the magnitudes of the terms: the two programs round in an order of their own, in the arguments
+/// of sines too.
+const ULPS: f64 = 64.0;
 
 pub fn are_those_of_a_position<F: Fixture + Certifiable>() {
     let mut oracle = Oracle::of::<F>();
@@ -27,7 +27,7 @@ pub fn are_those_of_a_position<F: Fixture + Certifiable>() {
                 assert!(found.is_nan(), "{}: number {place} depends on a user function", title::<F>());
                 continue;
             }
-            let error = ROUNDINGS * f64::EPSILON * sizes[place];
+            let error = ULPS * f64::EPSILON * sizes[place];
             assert!((found - expected).abs() <= error, "{}: number {place} is {found}, not {expected}", title::<F>());
             compared += 1;
         }

@@ -11,7 +11,7 @@ use rand::{Rng, SeedableRng};
 use crate::formulas::{At, is_known, nodes, title, values};
 use crate::poses;
 
-/// At numbers, where only roundings make an interval wide.
+/// At numbers, where only rounding errors make an interval wide.
 pub fn of_points<F: Fixture + Certifiable>() {
     let mut oracle = Oracle::of::<F>();
     let nodes = nodes(&mut oracle);
@@ -25,8 +25,8 @@ pub fn of_points<F: Fixture + Certifiable>() {
         contain::<F>(&found, &exact);
         let sizes = oracle.magnitudes(&sample, &nodes);
         for (place, interval) in found.iter().enumerate() {
-            assert_eq!(interval.width().is_infinite(), !known[place], "{}: number {place}", title::<F>());
             if known[place] && sizes[place] > 0.0 {
+                assert!(interval.width().is_finite(), "{}: nothing is known of number {place}", title::<F>());
                 widths.push(interval.width() / (f64::EPSILON * sizes[place]));
             }
         }

@@ -1,8 +1,8 @@
-//! What the trait `Certifiable` says of a mechanism.
+//! Facts about a mechanism in the trait `Certifiable`.
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::{Certifiable, Column, Formulas, Interval, linkage};
+use linkage::{Certifiable, Column, Formulas, Interval, Mechanism, Number, linkage};
 use linkage_gallery::cam_rocker::CamRocker;
 use linkage_gallery::{Fixture, Kinematics};
 use linkage_oracle::{Oracle, all_close};
@@ -54,11 +54,11 @@ linkage! {
 #[test]
 fn periods_are_those_of_the_multiples_of_an_angle() {
     // An output that is the angle itself leaves its period.
-    assert_eq!(Geared::INPUTS, ["phi", "idle"]);
+    assert_eq!(Geared::<f64>::INPUTS, ["phi", "idle"]);
     assert_eq!(Geared::INPUT_PERIODS, [6, 1]);
-    assert_eq!(Geared::UNKNOWNS, ["x", "y", "psi", "chi", "delta"]);
+    assert_eq!(Geared::<f64>::UNKNOWNS, ["x", "y", "psi", "chi", "delta"]);
     assert_eq!(Geared::UNKNOWN_PERIODS, [0, 0, 1, 10, 0]);
-    assert_eq!(Geared::PARAMETERS, ["a", "b", "c", "n"]);
+    assert_eq!(Geared::<f64>::PARAMETERS, ["a", "b", "c", "n"]);
     assert_eq!(<Geared as Certifiable>::QUANTITIES, ["p_x", "p_y", "turned"]);
 }
 
@@ -76,7 +76,7 @@ linkage! {
         param r = 1;
         input phi;
         output third = r / 3;
-        output root = sqrt(2) * r;
+        output root = sqrt(7) * r;
         output half_turn = 180deg * r;
         output large = 3002399751580331 * 3 * r;
         output turned = phi;
@@ -93,7 +93,7 @@ fn constants_are_not_rounded() {
         assert!(value.least() < value.most(), "{what}: {value:?}");
         assert!(value.width() <= 8.0 * f64::EPSILON * value.magnitude(), "{what}: {value:?}");
     }
-    assert!((third + third + third).contains(1.0) && root.square().contains(2.0));
+    assert!((third + third + third).contains(1.0) && root.square().contains(7.0));
     // pi is above its double by 1.2e-16.
     assert!(half_turn.contains(PI) && half_turn.contains(PI.next_up()));
     // 2^53 + 1.

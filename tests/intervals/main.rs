@@ -14,7 +14,7 @@ use linkage_gallery::all_mechanisms;
 
 /// Poses of each mechanism.
 fn poses() -> usize {
-    std::env::var("INTERVALS").ok().and_then(|count| count.parse().ok()).unwrap_or(10)
+    std::env::var("INTERVALS").ok().and_then(|count| count.parse().ok()).unwrap_or(4)
 }
 
 macro_rules! tests {

@@ -12,7 +12,7 @@ use crate::graph::{Node, NodeId, SymbolId};
 use crate::ids::{ColumnId, CoordinateId, Id, InputId, RowId, Table, UnknownId};
 use crate::model::Kind;
 
-/// What a driver tells of its formulas to algorithms over numbers of any kind.
+/// The formulas of a driver over numbers of any kind, and facts about them.
 pub struct AnyNumber<B> {
     pub functions: Vec<Function<B>>,
     /// For each coordinate the number of full turns after which Psi repeats, or zero.
@@ -23,7 +23,7 @@ pub struct AnyNumber<B> {
 }
 
 impl<B> AnyNumber<B> {
-    /// The same with other bodies.
+    /// These functions with other bodies.
     pub fn map<C>(self, mut other: impl FnMut(Function<B>) -> Function<C>) -> AnyNumber<C> {
         let Self { functions, unknown_periods, input_periods, user_functions } = self;
         let functions = functions.into_iter().map(&mut other).collect();
