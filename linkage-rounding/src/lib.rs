@@ -67,24 +67,28 @@ pub struct Rounded {
 
 impl Rounded {
     /// A number that is off by at most `error`; a bound that is negative or NaN counts as unknown.
+    #[inline]
     #[must_use]
     pub const fn with_error(value: f64, error: f64) -> Self {
         Self { value, error: if error >= 0.0 { error } else { f64::INFINITY } }
     }
 
     /// A number of whose error nothing is known.
+    #[inline]
     #[must_use]
     pub const fn unknown(value: f64) -> Self {
         Self { value, error: f64::INFINITY }
     }
 
     /// The double.
+    #[inline]
     #[must_use]
     pub const fn value(self) -> f64 {
         self.value
     }
 
     /// A bound of the absolute error; infinite if unknown.
+    #[inline]
     #[must_use]
     pub const fn error(self) -> f64 {
         self.error
@@ -101,6 +105,7 @@ impl Rounded {
 
 /// The double, exactly.
 impl From<f64> for Rounded {
+    #[inline]
     fn from(value: f64) -> Self {
         Self::with_error(value, 0.0)
     }
@@ -108,6 +113,7 @@ impl From<f64> for Rounded {
 
 /// The values are compared.
 impl PartialEq for Rounded {
+    #[inline]
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value
     }
@@ -115,6 +121,7 @@ impl PartialEq for Rounded {
 
 /// The values are compared.
 impl PartialOrd for Rounded {
+    #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
     }
