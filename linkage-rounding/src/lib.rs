@@ -94,12 +94,17 @@ impl Rounded {
         self.error
     }
 
-    /// The bound in units in the last place of the value.
+    /// The bound in units in the last place of the value; infinite if the value is not finite.
     #[must_use]
     pub fn ulps(self) -> f64 {
         let size = self.value.abs();
-        // The next double is an ulp away.
-        self.error / (f64::from_bits(size.to_bits() + 1) - size)
+        if !size.is_finite() {
+            return f64::INFINITY;
+        }
+        // The neighbours of a double; only the largest has none above.
+        let [bits, above] = [size.to_bits(), size.to_bits() + 1];
+        let ulp = if size < f64::MAX { f64::from_bits(above) - size } else { size - f64::from_bits(bits - 1) };
+        self.error / ulp
     }
 }
 
