@@ -34,6 +34,7 @@ const SLOPE_MARGIN: f64 = 1.0 + 4096.0 * f64::EPSILON;
 
 /// A value of a function with this relative error, of an argument that moves it by at most `moved`. A result of zero is
 /// exact only if the argument is.
+#[inline]
 fn evaluated(value: f64, relative: f64, moved: f64) -> Rounded {
     Rounded::bounded(value, moved + (relative * UNIT * value.abs() + TINY))
 }
@@ -65,6 +66,7 @@ fn below_one(x: f64, e: f64) -> f64 {
 
 /// |sin X - sin x| = 2 |sin((X - x) / 2) cos((X + x) / 2)| <= e and <= e (|cos x| + e / 2); so for the cosine. No two
 /// sines are farther apart than 2.
+#[inline]
 pub(crate) fn sine_cosine(x: Rounded) -> (Rounded, Rounded) {
     let (sine, cosine) = Real::sine_cosine(x.value);
     if x.value == 0.0 && x.error == 0.0 {

@@ -67,40 +67,50 @@ pub struct Rounded {
 
 impl Rounded {
     /// A number that is off by at most `error`; a bound that is negative or NaN counts as unknown.
+    #[inline]
     #[must_use]
     pub const fn with_error(value: f64, error: f64) -> Self {
         Self { value, error: if error >= 0.0 { error } else { f64::INFINITY } }
     }
 
     /// A number of whose error nothing is known.
+    #[inline]
     #[must_use]
     pub const fn unknown(value: f64) -> Self {
         Self { value, error: f64::INFINITY }
     }
 
     /// The double.
+    #[inline]
     #[must_use]
     pub const fn value(self) -> f64 {
         self.value
     }
 
     /// A bound of the absolute error; infinite if unknown.
+    #[inline]
     #[must_use]
     pub const fn error(self) -> f64 {
         self.error
     }
 
-    /// The bound in units in the last place of the value.
+    /// The bound in units in the last place of the value; infinite if the value is not finite.
     #[must_use]
     pub fn ulps(self) -> f64 {
         let size = self.value.abs();
-        // The next double is an ulp away.
-        self.error / (f64::from_bits(size.to_bits() + 1) - size)
+        if !size.is_finite() {
+            return f64::INFINITY;
+        }
+        // The neighbours of a double; only the largest has none above.
+        let [bits, above] = [size.to_bits(), size.to_bits() + 1];
+        let ulp = if size < f64::MAX { f64::from_bits(above) - size } else { size - f64::from_bits(bits - 1) };
+        self.error / ulp
     }
 }
 
 /// The double, exactly.
 impl From<f64> for Rounded {
+    #[inline]
     fn from(value: f64) -> Self {
         Self::with_error(value, 0.0)
     }
@@ -108,6 +118,7 @@ impl From<f64> for Rounded {
 
 /// The values are compared.
 impl PartialEq for Rounded {
+    #[inline]
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value
     }
@@ -115,6 +126,7 @@ impl PartialEq for Rounded {
 
 /// The values are compared.
 impl PartialOrd for Rounded {
+    #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
     }

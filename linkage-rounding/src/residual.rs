@@ -15,22 +15,26 @@ pub(crate) const TINY: f64 = f64::from_bits(1);
 const RANGE: [f64; 2] = [f64::from_bits(0x03f0_0000_0000_0000), f64::from_bits(0x7dd0_0000_0000_0000)];
 
 /// True if all magnitudes are in the range of Dekker's steps.
+#[inline]
 fn are_moderate<const N: usize>(numbers: [f64; N]) -> bool {
     numbers.iter().fold(true, |all, number| all & (number.abs() >= RANGE[0]) & (number.abs() <= RANGE[1]))
 }
 
 /// Half an ulp of a result, or what it may lose by underflow; infinite or NaN if the result is.
+#[inline]
 pub(crate) fn half_ulp(result: f64) -> f64 {
     UNIT * result.abs() + TINY
 }
 
 /// |a + b - sum|: D. E. Knuth. NaN if the sum overflows.
+#[inline]
 pub(crate) fn of_sum(a: f64, b: f64, sum: f64) -> f64 {
     let part = sum - a;
     ((a - (sum - part)) + (b - part)).abs()
 }
 
 /// Splits a double into its upper 26 bits and the rest, by a product with 2^27 + 1: products of such halves are exact.
+#[inline]
 fn halves(a: f64) -> (f64, f64) {
     let scaled = 134_217_729.0 * a;
     let high = scaled - (scaled - a);
@@ -38,12 +42,14 @@ fn halves(a: f64) -> (f64, f64) {
 }
 
 /// a b - product, exactly, in the range.
+#[inline]
 fn rest(a: f64, b: f64, product: f64) -> f64 {
     let ((a, c), (b, d)) = (halves(a), halves(b));
     ((a * b - product) + a * d + c * b) + c * d
 }
 
 /// |a b - product|.
+#[inline]
 pub(crate) fn of_product(a: f64, b: f64, product: f64) -> f64 {
     if are_moderate([a, b, product]) {
         rest(a, b, product).abs()
@@ -56,6 +62,7 @@ pub(crate) fn of_product(a: f64, b: f64, product: f64) -> f64 {
 }
 
 /// |a - quotient b|.
+#[inline]
 pub(crate) fn of_quotient(a: f64, b: f64, quotient: f64) -> f64 {
     let product = quotient * b;
     if are_moderate([a, b, quotient, product]) {
@@ -69,6 +76,7 @@ pub(crate) fn of_quotient(a: f64, b: f64, quotient: f64) -> f64 {
 }
 
 /// |a - root^2|.
+#[inline]
 pub(crate) fn of_root(a: f64, root: f64) -> f64 {
     let square = root * root;
     if are_moderate([a, root, square]) {

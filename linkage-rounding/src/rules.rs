@@ -14,6 +14,7 @@ use crate::residual::{TINY, UNIT, half_ulp, of_product, of_quotient, of_root, of
 const MARGIN: f64 = 1.0 + 16.0 * UNIT;
 
 /// The product of two bounds, not smaller by underflow.
+#[inline]
 pub(crate) fn times(a: f64, b: f64) -> f64 {
     let product = a * b;
     if a > 0.0 && b > 0.0 { product + TINY } else { product }
@@ -21,6 +22,7 @@ pub(crate) fn times(a: f64, b: f64) -> f64 {
 
 impl Rounded {
     /// A result and the sum of the terms of its bound.
+    #[inline]
     pub(crate) fn bounded(value: f64, terms: f64) -> Self {
         Self::with_error(value, terms * MARGIN)
     }

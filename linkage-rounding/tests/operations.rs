@@ -265,4 +265,7 @@ fn decisions() {
     assert_eq!((small.floor().error(), (-small).abs().error(), small.copysign(-large).value()), (0.0, 5.0, -1.0));
     assert_eq!(format!("{small}"), "1 ± 5.0e0");
     assert_eq!(Rounded::with_error(1.0, f64::EPSILON).ulps(), 1.0);
+    assert_eq!(Rounded::with_error(0.0, 3.0 * f64::from_bits(1)).ulps(), 3.0);
+    assert_eq!(Rounded::with_error(f64::MAX, 2_f64.powi(970)).ulps(), 0.5);
+    assert_eq!(Rounded::unknown(f64::NAN).ulps(), f64::INFINITY);
 }

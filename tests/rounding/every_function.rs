@@ -46,7 +46,7 @@ fn is_turned(plain: &Results<f64>, exact: &Results<DoubleDouble>) -> bool {
 impl Found {
     /// Compares the results: bits, errors, bounds.
     ///
-    /// Where a result is nearly singular, `DoubleDouble`, whose epsilon is smaller, may find one where `f64` does not.
+    /// Near a singular position `DoubleDouble`, whose epsilon is smaller, may have a result where `f64` has an error.
     pub fn compare(&mut self, context: &str, Three { plain, rounded, exact }: Three) {
         assert_eq!((plain.len(), plain.len()), (rounded.len(), exact.len().min(plain.len())), "{context}");
         let exact = if is_turned(&plain, &exact) { Vec::new() } else { exact };
@@ -109,7 +109,7 @@ fn within_their_bounds<F: Fixture>() {
     }
     for (place, found) in [("given", at_given), ("assembled", at_assembled)] {
         println!("{} {place}: {} results, {} unknown, {} turned", F::FILE, found.results, found.unknown, found.turned);
-        assert!(10 * found.turned <= poses(POSES), "{}: {} positions have other turns", F::FILE, found.turned);
+        assert!(2 * found.turned <= poses(POSES), "{}: {} positions have other turns", F::FILE, found.turned);
         found.report(&["velocity", "acceleration"]);
     }
 }

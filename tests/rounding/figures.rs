@@ -21,9 +21,10 @@ fn near_dead_point(sine: Option<f64>) -> Found {
         let mut length = || random.random_range(20.0..90.0);
         let plain = Arguments {
             parameters: [(); 4].map(|()| length()).to_vec(),
-            q: vec![theta2, theta3, theta4],
-            rates: vec![1.5, 0.3, -0.4],
-            accelerations: vec![-0.7, 0.2, 0.9],
+            // The unknowns, then the input.
+            q: vec![theta3, theta4, theta2],
+            rates: vec![0.3, -0.4, 1.5],
+            accelerations: vec![0.2, 0.9, -0.7],
         };
         let three = Three {
             plain: given::<f64, FourBar>(&plain),
@@ -43,7 +44,7 @@ fn bounds_are_tight() {
         println!("four-bar, sine {sine:?}");
         found.report(&["velocity", "acceleration"]);
         // In ulps: the bound, and its ratio to the error.
-        for (name, bound, ratio) in [("velocity", 8.0, 14.0), ("acceleration", 24.0, 18.0)] {
+        for (name, bound, ratio) in [("velocity", 6.0, 14.0), ("acceleration", 18.0, 18.0)] {
             // The rate of the input is exact.
             let inexact: Vec<[f64; 2]> = found.ulps[name].iter().copied().filter(|pair| pair[1] > 0.0).collect();
             let [errors, bounds] = [0, 1].map(|kind| median(inexact.iter().map(|pair| pair[kind])));
