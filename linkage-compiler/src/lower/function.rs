@@ -14,8 +14,8 @@ use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::BlockId;
 use crate::program::{
-    Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement, Taken,
-    Type, Value as Returned,
+    Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement,
+    Taken, Type, Value as Returned,
 };
 
 /// The data that the functions of one driver or scene share.
@@ -64,7 +64,9 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
     let has_bound = access.is_public()
         && access != Access::Hidden
         && body.as_ref().is_some_and(|body| match (&body.kernel, &body.value) {
-            (Some(kernel), Returned::Plain(value)) => kernel.sources.iter().all(is_stored) && value.is_of_results(),
+            (Some(kernel), Returned::Plain(value) | Returned::Result(value)) => {
+                kernel.sources.iter().all(is_stored) && value.is_of_results()
+            }
             _ => false,
         });
     let mut body = body.map(|body| self::body(body, (is_layer, has_bound), context));

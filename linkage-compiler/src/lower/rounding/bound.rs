@@ -89,12 +89,7 @@ impl Names<'_> {
 
 impl Roundings {
     /// The bound of a kernel whose results have these names; `None` if the error of one of them is unknown.
-    pub(in crate::lower) fn bound(
-        &mut self,
-        graph: &Graph,
-        schedule: &Schedule,
-        names: &[String],
-    ) -> Option<Bound> {
+    pub(in crate::lower) fn bound(&mut self, graph: &Graph, schedule: &Schedule, names: &[String]) -> Option<Bound> {
         let is_iterated = |line: &Line| matches!(line, Line::Newton { .. } | Line::Modes { .. } | Line::Chord { .. });
         if schedule.lines.iter().any(is_iterated) {
             return None;
@@ -105,7 +100,8 @@ impl Roundings {
         let texts = Names { graph, angles: &self.angles };
         let rounded = tracked.iter().zip(names).enumerate();
         let rounded = rounded.filter(|(_, (of, _))| !of.relative.is_zero() || !of.scattered.is_zero());
-        let results = rounded.map(|(place, (of, name))| texts.of(place, name.clone(), of)).collect::<Option<Vec<_>>>()?;
+        let results =
+            rounded.map(|(place, (of, name))| texts.of(place, name.clone(), of)).collect::<Option<Vec<_>>>()?;
         (!results.is_empty()).then_some(Bound { results })
     }
 

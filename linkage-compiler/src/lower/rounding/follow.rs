@@ -116,7 +116,8 @@ impl<'a> Following<'a> {
 
     /// True if an angle is not a sum of arguments.
     fn has_computed(&self, angle: Signed) -> bool {
-        let is_computed = |id: ValueId| matches!(self.schedule.value(id), Value::Symbol(symbol) if self.named.contains_key(symbol));
+        let is_computed =
+            |id: ValueId| matches!(self.schedule.value(id), Value::Symbol(symbol) if self.named.contains_key(symbol));
         let mut any = is_computed(angle.value);
         self.schedule.value(angle.value).each_part(|part| any |= is_computed(part));
         any

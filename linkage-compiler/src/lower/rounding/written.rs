@@ -78,8 +78,9 @@ impl Of {
 fn grouped(results: &[Of]) -> Vec<(&Of, Vec<&str>)> {
     let mut groups: Vec<(&Of, Vec<&str>)> = Vec::new();
     for of in results {
-        let is_alike =
-            |(other, _): &&mut (&Of, Vec<&str>)| (&other.relative, &other.scattered, &other.size) == (&of.relative, &of.scattered, &of.size);
+        let is_alike = |(other, _): &&mut (&Of, Vec<&str>)| {
+            (&other.relative, &other.scattered, &other.size) == (&of.relative, &of.scattered, &of.size)
+        };
         match groups.iter_mut().find(is_alike) {
             Some((_, names)) => names.push(&of.name),
             None => groups.push((of, vec![&of.name])),
@@ -127,7 +128,6 @@ struct Letters {
 /// The letters of a sum of sizes that several laws have, and of its divisors.
 const SUM: &str = "m";
 const DIVISOR: &str = "s";
-
 
 impl Letters {
     fn new(results: &[Of]) -> Self {
@@ -198,7 +198,8 @@ impl Letters {
         };
         if groups.iter().all(is_alike) && sizes.iter().all(|(sum, divisor)| *sum == sizes[0].0 && !divisor.is_empty()) {
             let divisors = sizes.iter().zip(groups);
-            let divisors = divisors.map(|((_, divisor), (_, names))| format!("`{}` for {}", &divisor[1..], names.join(", ")));
+            let divisors =
+                divisors.map(|((_, divisor), (_, names))| format!("`{}` for {}", &divisor[1..], names.join(", ")));
             let divisors = divisors.collect::<Vec<_>>().join(", ");
             let law = self.law_of(groups[0].0, &format!("{SUM}/{DIVISOR}"));
             return format!("{law}, {SUM} = `{}`, {DIVISOR} = {divisors}", sizes[0].0);
@@ -295,7 +296,9 @@ impl Letters {
     /// `|a b| c^2`: factors with odd powers between bars.
     fn factors(&mut self, factors: &[(Base, i32)]) -> String {
         let (even, odd): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, exponent)| exponent % 2 == 0);
-        let mut text = |all: Vec<&(Base, i32)>| all.into_iter().map(|(base, exponent)| self.power(base, *exponent)).collect::<Vec<_>>().join(" ");
+        let mut text = |all: Vec<&(Base, i32)>| {
+            all.into_iter().map(|(base, exponent)| self.power(base, *exponent)).collect::<Vec<_>>().join(" ")
+        };
         let (odd, even) = (text(odd), text(even));
         let odd = if odd.is_empty() { odd } else { format!("|{odd}|") };
         [odd, even].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
