@@ -64,7 +64,9 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
     let has_bound = access.is_public()
         && access != Access::Hidden
         && body.as_ref().is_some_and(|body| match (&body.kernel, &body.value) {
-            (Some(kernel), Returned::Plain(value)) => kernel.sources.iter().all(is_stored) && value.is_of_results(),
+            (Some(kernel), Returned::Plain(value) | Returned::Result(value)) => {
+                kernel.sources.iter().all(is_stored) && value.is_of_results()
+            }
             _ => false,
         });
     let mut body = body.map(|body| self::body(body, (is_layer, has_bound), context));

@@ -332,6 +332,9 @@ fn common_below(size: &[Product]) -> Vec<(Base, i32)> {
 
 /// A positive number, rounded up to hundredths of its leading digit.
 fn up(number: f64) -> String {
+    if !number.is_normal() {
+        return number.to_string();
+    }
     let digit = 10.0_f64.powf(number.log10().floor() - 2.0).min(0.1);
     // A number with fewer digits may be a bit above itself in binary.
     let rounded = (number / digit - 1e-9).ceil() * digit;
