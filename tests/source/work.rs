@@ -50,7 +50,8 @@ impl Visit<'_> for Visitor {
 /// `4 functions, 1 division, 38 multiplications, 18 additions.`
 fn operations(list: &str) -> Operations {
     let mut all = Operations::default();
-    for part in list.trim().trim_end_matches('.').split(", ") {
+    let line = list.trim().lines().next().unwrap_or_default();
+    for part in line.trim_end_matches('.').split(", ") {
         let (count, of) = part.split_once(' ').expect("a count");
         let count: usize = count.parse().expect("a count");
         match &of[..3] {
