@@ -6,22 +6,13 @@
 
 use core::f64::consts::{FRAC_PI_2, LN_2, PI};
 
+use linkage_runtime::__shared::{ARCTANGENT_ERROR, HYPOTENUSE_ERROR, SINE_ERROR};
 use linkage_runtime::{Real, lane};
 use nalgebra::{ComplexField, RealField};
 
 use crate::Rounded;
 use crate::residual::{TINY, UNIT};
 use crate::rules::times;
-
-/// Relative error of the runtime's sine and cosine of moderate angles, in u: 1.283 is proved.
-const SINE: f64 = 1.29;
-
-/// Relative error of the runtime's arctangent of two arguments that are not extreme, in u: 1.244 is proved.
-const ARCTANGENT: f64 = 1.25;
-
-/// Relative error of the runtime's hypotenuse, in u. The squares and their sum have relative errors of u / (1 + u) each,
-/// so that the root of the sum is off by about u, and rounding adds u: less than 2 u by nearly u^2.
-const HYPOTENUSE: f64 = 2.0;
 
 /// Relative error of the platform's functions, in u: 1 ulp. This is an assumption. For exp, ln, pow, tan, asin, acos, atan
 /// and their variants the libraries of the common platforms are found to be better: B. Gladman, V. Innocente, J. Mather,
@@ -72,7 +63,7 @@ pub(crate) fn sine_cosine(x: Rounded) -> (Rounded, Rounded) {
     if x.value == 0.0 && x.error == 0.0 {
         return (sine.into(), cosine.into());
     }
-    let relative = if lane::is_moderate(x.value) { SINE } else { PLATFORM };
+    let relative = if lane::is_moderate(x.value) { SINE_ERROR } else { PLATFORM };
     let part = |value: f64, other: f64| {
         // The slope is itself rounded, by less than 4 u of itself, and e / 2 is more than that of e.
         let slope = (other.abs() + x.error).min(1.0);
@@ -116,7 +107,7 @@ pub(crate) fn atan(x: Rounded) -> Rounded {
 /// |a| <= asin s <= s + (pi/2 - 1) s^3. If d >= |p|, P may have any direction: |a| <= pi.
 pub(crate) fn atan2(y: Rounded, x: Rounded) -> Rounded {
     let value = Real::arctangent2(y.value, x.value);
-    let relative = if lane::has_arctangent2(y.value, x.value) { ARCTANGENT } else { PLATFORM };
+    let relative = if lane::has_arctangent2(y.value, x.value) { ARCTANGENT_ERROR } else { PLATFORM };
     if y.error == 0.0 && x.error == 0.0 {
         let is_zero = value == 0.0 && y.value == 0.0;
         return if is_zero { value.into() } else { evaluated(value, relative, 0.0) };
@@ -142,7 +133,7 @@ pub(crate) fn hypot(x: Rounded, y: Rounded) -> Rounded {
     // |P| + |p| >= 2 |p| - d
     let near = (2.0 * across + squares) / (value + least) * SLOPE_MARGIN;
     let far = x.error + y.error;
-    evaluated(value, HYPOTENUSE, if least > 0.0 && near < far { near } else { far })
+    evaluated(value, HYPOTENUSE_ERROR, if least > 0.0 && near < far { near } else { far })
 }
 
 macro_rules! platform_functions {
