@@ -41,8 +41,8 @@
 //! alone causes errors of eps / sin(mu) in the angles, eps / sin^2(mu) in the velocity and eps / sin^3(mu) in
 //! the acceleration. Closed form in `f64` returns an error at sin(mu) = 1e-9, where 31 digits still give seven of the
 //! acceleration. At *given* angles, determinants as sines of differences keep every digit down to 1e-9, where products
-//! of stored sines have lost nine digits and are no faster. The butterfly's determinant has no such form and loses a
-//! digit with each factor of ten.
+//! of stored sines have lost nine digits and are no faster. The butterfly's determinant has no such form; near dead points
+//! the emitted functions solve it in twice the precision, which keeps the digits at forty times the time.
 //!
 //! Products of stored sines, and Newton's method to a tolerance, are inferior in error or time everywhere and are not
 //! offered here.
