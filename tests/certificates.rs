@@ -155,7 +155,7 @@ fn user_functions_have_no_certificate() {
     let m = CamRocker::default();
     let start = positions(&m, 0.3)[0];
     match certify::turn(&m, &start).err() {
-        Some(CertifyError::UserFunction { group: "psi", function: "cycloidal_strokes", .. }) => {}
+        Some(CertifyError::UserFunction { group: "psi", function: "turn", .. }) => {}
         other => panic!("{other:?}"),
     }
 }

@@ -11,7 +11,7 @@ const MOST_LAWS: usize = 3;
 const MOST_ALIKE: usize = 6;
 
 /// The longest sentence, in bytes, that a reader may be expected to read.
-const LONGEST: usize = 360;
+const LONGEST: usize = 400;
 
 /// The most angles of a readable law.
 const MOST_ANGLES: usize = 4;
@@ -117,6 +117,11 @@ impl Law {
     }
 }
 
+/// Names as code.
+fn listed(names: &[&str]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
 /// Letters for sums of angles.
 struct Letters {
     free: Vec<char>,
@@ -159,7 +164,7 @@ impl Letters {
     }
 
     fn legend(&self) -> String {
-        let angles = self.given.iter().map(|(angle, letter)| format!(", {letter} = {}", written(angle)));
+        let angles = self.given.iter().map(|(angle, letter)| format!(", {letter} = `{}`", written(angle)));
         let varying = self.varying.iter().map(|(letter, meaning)| format!(", {letter} = {meaning}"));
         angles.chain(varying).collect()
     }
@@ -183,7 +188,7 @@ impl Letters {
                 continue;
             }
             let letter = self.free.pop()?;
-            let meanings = of.map(|(angle, names)| format!("{} for {}", written(angle), names.join(", ")));
+            let meanings = of.map(|(angle, names)| format!("`{}` for {}", written(angle), listed(names)));
             self.varying.push((letter, meanings.collect::<Vec<_>>().join(", ")));
             *angle = vec![(letter.to_string(), 1.0)];
         }
@@ -199,12 +204,12 @@ impl Letters {
         if groups.iter().all(is_alike) && sizes.iter().all(|(sum, divisor)| *sum == sizes[0].0 && !divisor.is_empty()) {
             let divisors = sizes.iter().zip(groups);
             let divisors =
-                divisors.map(|((_, divisor), (_, names))| format!("`{}` for {}", &divisor[1..], names.join(", ")));
+                divisors.map(|((_, divisor), (_, names))| format!("`{}` for {}", &divisor[1..], listed(names)));
             let divisors = divisors.collect::<Vec<_>>().join(", ");
             let law = self.law_of(groups[0].0, &format!("{SUM}/{DIVISOR}"));
             return format!("{law}, {SUM} = `{}`, {DIVISOR} = {divisors}", sizes[0].0);
         }
-        let texts = groups.iter().map(|(of, names)| format!("{} for {}", self.law(of), names.join(", ")));
+        let texts = groups.iter().map(|(of, names)| format!("{} for {}", self.law(of), listed(names)));
         texts.collect::<Vec<_>>().join("; ")
     }
 
@@ -330,12 +335,12 @@ fn common_below(size: &[Product]) -> Vec<(Base, i32)> {
     shared.collect()
 }
 
-/// A positive number, rounded up to hundredths of its leading digit.
+/// A positive number, rounded up to tenths, or to two digits if it is small.
 fn up(number: f64) -> String {
     if !number.is_normal() {
         return number.to_string();
     }
-    let digit = 10.0_f64.powf(number.log10().floor() - 2.0).min(0.1);
+    let digit = 10.0_f64.powf(number.log10().floor() - 1.0).min(0.1);
     // A number with fewer digits may be a bit above itself in binary.
     let rounded = (number / digit - 1e-9).ceil() * digit;
     let digits = (-digit.log10()).round().max(1.0) as usize;
