@@ -184,7 +184,8 @@ fn angles_given() {
         within(errors_at_angles::<Jansen, DoubleDouble>(sine).unwrap(), [4e-31, 1.2e-30]);
     }
     for (sine, size) in [("1e-3", 1e-3), ("1e-6", 1e-6), ("1e-9", 1e-9)] {
-        within(errors_at_angles::<DoubleButterfly, f64>(sine).unwrap(), [3e-16, 3e-16]);
+        // The velocities given to the accelerations are rounded.
+        within(errors_at_angles::<DoubleButterfly, f64>(sine).unwrap(), [3e-16, 8e-15]);
         // Without them f64 would lose as many digits as DoubleDouble loses of its own.
         let bound = 2e-32 / size;
         within(errors_at_angles::<DoubleButterfly, DoubleDouble>(sine).unwrap(), [bound, 3.0 * bound]);

@@ -61,7 +61,7 @@ impl Work {
     fn error(&self) -> Result<f64, PositionError> {
         let mut largest = 0.0_f64;
         for error in &self.errors {
-            largest = largest.max(error.clone()?);
+            largest = largest.max((*error)?);
         }
         let silent = PositionError::NotFinite { mechanism: "the mechanism", quantity: "a result returned as Ok" };
         if largest.is_finite() { Ok(largest) } else { Err(silent) }

@@ -103,7 +103,7 @@ fn print(comparison: &Comparison) {
     }
 }
 
-/// Prints the largest error of each method along each motion, and its time beside that of its operations.
+/// Prints the largest error of each method along each motion, and its time next to that of its operations.
 fn print_motions(comparison: &Comparison) {
     for motion in &comparison.motions {
         let errors = METHODS.iter().enumerate().filter_map(|(method, name)| Some((name, motion.largest(method)?)));

@@ -1,4 +1,4 @@
-//! How tight the bounds are: the figures of the manual.
+//! The tightness of the bounds: the figures of the manual.
 
 use linkage_double::DoubleDouble;
 use linkage_gallery::four_bar::FourBar;

@@ -29,7 +29,7 @@ fn boxes_of_four_bars_of_the_literature() {
     }
 }
 
-/// Where a parallelogram is flat, its two motions are apart by about the root of e.
+/// The two motions of a flat parallelogram are apart by about the root of e.
 #[test]
 fn parallelograms_near_their_change_point() {
     for (e, boxes) in [(1e-1, 19), (1e-2, 29), (1e-4, 52), (1e-6, 74)] {

@@ -17,7 +17,7 @@ pub(super) enum Amplifier {
     Secant,
 }
 
-/// A count of roundings.
+/// A number of rounding errors.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Count {
     pub(super) constant: f64,

@@ -33,7 +33,7 @@ pub(super) const SINE: f64 = 1.29;
 /// The name of a sine or cosine among the results of `pose_at`.
 pub(super) const DIRECTION: &str = "directions";
 
-/// What functions lowered before know: the angles, and the errors of the determinants of a pose.
+/// The angles, and the errors of the determinants of a pose, from the functions lowered before.
 #[derive(Debug)]
 pub struct Roundings {
     angles: Angles,

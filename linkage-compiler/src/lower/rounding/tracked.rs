@@ -90,8 +90,8 @@ impl Tracked {
         self
     }
 
-    /// t_1 + ... + t_n from left to right: the errors of the terms, n - 2 roundings of partial sums, each at most the sum of
-    /// the sizes, and the last of the sum itself.
+    /// t_1 + ... + t_n from left to right: the errors of the terms, n - 2 rounding errors of partial sums, each at most the
+    /// sum of the sizes, and the last of the sum itself.
     pub(super) fn sum(angles: &mut Angles, terms: &[Self]) -> Option<Self> {
         let spread: Vec<(Size, Count)> = terms.iter().map(Self::spread).collect();
         let most = spread.iter().fold(Count::default(), |most, (_, count)| most.most(count));
