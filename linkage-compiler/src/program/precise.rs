@@ -131,7 +131,12 @@ impl Plan<'_, '_> {
         let value = match passed {
             _ if *name == self.signatures.arguments.pose => {
                 let wide = Expression::associated(Type::Itself, WIDENED_POSE, [value]);
-                Expression::name(MECHANISM).method(AT_NUMBERS, [wide])
+                match self.at_numbers_is_method() {
+                    true => Expression::name(MECHANISM).method(AT_NUMBERS, [wide]),
+                    false => {
+                        Expression::associated(Type::Bare(self.signatures.types.driver.clone()), AT_NUMBERS, [wide])
+                    }
+                }
             }
             Passed::ByReference(Type::Own(_)) => Expression::runtime("widened_by_name", [value.dereferenced()]),
             Passed::ByReference(_) => Expression::runtime("widened_matrix", [value]),
@@ -181,17 +186,29 @@ impl Plan<'_, '_> {
         self.add(signature, lines(["A pose in twice the precision."]), Body::plain(value));
     }
 
-    /// The pose with directions computed from its numbers: those of a widened pose are rounded.
-    fn at_numbers(&mut self) {
+    /// The angles of the directions of a pose that follow from its numbers.
+    fn angles_of_numbers(&self) -> Vec<NodeId> {
         let parameters = self.signatures.mechanism.parameters.iter().map(|parameter| parameter.symbol);
         let known: Vec<SymbolId> = self.pose.values.iter().map(|(.., symbol)| *symbol).chain(parameters).collect();
-        let graph = &mut self.derivation.graph;
+        let graph = &self.derivation.graph;
         let is_known = |angle: &NodeId| {
             let mut parts = graph.sweep(&[*angle], |_| false, |_| false).into_iter();
             !parts.any(|id| matches!(graph.node(id), Node::External(..)))
                 && graph.symbols_of(&[*angle]).iter().all(|symbol| known.contains(symbol))
         };
-        let angles: Vec<NodeId> = self.pose.angles().filter(is_known).collect();
+        self.pose.angles().filter(is_known).collect()
+    }
+
+    /// True if the directions of a pose depend on parameters, such as an offset between two angles of a link.
+    fn at_numbers_is_method(&self) -> bool {
+        let symbols = self.derivation.graph.symbols_of(&self.angles_of_numbers());
+        self.signatures.mechanism.parameters.iter().any(|parameter| symbols.contains(&parameter.symbol))
+    }
+
+    /// The pose with directions computed from its numbers: those of a widened pose are rounded.
+    fn at_numbers(&mut self) {
+        let (angles, is_method) = (self.angles_of_numbers(), self.at_numbers_is_method());
+        let graph = &mut self.derivation.graph;
         let mut parts = Vec::new();
         for &angle in &angles {
             parts.extend([Elementary::Cos, Elementary::Sin].map(|function| graph.call(function, &[angle])));
@@ -207,7 +224,7 @@ impl Plan<'_, '_> {
         let kernel = self.kernel(vec![numbers], Vec::new(), unnamed(parts));
         let pose = Argument { name: pose, passed: Passed::ByValue(self.signatures.pose_type()) };
         let signature = total(AT_NUMBERS, [pose], self.signatures.pose_type());
-        let signature = Function { access: Access::Cold, ..signature };
+        let signature = Function { access: Access::Cold, is_method, ..signature };
         let doc = lines(["The pose with the directions of the angles that it holds as numbers computed anew."]);
         self.add(signature, doc, Body::of(kernel, value));
     }
