@@ -29,7 +29,7 @@ name = "kernels"
 path = "ROOT/benches/poses/kernels.rs"
 
 [dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics"] }
+linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics", "interval"] }
 
 [workspace]
 "#;
