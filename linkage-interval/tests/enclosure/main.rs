@@ -85,7 +85,7 @@ fn operators() {
     case("square", |a, _| a.square(), |a, _| Some(a * a), 1);
     case("magnitude", |a, _| a.abs(), |a, _| Some(a.clone().abs()), 0);
     case("root", |a, _| a.sqrt(), |a, _| (*a >= Big::ZERO).then(|| a.sqrt()), 1);
-    case("hypotenuse", |a, b| a.hypotenuse(b), |a, b| Some((a * a + b * b).sqrt()), 4);
+    case("hypotenuse", |a, b| a.hypotenuse(b), |a, b| Some((a * a + b * b).sqrt()), 6);
 }
 
 fn angles(random: &mut Numbers) -> [[f64; 2]; 2] {
