@@ -208,7 +208,7 @@ pub fn formulas(mechanism: &Mechanism) -> Vec<[String; 3]> {
     drivers.collect()
 }
 
-/// The bounds of the rounding errors of the functions of one driver.
+/// The largest rounding errors that the functions of one driver can have.
 #[derive(Debug, Clone)]
 pub struct Bounds {
     pub driver: String,
@@ -219,7 +219,7 @@ pub struct Bounds {
     pub functions: BTreeMap<String, lower::Bound>,
 }
 
-/// Returns the bounds of the rounding errors of the functions of a checked mechanism, one for each driver.
+/// Returns the largest rounding errors that the functions of a checked mechanism can have, for each driver.
 #[must_use]
 pub fn bounds(mechanism: &Mechanism) -> Vec<Bounds> {
     let drivers = mechanism.drivers.iter().map(|driver| {

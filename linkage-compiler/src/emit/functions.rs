@@ -68,7 +68,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
     }
 }
 
-/// The doc comment: the lines, the operation counts and the bound of the rounding errors if there are any.
+/// The doc comment: the lines, the numbers of operations, and how large the rounding errors can be, if that is known.
 fn description(lines: &[String], work: Operations, bound: Option<String>) -> TokenStream {
     let mut lines: Vec<String> = lines.to_vec();
     if work != Operations::default() {

@@ -49,7 +49,7 @@ pub struct Code {
     pub externals: BTreeSet<ExternalId>,
     /// True if its formulas need no iteration, no pivoting and no function of the user or of a library.
     pub is_branch_free: bool,
-    /// A bound of the rounding errors of its results, if one is known.
+    /// The largest rounding errors that its results can have, if they are known.
     pub bound: Option<Bound>,
 }
 
@@ -250,7 +250,7 @@ impl<'a> Formulas<'a> {
     }
 }
 
-/// The bound of the rounding errors of a kernel whose arguments are stored.
+/// The largest rounding errors of a kernel whose arguments are stored.
 fn bound(kernel: &Kernel, schedule: &Schedule, context: &mut Context) -> Option<Bound> {
     let graph = &context.derivation.graph;
     let fields = taken_by_others(kernel, context);

@@ -1,4 +1,5 @@
-//! The formulas that an emitted function computes, in the notation of FPCore, for tools that bound rounding errors.
+//! The formulas of an emitted function, in the notation of FPCore, for programs that compute how large
+//! rounding errors can be.
 //!
 //! A function is executed with symbols for numbers (`run`), calls of other functions included. That gives operations in
 //! the order of the code (`operations`), which are written one line each (`lines`). Newton's method, pivoting and user

@@ -9,7 +9,7 @@ use super::tracked::Tracked;
 use crate::graph::{Graph, SymbolId};
 use crate::lower::schedule::{Line, Schedule};
 
-/// A bound of the rounding errors of the results of a function, for each result that is rounded.
+/// The largest error that each rounded result of a function can have.
 #[derive(Debug, Clone)]
 pub struct Bound {
     pub(super) results: Vec<Of>,
