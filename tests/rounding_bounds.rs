@@ -1,8 +1,8 @@
 //! The bounds of rounding errors in the docs of emitted functions, against the functions of 31 digits: at random coordinates
-//! of the whole gallery no error exceeds its bound.
+//! of the whole gallery no error exceeds its bound; 1000 of each mechanism have 2.3 million results.
 //!
 //! ```text
-//! BOUNDED=20000 cargo test --release --all-features --test rounding_bounds -- --nocapture
+//! BOUNDED=1000 cargo test --release --all-features --test rounding_bounds -- --nocapture
 //! ```
 
 use std::collections::BTreeMap;
@@ -49,6 +49,19 @@ fn coordinates(rng: &mut SmallRng, count: usize) -> Vec<f64> {
     all
 }
 
+/// Angles of a turn and rates of the size of one.
+fn ordinary(rng: &mut SmallRng, count: usize) -> [Vec<f64>; 3] {
+    [std::f64::consts::PI, 3.0, 3.0].map(|most| (0..count).map(|_| rng.random_range(-most..most)).collect())
+}
+
+/// Coordinates near dead points and small rates among others.
+fn extreme(rng: &mut SmallRng, count: usize) -> [Vec<f64>; 3] {
+    [coordinates(rng, count), numbers(rng, count), numbers(rng, count)]
+}
+
+/// Random coordinates, rates and accelerations of this count.
+type Motion = fn(&mut SmallRng, usize) -> [Vec<f64>; 3];
+
 /// The results of a mechanism in any scalar, by function, in the order of the code.
 fn results<T: linkage::Real, M: Kinematics<T>>(m: &M, motion: &[Vec<f64>; 3]) -> BTreeMap<&'static str, Vec<T>> {
     let [q, rates, bent] =
@@ -76,7 +89,7 @@ fn results<T: linkage::Real, M: Kinematics<T>>(m: &M, motion: &[Vec<f64>; 3]) ->
 }
 
 /// The bound and the error of each rounded result at random coordinates.
-fn measured<F: Fixture>(derivation: &Derivation) -> Ratios
+fn measured<F: Fixture>(derivation: &Derivation, motion: Motion) -> Ratios
 where
     F::Of<DoubleDouble>: Kinematics<DoubleDouble>,
 {
@@ -86,8 +99,7 @@ where
     for _ in 0..poses() {
         let parameters: Vec<f64> =
             F::default().parameters().iter().map(|value| value * rng.random_range(0.7..1.3)).collect();
-        let count = bounds.coordinates.len();
-        let motion = [coordinates(&mut rng, count), numbers(&mut rng, count), numbers(&mut rng, count)];
+        let motion = motion(&mut rng, bounds.coordinates.len());
         let precise: Vec<DoubleDouble> = parameters.iter().map(|value| DoubleDouble::from(*value)).collect();
         let emitted = results(&F::with_parameters(&parameters), &motion);
         let precise = results(&F::Of::<DoubleDouble>::with_parameters(&precise), &motion);
@@ -122,7 +134,7 @@ fn is_bounded<F: Fixture>(derivation: &Derivation)
 where
     F::Of<DoubleDouble>: Kinematics<DoubleDouble>,
 {
-    for (function, all) in measured::<F>(derivation) {
+    for (function, all) in measured::<F>(derivation, extreme) {
         let mut largest = 0.0_f64;
         for [bound, error] in all.iter().filter(|[bound, _]| *bound > SMALLEST) {
             assert!(
@@ -161,11 +173,15 @@ fn median(mut list: Vec<f64>) -> f64 {
 #[test]
 fn the_bounds_of_the_four_bar_are_near_its_errors() {
     use linkage_gallery::four_bar::FourBar;
-    let measured = measured::<FourBar>(<FourBar>::DERIVATION);
-    for (function, most) in [("velocity_ratios", 30.0), ("velocity", 30.0), ("acceleration", 60.0), ("points", 30.0)] {
-        let [bound, error] = [0, 1].map(|part| median(measured[function].iter().map(|pair| pair[part]).collect()));
-        println!("{function}: bound {bound:.2e}, error {error:.2e}, {:.1} times", bound / error);
-        assert!(bound <= most * error, "{function}: {bound:e} bounds {error:e} in the median");
+    let motions: [(&str, Motion, [f64; 4]); 2] =
+        [("ordinary", ordinary, [18.0, 22.0, 30.0, 20.0]), ("extreme", extreme, [20.0, 25.0, 40.0, 20.0])];
+    for (name, motion, most) in motions {
+        let measured = measured::<FourBar>(<FourBar>::DERIVATION, motion);
+        for (function, most) in ["velocity_ratios", "velocity", "acceleration", "points"].into_iter().zip(most) {
+            let [bound, error] = [0, 1].map(|part| median(measured[function].iter().map(|pair| pair[part]).collect()));
+            println!("{name} {function}: bound {bound:.2e}, error {error:.2e}, {:.1} times", bound / error);
+            assert!(bound <= most * error, "{name} {function}: {bound:e} bounds {error:e} in the median");
+        }
     }
 }
 
