@@ -9,6 +9,7 @@ mod duals;
 mod enclosures;
 mod facts;
 mod formulas;
+mod published;
 mod velocities;
 
 use linkage_gallery::all_mechanisms;

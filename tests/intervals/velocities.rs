@@ -4,7 +4,7 @@
 use std::cmp::Ordering;
 
 use linkage::enclose::{EncloseError, PoseBox};
-use linkage::{Certifiable, Column, Interval};
+use linkage::{Certifiable, Interval};
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::ids::Id;
 use linkage_gallery::{Fixture, HigherOrders, Kinematics, WithHigherOrders};
@@ -46,11 +46,8 @@ impl Reference {
         let (u, v) = (oracle.derivation.unknowns.len(), oracle.derivation.inputs.len());
         let all = nodes(&mut oracle);
         let mut roots: Vec<NodeId> = all[u..u + u * (u + v)].to_vec();
-        for name in F::PARAMETERS {
-            // The fields of raw identifiers.
-            let name = name.trim_start_matches("r#");
-            let symbol = oracle.derivation.graph.symbol(name);
-            roots.extend(oracle.derivation.graph.partial(&residual, symbol));
+        for parameter in oracle.parameters().collect::<Vec<_>>() {
+            roots.extend(oracle.derivation.graph.partial(&residual, parameter));
         }
         roots.extend(&oracle.derivation.gamma);
         let tape = oracle.tape(&roots);
