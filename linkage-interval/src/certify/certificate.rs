@@ -112,7 +112,7 @@ impl<M: Certifiable> Certificate<M> {
         let q: Vec<Interval> = unknowns.iter().copied().chain([input]).collect();
         let unknowns = self.system.scales.iter().copied().take(M::U::COUNT).collect();
         let sizes = Sizes { rows: self.system.rows.clone(), unknowns };
-        PoseBox::of_numbers(self.system.numbers(&q), sizes)
+        PoseBox::of_numbers(self.system.numbers(&q), &sizes)
     }
 }
 

@@ -5,10 +5,9 @@ use linkage_runtime::{Certifiable, Column, Dim, Formulas, Group, Number};
 use super::EncloseError;
 use crate::Interval;
 use crate::matrix::{Floats, contracting, defect, inverse, norm, solution};
-use crate::series::{Series, unit_line};
+use crate::series::unit_line;
 
 /// Scales of Psi and of the unknowns. They choose pivots and norms; the bounds hold for any.
-#[derive(Clone)]
 pub(crate) struct Sizes {
     pub(crate) rows: Vec<f64>,
     pub(crate) unknowns: Vec<f64>,
@@ -51,7 +50,7 @@ impl Preconditioned {
 impl Linear {
     /// J over the box of these numbers.
     pub(super) fn of<M: Certifiable>(numbers: &[Interval], sizes: &Sizes) -> Result<Self, EncloseError> {
-        let column = |place| psi::<M>(&unit_line(numbers, place)).iter().map(|psi| psi.first).collect();
+        let column = |place| psi::<M, _>(&unit_line(numbers, place)).iter().map(|psi| psi.first).collect();
         let columns: Vec<Vec<Interval>> = (0..M::U::COUNT).map(column).collect();
         let users = M::USER_FUNCTIONS.iter().copied().chain(std::iter::repeat(None));
         let norm_of = |(group, user): (&Group, Option<&'static str>)| norm_of_group::<M>(group, user, &columns, sizes);
@@ -117,9 +116,9 @@ fn no_bounds<M: Certifiable>(row: usize, derivative: &'static str) -> EncloseErr
 }
 
 /// Psi along a curve of its numbers: the unknowns, then the inputs, then the parameters.
-pub(super) fn psi<M: Certifiable>(numbers: &[Series<Interval>]) -> Vec<Series<Interval>> {
+pub(super) fn psi<M: Certifiable, N: Number>(numbers: &[N]) -> Vec<N> {
     let (unknowns, inputs) = (M::U::COUNT, M::V::COUNT);
-    let formulas = M::Over::<Series<Interval>>::with_parameters(column(numbers, unknowns + inputs));
+    let formulas = M::Over::<N>::with_parameters(column(numbers, unknowns + inputs));
     formulas.residual(&column(numbers, 0), &column(numbers, unknowns)).iter().copied().collect()
 }
 

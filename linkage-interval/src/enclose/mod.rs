@@ -19,17 +19,18 @@
 //! All derivatives of Psi come from Psi itself, by [`Series`](crate::certify::Series): the results depend on the formulas
 //! of Psi and on IEEE arithmetic, not on the emitted J, A and gamma. With Y an inverse of the middle of J in floats, J is
 //! regular at every point if the norm of I - Y J is below 1 over the box; then J x = c has the solutions x = x0 + e,
-//! |e| <= |Y (c - J x0)| / (1 - |I - Y J|), which two steps of e = Y (c - J x0) + (I - Y J) e make narrower. Velocities,
-//! ratios and sensitivities are intersected with their mean-value form x(m) + x'(box) (box - m) about the middle m, so that
-//! their excess width shrinks with the square of the box.
+//! |e| <= |Y (c - J x0)| / (1 - |I - Y J|), which two steps of e = Y (c - J x0) + (I - Y J) e make narrower. Each result is
+//! intersected with its mean-value form x(m) + sum of dx/dz(box) (z - m) in all intervals z, where m is the middle: the
+//! excess of its width over the range shrinks with the square of the box.
 //!
 //! Sources: S. M. Rump, "Verification methods: rigorous results using floating-point arithmetic", Acta Numerica 19 (2010),
 //! section 10; A. Neumaier, "Interval Methods for Systems of Equations", 1990, sections 2.3 and 4.1.
 
 mod error;
 mod linear;
+mod mean_value;
 mod pose_box;
 
 pub use error::EncloseError;
 pub(crate) use linear::Sizes;
-pub use pose_box::PoseBox;
+pub use pose_box::{IntervalColumns, PoseBox};

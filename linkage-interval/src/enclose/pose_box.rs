@@ -1,14 +1,19 @@
 //! A box of positions and parameters, and what is enclosed over it.
 
+use std::fmt;
 use std::marker::PhantomData;
 
 use linkage_runtime::jacobian::ScalesOf;
-use linkage_runtime::{Certifiable, Column, Dim, Number};
+use linkage_runtime::{Certifiable, Column, Dim, Mechanism, Number};
 
 use super::EncloseError;
-use super::linear::{Linear, Sizes, column, psi};
+use super::linear::{Linear, Sizes, column};
+use super::mean_value::{Order, Solver};
 use crate::Interval;
 use crate::series::{Series, lines};
+
+/// For each input or parameter a column of an interval for each unknown.
+pub type IntervalColumns<M, C> = Column<Column<Interval, <M as Mechanism>::U>, C>;
 
 /// A box of unknowns, inputs and parameters in which J is regular.
 ///
@@ -26,10 +31,9 @@ use crate::series::{Series, lines};
 pub struct PoseBox<M: Certifiable> {
     /// The unknowns, the inputs, the parameters.
     numbers: Vec<Interval>,
-    sizes: Sizes,
     linear: Linear,
-    /// The middle, unless the box is a point.
-    middle: Option<Box<PoseBox<M>>>,
+    /// J in the middle, unless the box is a point.
+    middle: Option<Linear>,
     mechanism: PhantomData<fn() -> M>,
 }
 
@@ -77,16 +81,16 @@ impl<M: Certifiable> PoseBox<M> {
             rows: scales.residuals.iter().map(|&scale| scale_or_one(scale)).collect(),
             unknowns: scales.coordinates.unknowns.iter().map(|&scale| scale_or_one(scale)).collect(),
         };
-        Self::of_numbers(unknowns.iter().chain(&inputs).chain(&parameters).copied().collect(), sizes)
+        Self::of_numbers(unknowns.iter().chain(&inputs).chain(&parameters).copied().collect(), &sizes)
     }
 
-    /// The box of finite numbers, and that of its middle.
-    pub(crate) fn of_numbers(numbers: Vec<Interval>, sizes: Sizes) -> Result<Self, EncloseError> {
-        let linear = Linear::of::<M>(&numbers, &sizes)?;
+    /// The box of finite numbers.
+    pub(crate) fn of_numbers(numbers: Vec<Interval>, sizes: &Sizes) -> Result<Self, EncloseError> {
+        let linear = Linear::of::<M>(&numbers, sizes)?;
         let middles: Vec<Interval> = numbers.iter().map(|x| x.middle().into()).collect();
         let is_point = middles == numbers;
-        let middle = if is_point { None } else { Self::of_numbers(middles, sizes.clone()).ok().map(Box::new) };
-        Ok(Self { numbers, sizes, linear, middle, mechanism: PhantomData })
+        let middle = if is_point { None } else { Some(Linear::of::<M>(&middles, sizes)?) };
+        Ok(Self { numbers, linear, middle, mechanism: PhantomData })
     }
 
     /// The unknowns.
@@ -118,7 +122,7 @@ impl<M: Certifiable> PoseBox<M> {
     ///
     /// # Errors
     /// [`EncloseError::NoBounds`] if A has none.
-    pub fn velocity_ratios(&self) -> Result<Column<Column<Interval, M::U>, M::V>, EncloseError> {
+    pub fn velocity_ratios(&self) -> Result<IntervalColumns<M, M::V>, EncloseError> {
         self.by_each(M::U::COUNT, "A")
     }
 
@@ -128,7 +132,8 @@ impl<M: Certifiable> PoseBox<M> {
     /// [`EncloseError::Invalid`] if a rate is infinite, [`EncloseError::NoBounds`] if A has no bounds.
     pub fn velocity(&self, input_rates: &Column<Interval, M::V>) -> Result<Column<Interval, M::U>, EncloseError> {
         all_finite::<M>("rate", M::INPUTS, input_rates.as_slice())?;
-        Ok(column(&self.rates(&self.direction(M::U::COUNT, input_rates.as_slice()), "A v'")?, 0))
+        let curve = lines(&self.numbers, &self.direction(M::U::COUNT, input_rates.as_slice()));
+        Ok(column(&self.solver(Order::First, "A v'").solve::<M>(&curve)?, 0))
     }
 
     /// u'' from J u'' = -(A v'' + gamma): the accelerations of the unknowns for all rates and all accelerations of the
@@ -151,10 +156,8 @@ impl<M: Certifiable> PoseBox<M> {
         first.iter_mut().zip(unknown_rates).for_each(|(own, &rate)| *own = rate);
         let second = self.direction(M::U::COUNT, input_accelerations.as_slice());
         let parts = self.numbers.iter().zip(first).zip(second);
-        let along: Vec<_> = parts.map(|((&value, first), second)| Series { value, first, second }).collect();
-        // Psi'' = Psi_v v'' + gamma where the unknowns have no acceleration.
-        let right: Vec<Interval> = psi::<M>(&along).iter().map(|psi| -psi.second).collect();
-        Ok(column(&self.linear.solve::<M>(&right, "A v'' + gamma")?, 0))
+        let curve: Vec<_> = parts.map(|((&value, first), second)| Series { value, first, second }).collect();
+        Ok(column(&self.solver(Order::Second, "A v'' + gamma").solve::<M>(&curve)?, 0))
     }
 
     /// du/dp = -J^-1 Psi_p: for each parameter the column of the rates of the unknowns while it grows with rate 1, at
@@ -162,17 +165,14 @@ impl<M: Certifiable> PoseBox<M> {
     ///
     /// # Errors
     /// [`EncloseError::NoBounds`] if Psi_p has none.
-    pub fn sensitivity(&self) -> Result<Column<Column<Interval, M::U>, <M as Certifiable>::P>, EncloseError> {
+    pub fn sensitivity(&self) -> Result<IntervalColumns<M, <M as Certifiable>::P>, EncloseError> {
         self.by_each(M::U::COUNT + M::V::COUNT, "Psi_p")
     }
 
     /// The rates of the unknowns while one number grows with rate 1, for each of those from this index on.
-    fn by_each<C: Dim>(
-        &self,
-        from: usize,
-        derivative: &'static str,
-    ) -> Result<Column<Column<Interval, M::U>, C>, EncloseError> {
-        let by = |place| self.rates(&self.direction(from + place, &[Interval::one()]), derivative);
+    fn by_each<C: Dim>(&self, from: usize, derivative: &'static str) -> Result<IntervalColumns<M, C>, EncloseError> {
+        let solver = self.solver(Order::First, derivative);
+        let by = |place| solver.solve::<M>(&lines(&self.numbers, &self.direction(from + place, &[Interval::one()])));
         let all: Vec<Vec<Interval>> = (0..C::COUNT).map(by).collect::<Result<_, _>>()?;
         Ok(Column::from_fn(|place| column(all.get(place).map_or(&[], Vec::as_slice), 0)))
     }
@@ -184,46 +184,20 @@ impl<M: Certifiable> PoseBox<M> {
         all
     }
 
-    /// The rates x of the unknowns while the other numbers have these: J x = -Psi' along them.
-    fn rates(&self, given: &[Interval], derivative: &'static str) -> Result<Vec<Interval>, EncloseError> {
-        let right: Vec<Interval> = psi::<M>(&lines(&self.numbers, given)).iter().map(|psi| -psi.first).collect();
-        let x = self.linear.solve::<M>(&right, derivative)?;
-        let centered = self.centered(given, &x, derivative);
-        let narrower = |centered: Vec<Interval>| {
-            x.iter().zip(centered).map(|(x, centered)| x.intersection(centered)).collect::<Option<Vec<_>>>()
-        };
-        Ok(centered.and_then(narrower).unwrap_or(x))
+    fn solver(&self, order: Order, derivative: &'static str) -> Solver<'_> {
+        let middle = self.middle.as_ref().unwrap_or(&self.linear);
+        Solver { linear: &self.linear, middle, order, derivative }
     }
+}
 
-    /// The mean-value form of rates x that are enclosed: x(m) + sum of dx/dn (n - m) over all numbers n.
-    ///
-    /// J x + Psi' r = 0 differentiated by n: J dx/dn = -Psi'' of the directions d = (x, r) and e_n. It is a quarter of the
-    /// difference of the second derivatives along d + e_n and d - e_n, with e_n as long as d.
-    fn centered(&self, given: &[Interval], x: &[Interval], derivative: &'static str) -> Option<Vec<Interval>> {
-        let middle = self.middle.as_ref()?;
-        let mut sum = middle.rates(given, derivative).ok()?;
-        let along: Vec<Interval> = x.iter().chain(given.iter().skip(x.len())).copied().collect();
-        let size = |place: usize| match self.sizes.unknowns.get(place) {
-            Some(&scale) => scale,
-            None => scale_or_one(self.numbers.get(place).map_or(1.0, |x| x.magnitude())),
-        };
-        let length = along.iter().enumerate().map(|(place, rate)| rate.magnitude() / size(place)).fold(0.0, f64::max);
-        for (place, (&n, &m)) in self.numbers.iter().zip(&middle.numbers).enumerate() {
-            if n == m {
-                continue;
-            }
-            let unit = scale_or_one(length * size(place));
-            let second = |sign: f64| -> Vec<Interval> {
-                let mut direction = along.clone();
-                direction.iter_mut().skip(place).take(1).for_each(|rate| *rate = *rate + Interval::from(sign * unit));
-                psi::<M>(&lines(&self.numbers, &direction)).iter().map(|psi| psi.second).collect()
-            };
-            let factor = Interval::from(4.0) * unit.into();
-            let right = second(-1.0).into_iter().zip(second(1.0)).map(|(minus, plus)| (minus - plus) / factor);
-            let by = self.linear.solve::<M>(&right.collect::<Vec<_>>(), derivative).ok()?;
-            sum.iter_mut().zip(by).for_each(|(sum, by)| *sum = *sum + by * (n - m));
-        }
-        Some(sum)
+impl<M: Certifiable> fmt::Debug for PoseBox<M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PoseBox")
+            .field("unknowns", &self.unknowns())
+            .field("inputs", &self.inputs())
+            .field("parameters", &self.parameters())
+            .field("norms", &self.norms())
+            .finish()
     }
 }
 
