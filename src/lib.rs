@@ -22,7 +22,7 @@ pub use linkage_dynamics::{
     Mode, MotionError, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn, Unreduced, contact, simulation,
 };
 #[cfg(feature = "interval")]
-pub use linkage_interval::{Interval, certify};
+pub use linkage_interval::{Interval, certify, enclose};
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]

@@ -1,4 +1,4 @@
-//! Intervals of real numbers, and certified motions of linkages.
+//! Intervals of real numbers, velocities and accelerations of linkages over them, and certified motions.
 //!
 //! An [`Interval`] contains the exact value of a formula, whatever was rounded, as far as + - * / and the square root of
 //! doubles round to nearest (IEEE 754). It depends on nothing else: no function of a C library.
@@ -15,6 +15,9 @@
 #![warn(missing_docs)]
 
 pub mod certify;
+pub mod enclose;
 mod interval;
+mod matrix;
+mod series;
 
 pub use interval::Interval;

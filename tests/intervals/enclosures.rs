@@ -64,7 +64,7 @@ pub fn of_boxes<F: Fixture + Certifiable>() {
 }
 
 /// Asserts that each interval contains its number, up to the last digits of 48.
-fn contain<F: Fixture>(found: &[Interval], exact: &[Big]) {
+pub fn contain<F: Fixture>(found: &[Interval], exact: &[Big]) {
     assert_eq!(found.len(), exact.len(), "{}", title::<F>());
     for (place, (interval, exact)) in found.iter().zip(exact).enumerate() {
         let [least, most] = [interval.least(), interval.most()].map(|bound| bound.is_finite().then(|| big(bound)));

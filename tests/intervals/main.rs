@@ -9,6 +9,8 @@ mod duals;
 mod enclosures;
 mod facts;
 mod formulas;
+mod published;
+mod velocities;
 
 use linkage_gallery::all_mechanisms;
 
@@ -39,11 +41,27 @@ macro_rules! tests {
                 $(super::enclosures::of_boxes::<$Mechanism>();)+
             }
             #[test]
+            fn velocities_at_points_are_enclosed() {
+                $(super::velocities::of_points::<$Mechanism>();)+
+            }
+            #[test]
+            fn velocities_over_boxes_are_enclosed() {
+                $(super::velocities::of_boxes::<$Mechanism>();)+
+            }
+            tests!(@ $($orders)? $($Mechanism)+);
+            #[test]
             fn periods_leave_the_residual() {
                 $(super::facts::periods_leave_the_residual::<$Mechanism>();)+
             }
         }
     )*};
+    (@ orders $Mechanism:ident) => {
+        #[test]
+        fn sensitivities_are_enclosed() {
+            super::velocities::of_sensitivities::<$Mechanism>();
+        }
+    };
+    (@ $($Mechanism:ident)+) => {};
 }
 
 all_mechanisms!(tests);

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use linkage_compiler::derivation::{Derivation, Row};
-use linkage_compiler::graph::{External, NodeId};
+use linkage_compiler::graph::{External, NodeId, SymbolId};
 use linkage_compiler::ids::Id;
 use linkage_compiler::model::{Kind, Mechanism};
 use linkage_gallery::Fixture;
@@ -41,6 +41,11 @@ impl Oracle {
         let driver = mechanism.drivers.iter().position(|driver| driver.name == F::NAME).expect(F::NAME);
         let derivation = linkage_compiler::derive(&mechanism).remove(driver);
         Self { mechanism, derivation }
+    }
+
+    /// The symbols of the parameters in declared order.
+    pub fn parameters(&self) -> impl Iterator<Item = SymbolId> {
+        self.mechanism.parameters.iter().map(|parameter| parameter.symbol)
     }
 
     /// Poses with parameters within a fifth of their defaults.

@@ -8,6 +8,7 @@ use super::motion::unknowns_of;
 use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
+use crate::enclose::{EncloseError, PoseBox, Sizes};
 
 /// The end of a certified motion over full turns of its input.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -97,6 +98,21 @@ impl<M: Certifiable> Certificate<M> {
             Some(unknowns_of::<M>(&part.map_or_else(|| tube.over(c), |part| part.q)))
         });
         parts.reduce(|one, other| Column::from_fn(|place| one[place].hull(other[place])))
+    }
+
+    /// The box of the unknowns at an input, or at all inputs of an interval, with the parameters of the certificate: its
+    /// velocities, accelerations and sensitivities are those of the motion there.
+    ///
+    /// # Errors
+    /// [`EncloseError::Outside`] if an input is outside the range, and those of [`PoseBox::with_parameters`]: where the
+    /// motion turns much, a box of positions is wider than the motion in it, and narrower inputs are needed.
+    pub fn pose_box(&self, input: Interval) -> Result<PoseBox<M>, EncloseError> {
+        let outside = EncloseError::Outside { mechanism: M::NAME, input, inputs: self.inputs };
+        let unknowns = self.unknowns_at(input).ok_or(outside)?;
+        let q: Vec<Interval> = unknowns.iter().copied().chain([input]).collect();
+        let unknowns = self.system.scales.iter().copied().take(M::U::COUNT).collect();
+        let sizes = Sizes { rows: self.system.rows.clone(), unknowns };
+        PoseBox::of_numbers(self.system.numbers(&q), &sizes)
     }
 }
 

@@ -2,10 +2,10 @@
 
 use linkage_runtime::{Certifiable, Number};
 
-use super::matrix::{Floats, apply, defect, fixed_point, inverse, product, times};
-use super::series::Series;
 use super::system::{Dimensions, System};
 use crate::Interval;
+use crate::matrix::{Floats, defect, inverse, product, solution, times};
+use crate::series::{Series, lines};
 
 /// The most steps of Newton's method: it doubles the digits in each, or it does not converge.
 const NEWTON_STEPS: usize = 25;
@@ -77,8 +77,7 @@ impl Expansion {
         let (columns, y) = inverse_at(system, parameter, &q)?;
         let negative = |column: &[f64]| product(&y, column).iter().map(|x| -x).collect::<Vec<f64>>();
         let w = with_parameter(parameter, negative(columns.get(parameter)?), 1.0);
-        let along: Vec<_> = q.iter().zip(&w).map(|(&x, &w)| Series::line(x, w)).collect();
-        let gamma: Vec<f64> = system.float_psi(&along).iter().map(|psi| psi.second).collect();
+        let gamma: Vec<f64> = system.float_psi(&lines(&q, &w)).iter().map(|psi| psi.second).collect();
         let a = with_parameter(parameter, negative(&gamma), 0.0);
         let numbers = q.iter().chain(&w).chain(&a);
         numbers.into_iter().all(|number| number.is_finite()).then_some(Self { parameter, q, w, a, y })
@@ -157,18 +156,9 @@ impl Expansion {
         c: &[Interval],
         entry: Interval,
     ) -> Option<Vec<Interval>> {
-        // About the float solution x0: x = x0 + e, e = Y (c - J x0) + (I - Y J) e, and Y c - Y J x0 = Y c - x0 + D x0.
-        let right = times(&self.y, c);
-        let x0: Vec<f64> = right.iter().map(|x| x.middle()).collect();
-        if !x0.iter().all(|x| x.is_finite()) {
-            return None;
-        }
-        let exact: Vec<Interval> = x0.iter().map(|&x| x.into()).collect();
-        let parts = right.iter().zip(&exact).zip(apply(&linear.defect, &exact));
-        let rest: Vec<Interval> = parts.map(|((&right, &x), part)| right - x + part).collect();
         let scales: Vec<f64> = others(self.parameter, &system.scales).copied().collect();
-        let e = fixed_point(&linear.defect, &rest, &scales)?;
-        Some(with_parameter(self.parameter, exact.iter().zip(e).map(|(&x, e)| x + e).collect(), entry))
+        let x = solution(&self.y, &linear.defect, c, &scales)?;
+        Some(with_parameter(self.parameter, x, entry))
     }
 
     /// q'(c) over a box: J q' = -(the column of the parameter).
@@ -186,8 +176,7 @@ impl Expansion {
         q: &[Interval],
         rates: &[Interval],
     ) -> Option<Vec<Interval>> {
-        let along: Vec<_> = q.iter().zip(rates).map(|(&x, &rate)| Series::line(x, rate)).collect();
-        let gamma: Vec<Interval> = system.psi(dimensions, &along).iter().map(|psi| -psi.second).collect();
+        let gamma: Vec<Interval> = system.psi(dimensions, &lines(q, rates)).iter().map(|psi| -psi.second).collect();
         self.solve(system, linear, &gamma, Interval::zero())
     }
 }

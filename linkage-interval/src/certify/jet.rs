@@ -2,10 +2,10 @@
 
 use linkage_runtime::{Certifiable, Number};
 
-use super::series::Series;
 use super::system::{Dimensions, System};
 use super::tube::{Part, Tube};
 use crate::Interval;
+use crate::series::Series;
 
 /// A function of the position along a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

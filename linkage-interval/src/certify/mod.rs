@@ -42,9 +42,7 @@ mod error;
 mod expansion;
 mod extremes;
 mod jet;
-mod matrix;
 mod motion;
-mod series;
 mod system;
 mod tube;
 mod turn;
@@ -56,9 +54,9 @@ pub use curve::Curve;
 pub use dead_point::DeadPoint;
 pub use error::CertifyError;
 pub use extremes::Enclosure;
-pub use series::Series;
 
 use crate::Interval;
+pub use crate::series::Series;
 use system::System;
 
 /// The most tests of tubes. A turn takes tens, one that passes a singularity at 1e-6 about a hundred.

@@ -165,7 +165,7 @@ pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> &'
             .collect();
         let rows: Vec<f64> = group.equations.iter().filter_map(|&row| system.rows.get(row).copied()).collect();
         let square: Vec<&[f64]> = block.iter().map(Vec::as_slice).collect();
-        let inverse = super::matrix::inverse(&square, &rows);
+        let inverse = crate::matrix::inverse(&square, &rows);
         let largest = inverse.map(|inverse| {
             let entries = inverse.iter().flat_map(|row| row.iter().zip(&rows).map(|(entry, row)| (entry * row).abs()));
             entries.fold(0.0, f64::max)

@@ -7,8 +7,8 @@ use linkage_runtime::jacobian::ScalesOf;
 use linkage_runtime::{Certifiable, Column, Dim, Formulas, Number};
 
 use super::error::CertifyError;
-use super::series::Series;
 use crate::Interval;
+use crate::series::{Series, lines, unit_line};
 
 /// A parameter with a tolerance: the formulas with its derivative, and the difference of its values from the middle.
 struct Tolerance<F> {
@@ -31,6 +31,7 @@ pub(super) struct System<M: Certifiable> {
     nominal: M::Over<Series<Interval>>,
     all: M::Over<Series<Interval>>,
     emitted: M::Over<Interval>,
+    parameters: Vec<Interval>,
     tolerances: Vec<Tolerance<M::Over<Series<Interval>>>>,
     inputs: Vec<f64>,
     moving: usize,
@@ -79,6 +80,7 @@ impl<M: Certifiable> System<M> {
         let coordinates =
             scales.coordinates.unknowns.iter().chain(scales.coordinates.inputs.iter().skip(moving).take(1));
         Ok(Self {
+            parameters: parameters.to_vec(),
             tolerances: tolerances.collect(),
             floats: M::Over::with_parameters(middles.map(Series::constant)),
             nominal: M::Over::with_parameters(middles.map(|value| Series::constant(value.into()))),
@@ -161,11 +163,16 @@ impl<M: Certifiable> System<M> {
     /// For each tolerance the derivative of the quantities by the parameter while the unknowns have these rates.
     pub(super) fn quantities_by_parameters(&self, q: &[Interval], rates: &[Vec<Interval>]) -> Vec<Vec<Interval>> {
         let by = |(tolerance, rates): (&Tolerance<M::Over<Series<Interval>>>, &Vec<Interval>)| {
-            let q: Vec<_> = q.iter().zip(rates).map(|(&x, &rate)| Series::line(x, rate)).collect();
-            let (unknowns, inputs) = self.split(&q);
+            let (unknowns, inputs) = self.split(&lines(q, rates));
             tolerance.by.quantities(&unknowns, &inputs).iter().map(|quantity| quantity.first).collect()
         };
         self.tolerances.iter().zip(rates).map(by).collect()
+    }
+
+    /// The unknowns, all inputs and the parameters, from the unknowns and the moving input.
+    pub(super) fn numbers(&self, q: &[Interval]) -> Vec<Interval> {
+        let (unknowns, inputs) = self.split(q);
+        unknowns.iter().chain(&inputs).chain(&self.parameters).copied().collect()
     }
 
     /// The columns of [J A], the derivatives of Psi by each coordinate.
@@ -201,20 +208,13 @@ impl<M: Certifiable> System<M> {
         if !of_input.iter().zip(a.iter().skip(self.moving)).all(|(own, emitted)| intersect(own, emitted.as_slice())) {
             return Err(contradiction("A"));
         }
-        let along: Vec<_> = q.iter().zip(&rates).map(|(&x, &rate)| Series::line(x, rate)).collect();
-        let own: Vec<_> = self.psi(Dimensions::All, &along).iter().map(|psi| psi.second).collect();
+        let own: Vec<_> = self.psi(Dimensions::All, &lines(q, &rates)).iter().map(|psi| psi.second).collect();
         let (unknown_rates, _) = self.split(&rates);
         let input_rate = rates.last().copied().unwrap_or(Interval::zero());
         let input_rates = Column::from_fn(|place| if place == self.moving { input_rate } else { Interval::zero() });
         let gamma = self.emitted.gamma(&unknowns, &inputs, &unknown_rates, &input_rates);
         if intersect(&own, gamma.as_slice()) { Ok(()) } else { Err(contradiction("gamma")) }
     }
-}
-
-/// q + t e, where e is the unit vector of a coordinate.
-fn unit_line<N: Number>(q: &[N], moving: usize) -> Vec<Series<N>> {
-    let rate = |place| if place == moving { N::one() } else { N::zero() };
-    q.iter().enumerate().map(|(place, &x)| Series::line(x, rate(place))).collect()
 }
 
 fn intersect(these: &[Interval], those: &[Interval]) -> bool {

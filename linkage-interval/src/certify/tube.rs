@@ -3,9 +3,9 @@
 use linkage_runtime::Certifiable;
 
 use super::expansion::{Expansion, Linear, others, with_parameter};
-use super::matrix::{apply, symmetric};
 use super::system::{Dimensions, System};
 use crate::Interval;
+use crate::matrix::{apply, symmetric};
 
 /// The radius of a tube divided by the bound of its residual. With less the test needs a nearly constant J, with more
 /// the tube is wider than necessary; 1.1 to 2 take about as many boxes.

@@ -1,5 +1,6 @@
-//! Certified motions.
+//! Certified motions, and velocities over boxes.
 
+mod boxes;
 mod curves;
 mod errors;
 mod extremes;

@@ -50,6 +50,17 @@ impl<N: Number> Series<N> {
     }
 }
 
+/// x + t r: numbers that grow with t at these rates.
+pub(crate) fn lines<N: Number>(x: &[N], rates: &[N]) -> Vec<Series<N>> {
+    x.iter().zip(rates).map(|(&x, &rate)| Series::line(x, rate)).collect()
+}
+
+/// x + t e, where e is the unit vector with its 1 at this index.
+pub(crate) fn unit_line<N: Number>(x: &[N], moving: usize) -> Vec<Series<N>> {
+    let rate = |place| if place == moving { N::one() } else { N::zero() };
+    x.iter().enumerate().map(|(place, &x)| Series::line(x, rate(place))).collect()
+}
+
 /// Twice a number.
 fn double<N: Number>(x: N) -> N {
     x + x
