@@ -1,0 +1,1 @@
+//! Sweeps of planar linkages as SQL tables.
