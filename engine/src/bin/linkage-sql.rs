@@ -1,0 +1,85 @@
+//! The command line: SQL on sweeps of the built-in mechanisms.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
+
+use clap::{Parser, Subcommand};
+use datafusion::arrow::util::pretty::pretty_format_batches;
+use datafusion::physical_plan::{ExecutionPlan, collect, execute_stream};
+use datafusion::prelude::SessionContext;
+use linkage_engine::{EngineError, Mechanisms, progress, session, write_parquet};
+
+/// SQL on sweeps of planar linkages.
+#[derive(Parser)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Answers a query in this process.
+    Sql {
+        /// The query, for example SELECT count(*) FROM sweep('four_bar', '{"factors": [...]}').
+        query: String,
+        /// Writes the result to this Parquet file. Otherwise it is printed.
+        #[arg(long)]
+        parquet: Option<PathBuf>,
+        /// Prints the number of computed chunks each second.
+        #[arg(long)]
+        progress: bool,
+    },
+}
+
+#[tokio::main]
+async fn main() -> ExitCode {
+    match run(Arguments::parse().command).await {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+async fn run(command: Command) -> Result<(), EngineError> {
+    match command {
+        Command::Sql { query, parquet, progress } => {
+            let context = session(Mechanisms::built_in()?);
+            let plan = context.sql(&query).await?.create_physical_plan().await?;
+            let counter = progress.then(|| tokio::spawn(print_progress(Arc::clone(&plan))));
+            let result = answer(&context, plan, parquet).await;
+            if let Some(counter) = counter {
+                counter.abort();
+            }
+            result
+        }
+    }
+}
+
+/// Prints or writes the result of a query.
+async fn answer(
+    context: &SessionContext,
+    plan: Arc<dyn ExecutionPlan>,
+    parquet: Option<PathBuf>,
+) -> Result<(), EngineError> {
+    match parquet {
+        Some(path) => {
+            let rows = write_parquet(execute_stream(plan, context.task_ctx())?, &path).await?;
+            println!("{rows} rows in {}", path.display());
+        }
+        None => println!("{}", pretty_format_batches(&collect(plan, context.task_ctx()).await?)?),
+    }
+    Ok(())
+}
+
+/// Prints the number of computed chunks each second.
+async fn print_progress(plan: Arc<dyn ExecutionPlan>) {
+    loop {
+        tokio::time::sleep(Duration::from_secs(1)).await;
+        let done = progress(&plan);
+        eprintln!("{} of {} chunks", done.chunks_done, done.chunks);
+    }
+}

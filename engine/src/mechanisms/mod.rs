@@ -1,0 +1,55 @@
+//! The mechanisms of the command line.
+
+mod four_bar;
+mod slider_crank;
+mod watt_six_bar;
+
+pub use four_bar::{FourBar, FourBarBranch};
+pub use slider_crank::{SliderCrank, SliderCrankBranch};
+pub use watt_six_bar::{WattSixBar, WattSixBarBranch};
+
+use linkage::{Elbow, Slider};
+use linkage_sweep::{Case, found};
+
+use crate::{EngineError, Family, Mechanisms};
+
+impl Mechanisms {
+    /// The mechanisms of the command line: `four_bar`, `slider_crank` and `six_bar`.
+    ///
+    /// # Errors
+    /// [`EngineError::Registered`], if two had the same name.
+    pub fn built_in() -> Result<Self, EngineError> {
+        let mut mechanisms = Self::default();
+        mechanisms
+            .register("four_bar", four_bar())?
+            .register("slider_crank", slider_crank())?
+            .register("six_bar", six_bar())?;
+        Ok(mechanisms)
+    }
+}
+
+fn four_bar() -> Family<FourBar<f64>> {
+    Family::new(FourBar::default(), FourBarBranch::new(Elbow::Left))
+        .branch("left", FourBarBranch::new(Elbow::Left))
+        .branch("right", FourBarBranch::new(Elbow::Right))
+        .case_column("min_mu", [found("mu")], least)
+}
+
+fn slider_crank() -> Family<SliderCrank<f64>> {
+    Family::new(SliderCrank::default(), SliderCrankBranch::new(Slider::Far))
+}
+
+fn six_bar() -> Family<WattSixBar<f64>> {
+    Family::new(WattSixBar::default(), WattSixBarBranch::new(Elbow::Left, Elbow::Left)).case_column(
+        "min_mu",
+        [found("mu")],
+        least,
+    )
+}
+
+/// The least number of a column, of a case whose rows are all accepted.
+fn least(case: &Case<'_, f64, 1>) -> Option<f64> {
+    let [numbers] = case.columns;
+    let least = || numbers.iter().copied().reduce(f64::min);
+    if case.accepted.iter().all(|accepted| *accepted) { least() } else { None }
+}

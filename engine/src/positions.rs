@@ -1,0 +1,167 @@
+//! Tables with a row for each position.
+
+use std::sync::Arc;
+
+use datafusion::arrow::array::{ArrayRef, RecordBatch, RecordBatchOptions, UInt64Array};
+use datafusion::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
+use linkage_runtime::lanes::Lanes;
+use linkage_sweep::{Chunk, Column, Sweep};
+use linkage_sweep_arrow::{Scalar, record_batch, schema};
+
+use crate::EngineError;
+use crate::chunked::{ChunkReader, Chunked};
+
+/// The column of the number of a row.
+pub const ROW: &str = "row";
+/// The column of the number of a case.
+pub const CASE: &str = "case";
+
+/// All positions of a sweep.
+pub struct Positions<M: Lanes> {
+    sweep: Arc<Sweep<M>>,
+    schema: SchemaRef,
+    columns: Vec<Part>,
+}
+
+/// The source of a column.
+#[derive(Clone)]
+enum Part {
+    /// The number of the row.
+    Row,
+    /// The number of its case.
+    Case,
+    /// A column of the sweep.
+    Column(Column),
+    /// The mask.
+    Accepted,
+}
+
+/// The fields of numbers of rows and cases, before those of another schema, with its metadata.
+pub fn with_numbers(names: &[&str], schema: &Schema, fields: Vec<Arc<Field>>) -> Result<SchemaRef, EngineError> {
+    let mut all: Vec<_> = names.iter().map(|name| Arc::new(Field::new(*name, DataType::UInt64, false))).collect();
+    for field in fields {
+        if all.iter().any(|other| other.name() == field.name()) {
+            return Err(EngineError::Registered { kind: "column", name: field.name().clone() });
+        }
+        all.push(field);
+    }
+    Ok(Arc::new(Schema::new_with_metadata(all, schema.metadata().clone())))
+}
+
+impl<M> Positions<M>
+where
+    M: Lanes,
+    M::Scalar: Scalar,
+{
+    /// The positions of a sweep, with the numbers of cases if there are any.
+    pub fn new(sweep: Sweep<M>, has_cases: bool) -> Result<Self, EngineError> {
+        let numbers = if has_cases { &[ROW, CASE][..] } else { &[ROW] };
+        let all = Column::all::<M>();
+        let inner = schema(&sweep, &all)?;
+        let schema = with_numbers(numbers, &inner, inner.fields().to_vec())?;
+        let first = [Part::Row, Part::Case].into_iter().take(numbers.len());
+        let columns = first.chain(all.into_iter().map(Part::Column)).chain([Part::Accepted]).collect();
+        Ok(Self { sweep: Arc::new(sweep), schema, columns })
+    }
+}
+
+impl<M> Chunked for Positions<M>
+where
+    M: Lanes + 'static,
+    M::Scalar: Scalar,
+    M::Branch: Send + Sync,
+{
+    fn schema(&self) -> SchemaRef {
+        Arc::clone(&self.schema)
+    }
+
+    fn rows(&self) -> u64 {
+        self.sweep.rows()
+    }
+
+    fn rows_per_chunk(&self) -> u64 {
+        self.sweep.rows_per_chunk()
+    }
+
+    fn ascending(&self) -> &'static [&'static str] {
+        &[ROW]
+    }
+
+    fn reader(&self, projection: &[usize]) -> Result<Box<dyn ChunkReader>, EngineError> {
+        let parts: Vec<Part> = projection.iter().filter_map(|&index| self.columns.get(index)).cloned().collect();
+        let columns = |part: &Part| match part {
+            Part::Column(column) => Some(column.clone()),
+            _ => None,
+        };
+        let columns: Vec<Column> = parts.iter().filter_map(columns).collect();
+        Ok(Box::new(Reader {
+            sweep: Arc::clone(&self.sweep),
+            schema: Arc::new(self.schema.project(projection)?),
+            inner: schema(&self.sweep, &columns)?,
+            parts,
+            columns,
+            chunk: None,
+        }))
+    }
+}
+
+/// Computes the positions of chunks.
+struct Reader<M: Lanes> {
+    sweep: Arc<Sweep<M>>,
+    schema: SchemaRef,
+    /// The schema of the columns of the sweep, then `accepted`.
+    inner: SchemaRef,
+    parts: Vec<Part>,
+    columns: Vec<Column>,
+    chunk: Option<Chunk<M>>,
+}
+
+impl<M> ChunkReader for Reader<M>
+where
+    M: Lanes,
+    M::Scalar: Scalar,
+    M::Branch: Send + Sync,
+{
+    fn read(&mut self, number: u64) -> Result<RecordBatch, EngineError> {
+        let is_computed = |part: &Part| matches!(part, Part::Column(_) | Part::Accepted);
+        let batch = match self.parts.iter().any(is_computed) {
+            true => Some(record_batch(&self.inner, compute(&self.sweep, &self.columns, &mut self.chunk, number)?)?),
+            false => None,
+        };
+        let first = number.saturating_mul(self.sweep.rows_per_chunk());
+        let rows = self.sweep.rows_per_chunk().min(self.sweep.rows().saturating_sub(first));
+        let rows_per_case = self.sweep.rows_per_case();
+        // Columns come in the order asked for, then `accepted`.
+        let mut computed = batch.iter().flat_map(RecordBatch::columns).cloned();
+        let accepted = batch.as_ref().and_then(|batch| batch.columns().last()).cloned();
+        let numbers = |number: &dyn Fn(u64) -> u64| -> ArrayRef {
+            Arc::new(UInt64Array::from_iter_values((first..first + rows).map(number)))
+        };
+        let arrays = self.parts.iter().filter_map(|part| match part {
+            Part::Row => Some(numbers(&|row| row)),
+            Part::Case => Some(numbers(&|row| row / rows_per_case)),
+            Part::Column(_) => computed.next(),
+            Part::Accepted => accepted.clone(),
+        });
+        let arrays: Vec<ArrayRef> = arrays.collect();
+        let options = RecordBatchOptions::new().with_row_count(Some(rows as usize));
+        Ok(RecordBatch::try_new_with_options(Arc::clone(&self.schema), arrays, &options)?)
+    }
+}
+
+/// Computes a chunk, in the memory of the one before.
+pub fn compute<'a, M: Lanes>(
+    sweep: &Sweep<M>,
+    columns: &[Column],
+    chunk: &'a mut Option<Chunk<M>>,
+    number: u64,
+) -> Result<&'a Chunk<M>, EngineError> {
+    let next = match chunk.take() {
+        Some(mut chunk) => {
+            sweep.compute(number, &mut chunk)?;
+            chunk
+        }
+        None => sweep.chunk(number, columns)?,
+    };
+    Ok(chunk.insert(next))
+}

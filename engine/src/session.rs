@@ -1,0 +1,29 @@
+//! Sessions with the table functions.
+
+use std::sync::Arc;
+
+use datafusion::prelude::{SessionConfig, SessionContext};
+
+use crate::function::SweepFunction;
+use crate::{Mechanisms, TableKind};
+
+/// A session of DataFusion with the table functions `sweep` and `cases`, and a partition for each core.
+///
+/// Upper and lower case of names differ, as in mechanisms: `P_x` needs no quotes.
+#[must_use]
+pub fn session(mechanisms: Mechanisms) -> SessionContext {
+    let mut config = SessionConfig::new();
+    config.options_mut().sql_parser.enable_ident_normalization = false;
+    let context = SessionContext::new_with_config(config);
+    register(&context, mechanisms);
+    context
+}
+
+/// Adds the table functions `sweep` and `cases` to a session.
+pub fn register(context: &SessionContext, mechanisms: Mechanisms) {
+    let mechanisms = Arc::new(mechanisms);
+    for kind in [TableKind::Sweep, TableKind::Cases] {
+        let mechanisms = Arc::clone(&mechanisms);
+        context.register_udtf(kind.function(), Arc::new(SweepFunction { kind, mechanisms }));
+    }
+}
