@@ -35,7 +35,7 @@ impl Default for ExecutorOptions {
             port: 0,
             task_port: 0,
             tasks: 0,
-            heartbeat: 5,
+            heartbeat: 2,
         }
     }
 }
@@ -73,6 +73,7 @@ pub async fn executor(mechanisms: Mechanisms, options: ExecutorOptions) -> Resul
 /// The parts of an address.
 pub(super) fn host_and_port(address: &str) -> Result<(String, u16), ClusterError> {
     let parts = address.rsplit_once(':').and_then(|(host, port)| Some((host, port.parse().ok()?)));
-    let (host, port) = parts.filter(|(host, _)| !host.is_empty()).ok_or_else(|| ClusterError::Address(address.to_owned()))?;
+    let (host, port) =
+        parts.filter(|(host, _)| !host.is_empty()).ok_or_else(|| ClusterError::Address(address.to_owned()))?;
     Ok((host.to_owned(), port))
 }

@@ -31,7 +31,7 @@ pub struct SchedulerOptions {
 
 impl Default for SchedulerOptions {
     fn default() -> Self {
-        Self { bind: "127.0.0.1".to_owned(), port: 50050, advertise: None, executors: 1, timeout: 30 }
+        Self { bind: "127.0.0.1".to_owned(), port: 50050, advertise: None, executors: 1, timeout: 10 }
     }
 }
 

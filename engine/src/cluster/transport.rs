@@ -16,7 +16,11 @@ const ANSWER: Duration = Duration::from_secs(5);
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Listens at `host:port`; port 0 takes one that is free.
-pub(super) async fn listen(role: &'static str, host: &str, port: u16) -> Result<(TcpListener, SocketAddr), ClusterError> {
+pub(super) async fn listen(
+    role: &'static str,
+    host: &str,
+    port: u16,
+) -> Result<(TcpListener, SocketAddr), ClusterError> {
     let error = |source| ClusterError::Listen { role, address: format!("{host}:{port}"), source };
     let listener = TcpListener::bind((host, port)).await.map_err(error)?;
     let address = listener.local_addr().map_err(error)?;

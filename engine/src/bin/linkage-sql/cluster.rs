@@ -26,7 +26,7 @@ pub struct SchedulerArguments {
     #[arg(long, default_value_t = 1)]
     executors: usize,
     /// An executor that is silent for this number of seconds is lost.
-    #[arg(long, default_value_t = 30)]
+    #[arg(long, default_value_t = 10)]
     timeout: u64,
 }
 
@@ -52,7 +52,7 @@ pub struct ExecutorArguments {
     #[arg(long, default_value_t = 0)]
     tasks: usize,
     /// The number of seconds between two signs of life.
-    #[arg(long, default_value_t = 5)]
+    #[arg(long, default_value_t = 2)]
     heartbeat: u64,
     /// Writes a line when a partition begins and when it ends.
     #[arg(long)]
