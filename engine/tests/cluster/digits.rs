@@ -1,6 +1,7 @@
 //! The same digits on a cluster as of `linkage-sweep` alone, also when an executor is lost.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::Mutex;
 use std::time::Duration;
 
 use datafusion::arrow::array::{Array, AsArray, RecordBatch};
@@ -140,4 +141,25 @@ async fn killed_while_sorting() {
 #[tokio::test(flavor = "multi_thread")]
 async fn silent() {
     assert_eq!(with_signal(&query(COLUMNS), "STOP").await, expected());
+}
+
+/// The executor with the result is killed before the result is read: the query runs again on another one.
+#[tokio::test(flavor = "multi_thread")]
+async fn lost_result() {
+    let mut processes = Processes::start(1);
+    let cluster = processes.cluster();
+    let only = Mutex::new(Some(processes.executors.remove(0)));
+    let other = Mutex::new(None);
+    let query = query(COLUMNS);
+    let answer = cluster.answer(&query, |rows| async {
+        if let Some(mut executor) = only.lock().expect("no panic").take() {
+            executor.kill();
+            *other.lock().expect("no panic") = Some(processes.executor());
+        }
+        Ok(collect(rows).await?)
+    });
+    let batches = timeout(PATIENCE, answer).await.expect("an answer in time").expect("an answer");
+    assert_eq!(hash(rows(&batches)), expected());
+    let other = other.into_inner().expect("no panic").expect("it was started");
+    assert_eq!(other.partitions("ends").len(), 16);
 }

@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::processes::{Process, Processes, until};
 
-const QUERY: &str = r#"SELECT row, mu FROM sweep('four_bar', '{"factors": [{"Turn": {"column": "theta2", "count": 9}}]}')"#;
+const QUERY: &str =
+    r#"SELECT row, mu FROM sweep('four_bar', '{"factors": [{"Turn": {"column": "theta2", "count": 9}}]}')"#;
 
 /// Runs the command line, which fails; its message.
 fn message(arguments: &[&str]) -> String {

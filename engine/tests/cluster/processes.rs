@@ -108,9 +108,14 @@ impl Processes {
         let scheduler = Process::start(&["scheduler", "--port", "0", "--timeout", "3", "--executors", &count]);
         until("the scheduler prints its address", || !scheduler.lines().is_empty());
         let address = scheduler.lines()[0].clone();
-        let arguments = ["executor", "--scheduler", &address, "--tasks", "1", "--heartbeat", "1", "--verbose"];
-        let executors = (0..executors).map(|_| Process::start(&arguments)).collect();
-        Self { executors, scheduler, address }
+        let mut processes = Self { executors: Vec::new(), scheduler, address };
+        processes.executors = (0..executors).map(|_| processes.executor()).collect();
+        processes
+    }
+
+    /// Starts another executor.
+    pub fn executor(&self) -> Process {
+        Process::start(&["executor", "--scheduler", &self.address, "--tasks", "1", "--heartbeat", "1", "--verbose"])
     }
 
     /// The cluster, with 16 partitions.
