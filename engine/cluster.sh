@@ -32,11 +32,9 @@ start() {
 
 stop() {
     [ -e "$folder/pids" ] || { echo "no cluster is running" >&2; return; }
-    # Executors first: they tell the scheduler. The last ones are those that were started last.
+    # Executors first: they tell the scheduler that they end.
     for pid in $(tac "$folder/pids"); do
         kill "$pid" 2>/dev/null || true
-    done
-    for pid in $(tac "$folder/pids"); do
         for _ in $(seq 100); do
             kill -0 "$pid" 2>/dev/null || break
             sleep 0.1
