@@ -38,7 +38,9 @@ impl Failure {
     /// The reason in the text of a failed job, or the whole text.
     pub fn reason(text: &str) -> String {
         let marked = text.split_once(Self::BEGIN).and_then(|(_, text)| text.rsplit_once(Self::END));
-        let Some((escaped, rest)) = marked else { return text.to_owned() };
+        let Some((escaped, rest)) = marked else {
+            return text.strip_prefix("Execution error: ").unwrap_or(text).to_owned();
+        };
         let reason = serde_json::from_str(&format!("\"{escaped}\"")).unwrap_or_else(|_| escaped.to_owned());
         // Errors of a job are not repeated.
         let is_repeated = text.contains(&format!("failed {ATTEMPTS} times")) && !rest.is_empty();

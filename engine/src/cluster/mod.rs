@@ -9,6 +9,20 @@
 //! - A partition whose chunk fails, also by a panic, runs again; after [`ATTEMPTS`] failures the job fails with the
 //!   number of the chunk and the reason.
 //! - The last stage of a job is one task, so that its result is complete or not there at all.
+//!
+//! Executors with other mechanisms than those of the command line are programs of a few lines:
+//!
+//! ```no_run
+//! use linkage_engine::Mechanisms;
+//! use linkage_engine::cluster::{ClusterError, ExecutorOptions, executor};
+//!
+//! #[tokio::main]
+//! async fn main() -> Result<(), ClusterError> {
+//!     let mechanisms = Mechanisms::built_in()?; // and those that you register
+//!     let options = ExecutorOptions { scheduler: "10.0.0.1:50050".to_owned(), ..ExecutorOptions::default() };
+//!     executor(mechanisms, options).await
+//! }
+//! ```
 
 mod client;
 mod codec;

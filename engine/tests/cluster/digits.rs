@@ -162,3 +162,19 @@ async fn lost_result() {
     let other = other.into_inner().expect("no panic").expect("it was started");
     assert_eq!(other.partitions("ends").len(), 16);
 }
+
+/// The only executor is killed: the job fails.
+#[tokio::test(flavor = "multi_thread")]
+async fn no_executor_remains() {
+    let mut processes = Processes::start(1);
+    let cluster = processes.cluster();
+    let answer = tokio::spawn(async move { answer(&cluster, &query(COLUMNS)).await });
+    let mut only = processes.executors.remove(0);
+    let killed = tokio::task::spawn_blocking(move || {
+        until("the executor finishes a partition", || !only.partitions("ends").is_empty());
+        only.kill();
+    });
+    killed.await.expect("no panic");
+    let error = answer.await.expect("no panic").expect_err("no answer").to_string();
+    assert!(error.contains(&processes.address) && error.contains("executor"), "{error}");
+}

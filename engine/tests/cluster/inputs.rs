@@ -18,7 +18,7 @@ fn message(arguments: &[&str]) -> String {
     String::from_utf8(stderr).expect("text").trim_end().to_owned()
 }
 
-/// An address at which nobody listens.
+/// An address that is free.
 fn free() -> String {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     listener.local_addr().expect("an address").to_string()
@@ -107,7 +107,7 @@ fn file() {
     let name = file.to_string_lossy();
     let arguments = ["sql", "--scheduler", &processes.address, "--parquet", &name];
     let message = message(&[&arguments[..], &[&QUERY.replace("mu", "1 / (row - 4)")]].concat());
-    assert!(message.contains("DivideByZero"), "{message}");
+    assert!(message.contains("DivideByZero") && message.lines().count() == 1, "{message}");
     assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
     let output = Command::new(env!("CARGO_BIN_EXE_linkage-sql")).args(arguments).arg(QUERY).output();
     assert_eq!(String::from_utf8_lossy(&output.expect("it runs").stdout), format!("9 rows in {name}\n"));

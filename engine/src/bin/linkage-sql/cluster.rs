@@ -61,7 +61,7 @@ pub struct ExecutorArguments {
 
 /// Runs a scheduler until it is interrupted. Its first line is its address.
 pub async fn scheduler(arguments: SchedulerArguments) -> Result<(), ClusterError> {
-    super::log::start(false);
+    super::log::of_server(false);
     let SchedulerArguments { bind, port, advertise, executors, timeout } = arguments;
     let options = SchedulerOptions { bind, port, advertise, executors, timeout };
     let scheduler = Scheduler::bind(options).await?;
@@ -76,7 +76,7 @@ pub async fn scheduler(arguments: SchedulerArguments) -> Result<(), ClusterError
 
 /// Runs an executor until it is interrupted or the scheduler is gone.
 pub async fn executor(arguments: ExecutorArguments, mechanisms: Mechanisms) -> Result<(), ClusterError> {
-    super::log::start(arguments.verbose);
+    super::log::of_server(arguments.verbose);
     let ExecutorArguments { scheduler, bind, advertise, port, task_port, tasks, heartbeat, verbose: _ } = arguments;
     let options = ExecutorOptions { scheduler, bind, advertise, port, task_port, tasks, heartbeat };
     linkage_engine::cluster::executor(mechanisms, options).await
@@ -90,7 +90,7 @@ pub async fn answer(
     mechanisms: Mechanisms,
     settings: (usize, u64),
 ) -> Result<(), ClusterError> {
-    super::log::start(false);
+    super::log::of_client();
     let (partitions, wait) = settings;
     let cluster = Cluster::new(scheduler, mechanisms)?;
     let cluster = cluster.with_partitions(partitions).with_wait(Duration::from_secs(wait));

@@ -2,12 +2,14 @@
 
 use log::{LevelFilter, Log, Metadata, Record};
 
-/// The lines of this crate from a level on, and those of all others from warnings on.
-struct Lines;
+/// The lines of this crate, and those of all others from a level on.
+struct Lines {
+    others: LevelFilter,
+}
 
 impl Log for Lines {
     fn enabled(&self, metadata: &Metadata<'_>) -> bool {
-        metadata.level() <= LevelFilter::Warn || metadata.target().starts_with("linkage")
+        metadata.level() <= self.others || metadata.target().starts_with("linkage")
     }
 
     fn log(&self, record: &Record<'_>) {
@@ -19,9 +21,18 @@ impl Log for Lines {
     fn flush(&self) {}
 }
 
-/// Writes warnings and errors; with `verbose` also the begin and end of each partition.
-pub fn start(verbose: bool) {
-    log::set_max_level(if verbose { LevelFilter::Debug } else { LevelFilter::Warn });
+/// The log of a client: Ballista would write the errors that it returns.
+pub fn of_client() {
+    start(&Lines { others: LevelFilter::Off }, LevelFilter::Warn);
+}
+
+/// The log of a scheduler or an executor; with `verbose` the begin and end of each partition too.
+pub fn of_server(verbose: bool) {
+    start(&Lines { others: LevelFilter::Warn }, if verbose { LevelFilter::Debug } else { LevelFilter::Warn });
+}
+
+fn start(lines: &'static Lines, level: LevelFilter) {
+    log::set_max_level(level);
     // It fails only if there is a log already.
-    let _ = log::set_logger(&Lines);
+    let _ = log::set_logger(lines);
 }
