@@ -1,4 +1,4 @@
-//! The same digits on a cluster as of `linkage-sweep` alone, also when an executor is lost.
+//! A cluster computes the digits of `linkage-sweep` alone, also when an executor is lost.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Mutex;

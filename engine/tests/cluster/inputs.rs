@@ -30,10 +30,14 @@ fn unreachable_scheduler() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("rows.parquet");
     let file = file.to_string_lossy();
-    let expected = format!("error: the scheduler at {address} does not answer: Connection refused (os error 111)");
-    assert_eq!(message(&["sql", "--scheduler", &address, "--parquet", &file, QUERY]), expected);
+    let expected = format!("error: the scheduler at {address} does not answer: ");
+    for arguments in
+        [&["sql", "--scheduler", &address, "--parquet", &file, QUERY][..], &["executor", "--scheduler", &address]]
+    {
+        let message = message(arguments);
+        assert!(message.starts_with(&expected) && message.ends_with("(os error 111)"), "{message}");
+    }
     assert!(!Path::new(&*file).exists());
-    assert_eq!(message(&["executor", "--scheduler", &address]), expected);
 }
 
 #[test]

@@ -4,3 +4,4 @@ mod digits;
 mod failures;
 mod inputs;
 mod processes;
+mod script;
