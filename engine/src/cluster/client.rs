@@ -91,7 +91,7 @@ impl Cluster {
     {
         let options = SQLOptions::new().with_allow_ddl(false).with_allow_dml(false);
         let plan = self.context.sql_with_options(sql, options).await?.create_physical_plan().await?;
-        if !TaskScan::is_needed(&plan)? {
+        if !TaskScan::is_needed(&plan) {
             return Ok(take(execute_stream(plan, self.context.task_ctx())?).await?);
         }
         let plan = TaskScan::distribute(plan)?;

@@ -99,11 +99,9 @@ impl TaskScan {
     }
 
     /// True if a plan reads a sweep.
-    ///
-    /// # Errors
-    /// None in practice: that of a traversal.
-    pub fn is_needed(plan: &Arc<dyn ExecutionPlan>) -> Result<bool> {
-        plan.exists(|node| Ok(node.is::<SweepScan>()))
+    #[must_use]
+    pub fn is_needed(plan: &Arc<dyn ExecutionPlan>) -> bool {
+        plan.is::<SweepScan>() || plan.children().into_iter().any(Self::is_needed)
     }
 }
 
