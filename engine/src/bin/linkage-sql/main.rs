@@ -72,12 +72,12 @@ async fn run(command: Command) -> Result<(), ClusterError> {
         Command::Sql { query, parquet, progress, .. } => {
             let context = session(mechanisms);
             let plan = context.sql(&query).await?.create_physical_plan().await?;
-            let counter = progress.then(|| tokio::spawn(print_progress(Arc::clone(&plan))));
-            let result = answer(&context, plan, parquet).await;
-            if let Some(counter) = counter {
-                counter.abort();
+            if progress {
+                let plan = Arc::clone(&plan);
+                // The timers of the runtime wait while all its threads compute. The thread ends with the process.
+                std::thread::spawn(move || print_progress(&plan));
             }
-            Ok(result?)
+            Ok(answer(&context, plan, parquet).await?)
         }
     }
 }
@@ -99,10 +99,10 @@ async fn answer(
 }
 
 /// Prints the number of computed chunks each second.
-async fn print_progress(plan: Arc<dyn ExecutionPlan>) {
+fn print_progress(plan: &Arc<dyn ExecutionPlan>) {
     loop {
-        tokio::time::sleep(Duration::from_secs(1)).await;
-        let done = progress(&plan);
+        std::thread::sleep(Duration::from_secs(1));
+        let done = progress(plan);
         eprintln!("{} of {} chunks", done.chunks_done, done.chunks);
     }
 }
