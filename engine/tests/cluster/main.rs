@@ -1,0 +1,7 @@
+//! Queries on a Ballista cluster.
+
+mod digits;
+mod failures;
+mod inputs;
+mod processes;
+mod script;
