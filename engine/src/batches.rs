@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use datafusion::arrow::array::RecordBatch;
 use datafusion::error::Result;
-use datafusion::physical_plan::metrics::{BaselineMetrics, Count};
+use datafusion::physical_plan::metrics::{BaselineMetrics, Count, RecordOutput};
 
 use crate::EngineError;
 use crate::chunked::ChunkReader;
@@ -71,7 +71,6 @@ impl Iterator for Batches {
         };
         let rows = chunk.num_rows().min(self.rows_per_batch);
         self.ready = (rows < chunk.num_rows()).then(|| chunk.slice(rows, chunk.num_rows() - rows));
-        self.metrics.record_output(rows);
-        Some(Ok(chunk.slice(0, rows)))
+        Some(Ok(chunk.slice(0, rows).record_output(&self.metrics)))
     }
 }

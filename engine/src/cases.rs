@@ -13,7 +13,10 @@ use linkage_sweep_arrow::{Scalar, schema};
 use crate::EngineError;
 use crate::chunked::{ChunkReader, Chunked};
 use crate::family::CaseColumn;
-use crate::positions::{CASE, ROW, compute, with_numbers};
+use crate::positions::{CASE, compute, with_numbers};
+
+/// The column of the number of the first row.
+const FIRST_ROW: &str = "first_row";
 
 /// The cases of a sweep.
 pub struct Cases<M: Lanes> {
@@ -59,7 +62,7 @@ where
         let inner = schema(&sweep, &columns)?;
         let of_values = values.iter().map(|value| Arc::new(Field::new(&value.name, DataType::Float64, true)));
         let fields = inner.fields().iter().cloned().chain(of_values).collect();
-        let schema = with_numbers(&[CASE, ROW], &inner, fields)?;
+        let schema = with_numbers(&[CASE, FIRST_ROW], &inner, fields)?;
         let of_given = (0..M::GIVEN.len()).map(Part::Given);
         let parts = [Part::Case, Part::Row].into_iter().chain(of_given).chain([Part::Accepted]);
         let parts = parts.chain(values.into_iter().map(Part::Value)).collect();
@@ -87,7 +90,7 @@ where
     }
 
     fn ascending(&self) -> &'static [&'static str] {
-        &[CASE, ROW]
+        &[CASE, FIRST_ROW]
     }
 
     fn reader(&self, projection: &[usize]) -> Result<Box<dyn ChunkReader>, EngineError> {

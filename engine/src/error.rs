@@ -3,8 +3,11 @@
 use std::fmt;
 
 use datafusion::arrow::error::ArrowError;
+use datafusion::common::SchemaError;
 use datafusion::error::DataFusionError;
 use linkage_sweep::SweepError;
+
+use crate::nearest::nearest;
 
 /// The reason why a query is not answered.
 #[derive(Debug)]
@@ -127,9 +130,10 @@ impl fmt::Display for EngineError {
                 write!(f, "there is no {quantity} of index {index}: there are {count}")
             }
             Self::Sweep(error) => error.fmt(f),
-            Self::Query(error) => match cause(error) {
-                Some(error) => error.fmt(f),
-                None => f.write_str(&error.strip_backtrace()),
+            Self::Query(error) => match (cause(error), error.find_root()) {
+                (Some(error), _) => error.fmt(f),
+                (None, DataFusionError::SchemaError(error, _)) => schema(error, f),
+                (None, _) => f.write_str(&error.strip_backtrace()),
             },
         }
     }
@@ -145,6 +149,14 @@ fn cause(error: &DataFusionError) -> Option<&EngineError> {
         error = this.source();
     }
     None
+}
+
+/// An error of columns. DataFusion's own message has the names of all columns, of which mechanisms have many.
+fn schema(error: &SchemaError, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let SchemaError::FieldNotFound { field, valid_fields } = error else { return write!(f, "{error}") };
+    write!(f, "there is no column {}", field.name())?;
+    let nearest = nearest(field.name(), valid_fields.iter().map(|field| field.name()));
+    nearest.map_or(Ok(()), |nearest| write!(f, ", did you mean {nearest}?"))
 }
 
 /// Names with commas between them.

@@ -21,8 +21,8 @@
 //!
 //! - `sweep` has a row for each position: its number `row`, the given and the found columns, and `accepted`. Found
 //!   numbers of rejected rows are null.
-//! - `cases` has a row for each case, for example for each design: the number `case`, its first `row`, the given numbers
-//!   of that row, `accepted` if all its rows are, and the [case columns](Family::case_column) of the mechanism.
+//! - `cases` has a row for each case, for example for each design: its `case_number`, its `first_row`, the given
+//!   numbers of that row, `accepted` if all its rows are, and the [case columns](Family::case_column) of the mechanism.
 //!
 //! Only the columns that a query asks for are computed, one chunk of rows after the other. The partitions of a query
 //! take turns: partition p of n computes the chunks p, p + n, p + 2n and so on. A chunk is a pure function of mechanism,

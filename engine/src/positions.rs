@@ -14,7 +14,7 @@ use crate::chunked::{ChunkReader, Chunked};
 /// The column of the number of a row.
 pub const ROW: &str = "row";
 /// The column of the number of a case.
-pub const CASE: &str = "case";
+pub const CASE: &str = "case_number";
 
 /// All positions of a sweep.
 pub struct Positions<M: Lanes> {

@@ -9,7 +9,7 @@ use crate::{Mechanisms, TableKind};
 
 /// A session of DataFusion with the table functions `sweep` and `cases`, and a partition for each core.
 ///
-/// Upper and lower case of names differ, as in mechanisms: `P_x` needs no quotes.
+/// Upper and lower case of names differ, as in mechanisms: a parameter `L` needs no quotes.
 #[must_use]
 pub fn session(mechanisms: Mechanisms) -> SessionContext {
     let mut config = SessionConfig::new();
