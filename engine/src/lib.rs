@@ -1,4 +1,4 @@
-//! Sweeps of planar linkages as SQL tables, on DataFusion.
+//! Sweeps of planar linkages as SQL tables, on DataFusion and on a Ballista cluster.
 //!
 //! ```
 //! use linkage_engine::{Mechanisms, session};
@@ -27,10 +27,13 @@
 //! Only the columns that a query asks for are computed, one chunk of rows after the other. The partitions of a query
 //! take turns: partition p of n computes the chunks p, p + n, p + 2n and so on. A chunk is a pure function of mechanism,
 //! request and number, so that no number depends on the partitions.
+//!
+//! The same queries run on a [cluster].
 
 mod batches;
 mod cases;
 mod chunked;
+pub mod cluster;
 mod error;
 mod family;
 mod function;

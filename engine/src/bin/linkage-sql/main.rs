@@ -1,5 +1,8 @@
 //! The command line: SQL on sweeps of the built-in mechanisms.
 
+mod cluster;
+mod log;
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -9,6 +12,7 @@ use clap::{Parser, Subcommand};
 use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::physical_plan::{ExecutionPlan, collect, execute_stream};
 use datafusion::prelude::SessionContext;
+use linkage_engine::cluster::{Cluster, ClusterError};
 use linkage_engine::{EngineError, Mechanisms, progress, session, write_parquet};
 
 /// SQL on sweeps of planar linkages.
@@ -30,7 +34,20 @@ enum Command {
         /// Prints the number of computed chunks each second.
         #[arg(long)]
         progress: bool,
+        /// Answers the query on the cluster of this scheduler, HOST:PORT.
+        #[arg(long)]
+        scheduler: Option<String>,
+        /// The partitions of a scan on a cluster, each a task.
+        #[arg(long, default_value_t = Cluster::PARTITIONS, requires = "scheduler")]
+        partitions: usize,
+        /// The number of seconds to wait for executors.
+        #[arg(long, default_value_t = 30, requires = "scheduler")]
+        wait: u64,
     },
+    /// Runs the scheduler of a cluster.
+    Scheduler(cluster::SchedulerArguments),
+    /// Runs an executor of a cluster.
+    Executor(cluster::ExecutorArguments),
 }
 
 #[tokio::main]
@@ -44,17 +61,23 @@ async fn main() -> ExitCode {
     }
 }
 
-async fn run(command: Command) -> Result<(), EngineError> {
+async fn run(command: Command) -> Result<(), ClusterError> {
+    let mechanisms = Mechanisms::built_in()?;
     match command {
-        Command::Sql { query, parquet, progress } => {
-            let context = session(Mechanisms::built_in()?);
+        Command::Sql { query, parquet, scheduler: Some(scheduler), partitions, wait, .. } => {
+            cluster::answer(scheduler, &query, parquet, mechanisms, (partitions, wait)).await
+        }
+        Command::Scheduler(arguments) => cluster::scheduler(arguments, mechanisms).await,
+        Command::Executor(arguments) => cluster::executor(arguments, mechanisms).await,
+        Command::Sql { query, parquet, progress, .. } => {
+            let context = session(mechanisms);
             let plan = context.sql(&query).await?.create_physical_plan().await?;
             let counter = progress.then(|| tokio::spawn(print_progress(Arc::clone(&plan))));
             let result = answer(&context, plan, parquet).await;
             if let Some(counter) = counter {
                 counter.abort();
             }
-            result
+            Ok(result?)
         }
     }
 }
