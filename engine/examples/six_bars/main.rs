@@ -35,15 +35,18 @@ struct Options {
     /// The page; the table of the designs is written next to it, as CSV.
     #[arg(long, default_value = "target/six_bars.html")]
     page: PathBuf,
+    /// Answers the query on the cluster of this scheduler, HOST:PORT. Otherwise in this process.
+    #[arg(long)]
+    scheduler: Option<String>,
 }
 
 #[tokio::main]
 async fn main() -> Result<(), Box<dyn Error>> {
-    let Options { designs, seed, page: path } = Options::parse();
+    let Options { designs, seed, page: path, scheduler } = Options::parse();
     let designs = designs.get();
     let query = query::sql(&query::request(designs, seed))?;
     let start = Instant::now();
-    let rows = answer::rows(&query).await?;
+    let rows = answer::rows(&query, scheduler).await?;
     let seconds = start.elapsed().as_secs_f64();
     let curve = FootPath::new()?;
     let legs = rows.into_iter().map(|row| Leg::new(&curve, row)).collect::<Result<Vec<_>, _>>()?;

@@ -58,10 +58,10 @@ pub fn request(designs: u64, seed: u64) -> Request {
 pub fn sql(request: &Request) -> Result<String, EngineError> {
     let lengths: Vec<&str> = RANGES.iter().map(|(name, ..)| *name).collect();
     Ok(format!(
-        "SELECT \"case\", crank, {}, {}\n\
+        "SELECT case_number, crank, {}, {}\n\
          FROM cases('six_bar', '{}')\n\
          WHERE min_mu > radians(40) AND size < 2.5 AND clearance > 0\n\
-         ORDER BY distance, \"case\" LIMIT {BEST}",
+         ORDER BY distance, case_number LIMIT {BEST}",
         lengths.join(", "),
         MEASURES.join(", "),
         request.to_json()?
@@ -70,7 +70,7 @@ pub fn sql(request: &Request) -> Result<String, EngineError> {
 
 /// The rows of a batch; none if it has other columns than those of the query.
 pub fn rows(batch: &RecordBatch) -> Option<Vec<Row>> {
-    let cases = batch.column_by_name("case")?.as_any().downcast_ref::<UInt64Array>()?;
+    let cases = batch.column_by_name("case_number")?.as_any().downcast_ref::<UInt64Array>()?;
     let numbers: Option<Vec<&Float64Array>> =
         batch.columns().iter().skip(1).map(|column| column.as_any().downcast_ref::<Float64Array>()).collect();
     let numbers =
