@@ -145,7 +145,7 @@ async fn answer_does_not_depend_on_partitions_and_chunks() -> Result<(), Failure
         let context = SessionContext::new_with_config(config);
         register(&context, Mechanisms::built_in()?);
         let request = Request { rows_per_chunk: Some(rows_per_chunk), ..request(DESIGNS, 5) };
-        assert_eq!(answer(&context, &request).await?, wanted, "{partitions} partitions");
+        assert!(answer(&context, &request).await? == wanted, "other rows with {partitions} partitions");
     }
     Ok(())
 }
