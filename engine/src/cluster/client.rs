@@ -25,7 +25,6 @@ use crate::{EngineError, Mechanisms, register};
 pub struct Cluster {
     scheduler: String,
     context: SessionContext,
-    codec: Arc<SweepCodec>,
     wait: Duration,
 }
 
@@ -48,9 +47,8 @@ impl Cluster {
             .set_bool("ballista.client.pull", true);
         config.options_mut().sql_parser.enable_ident_normalization = false;
         let context = SessionContext::new_with_config(config);
-        register(&context, mechanisms.clone());
-        let codec = Arc::new(SweepCodec::new(Arc::new(mechanisms)));
-        Ok(Self { scheduler, context, codec, wait: Duration::from_secs(30) })
+        register(&context, mechanisms);
+        Ok(Self { scheduler, context, wait: Duration::from_secs(30) })
     }
 
     /// Sets the number of partitions of a scan.
@@ -83,11 +81,14 @@ impl Cluster {
     /// # Errors
     /// Those of `take` and of the plan as [`ClusterError::Query`]; [`ClusterError::Job`] if the cluster cannot run it;
     /// those of [`ready`](Self::ready).
-    pub async fn answer<T>(
+    pub async fn answer<T, F>(
         &self,
         sql: &str,
-        take: impl AsyncFn(SendableRecordBatchStream) -> Result<T, EngineError>,
-    ) -> Result<T, ClusterError> {
+        take: impl Fn(SendableRecordBatchStream) -> F,
+    ) -> Result<T, ClusterError>
+    where
+        F: Future<Output = Result<T, EngineError>>,
+    {
         let options = SQLOptions::new().with_allow_ddl(false).with_allow_dml(false);
         let plan = self.context.sql_with_options(sql, options).await?.create_physical_plan().await?;
         if !TaskScan::is_needed(&plan)? {
@@ -120,12 +121,12 @@ impl Cluster {
         lost: Arc<AtomicBool>,
     ) -> Result<SendableRecordBatchStream, ClusterError> {
         let config = self.context.copied_config();
-        let ballista = config.ballista_config();
+        let (ballista, codec) = (config.ballista_config(), SweepCodec::default());
         let rows = execute_physical_plan::<PhysicalPlanNode>(
             format!("http://{}", self.scheduler),
             &ballista,
             plan,
-            self.codec.as_ref(),
+            &codec,
             self.context.session_id(),
             config,
         );

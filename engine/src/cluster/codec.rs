@@ -3,31 +3,57 @@
 use std::sync::Arc;
 
 use ballista_core::serde::BallistaPhysicalExtensionCodec;
-use datafusion::common::plan_err;
+use datafusion::arrow::ipc::convert::{IpcSchemaEncoder, fb_to_schema};
+use datafusion::arrow::ipc::root_as_schema;
+use datafusion::common::{internal_err, plan_err};
 use datafusion::error::Result;
 use datafusion::execution::TaskContext;
 use datafusion::physical_plan::ExecutionPlan;
 use datafusion_proto::physical_plan::{PhysicalExtensionCodec, PhysicalProtoConverterExtension};
 
 use super::TaskScan;
+use super::task_scan::Scan;
 use crate::{EngineError, Mechanisms, ScanSpec, SweepScan};
 
 /// The first bytes of a scan. No message of Ballista begins with them: in protobuf they would be a field of a wire type
 /// that does not exist.
 const TAG: &[u8] = b"\x07linkage\n";
 
-/// Scans of tasks as bytes, in addition to the nodes of Ballista: a tag, then the [scan](ScanSpec) in JSON.
-#[derive(Debug)]
+/// Scans of tasks as bytes, in addition to the nodes of Ballista: a tag, the [scan](ScanSpec) as JSON on one line, and
+/// the schema of its rows as a flat buffer of Arrow.
+#[derive(Debug, Default)]
 pub struct SweepCodec {
-    mechanisms: Arc<Mechanisms>,
+    executor: Option<Place>,
     ballista: BallistaPhysicalExtensionCodec,
 }
 
+/// An executor.
+#[derive(Debug)]
+struct Place {
+    mechanisms: Mechanisms,
+    address: String,
+}
+
 impl SweepCodec {
-    /// A codec of scans of these mechanisms.
+    /// The codec of the executor at this address. That of all other processes is the default.
     #[must_use]
-    pub fn new(mechanisms: Arc<Mechanisms>) -> Self {
-        Self { mechanisms, ballista: BallistaPhysicalExtensionCodec::default() }
+    pub fn of_executor(mechanisms: Mechanisms, address: String) -> Self {
+        Self { executor: Some(Place { mechanisms, address }), ..Self::default() }
+    }
+
+    /// Opens a scan where it is computed.
+    fn open(&self, spec: &ScanSpec, schema: &datafusion::arrow::datatypes::Schema) -> Scan {
+        let Some(Place { mechanisms, address }) = &self.executor else {
+            return Scan::Closed("only executors compute".to_owned());
+        };
+        match SweepScan::new(mechanisms, spec.clone()) {
+            Ok(scan) if scan.schema().as_ref() == schema => Scan::Open(Arc::new(scan)),
+            Ok(_) => {
+                let mechanism = &spec.table.mechanism;
+                Scan::Closed(format!("the executor at {address} has other columns of {mechanism}: start it anew"))
+            }
+            Err(error) => Scan::Closed(format!("the executor at {address}: {error}")),
+        }
     }
 }
 
@@ -39,17 +65,22 @@ impl PhysicalExtensionCodec for SweepCodec {
         context: &TaskContext,
         converter: &dyn PhysicalProtoConverterExtension,
     ) -> Result<Arc<dyn ExecutionPlan>> {
-        let Some(json) = bytes.strip_prefix(TAG) else {
+        let Some(bytes) = bytes.strip_prefix(TAG) else {
             return self.ballista.try_decode(bytes, inputs, context, converter);
         };
+        let Some((json, schema)) = bytes.iter().position(|&byte| byte == b'\n').map(|end| bytes.split_at(end)) else {
+            return internal_err!("a scan of a task has no schema");
+        };
         let spec: ScanSpec = serde_json::from_slice(json).map_err(EngineError::Request)?;
-        match inputs {
-            [numbers] => {
-                let scan = SweepScan::new(&self.mechanisms, spec)?;
-                Ok(Arc::new(TaskScan::new(scan, Arc::clone(numbers))))
-            }
-            _ => plan_err!("a scan of a task has {} inputs instead of one", inputs.len()),
-        }
+        let schema = match root_as_schema(&schema[1..]) {
+            Ok(schema) => Arc::new(fb_to_schema(schema)),
+            Err(error) => return internal_err!("the schema of a scan of a task: {error}"),
+        };
+        let [numbers] = inputs else {
+            return plan_err!("a scan of a task has {} inputs instead of one", inputs.len());
+        };
+        let scan = self.open(&spec, &schema);
+        Ok(Arc::new(TaskScan::new(spec, schema, scan, Arc::clone(numbers))))
     }
 
     fn try_encode(
@@ -62,6 +93,9 @@ impl PhysicalExtensionCodec for SweepCodec {
             return self.ballista.try_encode(node, bytes, converter);
         };
         bytes.extend_from_slice(TAG);
-        Ok(serde_json::to_writer(bytes, task.spec()).map_err(EngineError::Request)?)
+        serde_json::to_writer(&mut *bytes, task.spec()).map_err(EngineError::Request)?;
+        bytes.push(b'\n');
+        bytes.extend_from_slice(IpcSchemaEncoder::new().schema_to_fb(&task.schema()).finished_data());
+        Ok(())
     }
 }

@@ -6,6 +6,7 @@ use std::io;
 use ballista_core::error::BallistaError;
 use datafusion::error::DataFusionError;
 
+use super::failure::Failure;
 use crate::EngineError;
 
 /// The reason why a cluster does not start, or does not answer a query.
@@ -66,8 +67,7 @@ pub enum ClusterError {
 impl ClusterError {
     /// The error of a job.
     pub(super) fn job(address: &str, error: &DataFusionError) -> Self {
-        let text = error.strip_backtrace();
-        Self::Job { address: address.to_owned(), reason: Reason::in_text(&text).unwrap_or(text) }
+        Self::Job { address: address.to_owned(), reason: Failure::reason(&error.strip_backtrace()) }
     }
 }
 
@@ -117,32 +117,3 @@ impl From<DataFusionError> for ClusterError {
         Self::Query(error.into())
     }
 }
-
-/// The reason of a failure of a chunk, marked so that it is found in the messages that Ballista wraps around it.
-pub(super) struct Reason(pub(super) String);
-
-impl Reason {
-    const BEGIN: &str = "\u{ab}";
-    const END: &str = "\u{bb}";
-
-    /// The reason in a message.
-    fn in_text(text: &str) -> Option<String> {
-        let (_, text) = text.split_once(Self::BEGIN)?;
-        let (text, _) = text.rsplit_once(Self::END)?;
-        Some(format!("{text}; it failed {} times", super::ATTEMPTS))
-    }
-}
-
-impl fmt::Debug for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{}{}", Self::BEGIN, self.0, Self::END)
-    }
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        fmt::Debug::fmt(self, f)
-    }
-}
-
-impl std::error::Error for Reason {}

@@ -63,7 +63,7 @@ pub async fn executor(mechanisms: Mechanisms, options: ExecutorOptions) -> Resul
         vcores: options.tasks,
         work_dir: Some(folder.path().to_string_lossy().into_owned()),
         executor_heartbeat_interval_seconds: options.heartbeat,
-        override_physical_codec: Some(Arc::new(SweepCodec::new(Arc::new(mechanisms)))),
+        override_physical_codec: Some(Arc::new(SweepCodec::of_executor(mechanisms, address.to_string()))),
         ..ExecutorProcessConfig::default()
     };
     let ended = |source| ClusterError::Process { role: "executor", address: address.to_string(), source };

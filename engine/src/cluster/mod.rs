@@ -1,8 +1,8 @@
 //! Queries on a Ballista cluster.
 //!
-//! A cluster has a [`Scheduler`], [executors](executor) and a [`Cluster`] handle for queries. All link the same
-//! [mechanisms](crate::Mechanisms): a task carries the name of a mechanism, its request in JSON, the columns and the
-//! number of a partition, and no rows of the sweep.
+//! A cluster has a [`Scheduler`], [executors](executor) and a [`Cluster`] handle for queries. Clients and executors link
+//! the same [mechanisms](crate::Mechanisms): a task carries the name of a mechanism, its request in JSON, the columns and
+//! the number of a partition, and no rows of the sweep.
 //!
 //! - Each partition of a scan is a task. It computes the same chunks wherever it runs.
 //! - The partitions of an executor that is lost run again on another one, also those that it had finished.
@@ -14,6 +14,7 @@ mod client;
 mod codec;
 mod error;
 mod executor;
+mod failure;
 mod scheduler;
 mod task_scan;
 mod transport;

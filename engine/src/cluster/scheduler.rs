@@ -12,7 +12,6 @@ use datafusion_proto::protobuf::{LogicalPlanNode, PhysicalPlanNode};
 use tokio::net::TcpListener;
 
 use super::{ATTEMPTS, ClusterError, SweepCodec, transport};
-use crate::Mechanisms;
 
 /// The options of a [`Scheduler`].
 #[derive(Debug, Clone)]
@@ -47,7 +46,7 @@ impl Scheduler {
     ///
     /// # Errors
     /// [`ClusterError::Listen`] if the port is in use, [`ClusterError::NoName`] if others cannot reach it.
-    pub async fn bind(mechanisms: Mechanisms, options: SchedulerOptions) -> Result<Self, ClusterError> {
+    pub async fn bind(options: SchedulerOptions) -> Result<Self, ClusterError> {
         let (listener, address) = transport::listen("scheduler", &options.bind, options.port).await?;
         let host = match options.advertise {
             Some(host) => host,
@@ -65,7 +64,7 @@ impl Scheduler {
             min_ready_executors: options.executors,
             task_max_failures: ATTEMPTS,
             override_logical_codec: Some(Arc::new(BallistaLogicalExtensionCodec::default())),
-            override_physical_codec: Some(Arc::new(SweepCodec::new(Arc::new(mechanisms)))),
+            override_physical_codec: Some(Arc::new(SweepCodec::default())),
             ..SchedulerConfig::default()
         };
         Ok(Self { listener, address, config: Arc::new(config) })

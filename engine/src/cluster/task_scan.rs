@@ -1,12 +1,11 @@
 //! The scan of a task.
 
 use std::fmt;
-use std::io;
 use std::sync::Arc;
 use std::task::Poll;
 
 use datafusion::arrow::array::{AsArray, RecordBatch, UInt64Array};
-use datafusion::arrow::datatypes::{DataType, Field, Schema, UInt64Type};
+use datafusion::arrow::datatypes::{DataType, Field, Schema, SchemaRef, UInt64Type};
 use datafusion::common::plan_err;
 use datafusion::common::tree_node::{Transformed, TransformedResult, TreeNode, TreeNodeRecursion};
 use datafusion::datasource::memory::MemorySourceConfig;
@@ -14,14 +13,17 @@ use datafusion::error::{DataFusionError, Result};
 use datafusion::execution::{SendableRecordBatchStream, TaskContext};
 use datafusion::physical_expr::{EquivalenceProperties, PhysicalExpr};
 use datafusion::physical_plan::coalesce_partitions::CoalescePartitionsExec;
-use datafusion::physical_plan::execution_plan::{ChildrenPropertiesMode, ReplaceChildrenOptions};
+use datafusion::physical_plan::execution_plan::{
+    Boundedness, ChildrenPropertiesMode, EmissionType, ReplaceChildrenOptions,
+};
 use datafusion::physical_plan::stream::RecordBatchStreamAdapter;
 use datafusion::physical_plan::{
     DisplayAs, DisplayFormatType, ExecutionPlan, ExecutionPlanProperties, Partitioning, PlanProperties,
 };
 use futures::{StreamExt, TryStreamExt, stream};
 
-use crate::{EngineError, ScanSpec, SweepScan};
+use super::failure::Failure;
+use crate::{ScanSpec, SweepScan};
 
 /// A scan whose partitions are those that its input names by number.
 ///
@@ -31,9 +33,18 @@ use crate::{EngineError, ScanSpec, SweepScan};
 #[derive(Debug)]
 pub struct TaskScan {
     spec: ScanSpec,
-    scan: Arc<dyn ExecutionPlan>,
+    scan: Scan,
     numbers: Arc<dyn ExecutionPlan>,
     properties: Arc<PlanProperties>,
+}
+
+/// The scan of all partitions.
+#[derive(Debug, Clone)]
+pub(super) enum Scan {
+    /// In a client or an executor.
+    Open(Arc<dyn ExecutionPlan>),
+    /// In a process that does not compute, or cannot for this reason.
+    Closed(String),
 }
 
 impl TaskScan {
@@ -45,21 +56,20 @@ impl TaskScan {
             Ok(vec![RecordBatch::try_new(Arc::clone(&schema), vec![Arc::new(numbers)])?])
         };
         let numbers = (0..spec.partitions).map(number).collect::<Result<Vec<_>>>()?;
-        Ok(Self::of(spec, scan, MemorySourceConfig::try_new_exec(&numbers, schema, None)?))
+        let numbers = MemorySourceConfig::try_new_exec(&numbers, schema, None)?;
+        Ok(Self::new(spec, scan.schema(), Scan::Open(scan), numbers))
     }
 
-    /// The partitions of a scan that the column of `numbers` names.
-    #[must_use]
-    pub fn new(scan: SweepScan, numbers: Arc<dyn ExecutionPlan>) -> Self {
-        Self::of(scan.spec().clone(), Arc::new(scan), numbers)
-    }
-
-    fn of(spec: ScanSpec, scan: Arc<dyn ExecutionPlan>, numbers: Arc<dyn ExecutionPlan>) -> Self {
+    /// The partitions of a scan that the first column of `numbers` names.
+    pub(super) fn new(spec: ScanSpec, schema: SchemaRef, scan: Scan, numbers: Arc<dyn ExecutionPlan>) -> Self {
         let partitioning = Partitioning::UnknownPartitioning(numbers.output_partitioning().partition_count());
-        let equivalence = EquivalenceProperties::new(scan.schema());
-        let properties = scan.properties().as_ref().clone().with_partitioning(partitioning);
-        let properties = Arc::new(properties.with_eq_properties(equivalence));
-        Self { spec, scan, numbers, properties }
+        let properties = PlanProperties::new(
+            EquivalenceProperties::new(schema),
+            partitioning,
+            EmissionType::Incremental,
+            Boundedness::Bounded,
+        );
+        Self { spec, scan, numbers, properties: Arc::new(properties) }
     }
 
     /// The scan of all partitions, without data.
@@ -97,21 +107,12 @@ impl TaskScan {
     }
 }
 
-/// A chunk that failed as an error of input and output, the only kind after which Ballista runs a task again. All others
-/// fail the job at once.
-fn retried(error: DataFusionError) -> DataFusionError {
-    match error.find_root() {
-        DataFusionError::External(inner) if matches!(inner.downcast_ref(), Some(EngineError::Chunk { .. })) => {
-            DataFusionError::IoError(io::Error::other(super::error::Reason(inner.to_string())))
-        }
-        _ => error,
-    }
-}
-
 impl DisplayAs for TaskScan {
     fn fmt_as(&self, format: DisplayFormatType, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("TaskScan: ")?;
-        self.scan.fmt_as(format, f)
+        match &self.scan {
+            Scan::Open(scan) => scan.fmt_as(format, f),
+            Scan::Closed(_) => write!(f, "{}", self.spec.table.mechanism),
+        }
     }
 }
 
@@ -141,7 +142,7 @@ impl ExecutionPlan for TaskScan {
         _: ReplaceChildrenOptions,
     ) -> Result<Arc<dyn ExecutionPlan>> {
         match <[_; 1]>::try_from(children) {
-            Ok([numbers]) => Ok(Arc::new(Self::of(self.spec.clone(), Arc::clone(&self.scan), numbers))),
+            Ok([numbers]) => Ok(Arc::new(Self::new(self.spec.clone(), self.schema(), self.scan.clone(), numbers))),
             Err(children) => plan_err!("a scan of a task has {} inputs instead of one", children.len()),
         }
     }
@@ -151,15 +152,19 @@ impl ExecutionPlan for TaskScan {
     }
 
     fn execute(&self, partition: usize, context: Arc<TaskContext>) -> Result<SendableRecordBatchStream> {
+        let scan = match &self.scan {
+            Scan::Open(scan) => Arc::clone(scan),
+            Scan::Closed(reason) => return Err(Failure::of_job(reason.clone())),
+        };
+        let mechanism = self.spec.table.mechanism.clone();
         let numbers = self.numbers.execute(partition, Arc::clone(&context))?;
-        let (scan, mechanism) = (Arc::clone(&self.scan), self.spec.table.mechanism.clone());
         let partitions = numbers.map(move |numbers| {
             let numbers = numbers?;
             let numbers = numbers.column(0).as_primitive::<UInt64Type>().values().iter();
             let computed = numbers.map(|&number| computed(&scan, &mechanism, number, &context));
             Ok::<_, DataFusionError>(stream::iter(computed.collect::<Vec<_>>()))
         });
-        let batches = partitions.try_flatten().try_flatten().map_err(retried);
+        let batches = partitions.try_flatten().try_flatten().map_err(Failure::of_chunk);
         Ok(Box::pin(RecordBatchStreamAdapter::new(self.schema(), batches)))
     }
 }

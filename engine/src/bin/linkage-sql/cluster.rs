@@ -60,11 +60,11 @@ pub struct ExecutorArguments {
 }
 
 /// Runs a scheduler until it is interrupted. Its first line is its address.
-pub async fn scheduler(arguments: SchedulerArguments, mechanisms: Mechanisms) -> Result<(), ClusterError> {
+pub async fn scheduler(arguments: SchedulerArguments) -> Result<(), ClusterError> {
     super::log::start(false);
     let SchedulerArguments { bind, port, advertise, executors, timeout } = arguments;
     let options = SchedulerOptions { bind, port, advertise, executors, timeout };
-    let scheduler = Scheduler::bind(mechanisms, options).await?;
+    let scheduler = Scheduler::bind(options).await?;
     println!("{}", scheduler.address());
     let mut terminate = signal(SignalKind::terminate()).map_err(ClusterError::Folder)?;
     tokio::select! {
@@ -96,11 +96,11 @@ pub async fn answer(
     let cluster = cluster.with_partitions(partitions).with_wait(Duration::from_secs(wait));
     match parquet {
         Some(path) => {
-            let rows = cluster.answer(query, async |rows| write_parquet(rows, &path).await).await?;
+            let rows = cluster.answer(query, |rows| write_parquet(rows, &path)).await?;
             println!("{rows} rows in {}", path.display());
         }
         None => {
-            let batches = cluster.answer(query, async |rows| Ok(collect(rows).await?)).await?;
+            let batches = cluster.answer(query, |rows| async { Ok(collect(rows).await?) }).await?;
             println!("{}", pretty_format_batches(&batches).map_err(linkage_engine::EngineError::from)?);
         }
     }

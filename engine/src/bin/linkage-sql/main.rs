@@ -67,7 +67,7 @@ async fn run(command: Command) -> Result<(), ClusterError> {
         Command::Sql { query, parquet, scheduler: Some(scheduler), partitions, wait, .. } => {
             cluster::answer(scheduler, &query, parquet, mechanisms, (partitions, wait)).await
         }
-        Command::Scheduler(arguments) => cluster::scheduler(arguments, mechanisms).await,
+        Command::Scheduler(arguments) => cluster::scheduler(arguments).await,
         Command::Executor(arguments) => cluster::executor(arguments, mechanisms).await,
         Command::Sql { query, parquet, progress, .. } => {
             let context = session(mechanisms);
