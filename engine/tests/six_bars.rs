@@ -106,6 +106,8 @@ async fn numbers_are_those_of_single_positions() -> Result<(), Failure> {
             let [b, c, d, p, q, f] = [points.b, points.c, points.d, points.p, points.q, points.f]
                 .map(|point| Complex::new(point.x, point.y));
             feet.push(Complex::new(points.foot.x, points.foot.y));
+            // C and Q are on the sides that the page states.
+            assert!(((d - b).conj() * (c - b)).im > 0.0 && ((f - p).conj() * (q - p)).im < 0.0, "{row:?}");
             least = least.min(angle(c - b, c - d)).min(angle(q - p, q - f));
         }
         close(row.min_mu, least);

@@ -16,6 +16,12 @@ const STYLE: &str = concat!(
     include_str!("style.css")
 );
 
+/// The meaning of the dimensions.
+const DIMENSIONS: &str = "<p class=\"dimensions\">Unfold a design for its dimensions, relative to the crank A-B: coupler B-C, \
+    rocker D-C, ground A-D, leg P-Q, lever F-Q. P is at (<i>px</i>, <i>py</i>) from B with the first axis towards C, the foot \
+    at (<i>u</i>, <i>v</i>) from P with the first axis towards Q, and F at (<i>fx</i>, <i>fy</i>) from A with the first axis \
+    towards D. C is to the left on the way from B to D, Q to the right on the way from P to F.</p>\n";
+
 /// The legs that are shown in motion.
 const MOVING: usize = 3;
 
@@ -52,7 +58,9 @@ pub fn html(
             picture::moving(leg, &curve)?
         );
     }
-    html.push_str("</div>\n</section>\n<section>\n<h2>All, the closest first</h2>\n<div class=\"grid all\">\n");
+    html.push_str("</div>\n</section>\n<section>\n<h2>All, the closest first</h2>\n");
+    html.push_str(DIMENSIONS);
+    html.push_str("<div class=\"grid all\">\n");
     for (place, leg) in legs.iter().enumerate() {
         let (picture, caption) = (picture::still(leg, &curve), caption(place, &leg.row));
         let _ = writeln!(html, "<figure>\n{picture}\n<figcaption>{caption}{}</figcaption>\n</figure>", lengths(leg));
