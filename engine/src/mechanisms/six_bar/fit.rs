@@ -36,15 +36,12 @@ impl Fit {
         // Against its order the path fits the curve as in its order the curve against its order.
         let mut backward = curve.to_vec();
         backward.get_mut(1..)?.reverse();
-        let senses = [(true, curve), (false, &backward)];
-        let fits = centred
-            .windows(count)
-            .take(count)
-            .enumerate()
-            .flat_map(|(start, path)| senses.map(|(is_forward, curve)| (product(path, curve), start, is_forward)));
+        let fits = [(true, curve), (false, &backward)].into_iter().flat_map(|(is_forward, curve)| {
+            products(&centred, curve).into_iter().enumerate().map(move |(start, c)| (c, start, is_forward))
+        });
         // The first one of equal fits.
-        let (c, start, is_forward) =
-            fits.reduce(|best, fit| if fit.0.norm_sqr() > best.0.norm_sqr() { fit } else { best })?;
+        let best = fits.reduce(|best, fit| if fit.0.norm_sqr() > best.0.norm_sqr() { fit } else { best });
+        let (c, start, is_forward) = best?;
         let squares: f64 = centred.iter().take(count).map(Complex::norm_sqr).sum();
         if squares == 0.0 {
             return None;
@@ -75,7 +72,14 @@ fn mean(points: &[Complex<f64>]) -> Complex<f64> {
     points.iter().sum::<Complex<f64>>() / points.len() as f64
 }
 
-/// The sum of conj(z) w.
-fn product(path: &[Complex<f64>], curve: &[Complex<f64>]) -> Complex<f64> {
-    path.iter().zip(curve).map(|(z, w)| z.conj() * w).sum()
+/// The sum of conj(z) w for each start on a path, which is given twice.
+fn products(path: &[Complex<f64>], curve: &[Complex<f64>]) -> Vec<Complex<f64>> {
+    let mut sums = vec![Complex::ZERO; curve.len()];
+    // All sums at a time, so that none waits for the addition before.
+    for (path, w) in path.windows(curve.len()).zip(curve) {
+        for (sum, z) in sums.iter_mut().zip(path) {
+            *sum += z.conj() * w;
+        }
+    }
+    sums
 }
