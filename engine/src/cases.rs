@@ -16,7 +16,7 @@ use crate::family::CaseColumn;
 use crate::positions::{CASE, compute, with_numbers};
 
 /// The column of the number of the first row.
-const FIRST_ROW: &str = "first_row";
+pub const FIRST_ROW: &str = "first_row";
 
 /// The cases of a sweep.
 pub struct Cases<M: Lanes> {
@@ -61,8 +61,8 @@ where
         let columns: Vec<Column> = (0..M::GIVEN.len()).map(given).collect();
         let inner = schema(&sweep, &columns)?;
         let of_values = values.iter().map(|value| Arc::new(Field::new(&value.name, DataType::Float64, true)));
-        let fields = inner.fields().iter().cloned().chain(of_values).collect();
-        let schema = with_numbers(&[CASE, FIRST_ROW], &inner, fields)?;
+        let fields = inner.fields().iter().cloned().chain(of_values);
+        let schema = with_numbers(&[CASE, FIRST_ROW], &inner, fields);
         let of_given = (0..M::GIVEN.len()).map(Part::Given);
         let parts = [Part::Case, Part::Row].into_iter().chain(of_given).chain([Part::Accepted]);
         let parts = parts.chain(values.into_iter().map(Part::Value)).collect();

@@ -1,15 +1,16 @@
 //! A mechanism with its branches and case columns.
 
+use std::collections::HashSet;
 use std::fmt::{self, Debug};
 use std::sync::Arc;
 
 use linkage_runtime::lanes::Lanes;
-use linkage_sweep::{Block, Case, Column, Sweep, SweepError};
+use linkage_sweep::{Block, Case, Column, Sweep, SweepError, given, names};
 use linkage_sweep_arrow::Scalar;
 
-use crate::cases::Cases;
+use crate::cases::{Cases, FIRST_ROW};
 use crate::chunked::Chunked;
-use crate::positions::Positions;
+use crate::positions::{CASE, Positions, ROW};
 use crate::{EngineError, Request, TableKind};
 
 /// The rows per chunk without a request: DataFusion's batches have as many.
@@ -110,15 +111,15 @@ impl<M: Lanes> Family<M> {
 
     /// An error if a name occurs twice, or a case column needs a column that there is not.
     pub(crate) fn check(&self) -> Result<(), EngineError> {
-        for (index, (name, _)) in self.branches.iter().enumerate() {
-            if self.branches.iter().take(index).any(|(other, _)| other == name) {
-                return Err(EngineError::Registered { kind: "branch", name: name.clone() });
-            }
-        }
+        unique("branch", self.branches.iter().map(|(name, _)| name.clone()))?;
         for column in self.case_columns.iter().flat_map(|column| &column.columns) {
             column.place::<M>()?;
         }
-        Ok(())
+        let given: Vec<Column> = (0..M::GIVEN.len()).map(given).collect();
+        let numbers = |numbers: [&str; 2]| numbers.map(str::to_owned).into_iter();
+        unique("column", numbers([ROW, CASE]).chain(names::<M>(&Column::all::<M>())?))?;
+        let values = self.case_columns.iter().map(|column| column.name.clone());
+        unique("column", numbers([CASE, FIRST_ROW]).chain(names::<M>(&given)?).chain(values))
     }
 
     /// The branch that a request names.
@@ -139,6 +140,17 @@ impl<M: Lanes> Family<M> {
         let sweep = sweep.with_case(request.case_factors.unwrap_or(case_factors))?;
         Ok(sweep.with_rows_per_chunk(request.rows_per_chunk.unwrap_or(ROWS_PER_CHUNK))?)
     }
+}
+
+/// An error if a name occurs twice.
+fn unique(kind: &'static str, names: impl Iterator<Item = String>) -> Result<(), EngineError> {
+    let mut seen = HashSet::new();
+    for name in names {
+        if !seen.insert(name.clone()) {
+            return Err(EngineError::Registered { kind, name });
+        }
+    }
+    Ok(())
 }
 
 /// A mechanism whose type is not known.

@@ -36,16 +36,11 @@ enum Part {
     Accepted,
 }
 
-/// The fields of numbers of rows and cases, before those of another schema, with its metadata.
-pub fn with_numbers(names: &[&str], schema: &Schema, fields: Vec<Arc<Field>>) -> Result<SchemaRef, EngineError> {
-    let mut all: Vec<_> = names.iter().map(|name| Arc::new(Field::new(*name, DataType::UInt64, false))).collect();
-    for field in fields {
-        if all.iter().any(|other| other.name() == field.name()) {
-            return Err(EngineError::Registered { kind: "column", name: field.name().clone() });
-        }
-        all.push(field);
-    }
-    Ok(Arc::new(Schema::new_with_metadata(all, schema.metadata().clone())))
+/// The fields of numbers of rows and cases, then other fields; with the metadata of a schema.
+pub fn with_numbers(names: &[&str], schema: &Schema, fields: impl IntoIterator<Item = Arc<Field>>) -> SchemaRef {
+    let numbers = names.iter().map(|name| Arc::new(Field::new(*name, DataType::UInt64, false)));
+    let fields: Vec<_> = numbers.chain(fields).collect();
+    Arc::new(Schema::new_with_metadata(fields, schema.metadata().clone()))
 }
 
 impl<M> Positions<M>
@@ -58,7 +53,7 @@ where
         let numbers = if has_cases { &[ROW, CASE][..] } else { &[ROW] };
         let all = Column::all::<M>();
         let inner = schema(&sweep, &all)?;
-        let schema = with_numbers(numbers, &inner, inner.fields().to_vec())?;
+        let schema = with_numbers(numbers, &inner, inner.fields().iter().cloned());
         let first = [Part::Row, Part::Case].into_iter().take(numbers.len());
         let columns = first.chain(all.into_iter().map(Part::Column)).chain([Part::Accepted]).collect();
         Ok(Self { sweep: Arc::new(sweep), schema, columns })
