@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use datafusion::arrow::array::{ArrayRef, RecordBatch, RecordBatchOptions, UInt64Array};
+use datafusion::arrow::array::{ArrayRef, PrimitiveArray, RecordBatch, RecordBatchOptions, UInt64Array};
 use datafusion::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
 use linkage_runtime::lanes::Lanes;
-use linkage_sweep::{Chunk, Column, Sweep};
+use linkage_sweep::{Chunk, Column, Sweep, found, given};
 use linkage_sweep_arrow::{Scalar, record_batch, schema};
 
 use crate::EngineError;
@@ -30,8 +30,10 @@ enum Part {
     Row,
     /// The number of its case.
     Case,
-    /// A column of the sweep.
-    Column(Column),
+    /// A given column by its index.
+    Given(usize),
+    /// A found column by its index.
+    Found(usize),
     /// The mask.
     Accepted,
 }
@@ -51,11 +53,11 @@ where
     /// The positions of a sweep, with the numbers of cases if there are any.
     pub fn new(sweep: Sweep<M>, has_cases: bool) -> Result<Self, EngineError> {
         let numbers = if has_cases { &[ROW, CASE][..] } else { &[ROW] };
-        let all = Column::all::<M>();
-        let inner = schema(&sweep, &all)?;
+        let inner = schema(&sweep, &Column::all::<M>())?;
         let schema = with_numbers(numbers, &inner, inner.fields().iter().cloned());
         let first = [Part::Row, Part::Case].into_iter().take(numbers.len());
-        let columns = first.chain(all.into_iter().map(Part::Column)).chain([Part::Accepted]).collect();
+        let of_sweep = (0..M::GIVEN.len()).map(Part::Given).chain((0..M::FOUND.len()).map(Part::Found));
+        let columns = first.chain(of_sweep).chain([Part::Accepted]).collect();
         Ok(Self { sweep: Arc::new(sweep), schema, columns })
     }
 }
@@ -85,7 +87,8 @@ where
     fn reader(&self, projection: &[usize]) -> Result<Box<dyn ChunkReader>, EngineError> {
         let parts: Vec<Part> = projection.iter().filter_map(|&index| self.columns.get(index)).cloned().collect();
         let columns = |part: &Part| match part {
-            Part::Column(column) => Some(column.clone()),
+            Part::Given(index) => Some(given(*index)),
+            Part::Found(index) => Some(found(*index)),
             _ => None,
         };
         let columns: Vec<Column> = parts.iter().filter_map(columns).collect();
@@ -118,8 +121,8 @@ where
     M::Branch: Send + Sync,
 {
     fn read(&mut self, number: u64) -> Result<RecordBatch, EngineError> {
-        let is_computed = |part: &Part| matches!(part, Part::Column(_) | Part::Accepted);
-        let batch = match self.parts.iter().any(is_computed) {
+        let has_positions = self.parts.iter().any(|part| matches!(part, Part::Found(_) | Part::Accepted));
+        let batch = match has_positions {
             true => Some(record_batch(&self.inner, compute(&self.sweep, &self.columns, &mut self.chunk, number)?)?),
             false => None,
         };
@@ -127,21 +130,32 @@ where
         let rows = self.sweep.rows_per_chunk().min(self.sweep.rows().saturating_sub(first));
         let rows_per_case = self.sweep.rows_per_case();
         // Columns come in the order asked for, then `accepted`.
-        let mut computed = batch.iter().flat_map(RecordBatch::columns).cloned();
-        let accepted = batch.as_ref().and_then(|batch| batch.columns().last()).cloned();
+        let mut computed = batch.iter().flat_map(RecordBatch::columns).cloned().map(Ok);
         let numbers = |number: &dyn Fn(u64) -> u64| -> ArrayRef {
             Arc::new(UInt64Array::from_iter_values((first..first + rows).map(number)))
         };
         let arrays = self.parts.iter().filter_map(|part| match part {
-            Part::Row => Some(numbers(&|row| row)),
-            Part::Case => Some(numbers(&|row| row / rows_per_case)),
-            Part::Column(_) => computed.next(),
-            Part::Accepted => accepted.clone(),
+            Part::Row => Some(Ok(numbers(&|row| row))),
+            Part::Case => Some(Ok(numbers(&|row| row / rows_per_case))),
+            Part::Given(index) if !has_positions => Some(given_numbers(&self.sweep, *index, first, rows)),
+            Part::Given(_) | Part::Found(_) => computed.next(),
+            Part::Accepted => batch.as_ref().and_then(|batch| batch.columns().last()).cloned().map(Ok),
         });
-        let arrays: Vec<ArrayRef> = arrays.collect();
+        let arrays = arrays.collect::<Result<Vec<ArrayRef>, EngineError>>()?;
         let options = RecordBatchOptions::new().with_row_count(Some(rows as usize));
         Ok(RecordBatch::try_new_with_options(Arc::clone(&self.schema), arrays, &options)?)
     }
+}
+
+/// A given column, without positions.
+fn given_numbers<M>(sweep: &Sweep<M>, index: usize, first: u64, rows: u64) -> Result<ArrayRef, EngineError>
+where
+    M: Lanes,
+    M::Scalar: Scalar,
+{
+    let mut numbers = vec![M::Scalar::default(); rows as usize];
+    sweep.given_numbers(index, first, &mut numbers)?;
+    Ok(Arc::new(PrimitiveArray::<<M::Scalar as Scalar>::Arrow>::new(numbers.into(), None)))
 }
 
 /// Computes a chunk, in the memory of the one before.

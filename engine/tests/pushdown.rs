@@ -5,10 +5,11 @@ mod common;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{ROWS, context, family, lines, mechanisms, number, planned, request, rows, table};
+use common::{Cam, CamBranch, LIFTS, ROWS, context, family, lines, mechanisms, number, planned, request, rows, table};
 use datafusion::arrow::datatypes::DataType;
 use datafusion::physical_plan::{ExecutionPlan, collect};
-use linkage_engine::{Mechanisms, Request, SweepScan, progress};
+use linkage_engine::{Family, Mechanisms, Request, SweepScan, progress};
+use linkage_sweep::{Place, Plan, Sweep, given};
 
 /// The names of the columns that the scan of a plan computes.
 fn computed(plan: &Arc<dyn ExecutionPlan>) -> Option<Vec<String>> {
@@ -31,6 +32,30 @@ async fn only_the_columns_asked_for_are_computed() {
         let plan = planned(&context, &query.replace("sweep", &table)).await.unwrap();
         assert_eq!(computed(&plan).unwrap(), columns, "{query}");
     }
+}
+
+#[tokio::test]
+async fn positions_are_computed_only_if_a_query_asks_for_them() {
+    let mut mechanisms = Mechanisms::default();
+    mechanisms.register("cam", Family::new(Cam::<f64>::default(), CamBranch {})).unwrap();
+    let context = context(mechanisms, 2, 8192);
+    let plan = Plan::new().grid("h", 1.0, 3.0, 3).turn("phi", 100);
+    let chunk = Sweep::new(&Cam::default(), CamBranch {}, plan.clone()).unwrap().chunk(0, &[given("phi")]).unwrap();
+    let phi: Vec<_> = chunk.column(Place::Given(1)).unwrap().iter().map(|phi| vec![Some(phi.to_bits())]).collect();
+    let table = format!("sweep('cam', '{}')", Request::from(plan).to_json().unwrap());
+    LIFTS.store(0, Ordering::Relaxed);
+    let mut lines = lines(&rows(&context, &format!("SELECT phi FROM {table} ORDER BY row")).await.unwrap());
+    assert_eq!(LIFTS.load(Ordering::Relaxed), 0);
+    lines.sort_unstable();
+    let mut phi = phi;
+    phi.sort_unstable();
+    assert_eq!(lines, phi);
+    for query in ["SELECT max(h), min(row) FROM", "SELECT count(*) FROM", "SELECT 1 FROM"] {
+        rows(&context, &format!("{query} {table}")).await.unwrap();
+        assert_eq!(LIFTS.load(Ordering::Relaxed), 0, "{query}");
+    }
+    rows(&context, &format!("SELECT max(s) FROM {table}")).await.unwrap();
+    assert!(LIFTS.load(Ordering::Relaxed) >= 300);
 }
 
 #[tokio::test]

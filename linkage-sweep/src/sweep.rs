@@ -159,6 +159,26 @@ impl<M: Lanes> Sweep<M> {
         chunk.fill(&self.bound.sources, self.branch, number, first, rows)
     }
 
+    /// Writes the numbers of a given column, by its index in [`Lanes::GIVEN`], in consecutive rows. No position is
+    /// computed.
+    ///
+    /// # Errors
+    /// [`SweepError::UnknownIndex`] and [`OutOfRange`](SweepError::OutOfRange).
+    pub fn given_numbers(&self, index: usize, first_row: u64, numbers: &mut [M::Scalar]) -> Result<(), SweepError> {
+        let source = self.bound.sources.get(index).ok_or(SweepError::UnknownIndex {
+            mechanism: M::NAME,
+            kind: "given",
+            index,
+            count: M::GIVEN.len(),
+        })?;
+        let end = first_row.saturating_add(numbers.len() as u64);
+        if end > self.rows() {
+            return Err(SweepError::OutOfRange { quantity: "row", number: end - 1, count: self.rows() });
+        }
+        source.fill(first_row, numbers);
+        Ok(())
+    }
+
     /// A chunk of this sweep with its cases, as reducers see it.
     #[must_use]
     pub fn block<'a>(&'a self, chunk: &'a Chunk<M>) -> Block<'a, M> {

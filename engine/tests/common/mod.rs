@@ -3,12 +3,13 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use datafusion::arrow::array::{Array, AsArray, RecordBatch};
 use datafusion::arrow::datatypes::{DataType, Float32Type, Float64Type, UInt64Type};
 use datafusion::physical_plan::ExecutionPlan;
 use datafusion::prelude::SessionContext;
-use linkage::{Elbow, linkage};
+use linkage::{Elbow, Real, linkage, real};
 use linkage_engine::{EngineError, Family, Mechanisms, Request, register};
 use linkage_sweep::{Column, Distribution, Plan, Sequence, Sweep, found};
 
@@ -22,6 +23,28 @@ linkage! {
         loop a@theta2 + b@theta3 = c@theta4 + d@0;
         point P = a@theta2 + (b/2, 30)@theta3;
         output mu = theta4 - theta3;
+        derive lanes;
+    }
+}
+
+/// The number of calls of [`lift`].
+pub static LIFTS: AtomicUsize = AtomicUsize::new(0);
+
+/// The square of an angle and its derivatives. It counts its calls.
+fn lift<T: Real>(phi: T) -> (T, T, T) {
+    LIFTS.fetch_add(1, Ordering::Relaxed);
+    (phi * phi, phi + phi, real(2.0))
+}
+
+linkage! {
+    /// A cam with a user function.
+    pub mechanism Cam {
+        param h = 1;
+        input phi;
+        unknown s;
+        extern fn lift(phi) -> (law, slope, bend);
+        equation s = h * law(phi);
+        output way = s + h;
         derive lanes;
     }
 }
