@@ -1,4 +1,4 @@
-//! The same digits as by `linkage-sweep` alone, for all partitions, chunks and batches.
+//! Digits equal those of `linkage-sweep` alone, for all partitions, chunks and batches.
 
 mod common;
 
