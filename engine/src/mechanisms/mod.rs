@@ -1,6 +1,7 @@
 //! The mechanisms of the command line.
 
 mod four_bar;
+pub mod six_bar;
 mod slider_crank;
 mod watt_six_bar;
 
@@ -14,7 +15,7 @@ use linkage_sweep::{Case, found};
 use crate::{EngineError, Family, Mechanisms};
 
 impl Mechanisms {
-    /// The mechanisms of the command line: `four_bar`, `slider_crank` and `six_bar`.
+    /// The mechanisms of the command line: `four_bar`, `slider_crank`, `six_bar` and `watt_six_bar`.
     ///
     /// # Errors
     /// [`EngineError::Registered`], if two had the same name.
@@ -23,7 +24,8 @@ impl Mechanisms {
         mechanisms
             .register("four_bar", four_bar())?
             .register("slider_crank", slider_crank())?
-            .register("six_bar", six_bar())?;
+            .register("six_bar", six_bar::family()?)?
+            .register("watt_six_bar", watt_six_bar())?;
         Ok(mechanisms)
     }
 }
@@ -39,7 +41,7 @@ fn slider_crank() -> Family<SliderCrank<f64>> {
     Family::new(SliderCrank::default(), SliderCrankBranch::new(Slider::Far))
 }
 
-fn six_bar() -> Family<WattSixBar<f64>> {
+fn watt_six_bar() -> Family<WattSixBar<f64>> {
     Family::new(WattSixBar::default(), WattSixBarBranch::new(Elbow::Left, Elbow::Left)).case_column(
         "min_mu",
         [found("mu")],

@@ -1,0 +1,62 @@
+//! The answer to a query, from this process or a cluster.
+
+use std::error::Error;
+use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use datafusion::arrow::array::RecordBatch;
+use datafusion::physical_plan::{collect, common};
+use linkage_engine::cluster::Cluster;
+use linkage_engine::{Mechanisms, ScanProgress, progress, session};
+
+use crate::query::{self, Row};
+
+/// Answers the query on the cluster of a scheduler, or in this process.
+pub async fn rows(query: &str, scheduler: Option<String>) -> Result<Vec<Row>, Box<dyn Error>> {
+    let batches = match scheduler {
+        Some(scheduler) => {
+            let cluster = Cluster::new(scheduler, Mechanisms::built_in()?)?;
+            cluster.answer(query, async |rows| Ok(common::collect(rows).await?)).await?
+        }
+        None => here(query).await?,
+    };
+    let rows: Option<Vec<Vec<Row>>> = batches.iter().map(query::rows).collect();
+    Ok(rows.ok_or("the answer has other columns than the query")?.concat())
+}
+
+/// Answers the query in this process, and prints its progress each second.
+async fn here(query: &str) -> Result<Vec<RecordBatch>, Box<dyn Error>> {
+    let context = session(Mechanisms::built_in()?);
+    let plan = context.sql(query).await?.create_physical_plan().await?;
+    let (done, is_done) = mpsc::channel::<()>();
+    let watched = Arc::clone(&plan);
+    // A thread: the timers of the runtime wait while all its threads compute.
+    let watch = thread::spawn(move || {
+        let start = Instant::now();
+        while is_done.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
+            print(&progress(&watched), start.elapsed());
+        }
+    });
+    let batches = collect(plan, context.task_ctx()).await;
+    drop(done);
+    // It has nothing that panics.
+    let _ = watch.join();
+    Ok(batches?)
+}
+
+/// Prints the progress to the standard error, on a terminal always on one line.
+fn print(progress: &ScanProgress, time: Duration) {
+    let ScanProgress { chunks_done, chunks } = *progress;
+    let rest = match chunks_done {
+        0 => String::new(),
+        done => format!(", {:.0} s left", time.as_secs_f64() * (chunks as f64 / done as f64 - 1.0)),
+    };
+    let text = format!("{chunks_done} of {chunks} chunks{rest}");
+    match std::io::stderr().is_terminal() {
+        true => eprint!("\r{text}    "),
+        false => eprintln!("{text}"),
+    }
+}
