@@ -22,8 +22,8 @@ fn poses() -> usize {
     std::env::var("BOUNDED").map_or(POSES, |count| count.parse().unwrap())
 }
 
-/// A bound relative to what is bounded, with errors that follow from it, by function.
-type Ratios = BTreeMap<&'static str, Vec<[f64; 2]>>;
+/// The bound, the error and the magnitude of each rounded result, by function.
+type Measured = BTreeMap<&'static str, Vec<[f64; 3]>>;
 
 /// The bounds of the type that a derivation is of.
 fn bounds_of(file: &str, of: &str) -> Bounds {
@@ -88,14 +88,14 @@ fn results<T: linkage::Real, M: Kinematics<T>>(m: &M, motion: &[Vec<f64>; 3]) ->
     all.into_iter().filter_map(|(name, list)| Some((name, list?))).collect()
 }
 
-/// The bound and the error of each rounded result at random coordinates.
-fn measured<F: Fixture>(derivation: &Derivation, motion: Motion) -> Ratios
+/// The bound, the error and the magnitude of each rounded result at random coordinates.
+fn measured<F: Fixture>(derivation: &Derivation, motion: Motion) -> Measured
 where
     F::Of<DoubleDouble>: Kinematics<DoubleDouble>,
 {
     let bounds = bounds_of(F::FILE, derivation.mechanism);
     let mut rng = SmallRng::seed_from_u64(31);
-    let mut ratios = Ratios::new();
+    let mut measured = Measured::new();
     for _ in 0..poses() {
         let parameters: Vec<f64> =
             F::default().parameters().iter().map(|value| value * rng.random_range(0.7..1.3)).collect();
@@ -115,13 +115,13 @@ where
             for (place, (found, exact)) in list.iter().zip(precise).enumerate() {
                 let error = (*exact - DoubleDouble::from(*found)).high().abs();
                 match bound.at(place, exact.high(), &value) {
-                    Some(most) => ratios.entry(function).or_default().push([most, error]),
+                    Some(most) => measured.entry(function).or_default().push([most, error, exact.high().abs()]),
                     None => assert_eq!(error, 0.0, "{function} has a rounded result {place} without a bound"),
                 }
             }
         }
     }
-    ratios
+    measured
 }
 
 /// Terms of second order in 2^-53: a bound is of first order, and errors at 1e-9 of a dead point are not small.
@@ -136,7 +136,7 @@ where
 {
     for (function, all) in measured::<F>(derivation, extreme) {
         let mut largest = 0.0_f64;
-        for [bound, error] in all.iter().filter(|[bound, _]| *bound > SMALLEST) {
+        for [bound, error, _] in all.iter().filter(|[bound, ..]| *bound > SMALLEST) {
             assert!(
                 *error <= bound * (1.0 + SECOND_ORDER),
                 "{}::{function}: an error of {error:e} exceeds its bound {bound:e}",
@@ -169,7 +169,12 @@ fn median(mut list: Vec<f64>) -> f64 {
     list[list.len() / 2]
 }
 
-/// A bound far above all errors would say nothing.
+/// The distance of a number to the next larger one.
+fn ulp(number: f64) -> f64 {
+    number.next_up() - number
+}
+
+/// A bound far above all errors would say nothing. Both in ulps of the results, where these are not exact.
 #[test]
 fn the_bounds_of_the_four_bar_are_near_its_errors() {
     use linkage_gallery::four_bar::FourBar;
@@ -178,8 +183,11 @@ fn the_bounds_of_the_four_bar_are_near_its_errors() {
     for (name, motion, most) in motions {
         let measured = measured::<FourBar>(<FourBar>::DERIVATION, motion);
         for (function, most) in ["velocity_ratios", "velocity", "acceleration", "points"].into_iter().zip(most) {
-            let [bound, error] = [0, 1].map(|part| median(measured[function].iter().map(|pair| pair[part]).collect()));
-            println!("{name} {function}: bound {bound:.2e}, error {error:.2e}, {:.1} times", bound / error);
+            let inexact = measured[function].iter().filter(|[_, error, _]| *error > 0.0);
+            let ulps: Vec<[f64; 2]> =
+                inexact.map(|[bound, error, exact]| [bound, error].map(|part| part / ulp(*exact))).collect();
+            let [bound, error] = [0, 1].map(|part| median(ulps.iter().map(|pair| pair[part]).collect()));
+            println!("{name} {function}: bound {bound:.2} ulp, error {error:.2} ulp, {:.1} times", bound / error);
             assert!(bound <= most * error, "{name} {function}: {bound:e} bounds {error:e} in the median");
         }
     }
