@@ -45,7 +45,7 @@ use rounding::sum;
 /// # Accuracy
 ///
 /// The result for single numbers has at most this many doubles between its bounds, in 1e6 evaluations of each against 48
-/// digits (1e5 of `acos` and `atan`, 4000 of `arctangent2`). Where a magnitude is outside 2^-900 to 2^900, `*`, `/`, `square` and `sqrt` have one more.
+/// digits. Where a magnitude is outside 2^-900 to 2^900, `*`, `/`, `square` and `sqrt` have one more.
 ///
 /// | function                        | doubles |
 /// |---------------------------------|---------|
