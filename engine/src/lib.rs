@@ -28,7 +28,7 @@
 //! take turns: partition p of n computes the chunks p, p + n, p + 2n and so on. A chunk is a pure function of mechanism,
 //! request and number, so that no number depends on the partitions.
 //!
-//! The same queries run on a [cluster].
+//! A [cluster] of several processes answers these queries too.
 
 mod batches;
 mod cases;

@@ -1,12 +1,11 @@
 //! Emitted code cannot panic: no function that panics is left in what firmware links.
 //!
 //! A library without the standard library holds every function that is emitted for every mechanism and scene of these
-//! tests, compiled for size, which leaves the most checks. In its object files, and in those of all libraries under it and of
+//! tests, compiled at the levels that firmware uses. In its object files, and in those of all libraries under it and of
 //! `core`, no call leads from an emitted function to a function that panics.
 //!
 //! ```text
-//! cargo test --test firmware                                          for this machine, at opt-level "z"
-//! FIRMWARE_LEVELS=three,two,size cargo test --test firmware           at opt-levels 3, 2 and "z"
+//! cargo test --test firmware                                          for this machine
 //! FIRMWARE_TARGET=thumbv7em-none-eabihf cargo test --test firmware    for another target that is installed
 //! ```
 
@@ -48,8 +47,8 @@ opt-level = "z"
 [workspace]
 "#;
 
-/// The level of optimisation by the name of its profile; `FIRMWARE_LEVELS` names others, separated by commas.
-const LEVEL: &str = "size";
+/// The levels of optimisation by the names of their profiles.
+const LEVELS: [&str; 3] = ["three", "two", "size"];
 
 fn cargo() -> Command {
     let mut command = Command::new(env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()));
@@ -106,10 +105,9 @@ fn emitted_functions_cannot_panic() {
     }
     // The versions under test are those of this workspace.
     fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    let levels = env::var("FIRMWARE_LEVELS").unwrap_or_else(|_| LEVEL.to_owned());
     // Side by side: one after the other, much of the time only one core is busy.
     std::thread::scope(|scope| {
-        for level in levels.split(',') {
+        for level in LEVELS {
             let folder = &folder;
             scope.spawn(move || judge(folder, level, count));
         }

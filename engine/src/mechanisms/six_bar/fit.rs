@@ -21,9 +21,10 @@ pub struct Fit {
 impl Fit {
     /// The best fit of a path to a curve with as many points; none if the path has no extent.
     ///
-    /// Of centred paths z and w, the sum of |w - turn z|^2 is least for turn = c / sum |z|^2 with c = sum conj(z) w, where it
-    /// is sum |w|^2 - |c|^2 / sum |z|^2: S. Umeyama, "Least-squares estimation of transformation parameters between two
-    /// point patterns", IEEE Transactions on Pattern Analysis and Machine Intelligence 13 (1991), without reflections.
+    /// Both paths are moved so that their centroids are 0. With c = sum conj(z) w, the sum of |w - turn z|^2 is least for
+    /// turn = c / sum |z|^2, and this least value is sum |w|^2 - |c|^2 / sum |z|^2. Source: S. Umeyama, "Least-squares
+    /// estimation of transformation parameters between two point patterns", IEEE Transactions on Pattern Analysis and
+    /// Machine Intelligence 13 (1991), without reflections.
     #[must_use]
     pub fn new(path: &[Complex<f64>], curve: &[Complex<f64>]) -> Option<Self> {
         let count = path.len();
