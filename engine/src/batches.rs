@@ -1,8 +1,6 @@
 //! The batches of one partition.
 
 use std::any::Any;
-use std::iter::StepBy;
-use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use datafusion::arrow::array::RecordBatch;
@@ -11,6 +9,7 @@ use datafusion::physical_plan::metrics::{BaselineMetrics, Count, RecordOutput};
 
 use crate::EngineError;
 use crate::chunked::ChunkReader;
+use crate::handout::Numbers;
 
 /// Computes chunks and hands them over in batches. Nothing follows an error.
 pub struct Batches {
@@ -18,7 +17,7 @@ pub struct Batches {
     /// The name of the mechanism, for errors.
     pub mechanism: String,
     /// The numbers of the chunks to compute.
-    pub numbers: StepBy<Range<u64>>,
+    pub numbers: Numbers,
     /// The number of rows of all partitions.
     pub rows: u64,
     pub rows_per_chunk: u64,
@@ -63,7 +62,7 @@ impl Iterator for Batches {
                 match self.compute(number) {
                     Ok(chunk) => chunk,
                     Err(error) => {
-                        self.numbers = (0..0).step_by(1);
+                        self.numbers = Numbers::none();
                         return Some(Err(error.into()));
                     }
                 }

@@ -24,9 +24,9 @@
 //! - `cases` has a row for each case, for example for each design: its `case_number`, its `first_row`, the given
 //!   numbers of that row, `accepted` if all its rows are, and the [case columns](Family::case_column) of the mechanism.
 //!
-//! Only the columns that a query asks for are computed, one chunk of rows after the other. The partitions of a query
-//! take turns: partition p of n computes the chunks p, p + n, p + 2n and so on. A chunk is a pure function of mechanism,
-//! request and number, so that no number depends on the partitions.
+//! Only the columns that a query asks for are computed, one chunk of rows after the other. A partition of a query takes
+//! the next chunk that no other one has taken. A chunk is a pure function of mechanism, request and number, so that no
+//! number depends on the partitions.
 //!
 //! A [cluster] of several processes answers these queries too.
 
@@ -37,6 +37,7 @@ pub mod cluster;
 mod error;
 mod family;
 mod function;
+mod handout;
 pub mod mechanisms;
 mod nearest;
 mod positions;

@@ -21,30 +21,34 @@ use futures::stream;
 
 use crate::batches::Batches;
 use crate::chunked::Chunked;
+use crate::handout::Handout;
 use crate::{EngineError, Mechanisms, ScanSpec};
 
 /// The metric of the number of chunks that are computed.
 pub const CHUNKS: &str = "chunks";
 
-/// A scan of a table. Partition p of n computes the chunks p, p + n, p + 2n and so on.
+/// A scan of a table.
 ///
-/// A limit is one of all partitions: only the first rows are computed, the last chunk of them as a whole.
+/// In a query of this process a partition takes the next chunk that no other one has taken; the partitions of a scan that
+/// is opened by [`new`](Self::new) have the same chunks in each process. A limit is one of all partitions: only the first rows are computed, the last chunk of them as a whole.
 #[derive(Debug)]
 pub struct SweepScan {
     spec: ScanSpec,
     table: Arc<dyn Chunked>,
+    handout: Handout,
     properties: Arc<PlanProperties>,
     metrics: ExecutionPlanMetricsSet,
 }
 
 impl SweepScan {
-    /// Opens a scan, for example one that came from another process.
+    /// Opens a scan whose partitions several processes may compute: partition p of n has the chunks p, p + n, p + 2n and
+    /// so on.
     ///
     /// # Errors
     /// Those of [`SweepTable::new`](crate::SweepTable::new), and [`EngineError::OutOfRange`] if the table does not have
     /// a column of the projection.
     pub fn new(mechanisms: &Mechanisms, spec: ScanSpec) -> Result<Self, EngineError> {
-        Self::open(mechanisms.open(&spec.table)?, spec)
+        Self::open(mechanisms.open(&spec.table)?, spec, Handout::Fixed)
     }
 
     /// The scan without data.
@@ -66,7 +70,7 @@ impl SweepScan {
     }
 
     /// A scan of an open table.
-    pub(crate) fn open(table: Arc<dyn Chunked>, spec: ScanSpec) -> Result<Self, EngineError> {
+    pub(crate) fn open(table: Arc<dyn Chunked>, spec: ScanSpec, handout: Handout) -> Result<Self, EngineError> {
         let count = table.schema().fields().len();
         if let Some(&index) = spec.projection.iter().find(|&&index| index >= count) {
             return Err(EngineError::OutOfRange { quantity: "column", index, count });
@@ -85,23 +89,12 @@ impl SweepScan {
         let properties =
             PlanProperties::new(equivalence, partitioning, EmissionType::Incremental, Boundedness::Bounded)
                 .with_scheduling_type(SchedulingType::Cooperative);
-        Ok(Self { spec, table, properties: Arc::new(properties), metrics: ExecutionPlanMetricsSet::new() })
+        Ok(Self { spec, table, handout, properties: Arc::new(properties), metrics: ExecutionPlanMetricsSet::new() })
     }
 
     /// The number of rows of all partitions.
     fn rows(&self) -> u64 {
         self.spec.fetch.map_or(self.table.rows(), |fetch| fetch.min(self.table.rows()))
-    }
-
-    /// The number of rows of a partition.
-    fn rows_of(&self, partition: usize) -> u64 {
-        let (chunks, rows_per_chunk) = (self.chunks(), self.table.rows_per_chunk());
-        let (partition, partitions) = (partition as u64, self.spec.partitions as u64);
-        let Some(last) = chunks.checked_sub(1) else { return 0 };
-        let own = chunks.saturating_sub(partition).div_ceil(partitions);
-        let last_rows = self.rows() - last * rows_per_chunk;
-        let missing = if last % partitions == partition { rows_per_chunk - last_rows } else { 0 };
-        own * rows_per_chunk - missing
     }
 }
 
@@ -157,7 +150,7 @@ impl ExecutionPlan for SweepScan {
         let batches = Batches {
             reader: self.table.reader(&self.spec.projection)?,
             mechanism: self.spec.table.mechanism.clone(),
-            numbers: (partition as u64..self.chunks()).step_by(count),
+            numbers: self.handout.numbers(self.chunks(), partition, count),
             rows: self.rows(),
             rows_per_chunk: self.table.rows_per_chunk(),
             rows_per_batch: context.session_config().batch_size(),
@@ -174,8 +167,9 @@ impl ExecutionPlan for SweepScan {
     }
 
     fn statistics_from_inputs(&self, _: &[Arc<Statistics>], args: &StatisticsArgs) -> Result<Arc<Statistics>> {
-        let rows = args.partition().map_or(self.rows(), |partition| self.rows_of(partition));
-        let num_rows = usize::try_from(rows).map_or(Precision::Absent, Precision::Exact);
+        // The rows of a partition are known when it has computed them.
+        let rows = args.partition().is_none().then(|| usize::try_from(self.rows()).ok()).flatten();
+        let num_rows = rows.map_or(Precision::Absent, Precision::Exact);
         Ok(Arc::new(Statistics { num_rows, ..Statistics::new_unknown(&self.schema()) }))
     }
 
@@ -185,7 +179,7 @@ impl ExecutionPlan for SweepScan {
 
     fn with_fetch(&self, limit: Option<usize>) -> Option<Arc<dyn ExecutionPlan>> {
         let spec = ScanSpec { fetch: limit.map(|limit| limit as u64), ..self.spec.clone() };
-        Some(Arc::new(Self::open(Arc::clone(&self.table), spec).ok()?))
+        Some(Arc::new(Self::open(Arc::clone(&self.table), spec, self.handout.again()).ok()?))
     }
 
     fn fetch(&self) -> Option<usize> {

@@ -10,6 +10,7 @@ use datafusion::logical_expr::{Expr, TableType};
 use datafusion::physical_plan::ExecutionPlan;
 
 use crate::chunked::Chunked;
+use crate::handout::Handout;
 use crate::{EngineError, Mechanisms, ScanSpec, SweepScan, TableSpec};
 
 /// All positions or cases of a sweep as a table.
@@ -61,6 +62,6 @@ impl TableProvider for SweepTable {
             fetch: limit.map(|limit| limit as u64),
             partitions: state.config().target_partitions(),
         };
-        Ok(Arc::new(SweepScan::open(Arc::clone(&self.table), spec)?))
+        Ok(Arc::new(SweepScan::open(Arc::clone(&self.table), spec, Handout::shared())?))
     }
 }

@@ -7,7 +7,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use common::{Cam, CamBranch, LIFTS, ROWS, context, family, lines, mechanisms, number, planned, request, rows, table};
 use datafusion::arrow::datatypes::DataType;
+use datafusion::physical_plan::common::collect as read;
 use datafusion::physical_plan::{ExecutionPlan, collect};
+use futures::StreamExt;
 use linkage_engine::{Family, Mechanisms, Request, SweepScan, progress};
 use linkage_sweep::{Place, Plan, Sweep, given};
 
@@ -123,6 +125,23 @@ async fn rows_in_order_need_no_sort() {
     let batches = collect(plan, context.task_ctx()).await.unwrap();
     let rows = batches.iter().flat_map(|batch| lines(std::slice::from_ref(batch))).map(|line| line[0]);
     assert!(rows.eq((0..ROWS).map(Some)));
+}
+
+#[tokio::test]
+async fn a_partition_takes_the_chunks_that_no_other_has_taken() {
+    let context = context(mechanisms(), 2, 8192);
+    let request = Request { rows_per_chunk: Some(50), ..request() };
+    let plan = planned(&context, &format!("SELECT row, mu FROM {}", table("sweep", &request))).await.unwrap();
+    let expected = lines(&collect(Arc::clone(&plan), context.task_ctx()).await.unwrap());
+    assert_eq!(expected.len() as u64, ROWS);
+    for _ in 0..2 {
+        let [mut slow, fast] = [0, 1].map(|partition| plan.execute(partition, context.task_ctx()).unwrap());
+        let mut batches = vec![slow.next().await.unwrap().unwrap()];
+        assert_eq!(batches[0].num_rows(), 50);
+        batches.extend(read(fast).await.unwrap());
+        assert_eq!(read(slow).await.unwrap(), []);
+        assert_eq!(lines(&batches), expected);
+    }
 }
 
 #[tokio::test]

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use datafusion::arrow::array::RecordBatch;
 use datafusion::physical_plan::{collect, common};
-use linkage_engine::cluster::Cluster;
+use linkage_engine::cluster::{Cluster, ClusterProgress};
 use linkage_engine::{Mechanisms, ScanProgress, progress, session};
 
 use crate::query::{self, Row};
@@ -18,7 +18,12 @@ use crate::query::{self, Row};
 pub async fn rows(query: &str, scheduler: Option<String>) -> Result<Vec<Row>, Box<dyn Error>> {
     let batches = match scheduler {
         Some(scheduler) => {
+            let start = Instant::now();
+            let print = move |ClusterProgress { partitions_done, partitions }| {
+                print(partitions_done as u64, partitions as u64, "partitions", start.elapsed());
+            };
             let cluster = Cluster::new(scheduler, Mechanisms::built_in()?)?;
+            let cluster = cluster.with_progress(Duration::from_secs(1), print);
             cluster.answer(query, async |rows| Ok(common::collect(rows).await?)).await?
         }
         None => here(query).await?,
@@ -37,7 +42,8 @@ async fn here(query: &str) -> Result<Vec<RecordBatch>, Box<dyn Error>> {
     let watch = thread::spawn(move || {
         let start = Instant::now();
         while is_done.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
-            print(&progress(&watched), start.elapsed());
+            let ScanProgress { chunks_done, chunks } = progress(&watched);
+            print(chunks_done, chunks, "chunks", start.elapsed());
         }
     });
     let batches = collect(plan, context.task_ctx()).await;
@@ -48,13 +54,12 @@ async fn here(query: &str) -> Result<Vec<RecordBatch>, Box<dyn Error>> {
 }
 
 /// Prints the progress to the standard error, on a terminal always on one line.
-fn print(progress: &ScanProgress, time: Duration) {
-    let ScanProgress { chunks_done, chunks } = *progress;
-    let rest = match chunks_done {
+fn print(done: u64, all: u64, parts: &str, time: Duration) {
+    let rest = match done {
         0 => String::new(),
-        done => format!(", {:.0} s left", time.as_secs_f64() * (chunks as f64 / done as f64 - 1.0)),
+        done => format!(", {:.0} s to go", time.as_secs_f64() * (all as f64 / done as f64 - 1.0)),
     };
-    let text = format!("{chunks_done} of {chunks} chunks{rest}");
+    let text = format!("{done} of {all} {parts}{rest}");
     match std::io::stderr().is_terminal() {
         true => eprint!("\r{text}    "),
         false => eprintln!("{text}"),

@@ -15,7 +15,8 @@ use datafusion_proto::protobuf::PhysicalPlanNode;
 use futures::TryStreamExt;
 
 use super::executor::host_and_port;
-use super::{ATTEMPTS, ClusterError, SweepCodec, TaskScan, transport};
+use super::progress::Reports;
+use super::{ATTEMPTS, ClusterError, ClusterProgress, SweepCodec, TaskScan, transport};
 use crate::{EngineError, Mechanisms, register};
 
 /// A cluster that queries are sent to.
@@ -26,6 +27,7 @@ pub struct Cluster {
     scheduler: String,
     context: SessionContext,
     wait: Duration,
+    reports: Option<Reports>,
 }
 
 impl Cluster {
@@ -48,7 +50,7 @@ impl Cluster {
         config.options_mut().sql_parser.enable_ident_normalization = false;
         let context = SessionContext::new_with_config(config);
         register(&context, mechanisms);
-        Ok(Self { scheduler, context, wait: Duration::from_secs(30) })
+        Ok(Self { scheduler, context, wait: Duration::from_secs(30), reports: None })
     }
 
     /// Sets the number of partitions of a scan.
@@ -63,6 +65,12 @@ impl Cluster {
     #[must_use]
     pub fn with_wait(self, wait: Duration) -> Self {
         Self { wait, ..self }
+    }
+
+    /// Calls `report` again and again while a query runs, each time after a pause.
+    #[must_use]
+    pub fn with_progress(self, every: Duration, report: impl Fn(ClusterProgress) + Send + Sync + 'static) -> Self {
+        Self { reports: Some(Reports { every, report: Arc::new(report) }), ..self }
     }
 
     /// Waits until the scheduler has as many executors as it was started for.
@@ -100,7 +108,7 @@ impl Cluster {
         loop {
             attempt += 1;
             let lost = Arc::new(AtomicBool::new(false));
-            let answer = take(self.submit(Arc::clone(&plan), Arc::clone(&lost)).await?).await;
+            let answer = take(self.submit(Arc::clone(&plan), attempt, Arc::clone(&lost)).await?).await;
             match answer {
                 Err(error) if lost.load(Ordering::Relaxed) => {
                     log::warn!("attempt {attempt}: the result is lost: {error}");
@@ -118,9 +126,13 @@ impl Cluster {
     async fn submit(
         &self,
         plan: Arc<dyn ExecutionPlan>,
+        attempt: usize,
         lost: Arc<AtomicBool>,
     ) -> Result<SendableRecordBatchStream, ClusterError> {
-        let config = self.context.copied_config();
+        // By its name the job is found among those of the scheduler.
+        let job = format!("{}-{attempt}", self.context.session_id());
+        let config = self.context.copied_config().with_ballista_job_name(&job);
+        let partitions = TaskScan::partitions(&plan);
         let (ballista, codec) = (config.ballista_config(), SweepCodec::default());
         let rows = execute_physical_plan::<PhysicalPlanNode>(
             format!("http://{}", self.scheduler),
@@ -130,7 +142,14 @@ impl Cluster {
             self.context.session_id(),
             config,
         );
-        let rows = rows.await.map_err(|error| ClusterError::job(&self.scheduler, &error))?;
+        let rows = match &self.reports {
+            None => rows.await,
+            Some(reports) => tokio::select! {
+                rows = rows => rows,
+                never = reports.of(&self.scheduler, &job, partitions) => match never {},
+            },
+        };
+        let rows = rows.map_err(|error| ClusterError::job(&self.scheduler, &error))?;
         let schema = rows.schema();
         let rows = rows.inspect_err(move |_| lost.store(true, Ordering::Relaxed));
         Ok(Box::pin(RecordBatchStreamAdapter::new(schema, rows)))

@@ -29,6 +29,7 @@ mod codec;
 mod error;
 mod executor;
 mod failure;
+mod progress;
 mod scheduler;
 mod task_scan;
 mod transport;
@@ -37,6 +38,7 @@ pub use client::Cluster;
 pub use codec::SweepCodec;
 pub use error::ClusterError;
 pub use executor::{ExecutorOptions, executor};
+pub use progress::ClusterProgress;
 pub use scheduler::{Scheduler, SchedulerOptions};
 pub use task_scan::TaskScan;
 

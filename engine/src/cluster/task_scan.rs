@@ -25,6 +25,9 @@ use futures::{StreamExt, TryStreamExt, stream};
 use super::failure::Failure;
 use crate::{ScanSpec, SweepScan};
 
+/// The name in plans.
+const NAME: &str = "TaskScan";
+
 /// A scan whose partitions are those that its input names by number.
 ///
 /// A task of Ballista has some partitions of a plan and counts them from 0: the scheduler keeps the partitions of the
@@ -103,20 +106,32 @@ impl TaskScan {
     pub fn is_needed(plan: &Arc<dyn ExecutionPlan>) -> bool {
         plan.is::<SweepScan>() || plan.children().into_iter().any(Self::is_needed)
     }
+
+    /// The number of partitions of all scans of a plan that is sent to a cluster.
+    #[must_use]
+    pub fn partitions(plan: &Arc<dyn ExecutionPlan>) -> usize {
+        let own = plan.downcast_ref::<Self>().map_or(0, |scan| scan.spec.partitions);
+        own + plan.children().into_iter().map(Self::partitions).sum::<usize>()
+    }
+
+    /// True if the text of a plan, as the scheduler prints it, has such a scan.
+    pub(super) fn is_in(plan: &str) -> bool {
+        plan.contains(&format!("{NAME}: "))
+    }
 }
 
 impl DisplayAs for TaskScan {
     fn fmt_as(&self, format: DisplayFormatType, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.scan {
             Scan::Open(scan) => scan.fmt_as(format, f),
-            Scan::Closed(_) => write!(f, "{}", self.spec.table.mechanism),
+            Scan::Closed(_) => write!(f, "{NAME}: {}", self.spec.table.mechanism),
         }
     }
 }
 
 impl ExecutionPlan for TaskScan {
     fn name(&self) -> &'static str {
-        "TaskScan"
+        NAME
     }
 
     fn properties(&self) -> &Arc<PlanProperties> {

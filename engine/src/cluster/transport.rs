@@ -4,6 +4,7 @@ use std::io;
 use std::net::SocketAddr;
 use std::time::Duration;
 
+use serde::de::DeserializeOwned;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::time::{Instant, sleep, timeout};
@@ -46,6 +47,13 @@ pub(super) async fn ready(scheduler: &str, wait: Duration) -> Result<(), Cluster
         }
         sleep(PAUSE).await;
     }
+}
+
+/// The answer of a scheduler in JSON; none if it does not answer or says something else.
+pub(super) async fn json<T: DeserializeOwned>(scheduler: &str, path: &str) -> Option<T> {
+    let answer = ask(scheduler, path).await.ok()?;
+    let (_, body) = answer.split_once("\r\n\r\n")?;
+    serde_json::from_str(body).ok()
 }
 
 /// The answer of a scheduler.

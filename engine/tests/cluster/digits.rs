@@ -1,14 +1,14 @@
 //! A cluster computes the digits of `linkage-sweep` alone, also when an executor is lost.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use datafusion::arrow::array::{Array, AsArray, RecordBatch};
 use datafusion::arrow::datatypes::{DataType, Float64Type, UInt64Type};
 use datafusion::physical_plan::common::collect;
 use linkage::Elbow;
-use linkage_engine::cluster::{Cluster, ClusterError};
+use linkage_engine::cluster::{Cluster, ClusterError, ClusterProgress};
 use linkage_engine::mechanisms::{FourBar, FourBarBranch};
 use linkage_engine::{Mechanisms, Request, session};
 use linkage_sweep::{Plan, Sweep, found, given};
@@ -97,6 +97,22 @@ async fn same_digits() {
     let grouped = format!("SELECT {} FROM ({}) GROUP BY row", all.join(", "), query(COLUMNS));
     let grouped = grouped.replace("max(accepted)", "bool_or(accepted)");
     assert_eq!(answer(&cluster, &grouped).await.expect("an answer"), expected, "grouped");
+}
+
+/// The reports of a query say how many partitions of its two scans are computed.
+#[tokio::test(flavor = "multi_thread")]
+async fn progress() {
+    let processes = Processes::start(1);
+    let reports = Arc::new(Mutex::new(Vec::new()));
+    let written = Arc::clone(&reports);
+    let write = move |report: ClusterProgress| written.lock().expect("no panic").push(report);
+    let cluster = processes.cluster().with_progress(Duration::from_millis(50), write);
+    let both = format!("{0} UNION ALL {0} ORDER BY mu", query(COLUMNS));
+    assert_eq!(answer(&cluster, &both).await.expect("an answer").0, 2 * expected().0);
+    let reports = reports.lock().expect("no panic");
+    assert!(reports.iter().all(|report| report.partitions == 32 && report.partitions_done <= 32), "{reports:?}");
+    assert!(reports.is_sorted_by_key(|report| report.partitions_done), "{reports:?}");
+    assert!(reports.iter().any(|report| (1..32).contains(&report.partitions_done)), "{reports:?}");
 }
 
 /// The rows of a query during which an executor that has finished some partitions gets a signal. The other executor

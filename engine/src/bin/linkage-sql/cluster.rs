@@ -1,7 +1,6 @@
 //! The commands of clusters.
 
 use std::path::PathBuf;
-use std::time::Duration;
 
 use clap::Args;
 use datafusion::arrow::util::pretty::pretty_format_batches;
@@ -83,17 +82,8 @@ pub async fn executor(arguments: ExecutorArguments, mechanisms: Mechanisms) -> R
 }
 
 /// Answers a query on a cluster.
-pub async fn answer(
-    scheduler: String,
-    query: &str,
-    parquet: Option<PathBuf>,
-    mechanisms: Mechanisms,
-    settings: (usize, u64),
-) -> Result<(), ClusterError> {
+pub async fn answer(cluster: &Cluster, query: &str, parquet: Option<PathBuf>) -> Result<(), ClusterError> {
     super::log::of_client();
-    let (partitions, wait) = settings;
-    let cluster = Cluster::new(scheduler, mechanisms)?;
-    let cluster = cluster.with_partitions(partitions).with_wait(Duration::from_secs(wait));
     match parquet {
         Some(path) => {
             let rows = cluster.answer(query, |rows| write_parquet(rows, &path)).await?;

@@ -12,7 +12,7 @@ use clap::{Parser, Subcommand};
 use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::physical_plan::{ExecutionPlan, collect, execute_stream};
 use datafusion::prelude::SessionContext;
-use linkage_engine::cluster::{Cluster, ClusterError};
+use linkage_engine::cluster::{Cluster, ClusterError, ClusterProgress};
 use linkage_engine::{EngineError, Mechanisms, progress, session, write_parquet};
 
 /// SQL on sweeps of planar linkages.
@@ -31,7 +31,7 @@ enum Command {
         /// Writes the result to this Parquet file. Otherwise it is printed.
         #[arg(long)]
         parquet: Option<PathBuf>,
-        /// Prints the number of computed chunks each second.
+        /// Prints the number of computed chunks each second, or of computed partitions on a cluster.
         #[arg(long)]
         progress: bool,
         /// Answers the query on the cluster of this scheduler, HOST:PORT.
@@ -64,8 +64,14 @@ async fn main() -> ExitCode {
 async fn run(command: Command) -> Result<(), ClusterError> {
     let mechanisms = Mechanisms::built_in()?;
     match command {
-        Command::Sql { query, parquet, scheduler: Some(scheduler), partitions, wait, .. } => {
-            cluster::answer(scheduler, &query, parquet, mechanisms, (partitions, wait)).await
+        Command::Sql { query, parquet, progress, scheduler: Some(scheduler), partitions, wait } => {
+            let cluster = Cluster::new(scheduler, mechanisms)?;
+            let cluster = cluster.with_partitions(partitions).with_wait(Duration::from_secs(wait));
+            let print = |ClusterProgress { partitions_done, partitions }| {
+                eprintln!("{partitions_done} of {partitions} partitions");
+            };
+            let cluster = if progress { cluster.with_progress(Duration::from_secs(1), print) } else { cluster };
+            cluster::answer(&cluster, &query, parquet).await
         }
         Command::Scheduler(arguments) => cluster::scheduler(arguments).await,
         Command::Executor(arguments) => cluster::executor(arguments, mechanisms).await,
