@@ -14,7 +14,7 @@ use linkage_engine::{Mechanisms, Request, session};
 use linkage_sweep::{Plan, Sweep, found, given};
 use tokio::time::timeout;
 
-use super::processes::{PATIENCE, Processes, until};
+use super::processes::{PATIENCE, Processes, SILENCE, until};
 
 /// A row: its number, the bits of its numbers, of which the found ones may be missing, and `accepted`.
 type Row = (u64, [Option<u64>; 5], bool);
@@ -118,7 +118,7 @@ async fn progress() {
 /// The rows of a query during which an executor that has finished some partitions gets a signal. The other executor
 /// computes all partitions.
 async fn with_signal(query: &str, name: &'static str) -> (usize, u64) {
-    let mut processes = Processes::start(2);
+    let mut processes = Processes::start_to_lose_one(2);
     let cluster = processes.cluster();
     let query = query.to_owned();
     let answer = tokio::spawn(async move { answer(&cluster, &query).await });
@@ -132,7 +132,7 @@ async fn with_signal(query: &str, name: &'static str) -> (usize, u64) {
     assert!(!answer.is_finished(), "the job runs");
     if name == "STOP" {
         // It goes on after its tasks went to the other one, and reports what it has.
-        tokio::time::sleep(Duration::from_secs(5)).await;
+        tokio::time::sleep(SILENCE + Duration::from_secs(5)).await;
         lost.signal("CONT");
     }
     let rows = answer.await.expect("no panic").expect("an answer");
@@ -161,7 +161,7 @@ async fn silent() {
 /// The executor with the result is killed before the result is read: the query runs again on another one.
 #[tokio::test(flavor = "multi_thread")]
 async fn lost_result() {
-    let mut processes = Processes::start(1);
+    let mut processes = Processes::start_to_lose_one(1);
     let cluster = processes.cluster();
     let only = Mutex::new(Some(processes.executors.remove(0)));
     let other = Mutex::new(None);
@@ -182,7 +182,7 @@ async fn lost_result() {
 /// The only executor is killed: the job fails.
 #[tokio::test(flavor = "multi_thread")]
 async fn no_executor_remains() {
-    let mut processes = Processes::start(1);
+    let mut processes = Processes::start_to_lose_one(1);
     let cluster = processes.cluster();
     let answer = tokio::spawn(async move { answer(&cluster, &query(COLUMNS)).await });
     let mut only = processes.executors.remove(0);

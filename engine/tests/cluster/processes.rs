@@ -10,7 +10,11 @@ use linkage_engine::Mechanisms;
 use linkage_engine::cluster::Cluster;
 
 /// The longest time that a test waits for anything.
-pub const PATIENCE: Duration = Duration::from_secs(60);
+pub const PATIENCE: Duration = Duration::from_secs(300);
+
+/// The silence after which an executor is lost, in tests that lose one. A busy machine may keep a healthy one silent for
+/// seconds.
+pub const SILENCE: Duration = Duration::from_secs(12);
 
 /// A process of the command line.
 pub struct Process {
@@ -94,7 +98,7 @@ pub fn until(what: &str, mut is_true: impl FnMut() -> bool) {
     }
 }
 
-/// A scheduler and executors that compute one partition at a time. A silent executor is lost after 3 s.
+/// A scheduler and executors that compute one partition at a time.
 pub struct Processes {
     // Executors end before the scheduler.
     pub executors: Vec<Process>,
@@ -103,9 +107,19 @@ pub struct Processes {
 }
 
 impl Processes {
+    /// Processes of which none is lost.
     pub fn start(executors: usize) -> Self {
-        let count = executors.to_string();
-        let scheduler = Process::start(&["scheduler", "--port", "0", "--timeout", "3", "--executors", &count]);
+        Self::start_with(executors, PATIENCE)
+    }
+
+    /// Processes of which one is lost after [`SILENCE`].
+    pub fn start_to_lose_one(executors: usize) -> Self {
+        Self::start_with(executors, SILENCE)
+    }
+
+    fn start_with(executors: usize, timeout: Duration) -> Self {
+        let (count, timeout) = (executors.to_string(), timeout.as_secs().to_string());
+        let scheduler = Process::start(&["scheduler", "--port", "0", "--timeout", &timeout, "--executors", &count]);
         until("the scheduler prints its address", || !scheduler.lines().is_empty());
         let address = scheduler.lines()[0].clone();
         let mut processes = Self { executors: Vec::new(), scheduler, address };
