@@ -56,7 +56,6 @@ fn the_reference_of_the_sprung_four_bar() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unoptimised: `.ci/run` runs it for release")]
 fn the_reference_of_the_sprung_four_bar_by_two_methods() {
     let [found, expected] = sprung_end::<Dop853>(1e-18);
     assert!(apart(found, expected) < 2e-14);
@@ -65,7 +64,6 @@ fn the_reference_of_the_sprung_four_bar_by_two_methods() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unoptimised: `.ci/run` runs it for release")]
 fn the_reference_of_44_turns() {
     let problem = four_bars::turning();
     let four_bars::Turning { m, g, .. } = problem.scene;
@@ -127,7 +125,6 @@ fn the_formulations_by_5000_steps() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unoptimised: `.ci/run` runs it for release")]
 fn the_formulations_by_20_000_steps() {
     are_those_of_another_program(1);
 }

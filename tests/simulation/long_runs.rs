@@ -32,7 +32,6 @@ fn a_pendulum_for_100_seconds() {
 
 /// 845 periods.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "takes minutes unoptimised: `.ci/run` runs it for release")]
 fn a_pendulum_for_2000_seconds() {
     is_exact_for_long(&EXACT);
 }
