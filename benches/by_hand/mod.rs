@@ -82,8 +82,8 @@ impl Dyad {
         }
         let chord = side * product.sqrt();
         let along = square + sum * difference;
-        let half = 0.5 / square;
-        let first = [(along * d[0] - chord * d[1]) * half, (along * d[1] + chord * d[0]) * half];
+        let half = times(d, 0.5 / square);
+        let first = [along * half[0] - chord * half[1], along * half[1] + chord * half[0]];
         let determinant = -0.5 * chord;
         if CHECKED && !(determinant.abs() > 8.0 * f64::EPSILON * (p * q).abs() && determinant.is_finite()) {
             return Err(PositionError::Singular { mechanism: "by hand", group, regularity: 0.0 });

@@ -60,6 +60,7 @@ fn state<const CHECKED: bool>(
 pub fn at(m: &SliderCrank, q: &SliderCrankCoordinates, rate: f64, acceleration: f64) -> Checked<SliderCrankMotion> {
     let [crank, rod] = f64::sines_cosines([q.theta, q.phi]);
     let (crank, rod) = (super::at(crank, m.crank), super::at(rod, m.rod));
+    finite::<true, _>([rod[0]])?;
     let State { rates, accelerations, .. } = moved::<true>(m, crank, rod, rate, acceleration)?;
     finite::<true, _>([q.s])?;
     let ([phi, s], theta) = (rates, rate);
@@ -87,11 +88,8 @@ fn moved<const CHECKED: bool>(
     let squared = phi * phi;
     let phi_acceleration = (y * squared - pin_y) * inverse;
     let s_acceleration = pin_x - x * squared - y * phi_acceleration;
-    finite::<CHECKED, _>([phi_acceleration, s_acceleration])?;
-    Ok(State {
-        rod,
-        slider: crank[0] + x,
-        rates: [phi, -(crank[1] * rate + y * phi)],
-        accelerations: [phi_acceleration, s_acceleration],
-    })
+    let s = -(crank[1] * rate + y * phi);
+    // The acceleration of the rod is a part of that of the slider.
+    finite::<CHECKED, _>([s, s_acceleration])?;
+    Ok(State { rod, slider: crank[0] + x, rates: [phi, s], accelerations: [phi_acceleration, s_acceleration] })
 }

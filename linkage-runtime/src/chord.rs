@@ -254,14 +254,17 @@ fn uncommon_chord<T: Real>(p: T, q: T, x: T, y: T, scale: T, low: T, high: T) ->
 pub fn regular_chord<T: Real, S: Side>(factors: [T; 2], radius: T, side: S) -> Option<T> {
     let [low, high] = factors;
     let radicand = low * high;
-    let root = if is_in_range(radicand) {
-        radicand.sqrt()
-    } else {
-        // Where these are not finite, `chord` is an error.
-        let is_regular = low > T::zero() && high > T::zero() && [low, high, radius].iter().all(T::is_finite);
-        is_regular.then(|| root(low, high, radius))?
-    };
+    let root = if is_in_range(radicand) { radicand.sqrt() } else { uncommon_circle_chord(low, high, radius)? };
     Some(side.signed(root))
+}
+
+/// The [`regular_chord`] of a circle that is very large or small, without its sign.
+#[cold]
+#[inline(never)]
+fn uncommon_circle_chord<T: Real>(low: T, high: T, radius: T) -> Option<T> {
+    // Where these are not finite, `chord` is an error.
+    let is_regular = low > T::zero() && high > T::zero() && [low, high, radius].iter().all(T::is_finite);
+    is_regular.then(|| root(low, high, radius))
 }
 
 /// The [`regular_chord`] without branches; false if that computes it in other units or has none.

@@ -113,9 +113,7 @@ impl Finished<'_> {
         let unproven = numbers.filter(|((_, dyad), is_proven)| dyad.is_none() && !**is_proven);
         let numbers = to_check(unproven.map(|((value, _), _)| value.clone()).collect());
         if !numbers.is_empty() {
-            // A sum is finite only if all its terms are. Where finite terms overflow, other code finds no error.
-            let sum = Expression::Sum(numbers.into_iter().map(|number| (false, number)).collect());
-            conditions.push(sum.method("is_finite", []));
+            conditions.push(Expression::all_finite(numbers));
         }
         conditions
     }

@@ -205,6 +205,11 @@ impl<'a, 'n> Writer<'a, 'n> {
                 let call = self.group_call("reachable", *block, [length]);
                 self.statements.push(Statement::Do(call.tried()));
             }
+            Line::Finite { values } => {
+                let Failure::Return(otherwise) = &self.kernel.failure else { return };
+                let is_finite = Expression::all_finite(self.all_signed(values));
+                self.statements.push(Statement::Unless(vec![is_finite], vec![Statement::Return(otherwise.clone())]));
+            }
             Line::Chord { block, symbol, factors, size, of } => self.chord((*block, *symbol), *factors, *size, *of),
             Line::Pivots { symbol, matrix } => {
                 let columns = self.columns(matrix);

@@ -122,7 +122,7 @@ impl Ordering {
     }
 
     /// Adds one line for the sines and cosines of all angles known at the start: in vector operations they cost half as
-    /// much as one by one.
+    /// much as one by one. They come first, where they have the registers for themselves, also those of a single angle.
     pub(super) fn gather_sines(&mut self, introduced: &BTreeSet<SymbolId>) {
         let mut known = FxHashSet::default();
         let several = self.circular.values().filter(|one| self.is_known(one.angle.value, introduced, &mut known));
@@ -132,6 +132,13 @@ impl Ordering {
             && let Some(alone) = several.iter().rposition(|one| !one.is_pair())
         {
             several.remove(alone);
+        }
+        if let [one] = several.as_slice()
+            && one.is_pair()
+        {
+            self.require(one.angle.value, false);
+            self.give_names(one);
+            self.lines.push(Line::SineCosine(*one));
         }
         if several.len() < 2 {
             return;

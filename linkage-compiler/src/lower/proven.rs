@@ -30,7 +30,7 @@ impl Schedule {
             finite: vec![false; self.values.len()],
             checked: vec![false; self.values.len()],
         };
-        let (mut chords, mut factors_of_all) = (Vec::new(), Vec::new());
+        let (mut chords, mut checked) = (Vec::new(), Vec::new());
         for line in &self.lines {
             match line {
                 // The turn is an integer, so that an angle is finite if its principal value is.
@@ -39,12 +39,13 @@ impl Schedule {
                 }
                 Line::Chord { symbol, factors, .. } => {
                     chords.push(*symbol);
-                    factors_of_all.extend(factors.map(|factor| factor.value));
+                    checked.extend(factors.map(|factor| factor.value));
                 }
+                Line::Finite { values } => checked.extend(values.iter().map(|value| value.value)),
                 _ => {}
             }
         }
-        proven.follow(factors_of_all);
+        proven.follow(checked);
         for result in &results[conclusive] {
             let operands = proven.operands(proven.itself(result.value));
             proven.follow(operands);

@@ -64,6 +64,9 @@ pub enum Line {
         block: BlockId,
         length: Signed,
     },
+    Finite {
+        values: Vec<Signed>,
+    },
     Newton {
         block: BlockId,
         targets: Vec<SymbolId>,

@@ -187,6 +187,11 @@ impl Expression {
         Self::Method(Box::new(self), name.into(), arguments.into_iter().collect())
     }
 
+    /// True if all values are finite: a sum is finite only if all its terms are. Where finite terms overflow, it is false.
+    pub fn all_finite(values: Vec<Self>) -> Self {
+        Self::Sum(values.into_iter().map(|value| (false, value)).collect()).method("is_finite", [])
+    }
+
     #[must_use]
     pub fn tried(self) -> Self {
         Self::Try(Box::new(self))
