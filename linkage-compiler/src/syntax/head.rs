@@ -7,8 +7,19 @@ use syn::{Attribute, Token, Visibility};
 
 use super::attributes::{self, Bearer};
 use super::expression::Expressions;
-use super::{Mechanism, statement};
+use super::statement::{self, Statement};
 use crate::diagnostics::{Diagnostics, Region};
+
+/// One `mechanism NAME { … }`.
+pub struct Mechanism {
+    pub attributes: Vec<Attribute>,
+    pub visibility: Visibility,
+    pub name: Ident,
+    pub statements: Vec<Statement>,
+    pub expressions: Expressions,
+    /// Its syntax errors.
+    pub diagnostics: Diagnostics,
+}
 
 const FORM: &str = "mechanism NAME { … }";
 
