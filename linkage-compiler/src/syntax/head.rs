@@ -5,8 +5,9 @@ use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::{Attribute, Token, Visibility};
 
-use super::attributes::{self, Bearer};
+use super::attributes;
 use super::expression::Expressions;
+use super::kind::Bearer;
 use super::statement::{self, Statement};
 use crate::diagnostics::{Diagnostics, Region};
 
