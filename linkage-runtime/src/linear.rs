@@ -23,7 +23,11 @@ pub fn regular<T: Real>(
     if is_nonzero(determinant, scale) && determinant.is_finite() {
         return Ok(());
     }
-    Err(singular(mechanism, group, determinant, scale))
+    // The error is put together here: a compiler that does not see a function return an error goes on behind the call.
+    Err(match regularity(determinant, scale) {
+        Some(regularity) => PositionError::Singular { mechanism, group, regularity },
+        None => PositionError::NotFinite { mechanism, quantity: "the Jacobian" },
+    })
 }
 
 /// True if the determinant of a group of unknowns is not zero to rounding error, relative to `scale`.
@@ -38,16 +42,13 @@ pub fn same_signs<T: Real>(these: &[T], those: &[T]) -> bool {
     these.iter().zip(those).all(|(this, that)| (*this >= T::zero()) == (*that >= T::zero()))
 }
 
+/// The determinant relative to its scale. `None` if either is not a finite number.
 #[cold]
 #[inline(never)]
-fn singular<T: Real>(mechanism: &'static str, group: &'static str, determinant: T, scale: T) -> PositionError {
-    if determinant.is_finite() && scale.is_finite() {
-        // A determinant of scale zero is singular.
-        let regularity = if scale.is_zero() { 0.0 } else { to_f64((determinant / scale).abs()) };
-        PositionError::Singular { mechanism, group, regularity }
-    } else {
-        PositionError::NotFinite { mechanism, quantity: "the Jacobian" }
-    }
+fn regularity<T: Real>(determinant: T, scale: T) -> Option<f64> {
+    let is_finite = determinant.is_finite() && scale.is_finite();
+    // A determinant of scale zero is singular.
+    is_finite.then(|| if scale.is_zero() { 0.0 } else { to_f64((determinant / scale).abs()) })
 }
 
 /// J of a block of `N` unknowns, equilibrated and factorised with partial pivoting.

@@ -24,6 +24,7 @@ mod motion;
 mod multipliers;
 mod periods;
 mod plane;
+mod position;
 mod position_formulas;
 mod ratio_derivatives;
 mod ratios;

@@ -6,8 +6,8 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
-use super::Work;
 use super::names::string;
+use super::work::Work;
 use crate::derivation::{
     ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Reactions, Row, Scene,
 };

@@ -18,6 +18,7 @@ mod scene;
 mod text;
 mod traits;
 mod types;
+mod work;
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
@@ -29,6 +30,7 @@ use crate::program::{self, Function, Operations, Program};
 use fpcore::Straight;
 use names::string;
 pub use text::text;
+use work::{Work, works};
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]
@@ -123,26 +125,6 @@ fn block(
             #implemented
         };
     }
-}
-
-/// A public function of the program.
-struct Work {
-    function: String,
-    operations: Operations,
-    /// Its formulas, line by line; empty unless requested.
-    lines: String,
-}
-
-/// The public functions with their operation counts, without those that compute nothing.
-fn works(functions: &[Function<Code>], straight: Option<&Straight>) -> Vec<Work> {
-    let public = functions.iter().filter(|function| function.access.is_public());
-    let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
-    let works = works.filter(|(_, operations)| *operations != Operations::default());
-    let works = works.map(|(function, operations)| {
-        let lines = straight.map_or_else(String::new, |straight| straight.lines(&function));
-        Work { function, operations, lines }
-    });
-    works.collect()
 }
 
 /// The functions of a driver and of its scenes that have formulas: the type, the function and its lines.

@@ -30,6 +30,12 @@ impl Graph {
         self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect()
     }
 
+    /// True if an expression contains a symbol.
+    #[must_use]
+    pub fn depends_on(&self, node: NodeId, symbol: SymbolId) -> bool {
+        self.symbols_of(&[node]).contains(&symbol)
+    }
+
     /// The symbols that the roots use as numbers. Symbols that enter only as integer multiples in sines and cosines are
     /// not among them: their directions are sufficient.
     #[must_use]

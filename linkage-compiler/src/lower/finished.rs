@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashSet;
 
-use super::function::{Formulas, is_formula};
+use super::formulas::{Formulas, is_formula};
 use crate::program::{Expression, Pattern, Statement};
 
 /// Replaces indices of results and local values by their expressions and names.

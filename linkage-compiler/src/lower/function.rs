@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::finished::Finished;
+use super::formulas::{Formulas, is_formula};
 use super::lines::{Writer, direction_name};
 use super::names::Names;
 use super::rounding::{Bound, DIRECTION, Roundings};
@@ -15,7 +16,7 @@ use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::BlockId;
 use crate::program::{
     Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement,
-    Taken, Type, Value as Returned,
+    Type, Value as Returned,
 };
 
 /// The data that the functions of one driver or scene share.
@@ -87,7 +88,7 @@ fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) 
     }
     let mut formulas = match kernel {
         Some(kernel) => Formulas::of(&kernel, (is_layer, has_bound), context),
-        None => Formulas::none(context),
+        None => Formulas::none(context.reserved),
     };
     operations += formulas.operations;
     let locals: Vec<String> = locals.iter().map(|preferred| formulas.taken.unique(preferred)).collect();
@@ -148,45 +149,7 @@ fn needed(statements: Vec<Statement>, uses: &mut BTreeSet<String>) -> Vec<Statem
     kept
 }
 
-/// A lowered kernel.
-pub(super) struct Formulas<'a> {
-    statements: Vec<Statement>,
-    results: Vec<Expression>,
-    /// For each result, true if it is finite if the checks before it pass.
-    pub(super) is_proven: Vec<bool>,
-    pub(super) dyads: Vec<Option<BlockId>>,
-    /// The names of the flags that are true if the triangle of a dyad is well conditioned.
-    pub(super) well_conditioned: Vec<String>,
-    /// The names of the factorisations that solve groups.
-    pub(super) factors: Vec<String>,
-    /// The checks of a kernel that only flags failed ones.
-    pub(super) flags: Vec<Expression>,
-    is_branch_free: bool,
-    bound: Option<Bound>,
-    pub(super) taken: Taken<'a>,
-    externals: BTreeSet<ExternalId>,
-    operations: Operations,
-}
-
 impl<'a> Formulas<'a> {
-    /// No formulas, for a function without kernel.
-    fn none(context: &Context<'a>) -> Self {
-        Self {
-            statements: Vec::new(),
-            results: Vec::new(),
-            is_proven: Vec::new(),
-            dyads: Vec::new(),
-            well_conditioned: Vec::new(),
-            factors: Vec::new(),
-            flags: Vec::new(),
-            is_branch_free: true,
-            bound: None,
-            taken: Taken::new(context.reserved),
-            externals: BTreeSet::new(),
-            operations: Operations::default(),
-        }
-    }
-
     fn of(kernel: &Kernel, (is_layer, has_bound): (bool, bool), context: &mut Context<'a>) -> Self {
         let derivation = context.derivation;
         let nothing = Given::default();
@@ -303,15 +266,6 @@ fn parameters_where_used(statements: &mut Vec<Statement>) {
     };
     let place = statements.iter().position(uses).unwrap_or(statements.len());
     statements.insert(place, parameters);
-}
-
-/// True if a value is neither a name nor zero nor one.
-pub(super) fn is_formula(value: &Expression) -> bool {
-    match value {
-        Expression::Name(_) => false,
-        Expression::Number(number) => !number.is_zero() && !number.is_one(),
-        _ => true,
-    }
 }
 
 /// `let Type { field, other: name, .. } = *value;` with the fields that are used; `None` if no field is used.

@@ -9,6 +9,7 @@
 mod chords;
 mod factors;
 mod finished;
+mod formulas;
 mod function;
 mod joined;
 mod lines;

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::chain::{Chain, Chains, Link, Mean};
-use super::opening::Site;
+use super::opened::Site;
 use super::places::Places;
 use super::scene::Body;
 use crate::graph::{Function, Graph, NodeId, Number, SymbolId};

@@ -8,7 +8,7 @@ use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 use super::chain::Chain;
 use super::kind::Kind;
 use super::name::Name;
-use super::opening::Opened;
+use super::opened::Opened;
 use super::request::Request;
 use super::scene::{Body, Scene};
 use crate::diagnostics::Region;

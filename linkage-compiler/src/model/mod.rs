@@ -3,7 +3,9 @@
 
 mod advice;
 mod chain;
+mod chains;
 mod check;
+mod displaced;
 mod expression;
 mod guess;
 mod kind;
@@ -12,6 +14,7 @@ mod lower;
 mod meant;
 mod mechanism;
 mod name;
+mod opened;
 mod opening;
 mod places;
 mod redundant;
@@ -28,7 +31,7 @@ pub use mechanism::{
     Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
 };
 pub use name::Name;
-pub use opening::{Load, LoadKind, Opened};
+pub use opened::{Load, LoadKind, Opened};
 pub use places::Places;
 pub use request::Request;
 pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};

@@ -9,206 +9,42 @@
 use std::collections::BTreeMap;
 
 use super::chain::{Link, in_order};
-use super::expression::Lowering;
 use super::links::{GROUND, Leg, LegOf, Links, moved};
-use super::mechanism::Mechanism;
-use super::scene::Body;
+use super::opened::Site;
 use super::scope::Value;
 use crate::diagnostics::Region;
 use crate::graph::{Graph, NodeId, Number, SymbolId};
-use crate::ids::{BodyId, SceneId, Table};
-use crate::syntax::{self, Expression, ExpressionId, Expressions, Operator, StatementKind};
-
-/// The force of a joint on a link.
-#[derive(Debug, Clone)]
-pub struct Load {
-    /// The name of its field.
-    pub field: String,
-    pub kind: LoadKind,
-    /// The components of the displacement that opens the joint: along x and y; for a guide, along its normal, and the
-    /// angle about its end.
-    pub displacement: [SymbolId; 2],
-    /// False if an `implied` loop may carry a part of the force.
-    pub is_determined: bool,
-}
-
-/// The kind of an opened joint, with the names of its parts.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum LoadKind {
-    /// The force of a pin on a link.
-    Pin { joint: String, link: String },
-    /// The force and the moment of a guide on what slides along it.
-    Guide { coordinate: String, guide: String, block: String, end: Option<String> },
-}
-
-/// An opened joint: a link at a place, or a guide by its ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Site {
-    Pin { place: usize, link: usize },
-    Guide { ends: [usize; 2], block: usize },
-}
-
-/// The opened joints of a mechanism, and its formulas with all of them displaced.
-#[derive(Debug, Clone, Default)]
-pub struct Opened {
-    pub loads: Vec<Load>,
-    /// The rows of the constraints in order.
-    pub rows: Vec<NodeId>,
-    /// The rows of the `implied` ones.
-    pub implied: Vec<NodeId>,
-    pub bodies: Table<BodyId, OpenedBody>,
-    pub scenes: Table<SceneId, Paths>,
-}
-
-/// The centre and the angle of a body.
-#[derive(Debug, Clone, Copy)]
-pub struct OpenedBody {
-    pub center: Option<[NodeId; 2]>,
-    pub angle: Option<NodeId>,
-}
-
-/// The scalars that the effects of a scene act along.
-#[derive(Debug, Clone, Default)]
-pub struct Paths {
-    pub laws: Vec<NodeId>,
-    pub contacts: Vec<NodeId>,
-}
+use crate::syntax::{Expression, ExpressionId, Expressions, Operator};
 
 /// The second reading of all vectors, with displaced joints.
 pub(super) struct Opening {
-    links: Links,
-    sites: Vec<(Site, [SymbolId; 2])>,
+    pub(super) links: Links,
+    pub(super) sites: Vec<(Site, [SymbolId; 2])>,
     /// The values of the first reading.
-    plain: Vec<Value>,
+    pub(super) plain: Vec<Value>,
     /// The vectors that names stand for, and whether the name is that of a point.
-    definitions: BTreeMap<String, (ExpressionId, bool)>,
+    pub(super) definitions: BTreeMap<String, (ExpressionId, bool)>,
     /// The link of the body whose centre is read.
-    owner: Option<usize>,
+    pub(super) owner: Option<usize>,
     /// The vectors that are no paths over links, by expression.
-    unclear: BTreeMap<usize, Region>,
+    pub(super) unclear: BTreeMap<usize, Region>,
 }
 
 /// A path over links from the origin.
 #[derive(Debug, Clone)]
-struct Path {
+pub(super) struct Path {
     /// Its end; `None` after a vector that begins elsewhere.
     position: Option<[NodeId; 2]>,
     /// The link on which it ends; `None` for a pin.
     link: Option<usize>,
-    shift: [NodeId; 2],
+    pub(super) shift: [NodeId; 2],
     /// True if it has not left the origin.
     is_fresh: bool,
 }
 
-impl OpenedBody {
-    fn of(body: &Body) -> Self {
-        Self { center: body.mass.map(|(_, center)| center), angle: body.inertia.map(|(_, angle)| angle) }
-    }
-}
-
-impl Lowering<'_> {
-    /// Reads all statements again with displaced joints.
-    pub(super) fn open(
-        &mut self,
-        statements: &[syntax::Statement],
-        links: Links,
-        joints: &[(Site, Load)],
-        mut again: Mechanism,
-        opened: &mut Opened,
-    ) {
-        let mut definitions = BTreeMap::new();
-        for statement in statements {
-            let (name, value, is_point) = match &statement.kind {
-                StatementKind::Let { name, value } => (name, *value, false),
-                StatementKind::Point { name, value } | StatementKind::Quantity { name, value } => (name, *value, true),
-                _ => continue,
-            };
-            definitions.insert(name.to_string(), (value, is_point));
-        }
-        let sites = joints.iter().map(|(site, load)| (*site, load.displacement)).collect();
-        let plain = std::mem::take(&mut self.values);
-        self.opening = Some(Opening { links, sites, plain, definitions, owner: None, unclear: BTreeMap::new() });
-        self.scope.forget_values();
-        let messages = self.diagnostics.len();
-        let calls: Vec<usize> = self.externals.iter().map(|external| external.calls.len()).collect();
-        let reading = self.define(statements, &mut again);
-        self.diagnostics.truncate(messages);
-        self.externals.iter_mut().zip(calls).for_each(|(external, calls)| external.calls.truncate(calls));
-        if let Some(region) = self.opening.take().and_then(Opening::unclear) {
-            let message = "the forces in joints need this vector as a sum of vectors `r@phi`, `(x, y)@phi` and points";
-            self.diagnostics.error(region, message);
-        }
-        [opened.rows, opened.implied] = [again.constraints, again.implied]
-            .map(|constraints| constraints.into_iter().flat_map(|constraint| constraint.rows).collect());
-        opened.bodies = again.bodies.iter().map(OpenedBody::of).collect();
-        opened.scenes = reading.paths();
-    }
-
-    /// The value of an expression with displaced joints; a law is a force, not a path.
-    pub(super) fn displaced(&mut self, index: usize, value: Value) -> Value {
-        if self.is_law {
-            return value;
-        }
-        let Some(mut opening) = self.opening.take() else { return value };
-        let id = self.expressions.id(index);
-        let displaced = match opening.plain.get(index) {
-            Some(&Value::Vector(x, y)) => {
-                let shift = opening.shift(&mut self.graph, self.expressions, id);
-                // An operand of a sum is no position by itself.
-                for operand in vectors_of(self.expressions.get(id)) {
-                    opening.unclear.remove(&operand.index());
-                }
-                let shift = shift.unwrap_or_else(|| {
-                    opening.unclear.insert(index, self.expressions.region(id));
-                    [self.graph.zero(); 2]
-                });
-                Value::Vector(self.graph.add(x, shift[0]), self.graph.add(y, shift[1]))
-            }
-            _ => value,
-        };
-        self.opening = Some(opening);
-        displaced
-    }
-
-    /// The pin at the origin, at which a loop `… = 0` ends.
-    pub(super) fn displaced_origin(&mut self) -> [NodeId; 2] {
-        let zero = [self.graph.zero(); 2];
-        let Some(opening) = &self.opening else { return zero };
-        let path = opening.start(&mut self.graph);
-        opening.end(&mut self.graph, path).shift
-    }
-
-    /// Reads the centre of a body, which is on the link of this body.
-    pub(super) fn center(&mut self, body: BodyId, value: ExpressionId) -> Option<(NodeId, NodeId)> {
-        if let Some(opening) = &mut self.opening {
-            opening.owner = opening.links.bodies.ids().find(|&id| id == body).map(|id| opening.links.bodies[id]);
-        }
-        let center = self.vector(value);
-        if let Some(opening) = &mut self.opening {
-            opening.owner = None;
-        }
-        center
-    }
-
-    /// The angle of a body, which turns with what slides on an opened guide.
-    pub(super) fn turned(&mut self, body: BodyId, angle: NodeId) -> NodeId {
-        let Some(opening) = &self.opening else { return angle };
-        let Some(link) = opening.links.bodies.ids().find(|&id| id == body).map(|id| opening.links.bodies[id]) else {
-            return angle;
-        };
-        let turns =
-            opening.sites.iter().filter(|(site, _)| matches!(site, Site::Guide { block, .. } if *block == link));
-        let turns: Vec<SymbolId> = turns.map(|(_, [_, turn])| *turn).collect();
-        turns.into_iter().fold(angle, |angle, turn| {
-            let turn = self.graph.variable(turn);
-            self.graph.add(angle, turn)
-        })
-    }
-}
-
 impl Opening {
     /// The first vector that is no path over links; a `let` may be a part of one.
-    fn unclear(mut self) -> Option<Region> {
+    pub(super) fn unclear(mut self) -> Option<Region> {
         for (part, _) in self.definitions.values().filter(|(_, is_point)| !is_point) {
             self.unclear.remove(&part.index());
         }
@@ -216,7 +52,12 @@ impl Opening {
     }
 
     /// The displacement of the end of a vector that begins at the origin.
-    fn shift(&mut self, graph: &mut Graph, expressions: &Expressions, id: ExpressionId) -> Option<[NodeId; 2]> {
+    pub(super) fn shift(
+        &mut self,
+        graph: &mut Graph,
+        expressions: &Expressions,
+        id: ExpressionId,
+    ) -> Option<[NodeId; 2]> {
         match expressions.get(id) {
             Expression::Sum(operands) => self.shift_of_sum(graph, expressions, operands, false),
             Expression::Negate(inner) => {
@@ -373,7 +214,7 @@ impl Opening {
     }
 
     /// Ends a path on its owner, or else on the pin at its end.
-    fn end(&self, graph: &mut Graph, mut path: Path) -> Path {
+    pub(super) fn end(&self, graph: &mut Graph, mut path: Path) -> Path {
         if let Some(place) = path.position.and_then(|position| self.links.place(position)) {
             self.step(graph, &mut path, place, self.owner);
         }
@@ -399,7 +240,7 @@ impl Opening {
         path.link = to;
     }
 
-    fn start(&self, graph: &mut Graph) -> Path {
+    pub(super) fn start(&self, graph: &mut Graph) -> Path {
         let zero = [graph.zero(); 2];
         Path { position: Some(zero), link: Some(GROUND), shift: zero, is_fresh: true }
     }
@@ -417,14 +258,5 @@ impl Opening {
             )
         };
         !legs.iter().any(turns)
-    }
-}
-
-/// The operands of a vector expression that may be vectors.
-fn vectors_of(expression: &Expression) -> Vec<ExpressionId> {
-    match expression {
-        Expression::Sum(operands) | Expression::Product(operands) => operands.iter().map(|(_, id)| *id).collect(),
-        Expression::Negate(inner) | Expression::At(inner, _) => vec![*inner],
-        _ => Vec::new(),
     }
 }

@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::expression::Lowering;
 use super::mechanism::Mechanism;
-use super::opening::{Load, LoadKind};
+use super::opened::{Load, LoadKind};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{Id, RowId, Table, UnknownId};
 use crate::structure::{incidence, order};

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use super::group::depends_on;
 use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
@@ -31,7 +30,7 @@ impl Distance {
         let mut found = Self::as_written(graph, row, unknowns).or_else(|| Self::circle(graph, row, unknowns))?;
         // Of two squares, that of the cosine is the one of x.
         let has_cosine = |&part: &NodeId| {
-            let cosine = |id| matches!(graph.node(id), Node::Call(Function::Cos, angle) if depends_on(graph, angle[0], unknowns[0]));
+            let cosine = |id| matches!(graph.node(id), Node::Call(Function::Cos, angle) if graph.depends_on(angle[0], unknowns[0]));
             graph.reachable(&[part]).into_iter().any(cosine)
         };
         let [x, y] = found.vector;
@@ -42,7 +41,7 @@ impl Distance {
     }
 
     fn as_written(graph: &mut Graph, row: NodeId, unknowns: &[SymbolId]) -> Option<Self> {
-        let holds = |graph: &Graph, id: NodeId| unknowns.iter().any(|&unknown| depends_on(graph, id, unknown));
+        let holds = |graph: &Graph, id: NodeId| unknowns.iter().any(|&unknown| graph.depends_on(id, unknown));
         let all = graph.terms(row);
         let (held, rest): (Vec<_>, Vec<_>) = all.into_iter().partition(|(_, term)| holds(graph, *term));
         let rest = graph.sum(&rest);

@@ -13,7 +13,8 @@
 use rustc_hash::FxHashMap;
 
 use super::distance::Distance;
-use super::loops::{Loops, Obstacle};
+use super::loops::Loops;
+use super::obstacle::Obstacle;
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 
 /// The kind of a block.
@@ -161,7 +162,7 @@ pub fn mirror(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Vec<
 
 fn scalar(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Group {
     let slope = graph.partial(&[row], unknown)[0];
-    if !depends_on(graph, slope, unknown) {
+    if !graph.depends_on(slope, unknown) {
         return Group::Linear;
     }
     // d^2 V / dphi^2 = -V
@@ -198,7 +199,7 @@ impl Circles {
         let [one, other] = rows.map(|row| Distance::of(graph, row, &unknowns));
         let distances = [one?, other?];
         let [x, y] = unknowns;
-        let is_turned = |distance: &Distance| distance.is_ordered && !depends_on(graph, distance.vector[0], x);
+        let is_turned = |distance: &Distance| distance.is_ordered && !graph.depends_on(distance.vector[0], x);
         let point = if distances.iter().any(is_turned) { [y, x] } else { [x, y] };
         let centres = distances.each_ref().map(|distance| centre(graph, distance, point));
         let [first, second] = centres;
@@ -209,14 +210,14 @@ impl Circles {
 /// The vector c of V = (x, y) - c, but for the order of the components of V and their signs.
 fn centre(graph: &mut Graph, distance: &Distance, point: [SymbolId; 2]) -> Option<[NodeId; 2]> {
     let [first, second] = distance.vector;
-    let vector = if depends_on(graph, first, point[0]) { [first, second] } else { [second, first] };
+    let vector = if graph.depends_on(first, point[0]) { [first, second] } else { [second, first] };
     let mut centre = vector;
     for axis in [0, 1] {
         let variable = graph.variable(point[axis]);
         centre[axis] = [Number::ONE, Number::MINUS_ONE].into_iter().find_map(|sign| {
             let signed = graph.scale(sign, vector[axis]);
             let centre = graph.subtract(variable, signed);
-            let is_free = point.iter().all(|&unknown| !depends_on(graph, centre, unknown));
+            let is_free = point.iter().all(|&unknown| !graph.depends_on(centre, unknown));
             is_free.then_some(centre)
         })?;
     }
@@ -236,8 +237,8 @@ fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Group
         (true, _, _, Some(line)) => slider(graph, line, a),
         (_, true, Some(line), _) => slider(graph, line, b),
         (_, _, Some(first), Some(second))
-            if first.iter().all(|&part| !depends_on(graph, part, b))
-                && second.iter().all(|&part| !depends_on(graph, part, a)) =>
+            if first.iter().all(|&part| !graph.depends_on(part, b))
+                && second.iter().all(|&part| !graph.depends_on(part, a)) =>
         {
             Group::Sliders
         }
@@ -261,7 +262,7 @@ fn two_links(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> 
 /// The group of an angle and a length along a line: RRP if the line does not depend on the angle, RPR if it turns with
 /// the angle.
 fn slider(graph: &mut Graph, line: [NodeId; 2], angle: SymbolId) -> Group {
-    if line.iter().all(|&part| !depends_on(graph, part, angle)) {
+    if line.iter().all(|&part| !graph.depends_on(part, angle)) {
         Group::Rrp
     } else if is_angle(graph, line, angle) && line.iter().all(|&part| terms_with(graph, part, angle) == part) {
         Group::Rpr
@@ -281,17 +282,13 @@ fn is_angle(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> bool {
 /// The direction D = dV/ds of the line of a length; None if it depends on s.
 fn direction(graph: &mut Graph, rows: [NodeId; 2], unknown: SymbolId) -> Option<[NodeId; 2]> {
     let derivatives = graph.partial(&rows, unknown);
-    let is_constant = derivatives.iter().all(|&part| !depends_on(graph, part, unknown));
+    let is_constant = derivatives.iter().all(|&part| !graph.depends_on(part, unknown));
     is_constant.then(|| [derivatives[0], derivatives[1]])
-}
-
-pub(super) fn depends_on(graph: &Graph, node: NodeId, symbol: SymbolId) -> bool {
-    graph.symbols_of(&[node]).contains(&symbol)
 }
 
 /// The terms of a sum that depend on a symbol.
 fn terms_with(graph: &mut Graph, row: NodeId, symbol: SymbolId) -> NodeId {
-    let terms: Vec<_> = terms(graph, row).into_iter().filter(|&(_, term)| depends_on(graph, term, symbol)).collect();
+    let terms: Vec<_> = terms(graph, row).into_iter().filter(|&(_, term)| graph.depends_on(term, symbol)).collect();
     graph.sum(&terms)
 }
 

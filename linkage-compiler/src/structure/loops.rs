@@ -9,36 +9,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::obstacle::Obstacle;
 use super::waves::{Direction, Row, Waves};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 
 /// The most loops of a group of which all positions can be listed.
 pub const MOST_LOOPS: usize = 3;
-
-/// The reason why the positions of a group cannot be listed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Obstacle {
-    MoreLoops,
-    TwoGuides,
-    LengthsInOneLoop,
-    ProductOfLengths,
-    UserFunction,
-    NotLoops,
-}
-
-impl Obstacle {
-    #[must_use]
-    pub fn text(self) -> &'static str {
-        match self {
-            Self::MoreLoops => "it has more than three loops",
-            Self::TwoGuides => "it has two sliders on two unknown directions",
-            Self::LengthsInOneLoop => "one of its loops has two unknown lengths",
-            Self::ProductOfLengths => "two of them, or the square of one, are multiplied",
-            Self::UserFunction => "a function of the program takes one of them",
-            Self::NotLoops => "they are not the angles and lengths of links in two or three loops",
-        }
-    }
-}
 
 /// The loops of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]

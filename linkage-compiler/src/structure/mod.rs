@@ -10,15 +10,17 @@ mod elimination;
 mod group;
 mod loops;
 mod matching;
+mod obstacle;
 mod slide;
 mod waves;
 
 pub use distance::Distance;
 pub use elimination::{Elimination, System, incidence};
 pub use group::{Circles, Class, Group, mirror};
-pub use loops::{Guide, Loops, Obstacle};
+pub use loops::{Guide, Loops};
 use matching::Matching;
 pub use matching::StructurallySingular;
+pub use obstacle::Obstacle;
 pub use slide::{Slide, find_slides};
 
 use crate::ids::{BlockId, Id, RowId, Table, UnknownId};

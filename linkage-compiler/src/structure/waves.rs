@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashSet;
 
-use super::loops::Obstacle;
+use super::obstacle::Obstacle;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
 /// The largest factor of an unknown in a direction.

@@ -8,21 +8,8 @@ use syn::spanned::Spanned;
 use syn::token::Bracket;
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Token};
 
-use super::kind::at_keyword;
+use super::kind::{Bearer, at_keyword};
 use crate::diagnostics::Diagnostics;
-
-/// The construct that an attribute belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Bearer {
-    /// A mechanism; `cfg` applies to all its items.
-    Mechanism,
-    /// A part of a mechanism that becomes a type or a parameter field.
-    Item,
-    /// A field of types that the macro defines.
-    Field,
-    /// A part that becomes no item or field; it accepts doc comments for readers of the source.
-    Part,
-}
 
 /// Parses the attributes before a construct; one with a syntax error is reported and skipped.
 pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<Attribute> {

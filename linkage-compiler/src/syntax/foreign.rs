@@ -5,7 +5,7 @@ use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::{Lit, Token};
 
-use super::expression::{Expression, ExpressionId, Expressions, Operator, Unit, parse};
+use super::expression::{Expression, ExpressionId, Expressions, Operator, Unit};
 use super::kind::is_reserved;
 use super::tokens::take;
 use crate::diagnostics::Region;
@@ -69,85 +69,8 @@ pub(super) fn power(stream: ParseStream, arena: &mut Expressions) -> bool {
     true
 }
 
-/// Parses a sign before a factor, or another notation of it.
-pub(super) fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
-    if let Some(region) = take(stream, "+") {
-        arena.slip(region, "remove this `+`: a term needs no sign `+`");
-        return super::expression::postfix(stream, arena).map(Some);
-    }
-    if let Some(region) = take(stream, "&") {
-        arena.slip(region, "remove this `&`: a value has no reference");
-        return super::expression::postfix(stream, arena).map(Some);
-    }
-    if let Some(region) = take(stream, "...") {
-        arena.slip(region, "remove this `...`: a statement ends with `;` only");
-        return super::expression::postfix(stream, arena).map(Some);
-    }
-    if stream.peek(syn::token::Bracket) || stream.peek(syn::token::Brace) {
-        return group(stream, arena).map(Some);
-    }
-    if stream.peek(Token![|]) {
-        return bars(stream, arena);
-    }
-    if stream.peek(Token![if]) || stream.peek(Token![match]) {
-        return condition(stream, arena).map(Some);
-    }
-    path(stream, arena)
-}
-
-/// `[x, y]` and `{x, y}`, read as `(x, y)`.
-fn group(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
-    let TokenTree::Group(group) = stream.parse::<TokenTree>()? else { return Err(stream.error("expected a group")) };
-    let parser = |inner: ParseStream| {
-        let mut items = Vec::new();
-        while !inner.is_empty() {
-            items.push(parse(inner, arena)?);
-            if inner.parse::<Option<Token![,]>>()?.is_none() {
-                break;
-            }
-        }
-        let rest: proc_macro2::TokenStream = inner.parse()?;
-        Ok((items, rest.is_empty()))
-    };
-    let read = syn::parse::Parser::parse2(parser, group.stream());
-    let region = Region::from(group.span_open()).to(group.span_close().into());
-    match read {
-        Ok((items, true)) if items.len() == 1 => {
-            arena.slip(region, "write parentheses: `( … )`");
-            Ok(items[0])
-        }
-        Ok((items, true)) if items.len() == 2 => {
-            arena.slip(region, "write a vector in parentheses: `(x, y)`");
-            Ok(arena.push(Expression::Vector(items[0], items[1]), region))
-        }
-        _ => Err(syn::Error::new(group.span(), "expected an expression: a vector is written `(x, y)`")),
-    }
-}
-
-/// `|x|`.
-fn bars(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
-    let start = Region::from(stream.span());
-    let ahead = stream.fork();
-    ahead.parse::<Token![|]>()?;
-    let before = arena.len();
-    let inner = parse(&ahead, arena);
-    let end = Region::from(ahead.span());
-    if inner.is_err() || !ahead.peek(Token![|]) {
-        arena.truncate(before);
-        return Ok(None);
-    }
-    ahead.parse::<Token![|]>()?;
-    syn::parse::discouraged::Speculative::advance_to(stream, &ahead);
-    let region = start.to(end);
-    if begins_factor(stream) {
-        return Err(syn::Error::new_spanned(region, "a function written with bars cannot be part of an expression"));
-    }
-    arena.slip(region, "write `abs(x)`, or `norm(P)` for a vector");
-    Ok(Some(arena.push(Expression::Broken, region)))
-}
-
 /// `if` and `match`, with all that belongs to them.
-fn condition(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+pub(super) fn condition(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     let start = Region::from(stream.span());
     let word: Ident = stream.call(Ident::parse_any)?;
     let region = loop {
@@ -163,7 +86,7 @@ fn condition(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expres
 }
 
 /// The path of a constant, a function or a macro of Rust.
-fn path(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
+pub(super) fn path(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
     let ahead = stream.fork();
     let Ok(first) = ahead.call(Ident::parse_any) else { return Ok(None) };
     let mut last = first.clone();

@@ -5,10 +5,22 @@ use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::{Attribute, Token, Visibility};
 
-use super::attributes::{self, Bearer};
+use super::attributes;
 use super::expression::Expressions;
-use super::{Mechanism, statement};
+use super::kind::Bearer;
+use super::statement::{self, Statement};
 use crate::diagnostics::{Diagnostics, Region};
+
+/// One `mechanism NAME { … }`.
+pub struct Mechanism {
+    pub attributes: Vec<Attribute>,
+    pub visibility: Visibility,
+    pub name: Ident,
+    pub statements: Vec<Statement>,
+    pub expressions: Expressions,
+    /// Its syntax errors.
+    pub diagnostics: Diagnostics,
+}
 
 const FORM: &str = "mechanism NAME { … }";
 

@@ -5,10 +5,22 @@ use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::{Path, Token};
 
-use super::attributes::Bearer;
 use super::expression::ExpressionId;
 use super::scene::{self, Body, Scene};
 use crate::diagnostics::nearest;
+
+/// The construct that an attribute belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Bearer {
+    /// A mechanism; `cfg` applies to all its items.
+    Mechanism,
+    /// A part of a mechanism that becomes a type or a parameter field.
+    Item,
+    /// A field of types that the macro defines.
+    Field,
+    /// A part that becomes no item or field; it accepts doc comments for readers of the source.
+    Part,
+}
 
 /// The kind and the content of a statement.
 pub enum StatementKind {

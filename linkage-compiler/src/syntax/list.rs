@@ -5,10 +5,12 @@ use syn::Token;
 use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
 
-use super::expression::{self, ExpressionId, Expressions};
+use super::expression::{ExpressionId, Expressions};
 use super::kind::{at_keyword, at_word};
+use super::precedence;
+use super::punctuation::equals;
 use super::scene::{EFFECTS, PROPERTIES};
-use super::tokens::{equals, name, take};
+use super::tokens::{name, take};
 use crate::diagnostics::Region;
 
 /// Parses `a = 1, b`.
@@ -22,7 +24,7 @@ pub(super) fn parameters(
         let has_value = !stream.is_empty() && !stream.peek(Token![,]) && !stream.peek(Token![;]);
         let default = (has_value && !stream.peek(syn::Ident)).then(|| {
             equals(stream, expressions, &format!("{name} = …"))?;
-            expression::parse(stream, expressions)
+            precedence::parse(stream, expressions)
         });
         Ok((name, default.transpose()?))
     })
@@ -37,7 +39,7 @@ pub(super) fn names(stream: ParseStream, expressions: &mut Expressions, of: &str
         if stream.parse::<Option<Token![=]>>()?.is_some() {
             let message = format!("a name after `{of}` has no value here: pass it to the functions; write `{name}`");
             expressions.slip(found, message);
-            expression::parse(stream, expressions)?;
+            precedence::parse(stream, expressions)?;
         }
         Ok(name)
     })

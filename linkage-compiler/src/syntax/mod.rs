@@ -7,33 +7,26 @@ mod attributes;
 mod expression;
 mod foreign;
 mod head;
+mod items;
 mod kind;
 mod list;
+mod precedence;
+mod punctuation;
 mod recovery;
 mod scene;
 mod statement;
 mod tokens;
 
-use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
 pub use expression::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;
+pub use head::Mechanism;
 pub use kind::{KEYWORDS, StatementKind};
 pub use scene::{Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Place, Scene};
 pub use statement::Statement;
-
-/// One `mechanism NAME { … }`.
-pub struct Mechanism {
-    pub attributes: Vec<syn::Attribute>,
-    pub visibility: syn::Visibility,
-    pub name: Ident,
-    pub statements: Vec<Statement>,
-    pub expressions: Expressions,
-    /// Its syntax errors.
-    pub diagnostics: Diagnostics,
-}
 
 /// The largest nesting of parentheses; it bounds the recursion of the parser.
 pub const DEEPEST_NESTING: usize = 64;

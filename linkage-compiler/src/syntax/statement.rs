@@ -6,11 +6,12 @@ use syn::parse::ParseStream;
 use syn::parse::discouraged::Speculative;
 use syn::{Attribute, Path, Token};
 
-use super::expression::{self, ExpressionId, Expressions};
+use super::expression::{ExpressionId, Expressions};
 use super::kind::{KEYWORDS, StatementKind, at_keyword, meant};
 use super::list::{names, parameters};
-use super::tokens::{end, equals, name};
-use super::{attributes, recovery, scene};
+use super::punctuation::{end, equals};
+use super::tokens::name;
+use super::{attributes, items, precedence, recovery};
 use crate::diagnostics::Diagnostics;
 
 /// A statement with its attributes.
@@ -98,7 +99,7 @@ fn quantity(
 fn named_value(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<(Ident, ExpressionId)> {
     let name = name(stream)?;
     stream.parse::<Token![=]>()?;
-    let value = expression::parse(stream, expressions)?;
+    let value = precedence::parse(stream, expressions)?;
     stream.parse::<Token![;]>()?;
     Ok((name, value))
 }
@@ -217,7 +218,7 @@ fn kind(
             let name = name(stream)?;
             after_name(stream, &word, &name, expressions)?;
             equals(stream, expressions, &format!("{word} {name} = …;"))?;
-            let value = expression::parse(stream, expressions)?;
+            let value = precedence::parse(stream, expressions)?;
             match word.as_str() {
                 "let" => StatementKind::Let { name, value },
                 "point" => StatementKind::Point { name, value },
@@ -226,8 +227,8 @@ fn kind(
         }
         "extern" => external(stream, keyword.span(), expressions)?,
         "derive" => StatementKind::Derive(names(stream, expressions, &word)?),
-        "body" => StatementKind::Body(scene::body(stream, expressions, diagnostics)?),
-        "scene" => StatementKind::Scene(scene::scene(stream, expressions, diagnostics)?),
+        "body" => StatementKind::Body(items::body(stream, expressions, diagnostics)?),
+        "scene" => StatementKind::Scene(items::scene(stream, expressions, diagnostics)?),
         _ => return Err(syn::Error::new(keyword.span(), "unknown statement")),
     })
 }
@@ -350,7 +351,7 @@ fn closed(
 }
 
 fn sides(stream: ParseStream, expressions: &mut Expressions, form: &str) -> syn::Result<(ExpressionId, ExpressionId)> {
-    let left = expression::parse(stream, expressions)?;
+    let left = precedence::parse(stream, expressions)?;
     if stream.peek(Token![;]) {
         let region = stream.span();
         expressions.slip(region, format!("expected `=` and the other side, which may be `0`: write `{form}`"));
@@ -358,12 +359,12 @@ fn sides(stream: ParseStream, expressions: &mut Expressions, form: &str) -> syn:
         return Ok((left, right));
     }
     equals(stream, expressions, form)?;
-    let right = expression::parse(stream, expressions)?;
+    let right = precedence::parse(stream, expressions)?;
     let found = stream.span();
     if stream.peek(Token![=]) && !stream.peek(Token![==]) {
         stream.parse::<Token![=]>()?;
         expressions.slip(found, "a statement has one `=`: write a statement for each");
-        expression::parse(stream, expressions)?;
+        precedence::parse(stream, expressions)?;
     }
     Ok((left, right))
 }

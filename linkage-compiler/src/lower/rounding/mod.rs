@@ -26,10 +26,6 @@ use crate::program::PosePlan;
 use angle::Angles;
 use tracked::Tracked;
 
-/// The relative error of a sine or a cosine of an angle up to 1e5, in units of 2^-53: `SINE_ERROR` of the runtime, which
-/// is proved there.
-pub(super) const SINE: f64 = 1.29;
-
 /// The name of a sine or cosine among the results of `pose_at`.
 pub(super) const DIRECTION: &str = "directions";
 

@@ -5,6 +5,10 @@ use super::count::{Amplifier, Count};
 use super::monomial::{Factor, Monomial, Size, addition_theorem, circular};
 use crate::graph::Number;
 
+/// The relative error of a sine or a cosine of an angle up to 1e5, in units of 2^-53: `SINE_ERROR` of the runtime, which
+/// is proved there.
+const SINE: f64 = 1.29;
+
 /// A value x with an error of at most (relative |x| + scattered size) 2^-53, to first order.
 #[derive(Debug, Clone)]
 pub(super) struct Tracked {
@@ -40,7 +44,7 @@ impl Tracked {
     /// A sine or cosine: its own error, and that of the angle x, of which |x cot x| or |x tan x| remain.
     pub(super) fn sine(angles: &Angles, is_sine: bool, angle: (AngleId, bool)) -> Option<Self> {
         let amplifier = if is_sine { Amplifier::Cotangent } else { Amplifier::Tangent };
-        let relative = Count::of(super::SINE).with(amplifier, angle.0, angles.rounding(angle.0)?);
+        let relative = Count::of(SINE).with(amplifier, angle.0, angles.rounding(angle.0)?);
         Some(Self::product_of(circular(is_sine, angle), relative))
     }
 

@@ -146,7 +146,7 @@ impl Letters {
         };
         let taken: Vec<String> = results.iter().flat_map(names).collect();
         // Those after d; `m` is a sum, `x` is the result.
-        let free = ('d'..'m').rev().filter(|letter| taken.iter().all(|name| *name != letter.to_string())).collect();
+        let free = ('d'..'m').rev().filter(|&letter| !taken.iter().any(|name| name.chars().eq([letter]))).collect();
         Self { free, given: Vec::new(), varying: Vec::new() }
     }
 

@@ -7,7 +7,7 @@ use crate::ids::SceneId;
 use crate::model::expression::Lowering;
 use crate::model::links::{GROUND, Links};
 use crate::model::mechanism::Mechanism;
-use crate::model::opening::{Load, LoadKind, Site};
+use crate::model::opened::{Load, LoadKind, Site};
 use crate::syntax::{ExpressionId, Joint};
 
 /// A joint that a scene names, before the links are known.

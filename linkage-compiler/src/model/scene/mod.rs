@@ -12,7 +12,7 @@ use proc_macro2::{Ident, Span};
 use syn::Attribute;
 
 use super::name::Name;
-use super::opening::Paths;
+use super::opened::Paths;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{BodyId, DriverId, InputId, SceneId, SceneParameterId, Table};
 pub(super) use joint::Wanted;

@@ -1,0 +1,59 @@
+//! The forces of joints, and the formulas of a mechanism with opened joints.
+
+use crate::graph::{NodeId, SymbolId};
+use crate::ids::{BodyId, SceneId, Table};
+
+/// The force of a joint on a link.
+#[derive(Debug, Clone)]
+pub struct Load {
+    /// The name of its field.
+    pub field: String,
+    pub kind: LoadKind,
+    /// The components of the displacement that opens the joint: along x and y; for a guide, along its normal, and the
+    /// angle about its end.
+    pub displacement: [SymbolId; 2],
+    /// False if an `implied` loop may carry a part of the force.
+    pub is_determined: bool,
+}
+
+/// The kind of an opened joint, with the names of its parts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum LoadKind {
+    /// The force of a pin on a link.
+    Pin { joint: String, link: String },
+    /// The force and the moment of a guide on what slides along it.
+    Guide { coordinate: String, guide: String, block: String, end: Option<String> },
+}
+
+/// An opened joint: a link at a place, or a guide by its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Site {
+    Pin { place: usize, link: usize },
+    Guide { ends: [usize; 2], block: usize },
+}
+
+/// The opened joints of a mechanism, and its formulas with all of them displaced.
+#[derive(Debug, Clone, Default)]
+pub struct Opened {
+    pub loads: Vec<Load>,
+    /// The rows of the constraints in order.
+    pub rows: Vec<NodeId>,
+    /// The rows of the `implied` ones.
+    pub implied: Vec<NodeId>,
+    pub bodies: Table<BodyId, OpenedBody>,
+    pub scenes: Table<SceneId, Paths>,
+}
+
+/// The centre and the angle of a body.
+#[derive(Debug, Clone, Copy)]
+pub struct OpenedBody {
+    pub center: Option<[NodeId; 2]>,
+    pub angle: Option<NodeId>,
+}
+
+/// The scalars that the effects of a scene act along.
+#[derive(Debug, Clone, Default)]
+pub struct Paths {
+    pub laws: Vec<NodeId>,
+    pub contacts: Vec<NodeId>,
+}

@@ -1,0 +1,314 @@
+//! Parsers of expressions. Precedence from low to high: `+ -`, `@`, `* /`, unary `-`, `^`.
+
+use proc_macro2::{Delimiter, Ident, Span, TokenTree};
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::{Lit, Token};
+
+use super::expression::{Expression, ExpressionId, Expressions, Operator, Unit};
+use super::foreign;
+use super::tokens::take;
+use crate::diagnostics::Region;
+
+pub(super) fn parse(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    chain(
+        stream,
+        arena,
+        at,
+        |stream, _, _| {
+            Ok(if stream.parse::<Option<Token![+]>>()?.is_some() {
+                Some(Operator::Direct)
+            } else {
+                stream.parse::<Option<Token![-]>>()?.map(|_| Operator::Inverse)
+            })
+        },
+        Expression::Sum,
+    )
+}
+
+fn product(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    chain(
+        stream,
+        arena,
+        signed,
+        |stream, last, arena| {
+            Ok(if stream.parse::<Option<Token![*]>>()?.is_some() {
+                Some(Operator::Direct)
+            } else if stream.parse::<Option<Token![/]>>()?.is_some() {
+                Some(Operator::Inverse)
+            } else {
+                foreign::product(stream, last, arena)?
+            })
+        },
+        Expression::Product,
+    )
+}
+
+type Part = fn(ParseStream, &mut Expressions) -> syn::Result<ExpressionId>;
+
+fn chain(
+    stream: ParseStream,
+    arena: &mut Expressions,
+    part: Part,
+    operator: fn(ParseStream, ExpressionId, &mut Expressions) -> syn::Result<Option<Operator>>,
+    build: fn(Vec<(Operator, ExpressionId)>) -> Expression,
+) -> syn::Result<ExpressionId> {
+    let mut first = part(stream, arena)?;
+    let mut operands = vec![(Operator::Direct, first)];
+    let mut last = first;
+    while let Some(operator) = operator(stream, last, arena)? {
+        let name = arena.as_name(last).filter(|_| operator == Operator::Missing).cloned();
+        let before = last;
+        last = part(stream, arena)?;
+        match name {
+            // `sin phi` or `l2 l3`.
+            Some(name) => {
+                let region = arena.region(before).to(arena.region(last));
+                arena.spoil(before);
+                last = arena.push(Expression::Adjacent(name, last), region);
+                operands.pop();
+                let operator = operands.last().map_or(Operator::Direct, |_| Operator::Missing);
+                operands.push((operator, last));
+                if operands.len() == 1 {
+                    first = last;
+                }
+            }
+            None => operands.push((operator, last)),
+        }
+    }
+    if operands.len() == 1 {
+        return Ok(first);
+    }
+    let region = arena.region(first).to(arena.region(last));
+    Ok(arena.push(build(operands), region))
+}
+
+fn at(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    if stream.peek(Token![@]) {
+        return Err(stream.error("expected a length before `@`: write `r@phi`"));
+    }
+    let magnitude = product(stream, arena)?;
+    if stream.parse::<Option<Token![@]>>()?.is_none() {
+        return Ok(magnitude);
+    }
+    if stream.peek(Token![+]) {
+        return Err(stream.error("expected an angle after `@`: write `r@phi`"));
+    }
+    let was_angle = std::mem::replace(&mut arena.is_angle, true);
+    let angle = product(stream, arena);
+    arena.is_angle = was_angle;
+    let angle = angle?;
+    if stream.peek(Token![@]) {
+        return Err(syn::Error::new(stream.span(), "a vector has one angle: write `r@(phi + psi)`"));
+    }
+    let region = arena.region(magnitude).to(arena.region(angle));
+    Ok(arena.push(Expression::At(magnitude, angle), region))
+}
+
+fn signed(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let start = stream.span();
+    let mut negative = false;
+    while stream.parse::<Option<Token![-]>>()?.is_some() {
+        negative = !negative;
+    }
+    let value = power(stream, arena)?;
+    if !negative {
+        return Ok(value);
+    }
+    let region = Region::from(start).to(arena.region(value));
+    Ok(arena.push(Expression::Negate(value), region))
+}
+
+fn power(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let base = postfix(stream, arena)?;
+    if !foreign::power(stream, arena) && stream.parse::<Option<Token![^]>>()?.is_none() {
+        return Ok(base);
+    }
+    let start = stream.span();
+    let negative = stream.parse::<Option<Token![-]>>()?.is_some();
+    let mut exponent = postfix(stream, arena)?;
+    if negative {
+        let region = Region::from(start).to(arena.region(exponent));
+        exponent = arena.push(Expression::Negate(exponent), region);
+    }
+    let region = arena.region(base).to(arena.region(exponent));
+    Ok(arena.push(Expression::Power(base, exponent), region))
+}
+
+pub(super) fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let mut value = primary(stream, arena)?;
+    while let Some(read) = foreign::postfix(stream, value, arena)? {
+        value = read;
+    }
+    while !stream.peek(Token![..]) && stream.parse::<Option<Token![.]>>()?.is_some() {
+        let method: Ident = stream.call(Ident::parse_any)?;
+        let (mut arguments, close) = arguments(stream, arena)?;
+        arguments.insert(0, value);
+        let region = arena.region(value).to(close.into());
+        value = arena.push(Expression::Call(method, arguments), region);
+    }
+    Ok(value)
+}
+
+fn arguments(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<ExpressionId>, Span)> {
+    let was_angle = std::mem::take(&mut arena.is_angle);
+    let arguments = listed(stream, arena);
+    arena.is_angle = was_angle;
+    arguments
+}
+
+fn listed(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<ExpressionId>, Span)> {
+    let content;
+    let parentheses = syn::parenthesized!(content in stream);
+    let mut arguments = Vec::new();
+    while !content.is_empty() {
+        arguments.push(parse(&content, arena)?);
+        if content.is_empty() {
+            break;
+        }
+        comma(&content)?;
+    }
+    Ok((arguments, parentheses.span.close()))
+}
+
+fn comma(stream: ParseStream) -> syn::Result<()> {
+    let found = stream.span();
+    if stream.parse::<Option<Token![,]>>()?.is_some() {
+        return Ok(());
+    }
+    Err(foreign::sign(stream).unwrap_or_else(|| syn::Error::new(found, "expected `,` or `)`")))
+}
+
+fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let start = stream.span();
+    let missing =
+        || syn::Error::new(start, "expected an expression: a number, a name, `r@phi`, `(x, y)` or a function");
+    if stream.is_empty() || stream.peek(Token![;]) {
+        return Err(missing());
+    }
+    if let Some(value) = other_notation(stream, arena)? {
+        return Ok(value);
+    }
+    if let Ok(literal) = stream.fork().parse::<Lit>() {
+        Lit::parse(stream)?;
+        return number(&literal, arena);
+    }
+    if stream.peek(syn::token::Paren) {
+        let (items, close) = arguments(stream, arena)?;
+        let region = Region::from(start).to(close.into());
+        return match *items.as_slice() {
+            [inner] => Ok(inner),
+            [x, y] => Ok(arena.push(Expression::Vector(x, y), region)),
+            _ => Err(syn::Error::new_spanned(region, "expected `(expression)` or a vector `(x, y)`")),
+        };
+    }
+    // An `$x:expr` from another macro comes in invisible delimiters.
+    if let Ok(proc_macro2::TokenTree::Group(group)) = stream.fork().parse()
+        && group.delimiter() == Delimiter::None
+    {
+        stream.parse::<proc_macro2::TokenTree>()?;
+        return syn::parse::Parser::parse2(|inner: ParseStream| parse(inner, arena), group.stream());
+    }
+    let name = stream.call(Ident::parse_any).map_err(|_| missing())?;
+    if stream.peek(syn::token::Paren) {
+        let (arguments, close) = arguments(stream, arena)?;
+        let region = Region::from(name.span()).to(close.into());
+        return Ok(arena.push(Expression::Call(name, arguments), region));
+    }
+    let region = name.span().into();
+    Ok(arena.push(Expression::Name(name), region))
+}
+
+fn number(literal: &Lit, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let (digits, suffix) = match literal {
+        Lit::Int(integer) => (integer.base10_digits().to_owned(), integer.suffix().to_owned()),
+        Lit::Float(float) => (float.base10_digits().to_owned(), float.suffix().to_owned()),
+        other => return Err(foreign::not_a_number(other)),
+    };
+    let unit = match Unit::ALL.iter().find(|(name, _)| *name == suffix) {
+        Some((_, unit)) => *unit,
+        None if suffix.is_empty() => Unit::None,
+        None => {
+            arena.unit(&suffix, literal.span().into(), &digits);
+            if suffix.starts_with("deg") { Unit::Degrees } else { Unit::None }
+        }
+    };
+    Ok(arena.push(Expression::Number { digits, unit }, literal.span().into()))
+}
+
+/// Parses a sign before a factor, or another notation of it.
+fn other_notation(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
+    if let Some(region) = take(stream, "+") {
+        arena.slip(region, "remove this `+`: a term needs no sign `+`");
+        return postfix(stream, arena).map(Some);
+    }
+    if let Some(region) = take(stream, "&") {
+        arena.slip(region, "remove this `&`: a value has no reference");
+        return postfix(stream, arena).map(Some);
+    }
+    if let Some(region) = take(stream, "...") {
+        arena.slip(region, "remove this `...`: a statement ends with `;` only");
+        return postfix(stream, arena).map(Some);
+    }
+    if stream.peek(syn::token::Bracket) || stream.peek(syn::token::Brace) {
+        return group(stream, arena).map(Some);
+    }
+    if stream.peek(Token![|]) {
+        return bars(stream, arena);
+    }
+    if stream.peek(Token![if]) || stream.peek(Token![match]) {
+        return foreign::condition(stream, arena).map(Some);
+    }
+    foreign::path(stream, arena)
+}
+
+/// `[x, y]` and `{x, y}`, read as `(x, y)`.
+fn group(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let TokenTree::Group(group) = stream.parse::<TokenTree>()? else { return Err(stream.error("expected a group")) };
+    let parser = |inner: ParseStream| {
+        let mut items = Vec::new();
+        while !inner.is_empty() {
+            items.push(parse(inner, arena)?);
+            if inner.parse::<Option<Token![,]>>()?.is_none() {
+                break;
+            }
+        }
+        let rest: proc_macro2::TokenStream = inner.parse()?;
+        Ok((items, rest.is_empty()))
+    };
+    let read = syn::parse::Parser::parse2(parser, group.stream());
+    let region = Region::from(group.span_open()).to(group.span_close().into());
+    match read {
+        Ok((items, true)) if items.len() == 1 => {
+            arena.slip(region, "write parentheses: `( … )`");
+            Ok(items[0])
+        }
+        Ok((items, true)) if items.len() == 2 => {
+            arena.slip(region, "write a vector in parentheses: `(x, y)`");
+            Ok(arena.push(Expression::Vector(items[0], items[1]), region))
+        }
+        _ => Err(syn::Error::new(group.span(), "expected an expression: a vector is written `(x, y)`")),
+    }
+}
+
+/// `|x|`.
+fn bars(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
+    let start = Region::from(stream.span());
+    let ahead = stream.fork();
+    ahead.parse::<Token![|]>()?;
+    let before = arena.len();
+    let inner = parse(&ahead, arena);
+    let end = Region::from(ahead.span());
+    if inner.is_err() || !ahead.peek(Token![|]) {
+        arena.truncate(before);
+        return Ok(None);
+    }
+    ahead.parse::<Token![|]>()?;
+    syn::parse::discouraged::Speculative::advance_to(stream, &ahead);
+    let region = start.to(end);
+    if foreign::begins_factor(stream) {
+        return Err(syn::Error::new_spanned(region, "a function written with bars cannot be part of an expression"));
+    }
+    arena.slip(region, "write `abs(x)`, or `norm(P)` for a vector");
+    Ok(Some(arena.push(Expression::Broken, region)))
+}
