@@ -44,7 +44,7 @@ pub trait Real: RealField + Copy {
     #[must_use]
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [(Self, Self); N] {
         if !angles.iter().fold(true, |within, angle| within & lane::is_moderate(*angle)) {
-            return angles.map(Self::sine_cosine);
+            return one_by_one(angles);
         }
         native!(angles => sine::several, N).unwrap_or_else(|| angles.map(Self::sin_cos))
     }
@@ -73,6 +73,13 @@ impl<T: RealField + Copy> Real for T {}
 #[inline(never)]
 fn beyond<T: Real>(angle: T) -> (T, T) {
     angle.sin_cos()
+}
+
+/// The sines and cosines of angles of which some are beyond this crate's range.
+#[cold]
+#[inline(never)]
+fn one_by_one<T: Real, const N: usize>(angles: [T; N]) -> [(T, T); N] {
+    angles.map(T::sine_cosine)
 }
 
 /// The standard library's atan2.
