@@ -41,11 +41,12 @@ impl<T: Real> Bracket<T> {
         if length <= margin + margin {
             return None;
         }
-        let middle = low + length * half;
+        let middle = (low + high) * half;
         let place = if above > T::zero() && below <= T::zero() {
-            let straight = low + length * (above / (above - below));
+            // An overflow leaves the middle.
+            let straight = (above * high - below * low) / (above - below);
             let side = if middle >= straight { T::one() } else { -T::one() };
-            let shift = length / width * length * real(0.2);
+            let shift = real::<T>(0.2) / width * length * length;
             let truncated = if shift <= (middle - straight).abs() { straight + side * shift } else { middle };
             let room = radius - length * half;
             if (truncated - middle).abs() <= room { truncated } else { middle - side * room }
