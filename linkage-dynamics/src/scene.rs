@@ -215,6 +215,7 @@ type ContactsOf<S> = Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as
 
 /// The state y = (q, v') of a scene, by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateParts<Q, V> {
     /// All coordinates q.
     pub q: Q,
@@ -224,6 +225,7 @@ pub struct StateParts<Q, V> {
 
 /// The derivative y' = (q', v'') of the state of a scene, by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateRates<R, V> {
     /// The rates q' of all coordinates.
     pub rates: R,

@@ -55,6 +55,11 @@ pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
 
 /// The rates at a state and the validity of the modes there: see [`Contacts::review`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct ContactReview<T: Real, V: Dim> {
     /// The rates v' with s' = 0 of the held contacts.
     pub rates: Column<T, V>,

@@ -7,6 +7,7 @@
 /// Start { t: 0.0, q, input_rates: RobotInputs { shoulder: 1.0, elbow: 0.0 } }
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Start<T, Q, R> {
     /// The time.
     pub t: T,
