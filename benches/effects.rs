@@ -14,7 +14,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use linkage::contact::{Contacts, ReducedEquations};
-use linkage::{Column, D, Mode, MotionError, PerInput, Scene};
+use linkage::{Column, D, Mode, MotionError, PerInput, Scene, StateParts};
 use linkage_compiler::program::Operations;
 use work::{Work, work};
 
@@ -64,7 +64,7 @@ impl Row {
         modes: impl Into<Column<Mode, S::Contacts>>,
     ) -> Self {
         let start = State::from([1.2, -1.0, 0.5, 12.0]);
-        let (_, rates) = S::parts(&start);
+        let rates = S::parts(&start).input_rates;
         // The accelerations in given modes do not depend on how the modes were reached.
         let rates: PerInput<S::Mechanism> = rates.into();
         let begun = Contacts::begin(0.0, &rates, |_| ReducedEquations::of(&scene, 0.0, &start));
@@ -103,8 +103,8 @@ fn main() {
         Row::smooth("+ all of these", Smooth::default()),
         Row::smooth("+ drive", Driven::default()),
         Row::new("  drive forces", ("Driven", &["drive_forces"]), Driven::default(), |scene, y| {
-            let (q, rates) = Driven::parts(y);
-            Ok(State::from([0.0, 0.0, 0.0, scene.drive_forces(0.5, &q, rates)?[0]]))
+            let StateParts { q, input_rates } = Driven::parts(y);
+            Ok(State::from([0.0, 0.0, 0.0, scene.drive_forces(0.5, &q, input_rates)?.theta2]))
         }),
         Row::in_contact("+ stop, open", Stopped::default(), [Mode::Open]),
         Row::in_contact("+ friction, slips", Rough::default(), [Mode::SlipForward]),
@@ -112,13 +112,13 @@ fn main() {
         Row::in_contact("+ friction by reaction, slips", Worn::default(), [Mode::SlipForward]),
         Row::in_contact("+ friction by reaction, sticks", Worn::default(), [Mode::Stick]),
         Row::new("  reaction at a pin", ("Measured", &["reactions"]), Measured::default(), |scene, y| {
-            let (q, rates) = Measured::parts(y);
-            let force = scene.reactions(0.5, &q, rates)?.c_on_rocker;
+            let StateParts { q, input_rates } = Measured::parts(y);
+            let force = scene.reactions(0.5, &q, input_rates)?.c_on_rocker;
             Ok(State::from([0.0, 0.0, force.x, force.y]))
         }),
         Row::new("  all reactions", ("Loaded", &["reactions"]), Loaded::default(), |scene, y| {
-            let (q, rates) = Loaded::parts(y);
-            let all = scene.reactions(0.5, &q, rates)?;
+            let StateParts { q, input_rates } = Loaded::parts(y);
+            let all = scene.reactions(0.5, &q, input_rates)?;
             Ok(State::from([all.c_on_rocker.x, all.origin_on_crank.y, all.multipliers[0], all.multipliers[1]]))
         }),
         Row::in_contact("all but the drive", Everything::default(), [Mode::SlipForward, Mode::Open]),

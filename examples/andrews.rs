@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use linkage::integrate::{Dop853, Dopri5, Method};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 use linkage_gallery::andrews_motion::{END, START};
 use linkage_gallery::andrews_scene::*;
@@ -23,7 +23,8 @@ fn row<M: Method>(name: &str, tolerance: f64) -> Result<(), linkage::Error> {
     let mut row = (0.0_f64, 0);
     for _ in 0..REPETITIONS {
         let clock = Instant::now();
-        let mut motion = simulate(&scene, (0.0, START, 0.0), 0.03, tolerance)?.method::<M>()?;
+        let mut motion =
+            simulate(&scene, Start { t: 0.0, q: START, input_rates: 0.0 }, 0.03, tolerance)?.method::<M>()?;
         motion.finish(|_, _| true)?;
         fastest = fastest.min(clock.elapsed().as_secs_f64());
         let pairs = angles(motion.state().q).into_iter().zip(angles(END));

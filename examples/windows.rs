@@ -8,7 +8,7 @@
 use std::time::Instant;
 
 use linkage::linkage;
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 /// A chain of windows, each given by left upright, bar, right upright, their bodies and its number.
 macro_rules! windows {
@@ -77,7 +77,12 @@ fn main() -> Result<(), linkage::Error> {
     println!("tolerance   error of joint B0, m, at 10 s and 20 s   uprights   right-hand sides   change points    s");
     for tolerance in [1e-8, 1e-10, 1e-12, 1e-14] {
         let clock = Instant::now();
-        let mut motion = simulate(&scene, (0.0, FortyWindowsCoordinates::upright(), -1.0), 20.0, tolerance)?;
+        let mut motion = simulate(
+            &scene,
+            Start { t: 0.0, q: FortyWindowsCoordinates::upright(), input_rates: -1.0 },
+            20.0,
+            tolerance,
+        )?;
         let (mut off, mut spread) = (Vec::new(), 0.0_f64);
         for state in motion.at(EXACT.map(|(t, _)| t)) {
             let q = state?.q;

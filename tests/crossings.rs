@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Debug;
 
 use linkage::continuation::{AtChangePoint, Direction, Event, Groups, Options, Path, Tangents};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{D, Mechanism, PathError, PerUnknown, linkage, singularity};
 use nalgebra::{SMatrix, SVector, Vector3};
 use rand::rngs::SmallRng;
@@ -473,7 +473,7 @@ fn simulated_straight_on() {
     for branch in TwoDyadsBranch::all() {
         let q = scene.mechanism.assemble(2.0, branch).unwrap().coordinates();
         for tolerance in [1e-6, 1e-9, 1e-12] {
-            let mut motion = simulate(&scene, (0.0, q, 2.0), 20.0, tolerance).unwrap();
+            let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 2.0 }, 20.0, tolerance).unwrap();
             let same = if (q.a - q.c).abs() < 1e-9 { 1.0 } else { -1.0 };
             let turned = motion.finish(|state, _| {
                 assert!((state.q.a - same * state.q.c).sin().abs() < 1e-6, "{branch:?} {tolerance:e}: {state:?}");

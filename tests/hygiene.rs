@@ -175,14 +175,14 @@ fn names_of_scenes_that_emitted_code_uses() {
     let guess = scenes::ActingCoordinates { blame: 0.5, phi2: -0.2, x: 3.9 };
     let q = scene.mechanism_.solve(&guess).unwrap().coordinates;
     let power = scene.power(2.0, &q, 1.5).unwrap();
-    let (rates, _) = scene.rates(2.0, &q, 1.5).unwrap();
+    let rates = scene.rates(2.0, &q, 1.5).unwrap().rates;
     assert!((power.applied - (0.1 * rates.x * 2.0 + q.x * q.x) * 1.5).abs() < 1e-13, "{power:?}");
     assert!(scene.energy(&q, 1.5).is_ok() && scene.reactions(2.0, &q, 1.5).is_ok() && scene.check().is_ok());
     let [friction, stop] = scene.contacts(2.0, &q, &rates).unwrap();
     assert_eq!((friction.name, stop.name), ("friction on blame - phi2", "stop on x"));
     assert!(scene.equations(2.0, &q, 1.5).is_ok());
     let given = scenes::Given::new(scene.mechanism_, 0.5, 0.25);
-    assert_eq!(given.drive_forces(2.0, &q, 1.5), Ok([0.25]));
+    assert_eq!(given.drive_forces(2.0, &q, 1.5), Ok(scenes::GivenDrives { blame: 0.25 }));
 }
 
 #[test]

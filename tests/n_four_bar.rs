@@ -10,7 +10,7 @@
 //! ```
 
 use linkage::integrate::{Tolerance, dop853};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{MotionError, PathError, PositionError, linkage};
 use nalgebra::vector;
 use rand::rngs::SmallRng;
@@ -94,7 +94,7 @@ fn check_runs(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) 
 macro_rules! windows {
     ($size:ident, $windows:literal, $usual:literal, $([$left:ident $bar:ident $right:ident $upright:ident $beam:ident $at:tt])*) => {
         mod $size {
-            use super::{Run, draws, check_runs, linkage, simulate};
+            use super::{Run, Start, check_runs, draws, linkage, simulate};
 
             linkage! {
                 /// Uprights on the ground, one metre apart, joined by bars; angles from the horizontal.
@@ -120,7 +120,7 @@ macro_rules! windows {
                     let scene = Falling::default();
                     let up = std::f64::consts::FRAC_PI_2;
                     let start = WindowsCoordinates { phi0: up, $($bar: 0.0, $right: up),* };
-                    let mut motion = simulate(&scene, (0.0, start, -1.0), 20.0, tolerance).unwrap();
+                    let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: -1.0 }, 20.0, tolerance).unwrap();
                     let mut run = Run::default();
                     let end = motion.finish(|state, _| {
                         let q = &state.q;

@@ -2,8 +2,8 @@
 //! against the figures of another program, and its methods against their orders.
 
 use linkage::integrate::{Dop853, Dopri5, Method};
-use linkage::simulation::{RealTime, simulate};
-use linkage::{D, Scene};
+use linkage::simulation::{RealTime, Start, simulate};
+use linkage::{D, Scene, StateParts};
 use linkage_double::DoubleDouble;
 
 #[path = "../examples/simulation_cost/formulations.rs"]
@@ -23,12 +23,12 @@ where
     S: Scene<Scalar = f64>,
     L: Scene<Scalar = DoubleDouble, State = S::State>,
 {
-    let (q, rates) = L::parts(&problem.start.map(DoubleDouble::from));
+    let StateParts { q, input_rates } = L::parts(&problem.start.map(DoubleDouble::from));
     let end = DoubleDouble::from(problem.end);
-    let motion = simulate(scene, (DoubleDouble::from(0.0), q, rates), end, tolerance).unwrap();
+    let motion = simulate(scene, Start { t: DoubleDouble::from(0.0), q, input_rates }, end, tolerance).unwrap();
     let mut motion = motion.method::<M>().unwrap().most_steps(1_000_000);
     motion.finish(|_, _| true).unwrap();
-    L::state(&motion.state().q, &rates).map(DoubleDouble::high)
+    L::state(&motion.state().q, &input_rates).map(DoubleDouble::high)
 }
 
 fn bars() -> four_bars::Bars<DoubleDouble> {
@@ -107,7 +107,7 @@ const PROJECTED: Rows = [(5000, 274.964_844_557_934_1, 0.0), (20_000, 274.967_49
 /// One row of every formulation.
 fn are_those_of_another_program(row: usize) {
     let problem = four_bars::turning();
-    let theta = |y: &State<Turning>| Turning::parts(y).0.theta;
+    let theta = |y: &State<Turning>| Turning::parts(y).q.theta;
     for (hold, expected) in FORMULATIONS {
         let (steps, end, widest) = expected[row];
         let (y, gap) = with_multipliers(&problem, hold, steps);
@@ -140,10 +140,11 @@ fn every_formulation_is_of_order_four() {
         assert!((order - 4.0).abs() < 0.25, "{hold:?} {order}");
     }
     let in_the_inputs = |steps: u32| {
-        let (q, rates) = four_bars::Sprung::parts(&problem.start);
-        let mut clock = RealTime::new(&problem.scene, (0.0, q, rates), problem.end / f64::from(steps)).unwrap();
+        let StateParts { q, input_rates } = four_bars::Sprung::parts(&problem.start);
+        let mut clock =
+            RealTime::new(&problem.scene, Start { t: 0.0, q, input_rates }, problem.end / f64::from(steps)).unwrap();
         (0..steps).for_each(|_| clock.step().unwrap());
-        problem.error(&four_bars::Sprung::state(&clock.state().unwrap().q, &rates))
+        problem.error(&four_bars::Sprung::state(&clock.state().unwrap().q, &input_rates))
     };
     let order = order(&in_the_inputs);
     println!("{order}");

@@ -109,7 +109,7 @@ fn forces_through_a_turn() {
         let power = scene.m2 * velocity.dot(&acceleration) + scene.j2 * psi1 * psi2 + scene.m3 * x1 * x2;
         close("energy", scene.energy(&q, omega).unwrap().kinetic, kinetic, 2e-14 * 80.0);
         close("power", scene.power(t, &q, omega).unwrap().applied, power, 2e-14 * 2e4);
-        close("torque", scene.drive_forces(t, &q, omega).unwrap()[0], power / omega, 2e-14 * 130.0);
+        close("torque", scene.drive_forces(t, &q, omega).unwrap().theta, power / omega, 2e-14 * 130.0);
         // The rod on the block; what holds the rod at the other end turns it about its centre, too.
         let force = scene.reactions(t, &q, omega).unwrap().multipliers;
         close("along", force.x, scene.m3 * x2, 2e-14 * 400.0);

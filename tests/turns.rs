@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Direction, Path};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{Assembly, D, Elbow, InputError, Mechanism, PositionError, Slider, Slope, linkage};
 
 use linkage_gallery::drag_link_drive::*;
@@ -242,7 +242,7 @@ fn a_simulation_comes_back() {
     let m = &spring.mechanism;
     let start = m.assemble(0.4, WoundBranch::new(Slider::Far)).unwrap().coordinates();
     for speed in [7.0, -7.0] {
-        let mut motion = simulate(&spring, (0.0, start, speed), 20.0, 1e-9).unwrap();
+        let mut motion = simulate(&spring, Start { t: 0.0, q: start, input_rates: speed }, 20.0, 1e-9).unwrap();
         let mut last = start;
         for step in 1..=1000 {
             let q = motion.at([0.02 * f64::from(step)]).next().unwrap().unwrap().q;

@@ -1,6 +1,6 @@
 //! The limits of self-locking.
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{Error, Mode, Slider};
 
 use crate::machine::{Closed, Released, ToggleBranch, ToggleCoordinates, Wedge, WedgeCoordinates};
@@ -21,7 +21,7 @@ pub fn wedge(alpha: f64) -> Result<(Released<f64>, WedgeCoordinates<f64>), Error
 
 impl Released<f64> {
     fn start_at(&self, q: &WedgeCoordinates<f64>) -> Result<WedgeCoordinates<f64>, Error> {
-        let simulation = simulate(self, (0.0, *q, 0.0), 1.0, 1e-9)?;
+        let simulation = simulate(self, Start { t: 0.0, q: *q, input_rates: 0.0 }, 1.0, 1e-9)?;
         Ok(simulation.state().q)
     }
 }
@@ -32,7 +32,7 @@ impl Released<f64> {
 /// Those of the simulation.
 pub fn way(alpha: f64, time: f64) -> Result<f64, Error> {
     let (scene, q) = wedge(alpha)?;
-    let mut simulation = simulate(&scene, (0.0, q, 0.0), time, 1e-9)?;
+    let mut simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, time, 1e-9)?;
     simulation.finish(|_, _| true)?;
     Ok((simulation.state().q.x - q.x).abs())
 }
@@ -54,7 +54,7 @@ pub fn toggle(theta: f64) -> Result<(Closed<f64>, ToggleCoordinates<f64>), Error
 pub fn stays(theta: f64, hand: f64) -> Result<bool, Error> {
     let (scene, q) = toggle(theta)?;
     let scene = Closed { hand, ..scene };
-    let simulation = simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9)?;
+    let simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 1.0, 1e-9)?;
     Ok(simulation.state().contacts.iter().all(|contact| contact.mode == Mode::Stick))
 }
 

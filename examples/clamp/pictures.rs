@@ -2,7 +2,7 @@
 
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, point, vector};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 use crate::locking::{toggle, torques, way, wedge};
 use crate::plot::{self, Plot};
@@ -20,7 +20,7 @@ fn sliding(alpha: f64) -> Picture {
     let title = format!("Wedge of {:.0}°", alpha.to_degrees());
     let mut picture = Animation::new(&title, SECONDS);
     let slope = vector![alpha.cos(), -alpha.sin()];
-    for state in simulate(&scene, (0.0, q, 0.0), 0.1, 1e-9)?.at(times) {
+    for state in simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 0.1, 1e-9)?.at(times) {
         let state = state?;
         let points = scene.mechanism.points(&scene.mechanism.pose_at(&state.q))?;
         // A rounded block touches the slope below its end.
@@ -46,7 +46,7 @@ fn opening(theta: f64, time: f64) -> Picture {
     let times = (0..=FRAMES).map(|frame| time * f64::from(frame) / f64::from(FRAMES));
     let title = format!("Lever at {:.1}°", theta.to_degrees());
     let mut picture = Animation::new(&title, SECONDS);
-    for state in simulate(&scene, (0.0, q, 0.0), time, 1e-9)?.at(times) {
+    for state in simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, time, 1e-9)?.at(times) {
         let state = state?;
         let points = scene.mechanism.points(&scene.mechanism.pose_at(&state.q))?;
         picture.frame([("O", points.o), ("A", points.a), ("B", points.b), ("Jaw", points.b + vector![0.02, 0.0])]);

@@ -33,7 +33,7 @@ impl Loads {
         let pose = machine.assemble(phi, BRANCH)?;
         let (q, t) = (pose.coordinates(), phi / scene.omega);
         let joints = scene.reactions(t, &q, scene.omega)?;
-        let [torque] = scene.drive_forces(t, &q, scene.omega)?;
+        let torque = scene.drive_forces(t, &q, scene.omega)?.phi;
         let Running { clearance, inlet, outlet, exponent, .. } = *scene;
         let pressure = air::pressure(phi, machine.r / machine.l, clearance, inlet, outlet, exponent);
         // On the frame act the bearings, the piston on its guide, and the air on the head.

@@ -1,7 +1,7 @@
 //! Simulates the door and its energy balance.
 
 use linkage::contact::Change;
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Start, State, simulate};
 use linkage::{Elbow, Error};
 
 use crate::gauss::nodes;
@@ -41,7 +41,7 @@ impl Run {
             let energy = scene.energy(q, DoorCloserInputs { door: rate })?;
             Ok(energy.kinetic + energy.potential)
         };
-        let mut motion = simulate(&scene, (0.0, start, 0.0), END, TOLERANCE)?;
+        let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: 0.0 }, END, TOLERANCE)?;
         let mut last = *motion.state();
         let (mut moments, mut impacts, mut oil, mut blows) = (vec![last], Vec::new(), 0.0, 0.0);
         while let Some(state) = motion.advance()? {

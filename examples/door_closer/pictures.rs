@@ -2,7 +2,7 @@
 
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, point};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 use crate::closing::{END, Moment, Run};
 use crate::plot::{self, Plot};
@@ -17,7 +17,7 @@ fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
     let count = seconds as u32 * FRAMES;
     let times = (0..=count).map(|frame| seconds * f64::from(frame) / f64::from(count));
     let mut picture = Animation::new("Door closer", seconds);
-    for state in simulate(&run.scene, (0.0, run.moments[0].q, 0.0), END, 1e-9)?.at(times) {
+    for state in simulate(&run.scene, Start { t: 0.0, q: run.moments[0].q, input_rates: 0.0 }, END, 1e-9)?.at(times) {
         let points = closer.points(&closer.pose_at(&state?.q))?;
         picture.frame([
             ("Hinge", Point2::origin()),

@@ -2,7 +2,7 @@
 
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2, point, vector};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{PositionError, Slider};
 
 use crate::loads::Loads;
@@ -48,7 +48,9 @@ fn animation(run: &Run) -> Result<String, Box<dyn std::error::Error>> {
     let (first, last) = (cycle[0], cycle[cycle.len() - 1]);
     let times = (0..=FRAMES).map(|frame| first.t + (last.t - first.t) * f64::from(frame) / f64::from(FRAMES));
     let mut picture = Animation::new("Engine", SECONDS);
-    for state in simulate(&run.scene, (first.t, first.q, first.rates.phi), last.t, 1e-9)?.at(times) {
+    for state in
+        simulate(&run.scene, Start { t: first.t, q: first.q, input_rates: first.rates.phi }, last.t, 1e-9)?.at(times)
+    {
         picture.frame(frame(&run.scene.mechanism, &state?.q)?);
     }
     draw(&mut picture, &run.scene.mechanism);

@@ -2,7 +2,7 @@
 
 use linkage::Error;
 use linkage::integrate::Crossing;
-use linkage::simulation::{State, Then, simulate};
+use linkage::simulation::{Start, State, Then, simulate};
 
 use crate::gauss::nodes;
 use crate::machine::{EngineInputs, KINKS, Running, START};
@@ -48,7 +48,7 @@ impl Run {
     pub fn new(scene: Running<f64>, speed: f64, (end, angle): (f64, f64)) -> Result<Self, Error> {
         // Steps end at the kinks of the laws: sin((phi - kink) / 2) rises through zero once a cycle.
         let kinks = KINKS.map(f64::to_radians);
-        let mut motion = simulate(&scene, (0.0, START, speed), end, TOLERANCE)?.events(
+        let mut motion = simulate(&scene, Start { t: 0.0, q: START, input_rates: speed }, end, TOLERANCE)?.events(
             [Crossing::Rising; KINKS.len() + 1],
             |state: &Moment| {
                 let mut values = [state.q.phi - angle; KINKS.len() + 1];

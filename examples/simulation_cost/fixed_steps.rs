@@ -4,8 +4,8 @@ use std::error::Error;
 use std::rc::Rc;
 
 use linkage::nalgebra::{Const, DimMin};
-use linkage::simulation::RealTime;
-use linkage::{D, MotionError, Scene};
+use linkage::simulation::{RealTime, Start};
+use linkage::{D, MotionError, Scene, StateParts};
 
 use super::formulations::{Hold, Multipliers};
 use super::list::{ACCELERATIONS, Outcome, PROJECTED, REAL_TIME, STRONGLY, WEAKLY, Work};
@@ -55,12 +55,12 @@ fn in_the_inputs<S>(problem: &Problem<S>, steps: u32) -> Result<State<S>, Motion
 where
     S: Scene<Scalar = f64, Contacts = D<0>>,
 {
-    let (q, rates) = S::parts(&problem.start);
-    let mut clock = RealTime::new(&problem.scene, (0.0, q, rates), problem.end / f64::from(steps))?;
+    let StateParts { q, input_rates } = S::parts(&problem.start);
+    let mut clock = RealTime::new(&problem.scene, Start { t: 0.0, q, input_rates }, problem.end / f64::from(steps))?;
     for _ in 0..steps {
         clock.step()?;
     }
-    Ok(S::state(&clock.state()?.q, &rates))
+    Ok(S::state(&clock.state()?.q, &input_rates))
 }
 
 /// The final state by the index-1 formulation.

@@ -14,7 +14,7 @@
 use std::error::Error;
 
 use linkage::nalgebra::{Const, DimMin, SMatrix, SVector};
-use linkage::{Column, D, Dim, Matrix, Mechanism, PositionError, Scene};
+use linkage::{Column, D, Dim, Matrix, Mechanism, PositionError, Scene, StateParts};
 
 use super::problem::{Problem, State};
 
@@ -66,7 +66,7 @@ where
     pub fn new(problem: &'a Problem<S>, hold: Hold) -> Result<Self, PositionError> {
         const { assert!(N == 2 * U + S::V::COUNT) };
         let mechanism = problem.scene.mechanism();
-        let (q, input_rates) = S::parts(&problem.start);
+        let StateParts { q, input_rates } = S::parts(&problem.start);
         let (pose, of_inputs) = (mechanism.pose_at(&q), input_rates.into());
         let of_unknowns = mechanism.solve_jacobian(&pose, &-(mechanism.jacobian_inputs(&pose) * of_inputs))?;
         Ok(Self { problem, hold, state: Moving { q: S::Mechanism::parts(&q), rates: (of_unknowns, of_inputs) } })

@@ -6,8 +6,8 @@ use std::rc::Rc;
 use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use linkage::integrate::{Dop853, Dopri5, Integration, Method, Tolerance};
 use linkage::nalgebra::SVector;
-use linkage::simulation::simulate;
-use linkage::{Column, D, MotionError, Scene};
+use linkage::simulation::{Start, simulate};
+use linkage::{Column, D, MotionError, Scene, StateParts};
 
 use super::list::{
     DIFFERENTIAL_EQUATIONS_5, DIFFERENTIAL_EQUATIONS_8, INTEGRATE_5, INTEGRATE_8, ODE_SOLVERS_5, ODE_SOLVERS_8,
@@ -60,10 +60,11 @@ pub fn by_tolerance<S: Scene<Scalar = f64> + 'static>(
 impl<S: Scene<Scalar = f64>> Problem<S> {
     fn simulated<M: Method>(&self, tolerance: f64) -> End<S> {
         let end = || {
-            let (q, rates) = S::parts(&self.start);
-            let mut motion = simulate(&self.scene, (0.0, q, rates), self.end, tolerance)?.method::<M>()?;
+            let StateParts { q, input_rates } = S::parts(&self.start);
+            let mut motion =
+                simulate(&self.scene, Start { t: 0.0, q, input_rates }, self.end, tolerance)?.method::<M>()?;
             motion.finish(|_, _| true)?;
-            Ok((S::state(&motion.state().q, &rates), motion.counts().evaluations))
+            Ok((S::state(&motion.state().q, &input_rates), motion.counts().evaluations))
         };
         end().map_err(|error: MotionError| error.to_string())
     }

@@ -39,7 +39,7 @@ impl<S: Scene<Scalar = f64>> Problem<S> {
 
     /// The largest residual of the constraints.
     pub fn gap(&self, y: &State<S>) -> f64 {
-        let (mechanism, (q, _)) = (self.scene.mechanism(), S::parts(y));
-        mechanism.residual(&mechanism.pose_at(&q)).largest()
+        let mechanism = self.scene.mechanism();
+        mechanism.residual(&mechanism.pose_at(&S::parts(y).q)).largest()
     }
 }

@@ -27,4 +27,7 @@ pub use contact::{Bearing, Contact, ContactCoordinate, ContactLaw, Mode, Reactio
 pub use equations::Equations;
 pub use equilibrium::Balance;
 pub use error::MotionError;
-pub use scene::{Accelerations, Coordinates, Energy, Inputs, Power, Prescribed, Rates, Scene, StateColumn, Unreduced};
+pub use scene::{
+    Accelerations, Coordinates, Energy, Inputs, Power, Prescribed, Rates, Scene, StateColumn, StateParts, StateRates,
+    Unreduced,
+};

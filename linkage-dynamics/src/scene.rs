@@ -60,7 +60,13 @@ pub trait Scene {
     /// y = (q, v').
     fn state(q: &Coordinates<Self>, input_rates: &Inputs<Self>) -> StateColumn<Self>;
     /// Splits y into q and v'.
-    fn parts(state: &StateColumn<Self>) -> (Coordinates<Self>, Inputs<Self>);
+    fn parts(state: &StateColumn<Self>) -> StateParts<Coordinates<Self>, Inputs<Self>>;
+    /// Splits y', as [`derivative`](Self::derivative) returns it, into q' and v''.
+    fn rate_parts(derivative: &StateColumn<Self>) -> StateRates<Rates<Self>, Inputs<Self>> {
+        let StateParts { q, input_rates: input_accelerations } = Self::parts(derivative);
+        let (unknowns, inputs) = Self::Mechanism::parts(&q);
+        StateRates { rates: Self::Mechanism::rates(unknowns, inputs), input_accelerations }
+    }
     /// Checks that the parameters are physically valid.
     ///
     /// # Errors
@@ -138,7 +144,7 @@ pub trait Scene {
     /// [`PositionError::NotConverged`] if no position is found, [`PositionError::NotFinite`] if a number is not finite.
     fn project(&self, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError> {
         all_finite(Self::NAME, "the state", state.iter())?;
-        let (q, input_rates) = Self::parts(state);
+        let StateParts { q, input_rates } = Self::parts(state);
         let closed = newton(self.mechanism(), &q)?;
         Ok(Self::state(&closed.coordinates, &input_rates))
     }
@@ -174,7 +180,7 @@ pub trait Scene {
         }
         let state = self.project(&Self::state(q, input_rates))?;
         if Self::Contacts::COUNT > 0 {
-            let (q, _) = Self::parts(&state);
+            let q = Self::parts(&state).q;
             let rest = Self::Mechanism::rates(Column::zeros(), Column::zeros());
             let scales = Scales::of(self.mechanism(), &self.mechanism().pose_at(&q));
             for Contact { name, along, law } in self.contacts(t, &q, &rest)? {
@@ -206,6 +212,26 @@ type BearingsOf<S> = Column<
     <S as Scene>::Contacts,
 >;
 type ContactsOf<S> = Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>, <S as Scene>::Contacts>;
+
+/// The state y = (q, v') of a scene, by name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StateParts<Q, V> {
+    /// All coordinates q.
+    pub q: Q,
+    /// The rates v' of the inputs.
+    pub input_rates: V,
+}
+
+/// The derivative y' = (q', v'') of the state of a scene, by name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct StateRates<R, V> {
+    /// The rates q' of all coordinates.
+    pub rates: R,
+    /// The accelerations v'' of the inputs.
+    pub input_accelerations: V,
+}
 
 /// The prescribed motion of an input at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -193,9 +193,9 @@ fn slip_that_has_just_begun_goes_on_where_it_grows() {
         let at = |rates: &Column<f64, D<1>>| Ok::<_, MotionError>(block(push, belt, rates[0]));
         let (contacts, _) = Contacts::begin(0.0, &Column::zeros(), at).unwrap();
         assert_eq!(contacts.modes[0], mode);
-        assert!(contacts.review(&block(push, belt, wrong)).unwrap().1, "push {push}, belt {belt}");
-        assert!(!contacts.review(&block(0.0, 0.0, wrong)).unwrap().1, "push {push}, belt {belt}");
+        assert!(contacts.review(&block(push, belt, wrong)).unwrap().modes_hold, "push {push}, belt {belt}");
+        assert!(!contacts.review(&block(0.0, 0.0, wrong)).unwrap().modes_hold, "push {push}, belt {belt}");
         // At a rate of zero the slip has not turned yet: its event is where the rate falls below zero.
-        assert!(contacts.review(&block(0.0, 0.0, 0.0)).unwrap().1, "push {push}, belt {belt}");
+        assert!(contacts.review(&block(0.0, 0.0, 0.0)).unwrap().modes_hold, "push {push}, belt {belt}");
     }
 }

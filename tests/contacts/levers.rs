@@ -1,7 +1,7 @@
 //! Frictions where the lever of a joint changes: by hand, several together, and in dead centres.
 
 use linkage::contact::ReducedEquations;
-use linkage::{Mode, Scene};
+use linkage::{Mode, Scene, StateParts};
 
 use super::machines::*;
 use linkage_oracle::close;
@@ -65,7 +65,7 @@ fn joints_hold_together() {
     let scene = Jointed::default();
     let guess = MachineCoordinates { phi: 0.8, psi: 2.9, z: 0.4 };
     let start = scene.start(0.0, &guess, &0.0.into()).unwrap();
-    let (q, _) = Jointed::parts(&start);
+    let q = Jointed::parts(&start).q;
     let machine = &scene.mechanism;
     let ratios = machine.velocity_ratios(&machine.pose_at(&q)).unwrap();
     let (psi, z) = (ratios[0], ratios[1]);
@@ -101,7 +101,7 @@ fn a_start_at_a_dead_centre() {
         let guess = MachineCoordinates { phi: centre, psi: 3.1, z: 0.35 + 0.1 * f64::cos(centre) };
         let start = scene.start(0.0, &guess, &0.0.into()).unwrap();
         let end = run(&scene, start, 0.12);
-        let (q, rates) = Guided::parts(&end.y);
+        let StateParts { q, input_rates: rates } = Guided::parts(&end.y);
         let kinetic = 0.5 * scene.mass_matrix(&q).unwrap()[0] * rates.phi * rates.phi;
         let turned = (q.phi - centre).abs();
         assert!(turned > 0.5 && turned < 3.0, "{turned}");
@@ -110,7 +110,7 @@ fn a_start_at_a_dead_centre() {
         let scene = Scotch { torque: t0, ..Scotch::default() };
         let guess = YokeCoordinates { phi: centre, x: 0.1 * f64::cos(centre) };
         let end = run(&scene, scene.start(0.0, &guess, &0.0.into()).unwrap(), 0.12);
-        let (q, rates) = Scotch::parts(&end.y);
+        let StateParts { q, input_rates: rates } = Scotch::parts(&end.y);
         let kinetic = 0.5 * scene.mass_matrix(&q).unwrap()[0] * rates.phi * rates.phi;
         close("energy", kinetic, 3.0 * (q.phi - centre).abs() - 8.0 * (guess.x - q.x).abs(), 1e-11);
     }

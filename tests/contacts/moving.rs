@@ -1,8 +1,8 @@
 //! A scene with its contacts as a system for integrators.
 
-use linkage::contact::{Contacts, ReducedEquations};
+use linkage::contact::{ContactReview, Contacts, ReducedEquations};
 use linkage::integrate::{Action, Crossing, System, Tolerance, dop853};
-use linkage::{Column, D, Mode, MotionError, Scene};
+use linkage::{Column, D, Mode, MotionError, Scene, StateParts};
 
 type State<S> = Column<f64, <S as Scene>::State>;
 type Modes<S> = Column<Mode, <S as Scene>::Contacts>;
@@ -19,7 +19,7 @@ pub(super) struct Moving<'a, S: Scene<Scalar = f64>> {
 
 impl<'a, S: Scene<Scalar = f64>> Moving<'a, S> {
     pub(super) fn start(scene: &'a S, t: f64, y: &State<S>) -> Result<(Self, State<S>), MotionError> {
-        let (q, rates) = S::parts(y);
+        let StateParts { q, input_rates: rates } = S::parts(y);
         let (contacts, rates) =
             Contacts::begin(t, &rates.into(), |rates| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into())))?;
         Ok((Self { scene, contacts, history: Vec::new(), mended: 0 }, S::state(&q, &rates.into())))
@@ -27,7 +27,7 @@ impl<'a, S: Scene<Scalar = f64>> Moving<'a, S> {
 
     fn settle(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionError> {
         let scene = self.scene;
-        let (q, rates) = S::parts(y);
+        let StateParts { q, input_rates: rates } = S::parts(y);
         let at = |rates: &Column<f64, S::V>| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into()));
         let rates = self.contacts.settle(t, &rates.into(), at)?;
         Ok(S::state(&q, &rates.into()))
@@ -43,7 +43,7 @@ impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
     fn rate(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionError> {
         let equations = ReducedEquations::of(self.scene, t, y)?;
         let acceleration = self.contacts.acceleration(&equations)?;
-        let (rates, _) = S::parts(&self.scene.derivative(t, y)?);
+        let rates = S::parts(&self.scene.derivative(t, y)?).q;
         Ok(S::state(&rates, &acceleration.into()))
     }
 
@@ -64,15 +64,15 @@ impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
 
     fn before_step(&mut self, t: f64, y: &State<S>) -> Result<Option<State<S>>, MotionError> {
         let equations = ReducedEquations::of(self.scene, t, y)?;
-        let (rates, holds) = self.contacts.review(&equations)?;
-        if !holds {
+        let ContactReview { rates, modes_hold } = self.contacts.review(&equations)?;
+        if !modes_hold {
             self.mended += 1;
             return self.settle(t, y).map(Some);
         }
         if rates == equations.rates {
             return Ok(None);
         }
-        let (q, _) = S::parts(y);
+        let q = S::parts(y).q;
         Ok(Some(S::state(&q, &rates.into())))
     }
 }

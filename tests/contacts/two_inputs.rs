@@ -2,7 +2,7 @@
 
 use linkage::integrate::{Tolerance, dop853};
 use linkage::nalgebra::vector;
-use linkage::{Column, D, Mode, Scene};
+use linkage::{Column, D, Mode, Scene, StateParts};
 
 use super::machines::*;
 use linkage_oracle::close;
@@ -16,7 +16,7 @@ fn one_crank_sticks_while_the_other_slips() {
     let start = scene.start(0.0, &pair(1.1, 1.4), &PairInputs { theta1: 0.0, theta4: 0.4 }).unwrap();
     let clamped = Clamped { place: 1.1, ..Clamped::default() };
     let end = run(&scene, start, 0.6);
-    let (q, _) = Braked::parts(&start);
+    let q = Braked::parts(&start).q;
     let rate = |t: f64, y: &Column<f64, D<6>>| clamped.derivative(t, y);
     let tolerance = Tolerance::new(1e-13, [1.0; 6]).unwrap();
     // The other slips forward first, stops, and goes back.
@@ -81,7 +81,7 @@ fn elastic_stops_keep_the_energy() {
     let scene = Narrow { half: 0.05, middle: opening, e1: 1.0, ..Narrow::default() };
     let start = scene.start(0.0, &q, &PairInputs { theta1: 0.7, theta4: -0.9 }).unwrap();
     let energy = |y: &Column<f64, D<6>>| {
-        let (q, rates) = Narrow::parts(y);
+        let StateParts { q, input_rates: rates } = Narrow::parts(y);
         scene.energy(&q, rates).unwrap().kinetic
     };
     let end = run(&scene, start, 3.0);
@@ -110,14 +110,14 @@ fn a_long_motion_keeps_its_accounts() {
         let half = 0.5 * (step.t - last);
         for (place, weight) in [(-0.6_f64.sqrt(), 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.6_f64.sqrt(), 5.0 / 9.0)] {
             let t = last + half * (1.0 + place);
-            let (q, rates) = Shaken::parts(&piece.at(t));
+            let StateParts { q, input_rates: rates } = Shaken::parts(&piece.at(t));
             let power = scene.power(t, &q, rates).unwrap();
             work += half * weight * (power.applied - power.dissipated);
         }
         last = step.t;
     }
     let moving = motion.system();
-    let (q, rates) = Shaken::parts(motion.state());
+    let StateParts { q, input_rates: rates } = Shaken::parts(motion.state());
     let energy = scene.energy(&q, rates).unwrap();
     let seen = |mode: Mode| moving.history.iter().filter(|(_, _, after)| after.as_slice().contains(&mode)).count();
     let often = [Mode::Stick, Mode::SlipForward, Mode::SlipBackward].map(seen);

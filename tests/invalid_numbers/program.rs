@@ -172,7 +172,10 @@ impl Calls {
     /// A value of a type that can be an argument.
     fn drawn(&mut self, name: &str, item: &ItemStruct, has_default: bool) {
         let of = if item.generics.params.is_empty() { "" } else { "<f64>" };
-        if ["Points", "Outputs", "Motion", "Kinematics", "Reactions"].iter().any(|ending| name.ends_with(ending)) {
+        if ["Points", "Outputs", "Motion", "Kinematics", "Reactions", "Drives"]
+            .iter()
+            .any(|ending| name.ends_with(ending))
+        {
             return;
         }
         let fields: String = item

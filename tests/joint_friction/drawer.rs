@@ -1,7 +1,7 @@
 //! A drawer that is pulled off its middle, guided at two corners a length L apart: it jams where 2 mu e >= L, whatever
 //! the pull (F. P. Beer, E. R. Johnston, *Vector Mechanics for Engineers: Statics*, problems of chapter 8).
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{Mode, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -42,7 +42,7 @@ fn it_jams_at_the_textbook_ratio() {
         for (share, jams) in shares.into_iter().filter(|(share, _)| share * limit * scene.mechanism.b < 0.999 * l) {
             scene.mu = share * limit;
             let q = DrawerCoordinates { rear: 0.3, phi: 0.0, front: 0.3 + l };
-            let mut simulation = simulate(&scene, (0.0, q, 0.0), 0.1, 1e-9).unwrap();
+            let mut simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 0.1, 1e-9).unwrap();
             let is_jammed = simulation.state().contacts.iter().all(|contact| contact.mode == Mode::Stick);
             assert_eq!(is_jammed, jams, "{scene:?}");
             let loads = simulation.loads().unwrap();

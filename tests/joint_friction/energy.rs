@@ -1,6 +1,6 @@
 //! The balance of energy where frictions depend on reactions.
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{Slider, linkage};
 
 linkage! {
@@ -36,7 +36,7 @@ fn what_flows_is_accounted_for() {
     let q = scene.mechanism.assemble(0.7, PumpBranch { psi_s: Slider::Far }).unwrap().coordinates();
     let start = scene.energy(&q, 8.0).unwrap();
     let (mut applied, mut dissipated) = (0.0, 0.0);
-    let mut simulation = simulate(&scene, (0.0, q, 8.0), 0.3, 1e-12).unwrap();
+    let mut simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 8.0 }, 0.3, 1e-12).unwrap();
     let mut last = 0.0;
     let mut times = Vec::new();
     while let Some(state) = simulation.advance().unwrap() {
@@ -44,7 +44,7 @@ fn what_flows_is_accounted_for() {
     }
     // Gauss-Legendre points of each step; the frictions jump at the ends of steps only.
     let nodes = [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 4.0 / 9.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
-    let mut simulation = simulate(&scene, (0.0, q, 8.0), 0.3, 1e-12).unwrap();
+    let mut simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 8.0 }, 0.3, 1e-12).unwrap();
     let mut at = Vec::new();
     for &t in &times {
         let parts = 32;
@@ -74,7 +74,7 @@ fn what_flows_is_accounted_for() {
 fn a_swing_comes_to_rest_and_stays() {
     let scene = Dry { torque: 0.0, load: 0.0, mu: 0.3, ..Dry::default() };
     let q = scene.mechanism.assemble(-1.2, PumpBranch { psi_s: Slider::Far }).unwrap().coordinates();
-    let mut simulation = simulate(&scene, (0.0, q, 1.0), 20.0, 1e-9).unwrap();
+    let mut simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 1.0 }, 20.0, 1e-9).unwrap();
     simulation.finish(|_, _| true).unwrap();
     assert_eq!(simulation.state().rates.theta, 0.0);
 }

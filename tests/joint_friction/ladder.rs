@@ -1,7 +1,7 @@
 //! A ladder on a rough floor at a rough wall: it stays where tan(angle) >= (1 - mu_floor mu_wall) / (2 mu_floor), as in
 //! every textbook of statics (J. L. Meriam, L. G. Kraige, *Statics*, section 6/3), with the weight at its middle.
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{Mode, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -37,7 +37,7 @@ fn it_stays_above_the_textbook_angle() {
             [(limit + 1e-10, true), (limit + 0.05, true), (limit - 1e-10, false), (limit - 0.05, false)]
         {
             let q = scene.mechanism.branches(angle).unwrap().next().unwrap().pose.coordinates();
-            let simulation = simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9).unwrap();
+            let simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 1.0, 1e-9).unwrap();
             let state = simulation.state();
             let is_held = state.contacts.iter().all(|contact| contact.mode == Mode::Stick);
             assert_eq!(is_held, stays, "{floor} {wall} {angle} {limit}: {:?}", state.contacts);

@@ -1,7 +1,7 @@
 //! A knee of two links pushes a block along a guide. However great the torque, it does not move while the angle between
 //! the second link and the normal of the guide is within the angle of friction.
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{Mode, Slider, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -39,7 +39,7 @@ fn it_locks_exactly_at_the_angle_of_friction() {
         scene.torque = random.random_range(-1e4..1e4);
         for (mu, is_locked) in [(slope, true), (slope * (1.0 + 1e-11), true), (slope * (1.0 - 1e-11), false)] {
             scene.mu = mu;
-            let simulation = match simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9) {
+            let simulation = match simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 1.0, 1e-9) {
                 Ok(simulation) => simulation,
                 // The block pushed the other way by its own friction: Painleve.
                 Err(error) => panic!("{theta} {mu}: {error}"),

@@ -1,6 +1,6 @@
 //! A block on a wedge: it slides down and pushes the wedge aside, unless the angle is within the angle of friction.
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{Mode, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -47,7 +47,7 @@ fn it_locks_exactly_at_the_angle_of_friction() {
         {
             let scene = wedge(alpha, mu);
             let q = at(&scene, random.random_range(-2.0..2.0));
-            let simulation = simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9).unwrap();
+            let simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 1.0, 1e-9).unwrap();
             let mode = simulation.state().contacts[0].mode;
             assert_eq!(mode == Mode::Stick, is_locked, "{alpha} {mu}: {mode:?}");
             let loads = simulation.loads().unwrap();
@@ -81,7 +81,7 @@ fn it_slides_by_the_closed_form() {
         let joints = scene.reactions(0.0, &q, 0.0).unwrap();
         assert!((joints.s_normal.abs() / normal - 1.0).abs() < 1e-12, "{alpha} {mu}: {} {normal}", joints.s_normal);
         let t = 0.05;
-        let mut simulation = simulate(&scene, (0.0, q, 0.0), t, 1e-10).unwrap();
+        let mut simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, t, 1e-10).unwrap();
         simulation.finish(|_, _| true).unwrap();
         let moved = simulation.state().q.x - q.x;
         assert!((moved + a * t * t / 2.0).abs() < 1e-9 * a, "{alpha} {mu}: {moved} {a}");
@@ -93,7 +93,7 @@ fn a_joint_without_load_has_no_friction() {
     let mut scene = wedge(0.4, 0.3);
     scene.g = 0.0;
     let q = at(&scene, 0.3);
-    let mut simulation = simulate(&scene, (0.0, q, 1.5), 1.0, 1e-9).unwrap();
+    let mut simulation = simulate(&scene, Start { t: 0.0, q, input_rates: 1.5 }, 1.0, 1e-9).unwrap();
     simulation.finish(|_, _| true).unwrap();
     assert!((simulation.state().q.x - q.x - 1.5).abs() < 1e-9);
     assert_eq!(simulation.loads().unwrap().contacts[0], 0.0);

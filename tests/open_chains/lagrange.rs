@@ -130,7 +130,7 @@ fn double_pendulum() {
         let half = Half { mechanism: of, m1, j1, m2, j2, g };
         let acceleration = half.acceleration(t, &position, rates).unwrap();
         assert_eq!(acceleration.theta2, 0.0);
-        let [torque] = half.drive_forces(t, &position, rates).unwrap();
+        let torque = half.drive_forces(t, &position, rates).unwrap().theta2;
         free.holds(acceleration.into(), [0.0, torque]);
     });
 }
@@ -171,10 +171,11 @@ fn three_link_arm() {
         let moved = Moved { mechanism: of.clone(), m1, j1, m2, j2, m3, j3, load, g };
         let acceleration = moved.acceleration(t, &position, rates).unwrap();
         close("the law", acceleration.phi1, bent[0], 1e-15);
-        let [shoulder, elbow] = moved.drive_forces(t, &position, rates).unwrap();
+        let MovedDrives { phi1: shoulder, phi2: elbow } = moved.drive_forces(t, &position, rates).unwrap();
         free.holds(acceleration.into(), [shoulder, elbow, 0.0]);
         let led = Led { mechanism: of, m1, j1, m2, j2, m3, j3, load, g };
-        free.holds(bent.into(), led.drive_forces(t, &position, rates).unwrap());
+        let LedDrives { phi1, phi2, phi3 } = led.drive_forces(t, &position, rates).unwrap();
+        free.holds(bent.into(), [phi1, phi2, phi3]);
     });
 }
 
@@ -203,7 +204,7 @@ fn cart_with_a_pendulum() {
         let shaken = Shaken { mechanism: of, mc, m, j, g };
         let acceleration = shaken.acceleration(t, &position, rates).unwrap();
         close("the law", acceleration.x, -8.1 * (9.0 * t).sin(), 1e-14);
-        let [force] = shaken.drive_forces(t, &position, rates).unwrap();
+        let force = shaken.drive_forces(t, &position, rates).unwrap().x;
         free.holds(acceleration.into(), [force, 0.0]);
     });
 }

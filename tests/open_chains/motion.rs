@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use linkage::contact::Change;
 use linkage::integrate::{Dop853, Dopri5, Method};
-use linkage::simulation::{RealTime, State, simulate};
+use linkage::simulation::{RealTime, Start, State, simulate};
 use linkage::{Coordinates, Energy, Inputs, Mode, MotionError, PositionError, Scene};
 use linkage_oracle::close;
 
@@ -18,7 +18,8 @@ fn conserves<S: Scene<Scalar = f64>, M: Method>(
     energy: impl Fn(&State<S>) -> Energy<f64>,
     [tolerance, most]: [f64; 2],
 ) {
-    let mut motion = simulate(scene, (0.0, q, rates), 10.0, tolerance).unwrap().method::<M>().unwrap();
+    let mut motion =
+        simulate(scene, Start { t: 0.0, q, input_rates: rates }, 10.0, tolerance).unwrap().method::<M>().unwrap();
     let start = energy(motion.state());
     let (mut steps, mut scale) = (0, start.kinetic.abs() + start.potential.abs());
     while let Some(state) = motion.advance().unwrap() {
@@ -71,7 +72,7 @@ fn the_momentum_of_a_cart_is_constant() {
     let cart = cart_pendulum::Rolling::default();
     let q = cart_pendulum::CartPendulumCoordinates { x: 0.0, phi: 0.3 };
     let rates = cart_pendulum::CartPendulumInputs { x: 0.2, phi: -1.5 };
-    let mut motion = simulate(&cart, (0.0, q, rates), 5.0, 1e-12).unwrap();
+    let mut motion = simulate(&cart, Start { t: 0.0, q, input_rates: rates }, 5.0, 1e-12).unwrap();
     let momentum = |state: &State<cart_pendulum::Rolling>| {
         (cart.mc + cart.m) * state.rates.x - cart.m * cart.mechanism.l * state.rates.phi * state.q.phi.sin()
     };
@@ -88,11 +89,11 @@ fn steps_of_fixed_length() {
     let free = double_pendulum::Swinging::default();
     let q = double_pendulum::DoublePendulumCoordinates { theta1: -1.0, theta2: -1.8 };
     let at_rest = double_pendulum::DoublePendulumInputs { theta1: 0.0, theta2: 0.0 };
-    let mut steps = RealTime::new(&free, (0.0, q, at_rest), 1e-3).unwrap();
+    let mut steps = RealTime::new(&free, Start { t: 0.0, q, input_rates: at_rest }, 1e-3).unwrap();
     for _ in 0..1000 {
         steps.step().unwrap();
     }
-    let mut motion = simulate(&free, (0.0, q, at_rest), 1.0, 1e-12).unwrap();
+    let mut motion = simulate(&free, Start { t: 0.0, q, input_rates: at_rest }, 1.0, 1e-12).unwrap();
     motion.finish(|_, _| true).unwrap();
     let (found, expected) = (steps.state().unwrap(), motion.state());
     close("theta1", found.q.theta1, expected.q.theta1, 1e-9);
@@ -111,7 +112,7 @@ fn a_pendulum_with_friction_comes_to_rest() {
     let torque = scene.mu * scene.r * scene.load;
     let weight = scene.m * scene.g * scene.mechanism.l;
     let q = pendulum::PendulumCoordinates { theta: -FRAC_PI_2 + 0.3 };
-    let mut motion = simulate(&scene, (0.0, q, 0.0), 60.0, 1e-11).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 60.0, 1e-11).unwrap();
     let mut turns = vec![q.theta];
     while let Some(state) = motion.advance().unwrap() {
         if state.changes().count() > 0 && state.rates.theta.abs() < 1e-9 && state.t > 0.0 {
@@ -136,7 +137,7 @@ fn a_pendulum_with_friction_comes_to_rest() {
 fn a_pendulum_against_a_stop() {
     let scene = pendulum::Rubbing { mu: 0.0, high: -1.2, low: -1.9, ..Default::default() };
     let q = pendulum::PendulumCoordinates { theta: -1.5 };
-    let mut motion = simulate(&scene, (0.0, q, 6.0), 4.0, 1e-11).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 6.0 }, 4.0, 1e-11).unwrap();
     let mut impacts: Vec<f64> = Vec::new();
     let energy = |theta: f64, rate: f64| {
         let l = scene.mechanism.l;
@@ -175,7 +176,7 @@ fn another_unit_of_length() {
         };
         let q = cart_pendulum::CartPendulumCoordinates { x: 0.1 * unit, phi: 0.5 };
         let rates = cart_pendulum::CartPendulumInputs { x: unit, phi: 0.0 };
-        let mut motion = simulate(&scene, (0.0, q, rates), 3.0, 1e-8).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: rates }, 3.0, 1e-8).unwrap();
         let (mut states, mut changes) = (Vec::new(), 0);
         while let Some(state) = motion.advance().unwrap() {
             changes += state.changes().count();
@@ -195,7 +196,7 @@ fn drives_follow_their_laws() {
     let arm = three_link_arm::Moved::default();
     let q = three_link_arm::ThreeLinkArmCoordinates { phi1: 0.5, phi2: 0.0, phi3: 0.3 };
     let rates = three_link_arm::ThreeLinkArmInputs { phi1: 0.8, phi2: -0.8, phi3: 0.0 };
-    let mut motion = simulate(&arm, (0.0, q, rates), 3.0, 1e-11).unwrap();
+    let mut motion = simulate(&arm, Start { t: 0.0, q, input_rates: rates }, 3.0, 1e-11).unwrap();
     while let Some(state) = motion.advance().unwrap() {
         close("phi1", state.q.phi1, 0.5 + 0.4 * (2.0 * state.t).sin(), 1e-13);
         close("phi2", state.q.phi2, -0.8 * state.t, 1e-13);
@@ -231,7 +232,8 @@ fn hanging_and_standing_pendulums_are_in_equilibrium() {
     close("single", found.theta, -FRAC_PI_2, 1e-15);
     let small = (single.m * single.mechanism.l.powi(2) + single.j) / (single.m * single.g * single.mechanism.l);
     let start = pendulum::PendulumCoordinates { theta: found.theta + 1e-6 };
-    let mut motion = simulate(&single, (0.0, start, 0.0), TAU * small.sqrt(), 1e-12).unwrap();
+    let mut motion =
+        simulate(&single, Start { t: 0.0, q: start, input_rates: 0.0 }, TAU * small.sqrt(), 1e-12).unwrap();
     motion.finish(|_, _| true).unwrap();
     close("one period", motion.state().q.theta, start.theta, 1e-12);
 }

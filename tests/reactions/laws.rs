@@ -2,6 +2,7 @@
 //! moments, the work of the forces in joints, the force on the ground.
 
 use linkage::nalgebra::{Point2, Vector2, vector};
+use linkage::simulation::{Start, simulate};
 use linkage::{Mode, linkage};
 use linkage_gallery::{pendulum, slider_crank_scenes, three_link_arm};
 
@@ -253,7 +254,7 @@ fn a_journal_carries_weight_and_swing() {
     let limit = scene.mu * scene.r / scene.mechanism.l;
     for (offset, stays) in [(limit * (1.0 - 1e-12), true), (limit * (1.0 + 1e-12), false)] {
         let q = PendulumCoordinates { theta: -std::f64::consts::FRAC_PI_2 + offset.asin() };
-        let motion = linkage::simulation::simulate(&scene, (0.0, q, 0.0), 1.0, 1e-9).unwrap();
+        let motion = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 1.0, 1e-9).unwrap();
         assert_eq!(motion.state().contacts[0].mode == Mode::Stick, stays, "{offset}");
     }
 }

@@ -179,7 +179,7 @@ fn with_a_driven_crank() {
         let drive = by_hand.machine.hold(by_hand.turn(), 80.0);
         let solution = by_hand.machine.solve();
         let mut forces = compared!(by_hand, found, solution);
-        let [torque] = scene.drive_forces(t, &q, rate).unwrap();
+        let torque = scene.drive_forces(t, &q, rate).unwrap().phi;
         let length = by_hand.length;
         forces.push(("drive", [torque / length, 0.0], [solution.held(drive) / length, 0.0]));
         compare(&format!("state {state}"), &forces);

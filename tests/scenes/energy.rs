@@ -33,10 +33,10 @@ where
 macro_rules! balance {
     ($scene:expr, $q:expr, $rates:expr, $t:expr) => {{
         let (scene, q, rates) = (&$scene, $q, $rates);
-        let (velocity, acceleration) = scene.rates($t, &q, rates).unwrap();
+        let derivative = scene.rates($t, &q, rates).unwrap();
         let dual = scene.clone().map(constant::<Dual64>);
-        let position = moving(&scene.mechanism, &dual.mechanism, &q, &velocity);
-        let moved = changing(&scene.mechanism, &dual.mechanism, rates, acceleration);
+        let position = moving(&scene.mechanism, &dual.mechanism, &q, &derivative.rates);
+        let moved = changing(&scene.mechanism, &dual.mechanism, rates, derivative.input_accelerations);
         let energy = dual.energy(&position, moved).unwrap();
         let (power, now) = (scene.power($t, &q, rates).unwrap(), scene.energy(&q, rates).unwrap());
         agrees("kinetic energy", energy.kinetic.re, now.kinetic, 0.0);

@@ -16,8 +16,8 @@ fn reactions_hold_every_body() {
     at_random(|v: [f64; 1], rate: [f64; 1], t| {
         let pose = four_bar.assemble(v[0], FOUR_BAR).unwrap();
         let q = pose.coordinates();
-        let (velocity, acceleration) = scene.rates(t, &q, rate[0]).unwrap();
-        let motion = four_bar.motion(&q, rate[0], acceleration).unwrap();
+        let linkage::StateRates { rates: velocity, input_accelerations } = scene.rates(t, &q, rate[0]).unwrap();
+        let motion = four_bar.motion(&q, rate[0], input_accelerations).unwrap();
         let (points, turning) = (motion.points, motion.accelerations);
         let lambda: Vector2<f64> = scene.reactions(t, &q, rate[0]).unwrap().multipliers;
         let weight = Vector2::new(0.0, -scene.g);
@@ -35,7 +35,7 @@ fn reactions_hold_every_body() {
         let size = lambda.norm() + at_c.norm() + at_b.norm() + at_a.norm();
         agrees("rocker", rocker - scene.ct * velocity.theta4, scene.j4 * turning.theta4, size);
         agrees("coupler", coupler, scene.j3 * turning.theta3, size);
-        let torque = scene.drive_forces(t, &q, rate[0]).unwrap()[0];
+        let torque = scene.drive_forces(t, &q, rate[0]).unwrap().theta2;
         agrees("crank", crank + torque, scene.j2 * turning.theta2, size);
     });
 }

@@ -1,6 +1,6 @@
 //! A scene as a system of differential equations.
 
-use linkage::{Column, D, Scene};
+use linkage::{Column, D, Scene, StateParts};
 
 use super::machines::*;
 use super::virtual_work::agrees;
@@ -29,7 +29,7 @@ fn a_state_for_integrators() {
     let guess = LoadedFourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
     let start = idle.start(0.0, &guess, &LoadedFourBarInputs { theta2: 10.0 }).unwrap();
     let energy = |y: &Column<f64, D<4>>| {
-        let (q, rates) = Idle::parts(y);
+        let StateParts { q, input_rates: rates } = Idle::parts(y);
         let energy = idle.energy(&q, rates).unwrap();
         energy.kinetic + energy.potential
     };
@@ -43,7 +43,7 @@ fn a_state_for_integrators() {
     let equations = idle.equations(0.0, &start).unwrap();
     let acceleration = equations.forces / equations.mass[(0, 0)];
     agrees("v''", acceleration[0], derivative[3], 0.0);
-    let (q, rates) = Idle::parts(&start);
+    let StateParts { q, input_rates: rates } = Idle::parts(&start);
     let moving = equations.ratios.column(0) * rates.theta2;
     (0..2).for_each(|at| agrees("u'", moving[at], derivative[at], 0.0));
     let four_bar = &idle.mechanism;
@@ -56,7 +56,7 @@ fn a_state_for_integrators() {
     assert_eq!(idle.contacts(0.0, &q, &rates).unwrap(), []);
     // The crank has made more than a turn, and so have the angles.
     let end = run(&idle, start, 0.005, 200);
-    let (q, _) = Idle::parts(&end);
+    let q = Idle::parts(&end).q;
     assert!(q.theta2 > 7.0, "{q:?}");
     let four_bar = &idle.mechanism;
     assert!(four_bar.residual(&four_bar.pose_at(&q)).amax() < 1e-15, "{q:?}");

@@ -27,11 +27,11 @@ fn four_bar_by_virtual_work() {
         let mut resisted = virtual_work(&FourBarPositions, v, rate, [0.0, -idle.g]);
         resisted.add(1, |_, speed| -driven.ct * speed);
         let bent = -9.0 * (3.0 * t).sin();
-        let torque = driven.drive_forces(t, &q, rate[0]).unwrap()[0];
+        let torque = driven.drive_forces(t, &q, rate[0]).unwrap().theta2;
         let scale = resisted.sizes[0] + (expected.mass[0][0] * bent).abs();
         agrees("drive", torque, expected.mass[0][0] * bent - resisted.forces[0], scale);
         agrees("v'' of the drive", driven.acceleration(t, &q, rate[0]).unwrap().theta2, bent, 1.0);
-        let [law] = driven.drives(t);
+        let law = driven.drives(t).theta2;
         agrees("law", law.value, 12.0 * t + (3.0 * t).sin(), 1.0);
         agrees("law", law.rate, 12.0 + 3.0 * (3.0 * t).cos(), 1.0);
         agrees("law", law.acceleration, bent, 1.0);
@@ -94,7 +94,7 @@ fn five_bar_by_virtual_work() {
         held.add(0, |_, speed| -half.ct * speed);
         let acceleration = half.acceleration(t, &q, rates).unwrap();
         assert_eq!(acceleration.theta4, 1.0);
-        let torque = half.drive_forces(t, &q, rates).unwrap()[0];
+        let torque = half.drive_forces(t, &q, rates).unwrap().theta4;
         for (row, force) in [(0, 0.0), (1, torque)] {
             let left = mass[(row, 0)] * acceleration.theta1 + mass[(row, 1)];
             let scale = (mass[(row, 0)] * acceleration.theta1).abs() + size;
@@ -132,7 +132,7 @@ fn slider_crank_by_either_driver() {
         let light = virtual_work(&OfCrank, v, rate, [0.0, 0.0]);
         let mass = turning.mass_matrix(&q).unwrap()[0];
         agrees("M", mass, expected.mass[0][0], 0.0);
-        agrees("inverse dynamics", steady.drive_forces(t, &q, rate[0]).unwrap()[0], -light.forces[0], light.sizes[0]);
+        agrees("inverse dynamics", steady.drive_forces(t, &q, rate[0]).unwrap().phi, -light.forces[0], light.sizes[0]);
         expected.add(0, |z, speed| -turning.k * (z - turning.z0) - turning.c * speed);
         agrees("Q", turning.forces(t, &q, rate[0]).unwrap()[0], expected.forces[0], expected.sizes[0]);
 

@@ -5,9 +5,10 @@ use linkage::continuation::{AlongCoordinates, AlongRates, AtChangePoint, Directi
 use linkage::drawing::DrawingError;
 use linkage::extremes::{Extreme, Extremes};
 use linkage::integrate::{Crossing, Tolerance, dop853};
-use linkage::simulation::{AtSingularity, simulate};
+use linkage::simulation::{AtSingularity, Start, simulate};
 use linkage::{
-    Column, ContactLaw, D, DoubleDouble, Elbow, Matrix, Mode, Prescribed, Rounded, Scene, Slider, Slope, linkage,
+    Column, ContactLaw, D, DoubleDouble, Elbow, Matrix, Mode, Prescribed, Rounded, Scene, Slider, Slope, StateParts,
+    linkage,
 };
 
 use crate::{comes_back, four_bar};
@@ -100,13 +101,13 @@ fn equations_of_motion() {
 fn contacts_and_simulations() {
     let scene = Working::default();
     let state = scene.start(0.0, &START, &0.0.into()).unwrap();
-    let (q, rates) = Working::parts(&state);
+    let StateParts { q, input_rates } = Working::parts(&state);
     let at = |v: &Column<f64, D<1>>| ReducedEquations::of(&scene, 0.0, &Working::state(&q, &(*v).into()));
-    let (contacts, rates) = Contacts::begin(0.0, &rates.into(), at).unwrap();
+    let (contacts, rates) = Contacts::begin(0.0, &input_rates.into(), at).unwrap();
     comes_back(contacts);
     comes_back(contacts.motion(&at(&rates).unwrap()).unwrap());
 
-    let mut motion = simulate(&scene, (0.0, q, 0.0), 0.3, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 0.0 }, 0.3, 1e-9).unwrap();
     motion.finish(|_, _| true).unwrap();
     comes_back(motion.loads().unwrap());
     comes_back(motion.counts());

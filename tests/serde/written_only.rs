@@ -1,7 +1,7 @@
 //! Types with text of the program, such as the names of groups: they can be written, not read.
 
 use linkage::continuation::{AtChangePoint, Direction, Options, Path};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::skeleton::Skeleton;
 use linkage::{Error, Mechanism, Scene, Table, linkage, singularity};
 use serde::Deserialize;
@@ -22,7 +22,7 @@ linkage! {
 
 /// A start of a simulation, as a user may declare it.
 #[derive(Deserialize)]
-struct Start {
+struct Written {
     t: f64,
     q: PressCoordinates,
     rates: PressRates,
@@ -32,13 +32,13 @@ struct Start {
 fn a_simulation_goes_on_from_a_state_that_was_written() {
     let scene = Working::default();
     let start = PressCoordinates { phi: 1.2, psi: 2.9, z: 0.4 };
-    let mut motion = simulate(&scene, (0.0, start, 0.0), 0.05, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: 0.0 }, 0.05, 1e-9).unwrap();
     motion.finish(|_, _| true).unwrap();
     let state = to_value(motion.state()).unwrap();
     assert_eq!(state["contacts"][0], json!({ "name": "friction on z", "mode": "SlipBackward", "change": null }));
-    let Start { t, q, rates } = from_value(state).unwrap();
+    let Written { t, q, rates } = from_value(state).unwrap();
     assert_eq!((t, q, rates), (motion.state().t, motion.state().q, motion.state().rates));
-    assert!(simulate(&scene, (t, q, rates.phi), 0.1, 1e-9).is_ok());
+    assert!(simulate(&scene, Start { t, q, input_rates: rates.phi }, 0.1, 1e-9).is_ok());
     let contact = to_value(Scene::contacts(&scene, t, &q, &rates).unwrap()).unwrap();
     assert_eq!(contact[1]["law"]["Stop"]["lower"], 0.26);
 }

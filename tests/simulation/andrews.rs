@@ -2,7 +2,7 @@
 //! (2008), problem "andrews"; the constants are those of the scene.
 
 use linkage::integrate::{Dop853, Dopri5, Method};
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Start, State, simulate};
 
 use linkage_gallery::andrews_motion::{END, START};
 use linkage_gallery::andrews_scene::*;
@@ -21,7 +21,8 @@ const END_RATES: SqueezerRates = SqueezerRates {
 /// The largest relative errors of positions and rates, and the evaluations they took.
 fn errors<M: Method>(tolerance: f64) -> ([f64; 2], usize) {
     let scene = Squeezing::default();
-    let mut motion = simulate(&scene, (0.0, START, 0.0), 0.03, tolerance).unwrap().method::<M>().unwrap();
+    let mut motion =
+        simulate(&scene, Start { t: 0.0, q: START, input_rates: 0.0 }, 0.03, tolerance).unwrap().method::<M>().unwrap();
     motion.finish(|_, _| true).unwrap();
     let State { q, rates, t, .. } = *motion.state();
     assert_eq!(t, 0.03);

@@ -1,6 +1,6 @@
 //! Simulations backward in time.
 
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Start, State, simulate};
 use linkage::{MotionError, linkage};
 
 use linkage_oracle::close;
@@ -27,7 +27,7 @@ fn at(x: f64) -> SledgeCoordinates {
 #[test]
 fn energy_lost_in_contacts_does_not_return() {
     let irreversible = |scene, contact| Some(MotionError::Irreversible { scene, contact });
-    let (start, end) = ((1.0, at(0.3), 0.1), 0.0);
+    let (start, end) = (Start { t: 1.0, q: at(0.3), input_rates: 0.1 }, 0.0);
     assert_eq!(simulate(&Rubbing::default(), start, end, 1e-9).err(), irreversible("Rubbing", "friction on x"));
     assert_eq!(simulate(&Both::default(), start, end, 1e-9).err(), irreversible("Both", "stop on x"));
     for e in [0.0, 0.5, 1.0] {
@@ -44,10 +44,10 @@ fn energy_lost_in_contacts_does_not_return() {
 #[test]
 fn a_damped_motion_goes_back_where_it_came_from() {
     let damped = Damped::default();
-    let mut motion = simulate(&damped, (0.0, at(0.3), 0.1), 3.0, 1e-13).unwrap();
+    let mut motion = simulate(&damped, Start { t: 0.0, q: at(0.3), input_rates: 0.1 }, 3.0, 1e-13).unwrap();
     motion.finish(|_, _| true).unwrap();
     let State { q, rates, .. } = *motion.state();
-    let mut motion = simulate(&damped, (3.0, q, rates.x), 0.0, 1e-13).unwrap();
+    let mut motion = simulate(&damped, Start { t: 3.0, q, input_rates: rates.x }, 0.0, 1e-13).unwrap();
     motion.finish(|_, _| true).unwrap();
     close("place", motion.state().q.x, 0.3, 1e-11);
     close("rate", motion.state().rates.x, 0.1, 1e-10);

@@ -4,7 +4,7 @@
 use linkage::Scene;
 use linkage::integrate::{Tolerance, dop853};
 use linkage::linkage;
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 linkage! {
     /// A four-bar with a heavy crank, a parallelogram by default.
@@ -29,7 +29,7 @@ fn crossed_stays_crossed() {
     let scene = Rolling::default();
     let q = FrameCoordinates { theta: 0.9, phi: -1.03, psi: -1.93 };
     let q = scene.mechanism.solve(&q).unwrap().coordinates;
-    let mut motion = simulate(&scene, (0.0, q, 6.0), 10.0, 1e-12).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 6.0 }, 10.0, 1e-12).unwrap();
     let mut states = 0;
     motion
         .finish(|state, _| {
@@ -50,9 +50,9 @@ fn crossed_stays_crossed() {
 fn parallel_stays_parallel_also_when_driven() {
     let (rolling, driven) = (Rolling::default(), Driven::default());
     let q = FrameCoordinates { theta: 0.3, phi: 0.0, psi: 0.3 };
-    let mut motion = simulate(&rolling, (0.0, q, 6.0), 10.0, 1e-12).unwrap();
+    let mut motion = simulate(&rolling, Start { t: 0.0, q, input_rates: 6.0 }, 10.0, 1e-12).unwrap();
     // In an even motion no error estimate keeps a step from passing two change points: it needs a largest step.
-    let given = simulate(&driven, (0.0, q, 3.0), 10.0, 1e-12).unwrap();
+    let given = simulate(&driven, Start { t: 0.0, q, input_rates: 3.0 }, 10.0, 1e-12).unwrap();
     let mut given = given.largest_step(0.5).unwrap();
     motion
         .finish(|state, _| {
@@ -82,7 +82,7 @@ fn a_near_change_point_is_none() {
         scene.mechanism.a -= short;
         let q = FrameCoordinates { theta: 0.3, phi: 0.0, psi: 0.3 };
         let q = scene.mechanism.solve(&q).unwrap().coordinates;
-        let mut motion = simulate(&scene, (0.0, q, 6.0), 2.0, 1e-12).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 6.0 }, 2.0, 1e-12).unwrap();
         let sign = |q: &FrameCoordinates<f64>| scene.mechanism.determinant(&scene.mechanism.pose_at(q)) > 0.0;
         let result = motion.finish(|state, _| {
             assert_eq!(sign(&state.q), sign(&q), "{short:e} {state:?}");
@@ -93,7 +93,7 @@ fn a_near_change_point_is_none() {
         let tolerance = Tolerance::new(1e-13, [1.0, 1.0, 1.0, 6.0]).unwrap();
         let mut plain = dop853(|t, y: &_| scene.derivative(t, y), (0.0, y), 2.0, tolerance).unwrap();
         plain.finish(|_, _| true).unwrap();
-        let (expected, _) = Rolling::parts(plain.state());
+        let expected = Rolling::parts(plain.state()).q;
         result.unwrap();
         let found = motion.state().q;
         assert_eq!(motion.passages().change_points, 0);

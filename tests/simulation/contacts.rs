@@ -2,7 +2,7 @@
 
 use linkage::contact::Change;
 use linkage::integrate::Crossing;
-use linkage::simulation::{State, Then, simulate};
+use linkage::simulation::{Start, State, Then, simulate};
 use linkage::{InputError, Mode, MotionError};
 use linkage_oracle::close;
 
@@ -18,7 +18,7 @@ fn block(x: f64) -> BlockCoordinates {
 fn a_sliding_block_stops() {
     let scene = Sliding::default();
     let (speed, brake) = (1.7, 0.3 * 9.81);
-    let mut motion = simulate(&scene, (0.0, block(0.25), speed), 5.0, 1e-13).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: block(0.25), input_rates: speed }, 5.0, 1e-13).unwrap();
     assert_eq!(motion.state().mode("friction on x"), Some(Mode::SlipForward));
     let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
     let [stop] = events[..] else { panic!("{events:?}") };
@@ -37,7 +37,7 @@ fn an_oscillator_comes_to_rest() {
     let scene = Sprung::default();
     let less = 2.0 * 0.3 * 2.0 * 9.81 / 50.0;
     let turns = [less - 1.0, 1.0 - 2.0 * less, 3.0 * less - 1.0, 1.0 - 4.0 * less];
-    let mut motion = simulate(&scene, (0.0, block(1.0), 0.0), 6.0, 1e-13).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: block(1.0), input_rates: 0.0 }, 6.0, 1e-13).unwrap();
     let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
     assert_eq!(events.len(), 4, "{events:?}");
     for (half, (state, turn)) in events.iter().zip(turns).enumerate() {
@@ -55,7 +55,7 @@ fn an_oscillator_comes_to_rest() {
 fn a_ball_bounces_and_rests() {
     let scene = Bouncing::default();
     let fall = (2.0 * 0.75 / 9.81_f64).sqrt();
-    let mut motion = simulate(&scene, (0.0, block(0.25), 0.0), 3.0, 1e-13).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: block(0.25), input_rates: 0.0 }, 3.0, 1e-13).unwrap();
     let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
     assert_eq!(events.len(), 20, "{events:?}");
     let mut time = fall;
@@ -82,7 +82,8 @@ fn a_block_on_a_belt() {
     let stuck = (0.5 / (reach * omega)).asin() / omega;
     let place = reach * (1.0 - (omega * stuck).cos());
     let free = stuck + (reach - place) / 0.5;
-    let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
+    let mut motion =
+        simulate(&scene, Start { t: 0.0, q, input_rates: BeltInputs { x: 0.0, z: 0.5 } }, free + 0.4, 1e-13).unwrap();
     let mut events = Vec::new();
     motion
         .finish(|state, _| {
@@ -98,7 +99,8 @@ fn a_block_on_a_belt() {
     close("end", motion.state().q.x, reach + 0.5 / omega * (omega * 0.4).sin(), 1e-11);
     close("belt", motion.state().q.z, 0.5 * (free + 0.4), 1e-15);
     // The drive of the belt acts against the friction, while it slips forth, rides, and slips back.
-    let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
+    let mut motion =
+        simulate(&scene, Start { t: 0.0, q, input_rates: BeltInputs { x: 0.0, z: 0.5 } }, free + 0.4, 1e-13).unwrap();
     while let Some(state) = motion.advance().unwrap() {
         let loads = motion.loads().unwrap();
         let limit = 0.3 * 2.0 * 9.81;
@@ -109,7 +111,8 @@ fn a_block_on_a_belt() {
         assert_eq!(loads.drives.x, 0.0);
     }
     // While it rides its rate is that of the belt, also between the ends of steps.
-    let mut motion = simulate(&scene, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), free + 0.4, 1e-13).unwrap();
+    let mut motion =
+        simulate(&scene, Start { t: 0.0, q, input_rates: BeltInputs { x: 0.0, z: 0.5 } }, free + 0.4, 1e-13).unwrap();
     let times = (1..200).map(|i| stuck + (free - stuck) * f64::from(i) / 200.0);
     for state in motion.at(times) {
         let State { rates, contacts, .. } = state.unwrap();
@@ -120,11 +123,15 @@ fn a_block_on_a_belt() {
 #[test]
 fn starts_and_motions_that_fail() {
     let beyond = InputError::BeyondStop { scene: "Bouncing", stop: "stop on height", gap: 0.5 };
-    assert_eq!(simulate(&Bouncing::default(), (0.0, block(0.75), 0.0), 1.0, 1e-9).err(), Some(beyond.into()));
+    assert_eq!(
+        simulate(&Bouncing::default(), Start { t: 0.0, q: block(0.75), input_rates: 0.0 }, 1.0, 1e-9).err(),
+        Some(beyond.into())
+    );
     // A drive through a stop.
     let driven = Driven::default();
     let q = BeltCoordinates { slip: 0.0, x: 0.0, z: 0.0 };
-    let mut motion = simulate(&driven, (0.0, q, BeltInputs { x: 0.0, z: 0.5 }), 9.0, 1e-10).unwrap();
+    let mut motion =
+        simulate(&driven, Start { t: 0.0, q, input_rates: BeltInputs { x: 0.0, z: 0.5 } }, 9.0, 1e-10).unwrap();
     let named = MotionError::NoContactForces { scene: "Driven", contact: "stop on z" };
     let states: Vec<_> = motion.by_ref().collect();
     let (last, before) = states.split_last().unwrap();
@@ -140,14 +147,14 @@ fn a_load_that_swings_frees_the_block_in_time() {
         let limit = 0.3 * 2.0 * 9.81;
         for frequency in (0..60).map(|i| slowest * 1.11_f64.powi(i)) {
             let scene = Rocked { push: beyond * limit, omega: frequency, ..Rocked::default() };
-            let mut motion = simulate(&scene, (0.0, block(0.0), 0.0), 10.0, 1e-10).unwrap();
+            let mut motion = simulate(&scene, Start { t: 0.0, q: block(0.0), input_rates: 0.0 }, 10.0, 1e-10).unwrap();
             let first = motion.by_ref().map(Result::unwrap).find(|state| state.changes().count() > 0).unwrap();
             close("free", first.t * frequency, (1.0_f64 / beyond).asin(), 1e-9);
             assert_eq!(first.contacts[0].mode, Mode::SlipForward);
         }
     }
     let scene = Rocked { push: 0.9999 * 0.3 * 2.0 * 9.81, ..Rocked::default() };
-    let mut motion = simulate(&scene, (0.0, block(0.0), 0.0), 10.0, 1e-10).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: block(0.0), input_rates: 0.0 }, 10.0, 1e-10).unwrap();
     motion.finish(|_, _| true).unwrap();
     println!("{:?}", motion.counts());
     assert_eq!((motion.state().q.x, motion.state().mode("friction on x")), (0.0, Some(Mode::Stick)));
@@ -158,7 +165,7 @@ fn a_load_that_swings_frees_the_block_in_time() {
 fn impulses_from_outside() {
     let scene = Sliding::default();
     let brake = 0.3 * 9.81;
-    let motion = simulate(&scene, (0.0, block(0.0), 1.7), 5.0, 1e-13).unwrap();
+    let motion = simulate(&scene, Start { t: 0.0, q: block(0.0), input_rates: 1.7 }, 5.0, 1e-13).unwrap();
     let mut motion = motion
         .events([Crossing::Rising], |state| Ok([state.t - 2.0]), |_, _| Ok(Then::Restart((-1.2).into())))
         .unwrap();
@@ -172,7 +179,7 @@ fn impulses_from_outside() {
 
     let scene = Bouncing { e: 0.0, ..Bouncing::default() };
     for (time, rate, change) in [(1.0, 2.0, Some(Change::LetsGo)), (1.0, -2.0, None), (0.25, -2.0, None)] {
-        let motion = simulate(&scene, (0.0, block(0.25), 0.0), 3.0, 1e-13).unwrap();
+        let motion = simulate(&scene, Start { t: 0.0, q: block(0.25), input_rates: 0.0 }, 3.0, 1e-13).unwrap();
         let mut motion = motion
             .events([Crossing::Rising], |state| Ok([state.t - time]), |_, _| Ok(Then::Restart(rate.into())))
             .unwrap();
@@ -205,7 +212,9 @@ fn a_ball_let_go_late_bounces_and_rests() {
     let scene = Bouncing::default();
     let fall = (2.0 * 0.75 / 9.81_f64).sqrt();
     for start in [0.0, 1.0, 1e3, 1e6, 1e8, 1e10, -1e10] {
-        let mut motion = simulate(&scene, (start, block(0.25), 0.0), start + 4.0, 1e-13).unwrap().most_steps(3000);
+        let mut motion = simulate(&scene, Start { t: start, q: block(0.25), input_rates: 0.0 }, start + 4.0, 1e-13)
+            .unwrap()
+            .most_steps(3000);
         let mut impacts = 0;
         while let Some(state) = motion.advance().unwrap_or_else(|error| panic!("{start:e}: {error}")) {
             impacts += i32::from(state.changes().any(|(_, change)| change == Change::Impact));

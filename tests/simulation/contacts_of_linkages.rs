@@ -2,7 +2,7 @@
 //! scenes.
 
 use linkage::contact::Change;
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Start, State, simulate};
 use linkage::{Mode, linkage};
 
 use linkage_oracle::close;
@@ -74,9 +74,9 @@ fn motor(phi: f64) -> MotorCoordinates<f64> {
 fn friction_in_the_dead_points() {
     let (shaft, piston) = (Turned::default(), Thrust::default());
     for speed in [20.0, -20.0] {
-        let mut one = simulate(&shaft, (0.0, motor(1.2), speed), 3.0, 1e-14).unwrap();
+        let mut one = simulate(&shaft, Start { t: 0.0, q: motor(1.2), input_rates: speed }, 3.0, 1e-14).unwrap();
         let rate = one.state().rates.z;
-        let mut other = simulate(&piston, (0.0, motor(1.2), rate), 3.0, 1e-14).unwrap();
+        let mut other = simulate(&piston, Start { t: 0.0, q: motor(1.2), input_rates: rate }, 3.0, 1e-14).unwrap();
         let (some, others) = (run!(one), run!(other));
         agree(&some, &others, 1e-9);
         let (a, b) = (one.state(), other.state());
@@ -94,15 +94,15 @@ fn friction_in_the_dead_points() {
 fn a_stop_on_an_output_turns_the_motion_round() {
     let (shaft, piston) = (Knocking::default(), Knocked::default());
     let q = motor(4.5);
-    let start = simulate(&shaft, (0.0, q, -14.0), 1.0, 1e-13).unwrap().state().rates;
-    let mut by_shaft = simulate(&shaft, (0.0, q, start.phi), 1.0, 1e-13).unwrap();
-    let mut by_piston = simulate(&piston, (0.0, q, start.z), 1.0, 1e-13).unwrap();
+    let start = simulate(&shaft, Start { t: 0.0, q, input_rates: -14.0 }, 1.0, 1e-13).unwrap().state().rates;
+    let mut by_shaft = simulate(&shaft, Start { t: 0.0, q, input_rates: start.phi }, 1.0, 1e-13).unwrap();
+    let mut by_piston = simulate(&piston, Start { t: 0.0, q, input_rates: start.z }, 1.0, 1e-13).unwrap();
     let (some, others) = (run!(by_shaft), run!(by_piston));
     agree(&some, &others, 1e-10);
     let (t, name, change) = some[0];
     assert_eq!((name, change), ("stop on swing", Change::Impact));
     println!("{some:?} {:?} {:?}", by_piston.passages(), by_piston.counts());
-    let mut piston = simulate(&piston, (0.0, q, start.z), 2.0 * t, 1e-13).unwrap();
+    let mut piston = simulate(&piston, Start { t: 0.0, q, input_rates: start.z }, 2.0 * t, 1e-13).unwrap();
     let there: Vec<_> = piston.at([0.25 * t, 0.75 * t, 1.25 * t, 1.75 * t, 2.0 * t]).map(Result::unwrap).collect();
     for (before, after) in [(there[0], there[3]), (there[1], there[2])] {
         close("phi", before.q.phi, after.q.phi, 1e-10);
@@ -123,15 +123,21 @@ fn pair(theta1: f64, theta4: f64) -> PairCoordinates<f64> {
 fn one_crank_sticks_while_the_other_slips() {
     let (scene, clamped) = (Braked::default(), Clamped { place: 1.1, ..Clamped::default() });
     let rates = PairInputs { theta1: 0.0, theta4: 0.4 };
-    let mut motion = simulate(&scene, (0.0, pair(1.1, 1.4), rates), 0.6, 1e-13).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: pair(1.1, 1.4), input_rates: rates }, 0.6, 1e-13).unwrap();
     let happened = run!(motion);
     let [(turn, "friction on theta4", Change::Slips)] = happened[..] else { panic!("{happened:?}") };
-    let mut forth = simulate(&clamped, (0.0, pair(1.1, 1.4), rates), turn, 1e-13).unwrap();
+    let mut forth = simulate(&clamped, Start { t: 0.0, q: pair(1.1, 1.4), input_rates: rates }, turn, 1e-13).unwrap();
     forth.finish(|_, _| true).unwrap();
     let State { q, rates, .. } = *forth.state();
     close("turn", rates.theta4, 0.0, 1e-12);
     let back = Clamped { sign: -1.0, ..clamped.clone() };
-    let mut back = simulate(&back, (turn, q, PairInputs { theta1: 0.0, theta4: rates.theta4 }), 0.6, 1e-13).unwrap();
+    let mut back = simulate(
+        &back,
+        Start { t: turn, q, input_rates: PairInputs { theta1: 0.0, theta4: rates.theta4 } },
+        0.6,
+        1e-13,
+    )
+    .unwrap();
     back.finish(|_, _| true).unwrap();
     let (found, expected) = (motion.state(), back.state());
     close("theta4", found.q.theta4, expected.q.theta4, 1e-11);
@@ -179,9 +185,11 @@ fn a_motor_through_singular_inputs() {
     let q = ChainCoordinates { theta1: 0.3, theta2: 0.8, theta3: 2.0, theta4: 0.9 };
     let q = cranks.mechanism.solve(&q).unwrap().coordinates;
     let rates = CranksInputs { theta1: 2.0, theta4: 0.0 };
-    let mut one = simulate(&cranks, (0.0, q, rates), 6.0, 1e-13).unwrap();
+    let mut one = simulate(&cranks, Start { t: 0.0, q, input_rates: rates }, 6.0, 1e-13).unwrap();
     let start = one.state().rates;
-    let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 2.0, theta2: start.theta2 }), 6.0, 1e-13).unwrap();
+    let mut other =
+        simulate(&arm, Start { t: 0.0, q, input_rates: ArmInputs { theta1: 2.0, theta2: start.theta2 } }, 6.0, 1e-13)
+            .unwrap();
     let (some, others) = (run!(one), run!(other));
     println!(
         "{some:?}\n{others:?}\n{:?} {:?} {:?} {:?}",
@@ -197,7 +205,9 @@ fn a_motor_through_singular_inputs() {
     close("theta4", one.state().q.theta4, other.state().q.theta4, 1e-8);
     // A coordinate that sticks is at rest, to rounding error, also if it is no input, and between the ends of steps
     // too.
-    let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 2.0, theta2: start.theta2 }), 6.0, 1e-13).unwrap();
+    let mut other =
+        simulate(&arm, Start { t: 0.0, q, input_rates: ArmInputs { theta1: 2.0, theta2: start.theta2 } }, 6.0, 1e-13)
+            .unwrap();
     let mut stuck = 0;
     for state in other.at((0..6000).map(|i| 0.001 * f64::from(i))).map(Result::unwrap) {
         if state.contacts[0].mode == Mode::Stick {
@@ -225,9 +235,17 @@ fn a_motor_near_a_singular_position() {
         let arm = Nearly { begin, grip, ..Nearly::default() };
         let q = ChainCoordinates { theta1: begin, theta2: 0.1, theta3: 3.17, theta4: 0.5 };
         let q = cranks.mechanism.solve(&q).unwrap().coordinates;
-        let mut one = simulate(&cranks, (0.0, q, CranksInputs { theta1: 1.0, theta4: 0.3 }), 0.8, 1e-13).unwrap();
+        let mut one =
+            simulate(&cranks, Start { t: 0.0, q, input_rates: CranksInputs { theta1: 1.0, theta4: 0.3 } }, 0.8, 1e-13)
+                .unwrap();
         let start = one.state().rates;
-        let mut other = simulate(&arm, (0.0, q, ArmInputs { theta1: 1.0, theta2: start.theta2 }), 0.8, 1e-13).unwrap();
+        let mut other = simulate(
+            &arm,
+            Start { t: 0.0, q, input_rates: ArmInputs { theta1: 1.0, theta2: start.theta2 } },
+            0.8,
+            1e-13,
+        )
+        .unwrap();
         let (some, others) = (run!(one), run!(other));
         agree(&some, &others, 1e-10);
         close("theta4", one.state().q.theta4, other.state().q.theta4, 1e-10);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use linkage::contact::Change;
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Start, State, simulate};
 use linkage::{Mode, MotionError, PathError, linkage};
 
 use linkage_oracle::close;
@@ -38,7 +38,7 @@ fn friction_takes_all_the_energy() {
     let near = [-0.3, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.3].map(|beyond| PI + beyond);
     for end in [2.9, 5.0, 7.8, 8.9, 10.1].into_iter().chain(near) {
         let speed = (2.0 * scene.mu / INERTIA * (end - start)).sqrt();
-        let mut motion = simulate(&scene, (0.0, at(start), speed), 40.0, 1e-12).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q: at(start), input_rates: speed }, 40.0, 1e-12).unwrap();
         let mut stuck = None;
         let mut last = 0.0;
         while let Some(state) = motion.advance().unwrap() {
@@ -72,7 +72,7 @@ fn a_stop_near_a_change_point() {
     for beyond in [-0.9, -0.3, -0.1, -0.03, -0.01, -1e-3, 0.0, 1e-3, 0.01, 0.03, 0.1, 0.3, 0.9] {
         let bound = PI + beyond;
         let scene = Hit { bound, ..Hit::default() };
-        let mut motion = simulate(&scene, (0.0, at(start), speed), 6.0, 1e-12).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q: at(start), input_rates: speed }, 6.0, 1e-12).unwrap();
         let hits = (bound - start) / speed;
         let mut impacts = Vec::new();
         let mut failure = None;
@@ -128,7 +128,7 @@ fn the_account_of_energy_closes() {
             let mut scene = scene.clone();
             (scene.mu, scene.least) = (mu, least);
             let q = scene.mechanism.solve(&q).unwrap().coordinates;
-            let mut motion = simulate(&scene, (0.0, q, 4.0), 12.0, 1e-12).unwrap();
+            let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 4.0 }, 12.0, 1e-12).unwrap();
             let kinetic = |rate: &WheelsRates<f64>| {
                 0.5 * (scene.j1 * rate.theta.powi(2) + scene.j2 * rate.phi.powi(2) + scene.j3 * rate.psi.powi(2))
             };
@@ -173,9 +173,13 @@ fn it_slips_in_time_near_a_change_point() {
         let scene = Carried { from, ..scene };
         let q = TrayCoordinates { theta: from, s: 0.3, phi: 0.0, psi: from };
         let slips = (PI - before - from) / omega;
-        let mut motion =
-            simulate(&scene, (0.0, q, TrayInputs { theta: omega, s: 0.0 }), slips + 4.0 * before / omega, 1e-12)
-                .unwrap();
+        let mut motion = simulate(
+            &scene,
+            Start { t: 0.0, q, input_rates: TrayInputs { theta: omega, s: 0.0 } },
+            slips + 4.0 * before / omega,
+            1e-12,
+        )
+        .unwrap();
         let mut happened = Vec::new();
         for state in motion.by_ref() {
             let state: State<_> = state.unwrap();
@@ -187,7 +191,9 @@ fn it_slips_in_time_near_a_change_point() {
         close("held until then", s, 0.3, 1e-15);
         // Also if the simulation ends next to the change point.
         for end in [-0.6, 0.0, 0.2].map(|part| (PI - from + part * before) / omega) {
-            let mut motion = simulate(&scene, (0.0, q, TrayInputs { theta: omega, s: 0.0 }), end, 1e-12).unwrap();
+            let mut motion =
+                simulate(&scene, Start { t: 0.0, q, input_rates: TrayInputs { theta: omega, s: 0.0 } }, end, 1e-12)
+                    .unwrap();
             motion.finish(|_, _| true).unwrap();
             let mode = motion.state().mode("friction on s");
             assert_eq!((motion.state().t, mode), (end, Some(Mode::SlipBackward)), "{before}");

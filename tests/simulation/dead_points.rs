@@ -1,7 +1,7 @@
 //! Dead points of the input, passed in other coordinates.
 
 use linkage::linkage;
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 linkage! {
     /// An engine with crank or piston as input.
@@ -26,9 +26,9 @@ fn an_engine_by_its_piston_as_by_its_crank() {
     let q = by_crank.mechanism.solve(&EngineCoordinates { phi: 1.2, psi: -0.25, z: 0.19 }).unwrap().coordinates;
     let times: Vec<f64> = (1..=40).map(|i| 0.05 * f64::from(i)).collect();
     for (speed, turns) in [(30.0, 8.0), (-30.0, 8.0), (8.0, 0.0)] {
-        let mut reference = simulate(&by_crank, (0.0, q, speed), 2.0, 1e-13).unwrap();
+        let mut reference = simulate(&by_crank, Start { t: 0.0, q, input_rates: speed }, 2.0, 1e-13).unwrap();
         let z_rate = reference.state().rates.z;
-        let mut motion = simulate(&by_piston, (0.0, q, z_rate), 2.0, 1e-13).unwrap();
+        let mut motion = simulate(&by_piston, Start { t: 0.0, q, input_rates: z_rate }, 2.0, 1e-13).unwrap();
         let expected: Vec<_> = reference.at(times.iter().copied()).map(Result::unwrap).collect();
         let found: Vec<_> = motion.at(times.iter().copied()).map(Result::unwrap).collect();
         assert_eq!(found.len(), expected.len());
@@ -79,10 +79,12 @@ fn two_inputs_by_either_choice() {
     let (cranks, chain) = (OnCranks::default(), OnChain::default());
     let q = ArmsCoordinates { theta1: 1.3, theta2: 0.3, theta3: 2.0, theta4: 0.9 };
     let q = cranks.mechanism.solve(&q).unwrap().coordinates;
-    let mut one = simulate(&cranks, (0.0, q, CranksInputs { theta1: 1.0, theta4: -2.0 }), 3.0, 1e-13).unwrap();
+    let mut one =
+        simulate(&cranks, Start { t: 0.0, q, input_rates: CranksInputs { theta1: 1.0, theta4: -2.0 } }, 3.0, 1e-13)
+            .unwrap();
     let rate = one.state().rates;
     let rates = ChainInputs { theta1: rate.theta1, theta2: rate.theta2 };
-    let mut other = simulate(&chain, (0.0, q, rates), 3.0, 1e-13).unwrap();
+    let mut other = simulate(&chain, Start { t: 0.0, q, input_rates: rates }, 3.0, 1e-13).unwrap();
     let start = cranks.energy(&q, CranksInputs { theta1: 1.0, theta4: -2.0 }).unwrap();
     one.finish(|_, _| true).unwrap();
     other.finish(|_, _| true).unwrap();

@@ -1,14 +1,14 @@
 //! The functions of a simulation: output times, events, progress, methods, fixed steps.
 
 use linkage::integrate::{Crossing, Dopri5};
-use linkage::simulation::{RealTime, Then, simulate};
+use linkage::simulation::{RealTime, Start, Then, simulate};
 
 use super::rig::{Idling, start};
 
 #[test]
 fn the_same_bits_again_and_output_times_that_change_none() {
     let scene = Idling::default();
-    let run = || simulate(&scene, (0.0, start(), 9.0), 5.0, 1e-10).unwrap();
+    let run = || simulate(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 5.0, 1e-10).unwrap();
     let (mut first, mut second, mut third) = (run(), run(), run());
     let states: Vec<_> = first.by_ref().map(Result::unwrap).collect();
     assert_eq!(states, second.by_ref().map(Result::unwrap).collect::<Vec<_>>());
@@ -25,7 +25,7 @@ fn the_same_bits_again_and_output_times_that_change_none() {
         let rounding = f64::EPSILON * (2.0 + q.theta.abs());
         assert!(x.abs() < rounding && y.abs() < rounding, "{}: {x:e} {y:e}", state.t);
     }
-    let mut exact = simulate(&scene, (0.0, start(), 9.0), 5.0, 1e-14).unwrap();
+    let mut exact = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 5.0, 1e-14).unwrap();
     let times = (0..=1000).map(|i| 5.0 * f64::from(i) / 1000.0);
     let mut worst = [0.0_f64; 2];
     for (state, exact) in outputs.iter().zip(exact.at(times).map(Result::unwrap)) {
@@ -36,7 +36,7 @@ fn the_same_bits_again_and_output_times_that_change_none() {
     assert!(worst[0] < 1e-7 && worst[1] < 1e-6, "{worst:?}");
     // Back in time to where it began.
     let end = *exact.state();
-    let mut back = simulate(&scene, (5.0, end.q, end.rates.theta), 0.0, 1e-13).unwrap();
+    let mut back = simulate(&scene, Start { t: 5.0, q: end.q, input_rates: end.rates.theta }, 0.0, 1e-13).unwrap();
     back.finish(|_, _| true).unwrap();
     assert!((back.state().q.theta - start().theta).abs() < 1e-9 && back.t() == 0.0);
 }
@@ -44,7 +44,7 @@ fn the_same_bits_again_and_output_times_that_change_none() {
 #[test]
 fn events_with_what_they_do() {
     let scene = Idling::default();
-    let motion = simulate(&scene, (0.0, start(), 9.0), 5.0, 1e-11).unwrap();
+    let motion = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 5.0, 1e-11).unwrap();
     // The rocker turns round; the crank has made five turns.
     let mut motion = motion
         .events(
@@ -65,7 +65,7 @@ fn events_with_what_they_do() {
     assert_eq!((turns, last.event), (10, Some(1)));
     assert!((last.q.theta - 5.0 * std::f64::consts::TAU).abs() < 1e-12 && motion.progress() < 1.0);
     // An impulse that turns the crank back.
-    let motion = simulate(&scene, (0.0, start(), 9.0), 1.0, 1e-11).unwrap();
+    let motion = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 1.0, 1e-11).unwrap();
     let mut motion = motion
         .events(
             [Crossing::Rising],
@@ -82,7 +82,10 @@ fn events_with_what_they_do() {
 #[test]
 fn progress_methods_and_pauses() {
     let scene = Idling::default();
-    let mut motion = simulate(&scene, (0.0, start(), 9.0), 5.0, 1e-8).unwrap().largest_step(0.01).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 5.0, 1e-8)
+        .unwrap()
+        .largest_step(0.01)
+        .unwrap();
     let mut last = 0.0;
     motion
         .finish(|_, progress| {
@@ -94,7 +97,10 @@ fn progress_methods_and_pauses() {
     assert!((0.5..0.51).contains(&last) && motion.t() < 2.6);
     motion.finish(|_, _| true).unwrap();
     assert_eq!((motion.progress(), motion.t()), (1.0, 5.0));
-    let mut other = simulate(&scene, (0.0, start(), 9.0), 5.0, 1e-11).unwrap().method::<Dopri5>().unwrap();
+    let mut other = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 5.0, 1e-11)
+        .unwrap()
+        .method::<Dopri5>()
+        .unwrap();
     other.finish(|_, _| true).unwrap();
     assert!((other.state().q.theta - motion.state().q.theta).abs() < 1e-7);
     assert!(other.counts().evaluations > 0 && other.counts().accepted < motion.counts().accepted * 10);
@@ -104,10 +110,11 @@ fn progress_methods_and_pauses() {
 #[test]
 fn in_step_with_a_clock() {
     let scene = Idling::default();
-    let mut exact = simulate(&scene, (0.0, start(), 9.0), 1.0, 1e-14).unwrap();
+    let mut exact = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 1.0, 1e-14).unwrap();
     exact.finish(|_, _| true).unwrap();
     let error = |steps: u32| {
-        let mut clock = RealTime::new(&scene, (0.0, start(), 9.0), 1.0 / f64::from(steps)).unwrap();
+        let mut clock =
+            RealTime::new(&scene, Start { t: 0.0, q: start(), input_rates: 9.0 }, 1.0 / f64::from(steps)).unwrap();
         for _ in 0..steps {
             clock.step().unwrap();
         }

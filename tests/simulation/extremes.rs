@@ -1,6 +1,6 @@
 //! Lengths, masses, times, tolerances and intervals of any size.
 
-use linkage::simulation::{Simulation, simulate};
+use linkage::simulation::{Simulation, Start, simulate};
 use linkage::{MotionError, linkage};
 
 linkage! {
@@ -54,7 +54,7 @@ fn units_change_no_bit() {
     let run = |[length, mass, time]: [f64; 3], e: Option<f64>| {
         let (g, k) = (length / time / time, mass / time / time);
         let mechanism = Swing { r: length, l: 3.0 * length };
-        let start = (0.0, swing(length), 0.25 / time);
+        let start = Start { t: 0.0, q: swing(length), input_rates: 0.25 / time };
         let Some(e) = e else {
             let scene = Swinging { mechanism, m: 2.0 * mass, g, k };
             return shown(simulate(&scene, start, 8.0 * time, 1e-9).unwrap(), [length, time]);
@@ -88,7 +88,7 @@ fn intervals_of_any_length() {
     for g in [1e-300, 1e-200, 1e-160, 1e-100, 1e-30, 0.0] {
         for end in [1e-300, 1.0, 1e100] {
             let scene = Drifting { g, ..Drifting::default() };
-            let mut motion = simulate(&scene, (0.0, loose(1.0), 0.0), end, 1e-9).unwrap();
+            let mut motion = simulate(&scene, Start { t: 0.0, q: loose(1.0), input_rates: 0.0 }, end, 1e-9).unwrap();
             motion.finish(|_, _| true).unwrap_or_else(|error| panic!("{g:e} {end:e} {error}"));
             let exact = 1.0 + 0.5 * g * end * end;
             assert!((motion.state().q.x - exact).abs() <= 1e-12 * exact, "{g:e} {end:e}");
@@ -98,7 +98,7 @@ fn intervals_of_any_length() {
         // The first steps are short relative to the interval, for any start time.
         for (x, rate) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
             let drifting = Drifting::default();
-            let mut motion = simulate(&drifting, (0.0, loose(x), rate), end, 1e-9).unwrap();
+            let mut motion = simulate(&drifting, Start { t: 0.0, q: loose(x), input_rates: rate }, end, 1e-9).unwrap();
             motion.finish(|_, _| true).unwrap();
             assert!((motion.state().q.x - (x + rate * end)).abs() <= 1e-12 * end * rate, "{end:e}");
             let ends = |result: Result<(), MotionError>, t: f64| {
@@ -106,15 +106,20 @@ fn intervals_of_any_length() {
                 assert!(t > 10.0 && t < 1e6, "{end:e} {x} {rate}: {t:e}");
             };
             let shaken = Shaken { g: 1.0, ..Shaken::default() };
-            let mut motion = simulate(&shaken, (0.0, loose(x), rate), end, 1e-9).unwrap().most_steps(1500);
+            let mut motion = simulate(&shaken, Start { t: 0.0, q: loose(x), input_rates: rate }, end, 1e-9)
+                .unwrap()
+                .most_steps(1500);
             let result = motion.finish(|_, _| true);
             ends(result, motion.t());
             let bound = Tied { k: 1.0, g: 0.5, ..Tied::default() };
-            let mut motion = simulate(&bound, (0.0, loose(x), rate), end, 1e-9).unwrap().most_steps(1500);
+            let mut motion =
+                simulate(&bound, Start { t: 0.0, q: loose(x), input_rates: rate }, end, 1e-9).unwrap().most_steps(1500);
             let result = motion.finish(|_, _| true);
             ends(result, motion.t());
             let swinging = Swinging::default();
-            let mut motion = simulate(&swinging, (0.0, swing(1.0), rate), end, 1e-9).unwrap().most_steps(1500);
+            let mut motion = simulate(&swinging, Start { t: 0.0, q: swing(1.0), input_rates: rate }, end, 1e-9)
+                .unwrap()
+                .most_steps(1500);
             let result = motion.finish(|_, _| true);
             ends(result, motion.t());
         }
@@ -128,7 +133,8 @@ fn tolerances_of_any_size() {
         for [length, mass, time] in [[1.0, 1.0, 1.0], [1e-60, 1e80, 1e-50], [1e70, 1e-100, 1e100]] {
             let (g, k) = (length / time / time, mass / time / time);
             let scene = Swinging { mechanism: Swing { r: length, l: 3.0 * length }, m: 2.0 * mass, g, k };
-            let mut motion = simulate(&scene, (0.0, swing(length), 0.0), time, tolerance).unwrap();
+            let mut motion =
+                simulate(&scene, Start { t: 0.0, q: swing(length), input_rates: 0.0 }, time, tolerance).unwrap();
             motion.finish(|_, _| true).unwrap_or_else(|error| panic!("{tolerance:e} {length:e}: {error}"));
         }
     }

@@ -1,6 +1,6 @@
 //! A simulation that fails returns the reason, and keeps the computed states.
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::{InputError, MotionError, PositionError, linkage};
 
 use super::rig::{Fading, Given, Idling, start};
@@ -8,7 +8,7 @@ use super::rig::{Fading, Given, Idling, start};
 #[test]
 fn a_law_that_ends() {
     let scene = Fading::default();
-    let mut motion = simulate(&scene, (0.0, start(), 1.0), 2.0, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 1.0 }, 2.0, 1e-9).unwrap();
     let states: Vec<_> = motion.by_ref().collect();
     let (last, before) = states.split_last().unwrap();
     let error = last.unwrap_err();
@@ -23,7 +23,7 @@ fn a_law_that_ends() {
     assert!(motion.next().is_none());
     assert_eq!(before.last().unwrap().unwrap(), *motion.state());
     // The simulation by output times.
-    let mut motion = simulate(&scene, (0.0, start(), 1.0), 2.0, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: start(), input_rates: 1.0 }, 2.0, 1e-9).unwrap();
     let states: Vec<_> = motion.at([0.25, 0.5, 1.5, 1.75]).collect();
     assert!(states.len() == 3 && states[1].is_ok() && states[2] == Err(error), "{states:?}");
 }
@@ -32,7 +32,7 @@ fn a_law_that_ends() {
 fn invalid_starts() {
     let mut scene = Idling::default();
     let error = |scene: &Idling<f64>, tolerance: f64, rate: f64, end: f64| {
-        simulate(scene, (0.0, start(), rate), end, tolerance).err()
+        simulate(scene, Start { t: 0.0, q: start(), input_rates: rate }, end, tolerance).err()
     };
     assert!(error(&scene, 1e-9, 1.0, 1.0).is_none());
     assert!(matches!(error(&scene, 0.0, 1.0, 1.0), Some(MotionError::Input(InputError::OutOfRange { .. }))));
@@ -43,9 +43,9 @@ fn invalid_starts() {
     scene.m = -1.0;
     assert!(matches!(error(&scene, 1e-9, 1.0, 1.0), Some(MotionError::Input(InputError::OutOfRange { .. }))));
     let given = Given::default();
-    let rate = simulate(&given, (0.0, start(), 1.0), 1.0, 1e-9).err();
+    let rate = simulate(&given, Start { t: 0.0, q: start(), input_rates: 1.0 }, 1.0, 1e-9).err();
     assert!(matches!(rate, Some(MotionError::Input(InputError::Inconsistent { quantity: "rate", .. }))), "{rate:?}");
-    let place = simulate(&given, (0.5, start(), 2.0), 1.0, 1e-9).err();
+    let place = simulate(&given, Start { t: 0.5, q: start(), input_rates: 2.0 }, 1.0, 1e-9).err();
     assert!(
         matches!(place, Some(MotionError::Input(InputError::Inconsistent { quantity: "position", .. }))),
         "{place:?}"
@@ -70,7 +70,7 @@ fn a_drive_beyond_the_dead_point() {
     let scene = Pulled::default();
     let q = ReachCoordinates { z: 0.2, phi: 0.9, psi: -0.2 };
     let q = scene.mechanism.solve(&q).unwrap().coordinates;
-    let mut motion = simulate(&scene, (0.0, q, 0.1), 1.0, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 0.1 }, 1.0, 1e-9).unwrap();
     let error = motion.finish(|_, _| true).unwrap_err();
     println!("{error:?} at {}", motion.t());
     assert!(

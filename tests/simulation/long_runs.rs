@@ -1,7 +1,7 @@
 //! Motions over many periods.
 
 use linkage::linkage;
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 linkage! {
     /// Problem A01 of the benchmark library of IFToMM (lim.ii.udc.es/mbsbenchmark): 1 kg on a massless rod of 1 m.
@@ -40,7 +40,7 @@ fn is_exact_for_long(rows: &[(f64, f64, f64)]) {
     let scene = Swinging::default();
     let start = PendulumCoordinates { phi: 0.0, x: 1.0, y: 0.0 };
     let (end, _, _) = rows[rows.len() - 1];
-    let mut motion = simulate(&scene, (0.0, start, 0.0), end, 1e-13).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: 0.0 }, end, 1e-13).unwrap();
     let states: Vec<_> = motion.at(rows.iter().map(|row| row.0)).map(Result::unwrap).collect();
     assert_eq!(states.len(), rows.len());
     for (state, &(t, x, y)) in states.iter().zip(rows) {
@@ -76,7 +76,7 @@ fn a_four_bar_for_44_turns() {
         energy.kinetic + energy.potential
     };
     let start = energy(&q, 12.0);
-    let mut motion = simulate(&scene, (0.0, q, 12.0), 20.0, 1e-13).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 12.0 }, 20.0, 1e-13).unwrap();
     motion
         .finish(|state, _| {
             assert!((energy(&state.q, state.rates.theta) / start - 1.0).abs() < 1e-10);

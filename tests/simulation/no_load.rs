@@ -1,7 +1,7 @@
 //! Stops and frictions that carry no load: a part that hits its stop or rests on it keeps its position.
 
 use linkage::contact::Change;
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Start, State, simulate};
 use linkage::{Mode, linkage};
 
 use linkage_oracle::close;
@@ -65,7 +65,9 @@ fn a_part_that_hits_a_stop_without_load_rests_there() {
     for scale in [1.0, 2.0_f64.powi(-60), 2.0_f64.powi(60)] {
         for tolerance in [1e-4, 1e-9, 1e-13] {
             let scene = Loaded { lower: -scale, upper: scale, ..Loaded::default() };
-            let mut motion = simulate(&scene, (0.0, at(0.0), scale), 10.0, tolerance).unwrap().most_steps(200);
+            let mut motion = simulate(&scene, Start { t: 0.0, q: at(0.0), input_rates: scale }, 10.0, tolerance)
+                .unwrap()
+                .most_steps(200);
             let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|s| s.changes().count() > 0).collect();
             let [hit] = events[..] else { panic!("{events:?}") };
             assert_eq!(hit.changes().collect::<Vec<_>>(), [("stop on x", Change::Rests)]);
@@ -86,7 +88,7 @@ fn two_free_blocks_stay_together() {
         for (e, [first, second]) in [(0.0, [0.25, 0.25]), (0.5, [-0.125, 0.375])] {
             let scene = Colliding { e, g, far: 100.0 * scale, ..Colliding::default() };
             let q = PairCoordinates { gap: scale, a: 0.0, b: scale };
-            let start = (0.0, q, PairInputs { a: scale, b: 0.0 });
+            let start = Start { t: 0.0, q, input_rates: PairInputs { a: scale, b: 0.0 } };
             let mut motion = simulate(&scene, start, 10.0, 1e-10).unwrap().most_steps(400);
             let events: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|s| s.changes().count() > 0).collect();
             let [hit] = events[..] else { panic!("{events:?}") };
@@ -112,7 +114,8 @@ fn three_free_blocks_stay_together() {
         let [a, b, c] = places;
         let q = RowCoordinates { left: b - a, right: c - b, a, b, c };
         let momentum = rates[0] + 2.0 * rates[1] + 3.0 * rates[2];
-        let start = (0.0, q, RowInputs { a: rates[0], b: rates[1], c: rates[2] });
+        let input_rates = RowInputs { a: rates[0], b: rates[1], c: rates[2] };
+        let start = Start { t: 0.0, q, input_rates };
         let mut motion = simulate(&scene, start, 10.0, 1e-10).unwrap().most_steps(400);
         motion.finish(|_, _| true).unwrap();
         let State { rates, .. } = *motion.state();
@@ -127,14 +130,16 @@ fn three_free_blocks_stay_together() {
 #[test]
 fn redundant_stops_and_frictions_without_load_hold() {
     let scene = Twice::default();
-    let mut motion = simulate(&scene, (0.0, at(0.0), 1.0), 10.0, 1e-9).unwrap().most_steps(200);
+    let mut motion =
+        simulate(&scene, Start { t: 0.0, q: at(0.0), input_rates: 1.0 }, 10.0, 1e-9).unwrap().most_steps(200);
     motion.finish(|_, _| true).unwrap();
     close("place", motion.state().q.x, 1.0, 1e-15);
     assert_eq!(motion.state().rates.x, 0.0);
     assert_eq!(motion.state().contacts.map(|t| t.mode), [Mode::AtUpper; 2]);
     for (rate, stays) in [(1.0, false), (0.0, true)] {
         let scene = Rubbed::default();
-        let mut motion = simulate(&scene, (0.0, at(0.0), rate), 10.0, 1e-9).unwrap().most_steps(200);
+        let mut motion =
+            simulate(&scene, Start { t: 0.0, q: at(0.0), input_rates: rate }, 10.0, 1e-9).unwrap().most_steps(200);
         motion.finish(|_, _| true).unwrap();
         close("place", motion.state().q.x, if stays { 0.0 } else { 1.0 }, 1e-15);
         assert_eq!((motion.state().rates.x, motion.state().mode("friction on x")), (0.0, Some(Mode::Stick)));
@@ -148,7 +153,9 @@ fn tiny_loads_hold_or_free() {
         for (f, start) in [(size, 0.0), (-size, 0.0), (size, 1.0), (-size, 1.0)] {
             let scene = Loaded { f, ..Loaded::default() };
             let rate = 1.0 - start;
-            let mut motion = simulate(&scene, (0.0, at(start), rate), 10.0, 1e-9).unwrap().most_steps(400);
+            let mut motion = simulate(&scene, Start { t: 0.0, q: at(start), input_rates: rate }, 10.0, 1e-9)
+                .unwrap()
+                .most_steps(400);
             motion.finish(|_, _| true).unwrap_or_else(|error| panic!("{f:e} from {start}: {error}"));
             let State { q, .. } = *motion.state();
             // From t = 1, or 0, at rest.
@@ -168,7 +175,8 @@ fn a_load_that_passes_zero_frees_and_comes_back() {
     use std::f64::consts::{FRAC_PI_2, PI};
     for e in [0.0, 0.0625] {
         let scene = Pulled { f: 1.0, e, ..Pulled::default() };
-        let mut motion = simulate(&scene, (0.0, at(1.0), 0.0), 5.0, 1e-12).unwrap().most_steps(2000);
+        let mut motion =
+            simulate(&scene, Start { t: 0.0, q: at(1.0), input_rates: 0.0 }, 5.0, 1e-12).unwrap().most_steps(2000);
         let mut freed = Vec::new();
         while let Some(state) = motion.advance().unwrap() {
             freed.extend(state.changes().filter(|change| change.1 == Change::LetsGo).map(|_| state.t));
@@ -185,7 +193,9 @@ fn a_load_that_passes_zero_frees_and_comes_back() {
     for omega in [1.0, PI, 20.0] {
         let scene = Eased { f: 1.0, omega, ..Eased::default() };
         for (place, rate) in [(-1.0, 0.0), (0.0, -0.5)] {
-            let mut motion = simulate(&scene, (0.0, at(place), rate), 20.0, 1e-9).unwrap().most_steps(20_000);
+            let mut motion = simulate(&scene, Start { t: 0.0, q: at(place), input_rates: rate }, 20.0, 1e-9)
+                .unwrap()
+                .most_steps(20_000);
             motion.finish(|_, _| true).unwrap();
             close("place", motion.state().q.x, -1.0, 1e-13);
         }

@@ -2,7 +2,7 @@
 
 use linkage::integrate::{Crossing, Dopri5};
 use linkage::linkage;
-use linkage::simulation::{Then, simulate};
+use linkage::simulation::{Start, Then, simulate};
 
 use linkage_oracle::close;
 
@@ -48,7 +48,7 @@ fn a_wall_within_the_last_part_of_the_amplitude() {
                 }
             };
             let walled = Walled { upper, ..Walled::default() };
-            let start = (0.0, at(0.0), 1.0);
+            let start = Start { t: 0.0, q: at(0.0), input_rates: 1.0 };
             let motion = simulate(&walled, start, 2.0, tolerance).unwrap();
             let mut hits = motion.map(Result::unwrap).filter(|state| state.changes().count() > 0).map(|state| state.t);
             check("stop", [hits.next().unwrap(), hits.next().unwrap()], again);
@@ -82,7 +82,7 @@ fn a_wall_within_the_last_part_of_the_amplitude() {
 fn a_wall_beyond_the_amplitude_is_not_met() {
     for tolerance in [1e-6, 1e-9, 1e-12] {
         let walled = Walled { upper: 0.1 * (1.0 + 1000.0 * tolerance), ..Walled::default() };
-        let motion = simulate(&walled, (0.0, at(0.0), 1.0), 5.0, tolerance).unwrap();
+        let motion = simulate(&walled, Start { t: 0.0, q: at(0.0), input_rates: 1.0 }, 5.0, tolerance).unwrap();
         assert!(motion.map(Result::unwrap).all(|state| state.changes().count() == 0));
     }
 }

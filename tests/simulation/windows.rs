@@ -5,7 +5,7 @@
 //! elliptic integral, whose values were computed with 34 digits; for N = 2 the published figures of the multibody code
 //! EXUDYN come to them as its step falls. Energy is the same on all branches, so that only positions tell.
 
-use linkage::simulation::{AtSingularity, simulate};
+use linkage::simulation::{AtSingularity, Start, simulate};
 use linkage::{MotionError, PositionError};
 
 use linkage_gallery::five_windows::*;
@@ -21,7 +21,7 @@ macro_rules! falls {
         fn $test() {
             let scene = <$scene>::default();
             let start = $coordinates { $($upright: UP,)* $($bar: 0.0),* };
-            let mut motion = simulate(&scene, (0.0, start, -1.0), 20.0, 1e-14).unwrap();
+            let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: -1.0 }, 20.0, 1e-14).unwrap();
             let states: Vec<_> = motion.at([10.0, 20.0]).map(Result::unwrap).collect();
             assert_eq!(states.len(), 2);
             for (state, (angle, speed)) in states.iter().zip($exact) {
@@ -75,7 +75,7 @@ falls!(
 fn a_policy_ends_the_motion_where_the_input_no_longer_drives() {
     let scene = OneFalling::default();
     let start = OneWindowCoordinates { phi0: UP, psi1: 0.0, phi1: UP };
-    let motion = simulate(&scene, (0.0, start, -1.0), 20.0, 1e-12).unwrap();
+    let motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: -1.0 }, 20.0, 1e-12).unwrap();
     let mut motion = motion.at_singularity(AtSingularity::Stop);
     let error = motion.finish(|_, _| true).unwrap_err();
     assert!(

@@ -2,7 +2,7 @@
 
 use linkage::contact::Change;
 use linkage::linkage;
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 use linkage_oracle::close;
 
@@ -49,7 +49,7 @@ macro_rules! knocks {
         };
         let fallen = potential(phi, psi) - potential(0.0, 0.0);
         let first = (2.0 * fallen / inertia(&scene.mechanism, [scene.m2, scene.m3])).sqrt();
-        let mut motion = simulate(&scene, (0.0, start, 0.0), 2.0, 1e-13).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: 0.0 }, 2.0, 1e-13).unwrap();
         let (mut impacts, mut last, mut rest) = (0, 0.0, None);
         while let Some(state) = motion.advance().unwrap() {
             let times = (1..4).map(|part| last + (state.t - last) * f64::from(part) / 4.0);

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use linkage::contact::Change;
 use linkage::nalgebra::{RowVector2, Vector2};
-use linkage::simulation::{Touch, simulate};
+use linkage::simulation::{Start, Touch, simulate};
 use linkage::{Mechanism, Mode, linkage};
 
 use linkage_oracle::close;
@@ -92,7 +92,7 @@ macro_rules! scaled {
 macro_rules! moments {
     ($scene:expr, $q:expr, $inputs:ident { $($input:ident),* }) => {{
         let scene = &$scene;
-        let mut motion = simulate(scene, (0.0, $q, $inputs { $($input: 0.0),* }), 1.2, 1e-13).unwrap();
+        let mut motion = simulate(scene, Start { t: 0.0, q: $q, input_rates: $inputs { $($input: 0.0),* } }, 1.2, 1e-13).unwrap();
         let mut states = vec![*motion.state()];
         while let Some(state) = motion.advance().unwrap() {
             let last = states[states.len() - 1].t;

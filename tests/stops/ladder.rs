@@ -1,7 +1,7 @@
 //! A ladder that falls onto the slot of its input, compared with a ball.
 
 use linkage::contact::Change;
-use linkage::simulation::{State, simulate};
+use linkage::simulation::{Start, State, simulate};
 use linkage::{InputError, Mode, MotionError, linkage};
 
 use linkage_oracle::close;
@@ -101,7 +101,7 @@ macro_rules! falls {
         let rest: f64 = $rest;
         let fall = Fall { height: (l * sine - l * rest).abs(), g: scene.g, e: $e, size: l };
         let end = (fall.speed() / fall.g) * 4.0;
-        let mut motion = simulate(&scene, (0.0, start, 0.0), end, 1e-13).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: 0.0 }, end, 1e-13).unwrap();
         let mut moments = Vec::<Moment>::new();
         let mut note = |state: &State<$scene>| {
             let touch = state.contacts[0];
@@ -148,7 +148,7 @@ fn it_begins_on_its_stop() {
             (scene.mechanism.l, scene.mechanism.askew) = (l, askew);
             let at = |lean: f64| LadderCoordinates { x: l * lean.cos(), y: l * lean.sin(), theta: askew + lean };
             let lean = scene.mechanism.drop.atan();
-            let mut motion = simulate(&scene, (0.0, at(lean), 0.0), 1.0, 1e-12).unwrap();
+            let mut motion = simulate(&scene, Start { t: 0.0, q: at(lean), input_rates: 0.0 }, 1.0, 1e-12).unwrap();
             let over = |q: &LadderCoordinates<f64>| q.y - scene.mechanism.drop * q.x;
             below += u32::from(over(&motion.state().q) < 0.0);
             above += u32::from(over(&motion.state().q) > 0.0);
@@ -160,7 +160,7 @@ fn it_begins_on_its_stop() {
                 })
                 .unwrap();
             assert!(over(&motion.state().q).abs() <= POSITION_ERROR * l);
-            let error = simulate(&scene, (0.0, at(lean - 1e-9), 0.0), 1.0, 1e-12).err();
+            let error = simulate(&scene, Start { t: 0.0, q: at(lean - 1e-9), input_rates: 0.0 }, 1.0, 1e-12).err();
             assert!(matches!(error, Some(MotionError::Input(InputError::BeyondStop { .. }))), "{error:?}");
         }
     }

@@ -300,6 +300,10 @@ impl ToTokens for Type {
                 let [unknowns, inputs] = [unknowns, inputs].map(|count| literal(*count));
                 quote!(__rt::Kinematics<#pose<T>, #rates<T>, T, #unknowns, #inputs>)
             }
+            Self::StateRates { rates, inputs } => {
+                let [rates, inputs] = [rates, inputs].map(|name| ident(name));
+                quote!(__rt::StateRates<#rates<T>, #inputs<T>>)
+            }
             Self::Branches { branch, pose } => {
                 let (branch, pose) = (ident(branch), ident(pose));
                 quote!(impl __rt::Iterator<Item = __rt::Assembled<#branch, #pose<T>>> + '_)

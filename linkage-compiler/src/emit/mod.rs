@@ -3,6 +3,7 @@
 mod any_number;
 mod document;
 mod drawing;
+mod drives;
 mod expression;
 mod external;
 mod fpcore;
@@ -85,6 +86,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let name = &scene.signatures.scene.name;
         let place = places::of(name.span());
         tokens.extend(places::located(scene::types(&scene.signatures, root), place, 1));
+        tokens.extend(drives::types(&scene.signatures, driver, root).map(|types| places::located(types, place, 1)));
         tokens.extend(reactions::types(&scene.signatures, root).map(|types| places::located(types, place, 1)));
         let implemented = traits::of_scene(&scene.signatures, driver, &fields).unwrap_or_default();
         let text = "The name of the scene in errors.";

@@ -310,18 +310,17 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
     let [u, v, n, c] = [unknowns, inputs.len(), unknowns + 2 * inputs.len(), scene.contacts.len()].map(literal);
     let names: Vec<Ident> = inputs.iter().map(|input| ident(input)).collect();
     let input_rates: Vec<Ident> = inputs.iter().map(|input| ident(&format!("{input}_rate"))).collect();
-    let laws: Vec<Ident> = driven.iter().map(|&at| ident(&format!("{}_law", inputs[at]))).collect();
-    let prescribed = inputs.ids().map(|at| match driven.iter().position(|&other| other == at) {
-        Some(place) => {
-            let law = &laws[place];
-            quote!(__rt::Some(#law))
+    let prescribed = inputs.ids().map(|at| match driven.contains(&at) {
+        true => {
+            let driven = ident(&inputs[at]);
+            quote!(__rt::Some(drives.#driven))
         }
-        None => quote!(__rt::None),
+        false => quote!(__rt::None),
     });
     let prescribed: Vec<TokenStream> = prescribed.collect();
-    let (time, drives) = match laws.as_slice() {
-        [] => (quote!(_t), TokenStream::new()),
-        _ => (quote!(t), quote!(let [#(#laws),*] = self.drives(t);)),
+    let (time, drives) = match driven.is_empty() {
+        true => (quote!(_t), TokenStream::new()),
+        false => (quote!(t), quote!(let drives = self.drives(t);)),
     };
     let has_contacts = !scene.contacts.is_empty();
     let equations = match has_contacts {
@@ -363,20 +362,21 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
             fn state(q: &#coordinates<T>, input_rates: &#inputs_type<T>) -> #state {
                 [#(q.#fields,)* #(input_rates.#names),*].into()
             }
-            fn parts(state: &#state) -> (#coordinates<T>, #inputs_type<T>) {
+            fn parts(state: &#state) -> __rt::StateParts<#coordinates<T>, #inputs_type<T>> {
                 let [#(#fields,)* #(#input_rates),*]: [T; #n] = (*state).into();
-                (#coordinates { #(#fields),* }, #inputs_type { #(#names: #input_rates),* })
+                let (q, input_rates) = (#coordinates { #(#fields),* }, #inputs_type { #(#names: #input_rates),* });
+                __rt::StateParts { q, input_rates }
             }
             fn check(&self) -> #nothing {
                 self.check()
             }
             fn derivative(&self, t: T, state: &#state) -> #derivative {
-                let (q, input_rates) = Self::parts(state);
-                let (rates, accelerations) = self.rates(t, &q, input_rates)?;
-                __rt::Ok([#(rates.#fields,)* #(accelerations.#names),*].into())
+                let __rt::StateParts { q, input_rates } = Self::parts(state);
+                let __rt::StateRates { rates, input_accelerations } = self.rates(t, &q, input_rates)?;
+                __rt::Ok([#(rates.#fields,)* #(input_accelerations.#names),*].into())
             }
             fn equations(&self, t: T, state: &#state) -> #all_equations {
-                let (q, input_rates) = Self::parts(state);
+                let __rt::StateParts { q, input_rates } = Self::parts(state);
                 #equations
             }
             fn contacts(&self, #of_t: T, #of_q: &#coordinates<T>, #of_rates: &#rates<T>) -> #all_contacts {

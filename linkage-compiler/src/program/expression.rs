@@ -152,6 +152,11 @@ pub enum Type {
         unknowns: usize,
         inputs: usize,
     },
+    /// `StateRates<Rates, Inputs>`: q' and v''.
+    StateRates {
+        rates: String,
+        inputs: String,
+    },
     /// `impl Iterator<Item = Result<(Branch, Pose), PositionError>>`
     Branches {
         branch: String,

@@ -199,6 +199,9 @@ pub fn emitted_types(mechanism: &Mechanism) -> BTreeMap<String, Vec<String>> {
     for scene in &mechanism.scenes {
         let of_scene = types.entry(format!("scene {}", scene.name)).or_default();
         of_scene.push(scene.name.to_string());
+        if !scene.drives.is_empty() {
+            of_scene.push(format!("{}Drives", scene.name));
+        }
         if scene.requests.contains(&SceneRequest::Reactions) || !scene.loads.is_empty() {
             of_scene.push(format!("{}Reactions", scene.name));
         }

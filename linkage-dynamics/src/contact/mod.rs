@@ -37,7 +37,7 @@ pub(crate) use change::changes;
 pub(crate) use reaction::Reduction;
 pub use reaction::{Bearing, ReactionRow, ReducedBearing, ReducedReaction};
 pub use reduced::{ReducedContact, ReducedEquations};
-pub use state::{ContactMotion, Contacts};
+pub use state::{ContactMotion, ContactReview, Contacts};
 pub(crate) use state::{sum_tolerance, within};
 pub use validate::{validate_contacts, validate_stops};
 

@@ -3,7 +3,7 @@
 use super::reaction::{ReducedBearing, Reduction};
 use super::{Contact, ContactLaw};
 use crate::scene::{Rates, StateColumn, coordinate_name};
-use crate::{Equations, MotionError, Scene};
+use crate::{Equations, MotionError, Scene, StateParts};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, Real};
 
 /// M v'' = Q + S' f, where v are `V` independent coordinates, the inputs of a scene or others, and f the forces of the
@@ -50,8 +50,7 @@ pub struct ReducedContact<T: Real, V: Dim> {
 impl<T: Real, V: Dim> ReducedContact<T, V> {
     /// Reduces a contact to independent coordinates z, in which (u', v') = N z' and (u'', v'') = N z'' + bias; N and
     /// the bias are given as their rows of u and of v.
-    #[must_use]
-    pub fn new<U: Dim>(
+    pub(crate) fn new<U: Dim>(
         contact: &Contact<T, U, V>,
         (of_unknowns, of_inputs): (&Matrix<T, U, V>, &Matrix<T, V, V>),
         (bias_of_unknowns, bias_of_inputs): (&Column<T, U>, &Column<T, V>),
@@ -106,7 +105,7 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
         S: Scene<Scalar = T, V = V, Contacts = C>,
     {
         let Equations { mass, forces, ratios, bias } = scene.equations(t, state)?;
-        let (q, input_rates) = S::parts(state);
+        let StateParts { q, input_rates } = S::parts(state);
         let input_rates: PerInput<S::Mechanism> = input_rates.into();
         let rates = S::Mechanism::rates(ratios * input_rates, input_rates);
         let (identity, none) = (Matrix::identity(), Column::zeros());

@@ -53,6 +53,20 @@ pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
     pub are_unique: bool,
 }
 
+/// The rates at a state and the validity of the modes there: see [`Contacts::review`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
+pub struct ContactReview<T: Real, V: Dim> {
+    /// The rates v' with s' = 0 of the held contacts.
+    pub rates: Column<T, V>,
+    /// False if a contact slips against its mode, exceeds its limit, or is beyond a stop.
+    pub modes_hold: bool,
+}
+
 impl Mode {
     /// Returns true if a force keeps s'' = 0.
     #[must_use]
@@ -268,17 +282,16 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Column::repeat(Crossing::Falling)
     }
 
-    /// Returns the rates v' with s' = 0 of the held contacts, and true if the modes are still valid. They are not if a
-    /// contact slips against its mode, exceeds its limit, or is beyond a stop: rounding error and the error of a step
-    /// may cause this at the end of a step. Then call [`settle`](Self::settle).
+    /// Returns the rates v' with s' = 0 of the held contacts, and whether the modes are still valid: rounding error and
+    /// the error of a step may end them at the end of a step. Then call [`settle`](Self::settle).
     ///
     /// # Errors
     /// Those of [`motion`](Self::motion).
-    pub fn review<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<(Column<T, V>, bool), MotionError> {
+    pub fn review<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<ContactReview<T, V>, MotionError> {
         let values = self.events(equations)?;
-        let mut holds = true;
+        let mut modes_hold = true;
         for (place, (&value, contact)) in values.iter().zip(&equations.contacts).enumerate() {
-            holds &= match (self.modes[place], contact.law) {
+            modes_hold &= match (self.modes[place], contact.law) {
                 (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
                     let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
                     let (rate, _) = contact.rate(&equations.rates);
@@ -297,7 +310,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         } else {
             equations.rates
         };
-        Ok((rates, holds))
+        Ok(ContactReview { rates, modes_hold })
     }
 
     /// The bounds of the forces of the held contacts.

@@ -7,6 +7,7 @@ use super::samples::Samples;
 use super::system::{Guard, StateOf, System};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
+use linkage_runtime::jacobian::first_not_positive;
 use linkage_runtime::{Column, Dim, real};
 
 /// The most events of one guard at one time: guards that are zero within rounding error may trigger each other.
@@ -529,8 +530,8 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             let still = if function.rate_away(start) == 0.0 { f64::MIN_POSITIVE } else { 0.0 };
             // Near an extremum an error of the time of sqrt(resolution) changes the value by its rounding error only.
             let enough = ComplexField::sqrt(course.resolution);
-            first_not_positive(
-                (before.at, here.at),
+            first_not_positive::<_, MotionError>(
+                [before.at, here.at],
                 [still - function.rate_away(start), -function.rate_away(end)],
                 enough,
                 |at| {
@@ -560,7 +561,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
     ) -> Result<Hit<S>, MotionError> {
         let ends = [self.least_distance(&course.sample(start)?), self.least_distance(&course.sample(end)?)];
         let resolution = course.resolution;
-        let at = first_not_positive((start, end), ends, resolution, |at| {
+        let at = first_not_positive::<_, MotionError>([start, end], ends, resolution, |at| {
             Ok(Some(self.least_distance(&course.sample(at)?)))
         })?;
         let there = course.sample(at)?;
@@ -580,47 +581,4 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             .filter(|(function, _)| (function.sign != 0 || function.is_guard()) && function.is_event())
             .fold(f64::INFINITY, |least, (function, sample)| least.min(function.distance_before(sample)))
     }
-}
-
-/// Finds the point where a positive function becomes zero or negative, to within `enough`: by the ITP method (Oliveira
-/// and Takahashi, *An Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality*, ACM Trans.
-/// Math. Softw. 47 (2020)), which takes at most one evaluation more than bisection. It ends early if `value` returns
-/// None.
-fn first_not_positive(
-    (mut a, mut b): (f64, f64),
-    [mut above, mut below]: [f64; 2],
-    enough: f64,
-    mut value: impl FnMut(f64) -> Result<Option<f64>, MotionError>,
-) -> Result<f64, MotionError> {
-    let (width, half) = (b - a, 0.5 * enough);
-    // half 2^(iterations allowed)
-    let mut radius = half;
-    while radius < width {
-        radius *= 2.0;
-    }
-    while b - a > enough {
-        let middle = 0.5 * (a + b);
-        let s = if above > 0.0 && below <= 0.0 {
-            let straight = (above * b - below * a) / (above - below);
-            let side = if middle >= straight { 1.0 } else { -1.0 };
-            let shift = 0.2 / width * (b - a) * (b - a);
-            let truncated = if shift <= (middle - straight).abs() { straight + side * shift } else { middle };
-            let room = radius - 0.5 * (b - a);
-            if (truncated - middle).abs() <= room { truncated } else { middle - side * room }
-        } else {
-            // At the start of a motion a rounding error of the value may contradict the sign that it has a little
-            // later.
-            middle
-        };
-        // Keep at least `half` away from both ends.
-        let s = s.max(a + half).min(b - half);
-        let Some(found) = value(s)? else { return Ok(s) };
-        if found > 0.0 {
-            (a, above) = (s, found);
-        } else {
-            (b, below) = (s, found);
-        }
-        radius *= 0.5;
-    }
-    Ok(b)
 }

@@ -67,15 +67,12 @@ pub trait Method {
 /// sum w_j k_j.
 #[inline(always)]
 pub(super) fn combination<T: Real, N: Dim>(slopes: &Slopes<T, N>, weights: Weights) -> Column<T, N> {
-    // In place: sums of whole columns are stored and read again, a quarter of the time of a pendulum.
-    let mut sum = Column::zeros();
-    for &(j, weight) in weights {
-        let weight = real::<T>(weight);
-        for (sum, &slope) in sum.iter_mut().zip(&slopes[j]) {
-            *sum += slope * weight;
-        }
-    }
-    sum
+    // Entry by entry: with operators of columns or in place the loop over the weights is not unrolled, and each slope is
+    // stored and read again, a fifth of the time of a pendulum.
+    weights.iter().fold(Column::zeros(), |sum, &(j, weight)| {
+        let (slope, weight) = (&slopes[j], real::<T>(weight));
+        Column::from_fn(|place| sum[place] + slope[place] * weight)
+    })
 }
 
 /// Computes the slopes of these stages, numbered upwards from `from`.

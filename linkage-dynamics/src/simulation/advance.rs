@@ -30,7 +30,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 continue;
             }
             let motion = self.integration.system();
-            let (q, _) = S::parts(&step.state);
+            let q = S::parts(&step.state).q;
             let mechanism = motion.scene.mechanism();
             if matches!(motion.parametrisation, Parametrisation::Inputs) {
                 let signs = mechanism.block_determinants(&mechanism.pose_at(&q));

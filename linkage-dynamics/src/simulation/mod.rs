@@ -1,7 +1,7 @@
 //! Simulation of scenes: integrates the equations of motion that `linkage!` emits, with the constraints Psi = 0
 //! satisfied.
 //!
-//! [`simulate`] takes a scene with `inertia`, a start and an end, and returns an iterator over the states, with all
+//! [`simulate`] takes a scene with `inertia`, a [`Start`] and an end, and returns an iterator over the states, with all
 //! coordinates and their rates by name.
 //!
 //! 1. *Coordinates.* The state is y = (q, v') with the emitted equations in the inputs v. After each step Newton's
@@ -35,6 +35,7 @@ mod parametrisation;
 mod real_time;
 mod run;
 pub(crate) mod scales;
+mod start;
 mod state;
 mod touching;
 mod watch;
@@ -44,5 +45,6 @@ pub use outputs::States;
 pub use parametrisation::{AtSingularity, Passages};
 pub use real_time::RealTime;
 pub use run::{Simulation, simulate};
+pub use start::Start;
 pub use state::{Loads, State, Touch};
 pub use watch::{EventFunctions, Then, Unwatched, Watch};

@@ -6,7 +6,7 @@ use super::state::{State, Touch};
 use super::watch::Unwatched;
 use crate::contact::{Contacts, ReducedEquations};
 use crate::integrate::Interpolant;
-use crate::{Coordinates, MotionError, Scene, StateColumn};
+use crate::{Coordinates, MotionError, Scene, StateColumn, StateParts};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, smallest};
 use linkage_runtime::jacobian::{Iteration, ScalesOf, VectorOf, contract, correction};
@@ -82,8 +82,8 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     }
 
     pub(super) fn unpack(y: &StateColumn<S>) -> (Coordinates<S>, PerInput<S::Mechanism>) {
-        let (q, rates) = S::parts(y);
-        (q, rates.into())
+        let StateParts { q, input_rates } = S::parts(y);
+        (q, input_rates.into())
     }
 
     /// True for each prescribed input.
@@ -135,8 +135,8 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
                     return Ok(factors.rates(&rates));
                 }
                 // Near the change point [J A] is too close to singular: use the polynomial.
-                let (rates, _) = S::parts(&step.slope_at(t));
-                Ok(Self::column(&rates))
+                let (unknowns, inputs) = S::Mechanism::rate_parts(&S::rate_parts(&step.slope_at(t)).rates);
+                Ok(Change::<S> { unknowns, inputs })
             }
         }
     }

@@ -78,7 +78,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         self.from = (t, y);
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
-        let pose = mechanism.pose_at(&S::parts(&y).0);
+        let pose = mechanism.pose_at(&S::parts(&y).q);
         let blocks = Blocks::of(mechanism, &pose);
         let (regularity, _) = blocks.least_regular();
         let determinants = *blocks.determinants();
@@ -131,7 +131,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         if !(is_near || is_next) {
             return Ok(());
         }
-        let (q, _) = S::parts(&y);
+        let q = S::parts(&y).q;
         let independent =
             Independent::choose(mechanism, &mechanism.pose_at(&q), &motion.scales, &motion.prescribed_inputs(t));
         let rates = independent.of(&velocity);
@@ -182,7 +182,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
-        let pose = mechanism.pose_at(&S::parts(&y).0);
+        let pose = mechanism.pose_at(&S::parts(&y).q);
         let independent = Independent::choose(mechanism, &pose, &motion.scales, &motion.prescribed_inputs(t));
         let rates = independent.of(&motion.velocity(t, &y)?);
         self.exchange(Parametrisation::Others(independent), &rates);
@@ -197,11 +197,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
         let regularity = |y: &StateColumn<S>| {
-            Independent::choose(mechanism, &mechanism.pose_at(&S::parts(y).0), &motion.scales, &Column::repeat(false))
+            Independent::choose(mechanism, &mechanism.pose_at(&S::parts(y).q), &motion.scales, &Column::repeat(false))
                 .regularity()
         };
         // At a change point some group is singular in the inputs too: if none is near that, skip the costlier test.
-        let (by_inputs, _) = Blocks::of(mechanism, &mechanism.pose_at(&S::parts(end).0)).least_regular();
+        let (by_inputs, _) = Blocks::of(mechanism, &mechanism.pose_at(&S::parts(end).q)).least_regular();
         if by_inputs > real(2.0 * LEAST_CLEARANCE) {
             return false;
         }
@@ -239,7 +239,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         match motion.change_point_ahead(&independent, (t, &y), self.direction(), self.relative())? {
             Ahead::ChangePoint(step) => self.pass(independent, step),
             _ if independent.regularity() < real(LEAST_REGULARITY) => {
-                return Err(motion.no_coordinates_error(t, &S::parts(&y).0));
+                return Err(motion.no_coordinates_error(t, &S::parts(&y).q));
             }
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),
             Ahead::Clear => {}
@@ -254,7 +254,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     fn set(&mut self, parametrisation: ParametrisationOf<S>, rates: &PerInput<S::Mechanism>) {
-        let (q, _) = S::parts(self.integration.state());
+        let q = S::parts(self.integration.state()).q;
         self.integration.system_mut().parametrisation = parametrisation;
         let y = Motion::<S, W>::pack(&q, rates);
         let scale = scale_of(self.integration.system(), self.frequency);

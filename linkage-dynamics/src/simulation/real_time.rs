@@ -1,6 +1,7 @@
 //! Simulation with steps of fixed length and cost.
 
 use super::motion::Motion;
+use super::start::Start;
 use super::state::State;
 use super::watch::Unwatched;
 use crate::integrate::{FixedStep, System};
@@ -38,16 +39,17 @@ impl<S: Scene<Contacts = D<0>>> System for Projected<'_, S> {
 }
 
 impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
-    /// Starts from a time, a position and the rates of the inputs, with steps of this length.
+    /// Starts with steps of this length.
     ///
     /// # Errors
     /// Those of [`Scene::start`], and [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length
     /// is zero or not finite.
     pub fn new(
         scene: &'a S,
-        (t, q, input_rates): (S::Scalar, Coordinates<S>, impl Into<Inputs<S>>),
+        start: Start<S::Scalar, Coordinates<S>, impl Into<Inputs<S>>>,
         length: S::Scalar,
     ) -> Result<Self, MotionError> {
+        let Start { t, q, input_rates } = start;
         let y = scene.start(t, &q, &input_rates.into())?;
         let scales = Scales::of(scene.mechanism(), &scene.mechanism().pose_at(&q));
         let motion = Motion::new(scene, scales);
@@ -80,8 +82,8 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
         self.steps.step()?;
         let motion = &self.steps.system().0;
         let mechanism = motion.scene.mechanism();
-        let signs = |y: &StateColumn<S>| mechanism.block_determinants(&mechanism.pose_at(&S::parts(y).0));
-        let (q, _) = S::parts(self.steps.state());
+        let signs = |y: &StateColumn<S>| mechanism.block_determinants(&mechanism.pose_at(&S::parts(y).q));
+        let q = S::parts(self.steps.state()).q;
         if same_signs(signs(&before).as_slice(), signs(self.steps.state()).as_slice()) {
             return Ok(());
         }

@@ -3,6 +3,7 @@
 use super::motion::Motion;
 use super::outputs::States;
 use super::parametrisation::{AtSingularity, Passages, scale_of};
+use super::start::Start;
 use super::state::{Loads, State};
 use super::watch::{EventFunctions, Then, Unwatched, Watch};
 use crate::contact::Contacts;
@@ -45,10 +46,9 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) is_prepared: bool,
 }
 
-/// Starts a simulation of this scene from a time, a position and the rates of the inputs to the time `end`, by the
-/// method of order 8(5,3). `tolerance` is the allowed relative error of a step, such as 1e-9: relative to the magnitude
-/// of each coordinate and rate plus its scale, which is 1 rad or the lengths of the loops, and for rates that times the
-/// angular frequency of the motion at the start.
+/// Starts a simulation of this scene, to the time `end`, by the method of order 8(5,3). `tolerance` is the allowed
+/// relative error of a step, such as 1e-9: relative to the magnitude of each coordinate and rate plus its scale, which
+/// is 1 rad or the lengths of the loops, and for rates that times the angular frequency of the motion at the start.
 ///
 /// The position may be approximate: it is projected onto the constraints with its inputs fixed.
 ///
@@ -59,13 +59,14 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
 /// [`InputError::OutOfRange`] for a tolerance below ten ulps or above 1 and for times that are not finite.
 pub fn simulate<S: Scene>(
     scene: &S,
-    (t, q, input_rates): (S::Scalar, Coordinates<S>, impl Into<Inputs<S>>),
+    start: Start<S::Scalar, Coordinates<S>, impl Into<Inputs<S>>>,
     end: S::Scalar,
     tolerance: f64,
 ) -> Result<Simulation<'_, S>, MotionError> {
+    let Start { t, q, input_rates } = start;
     let mechanism = scene.mechanism();
     let y = scene.start(t, &q, &input_rates.into())?;
-    let (q, _) = S::parts(&y);
+    let q = S::parts(&y).q;
     let scales = Scales::of(mechanism, &mechanism.pose_at(&q));
     let mut motion = Motion::new(scene, scales);
     if S::Contacts::COUNT > 0 && end < t {

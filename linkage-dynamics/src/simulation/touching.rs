@@ -3,7 +3,7 @@
 use super::motion::{Motion, Parametrisation, Reduced};
 use super::scales::{resolution as resolution_of, resolution_by_inputs};
 use super::state::Loads;
-use crate::contact::{Change, Contact, Contacts, ReducedContact, ReducedEquations, changes};
+use crate::contact::{Change, Contact, ContactReview, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::integrate::Guard;
 use crate::scene::coordinate_name;
 use crate::{Accelerations, Equations, Mode, MotionError, Scene, StateColumn};
@@ -25,7 +25,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         match &self.parametrisation {
             Parametrisation::Inputs => ReducedEquations::of(self.scene, t, y),
             Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
-                let (q, _) = S::parts(y);
+                let q = S::parts(y).q;
                 match (self.regular(independent, &q), &self.parametrisation) {
                     (Some(factors), _) => Ok(self.equations_by(independent, &factors, (t, y))?.0),
                     (None, Parametrisation::Over(_, step)) => self.equations_over(independent, step, (t, y)),
@@ -144,11 +144,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if S::Contacts::COUNT == 0 {
             return Ok((*y, true));
         }
-        if contacts.modes.iter().all(|&mode| mode == Mode::Open) && contacts.review(&self.contacts_alone(t, y)?)?.1 {
+        if contacts.modes.iter().all(|&mode| mode == Mode::Open)
+            && contacts.review(&self.contacts_alone(t, y)?)?.modes_hold
+        {
             return Ok((*y, true));
         }
-        let (rates, holds) = contacts.review(&self.equations(t, y)?).map_err(|error| error.at(t))?;
-        Ok((Self::pack(&S::parts(y).0, &rates), holds))
+        let ContactReview { rates, modes_hold } =
+            contacts.review(&self.equations(t, y)?).map_err(|error| error.at(t))?;
+        Ok((Self::pack(&S::parts(y).q, &rates), modes_hold))
     }
 
     /// The forces of the contacts, of the drives by input, zero without a drive, and in the joints.
@@ -156,7 +159,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
     pub(super) fn loads(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Loads<S>, MotionError> {
-        let (q, _) = S::parts(y);
+        let q = S::parts(y).q;
         let (free, places) = match &self.parametrisation {
             Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
             Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {

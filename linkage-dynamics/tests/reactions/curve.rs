@@ -5,7 +5,7 @@ use super::three_numbers;
 use linkage_dynamics::contact::ReducedEquations;
 use linkage_dynamics::{
     Accelerations, Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Mode, MotionError, Prescribed, Rates,
-    ReactionRow, Scene, StateColumn, Unreduced,
+    ReactionRow, Scene, StateColumn, StateParts, Unreduced,
 };
 use linkage_runtime::{Column, D, Group, Matrix, Mechanism, PositionError};
 
@@ -129,7 +129,7 @@ impl<const C: usize> Scene for Particle<C> {
         &self.path
     }
     fn equations(&self, t: f64, state: &StateColumn<Self>) -> Result<Equations<f64, D<2>, D<1>>, MotionError> {
-        let (q, rate) = Self::parts(state);
+        let StateParts { q, input_rates: rate } = Self::parts(state);
         let [_, slope, second] = self.path.0.at(q[2]);
         let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
         let mass = [[self.mass * dot(slope, slope) + self.inertia]];

@@ -3,10 +3,10 @@
 
 use super::curve::{Curve, Particle, Path};
 use super::three_numbers;
-use linkage_dynamics::simulation::simulate;
+use linkage_dynamics::simulation::{Start, simulate};
 use linkage_dynamics::{
     Accelerations, Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Mode, MotionError, Prescribed,
-    ReactionRow, Scene, StateColumn, Unreduced,
+    ReactionRow, Scene, StateColumn, StateParts, Unreduced,
 };
 use linkage_runtime::{Column, D, Group, Matrix, Mechanism, PositionError};
 
@@ -80,7 +80,7 @@ impl Scene for Journal {
         &Sideways
     }
     fn equations(&self, _: f64, state: &StateColumn<Self>) -> Result<Equations<f64, D<2>, D<1>>, MotionError> {
-        let (q, rate) = Self::parts(state);
+        let StateParts { q, input_rates: rate } = Self::parts(state);
         // y' = tan(phi) x', y'' = tan(phi) x'' + phi'^2 l / cos(phi).
         let (tangent, cosine) = (q[0].tan(), q[0].cos());
         let turn = rate[0] / (LENGTH * cosine);
@@ -125,8 +125,8 @@ fn a_bearing_acts_in_any_coordinates() {
     let particle =
         Particle { path, mass: MASS, inertia: 0.0, gravity: GRAVITY, push: |_| 0.0, factors: [factor], normal: None };
     let (x, y) = (LENGTH * angle.sin(), -LENGTH * angle.cos());
-    let mut one = simulate(&journal, (0.0, [angle, y, x], [0.0]), 12.0, 1e-11).unwrap();
-    let mut other = simulate(&particle, (0.0, [x, y, angle], [0.0]), 12.0, 1e-11).unwrap();
+    let mut one = simulate(&journal, Start { t: 0.0, q: [angle, y, x], input_rates: [0.0] }, 12.0, 1e-11).unwrap();
+    let mut other = simulate(&particle, Start { t: 0.0, q: [x, y, angle], input_rates: [0.0] }, 12.0, 1e-11).unwrap();
     for k in 0..=60 {
         let t = f64::from(k) * 0.2;
         let one = one.at([t]).next().unwrap().unwrap();

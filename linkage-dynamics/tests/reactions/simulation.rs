@@ -2,7 +2,7 @@
 
 use super::curve::{Curve, Particle, Path};
 use linkage_dynamics::contact::Change;
-use linkage_dynamics::simulation::simulate;
+use linkage_dynamics::simulation::{Start, simulate};
 use linkage_dynamics::{Mode, MotionError};
 use linkage_runtime::Column;
 
@@ -31,7 +31,7 @@ fn a_block_on_a_slope_moves_by_the_closed_form() {
         let stop = -2.0 / up;
         let reach = -0.5 * 4.0 / up;
         let pull = slope.sin().abs() - friction * slope.cos();
-        let mut motion = simulate(&scene, (0.0, [0.0; 3], [2.0]), 2.0, 1e-11).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q: [0.0; 3], input_rates: [2.0] }, 2.0, 1e-11).unwrap();
         for state in motion.at((0..=40).map(|k| f64::from(k) * 0.05)) {
             let state = state.unwrap();
             let (t, v) = (state.t, state.q[2]);
@@ -52,7 +52,7 @@ fn a_block_on_a_slope_moves_by_the_closed_form() {
 fn a_held_block_is_released_at_its_limit() {
     let scene = block(0.2, [0.5], |t| 10.0 * t);
     let begins = 2.0 * 9.81 * (0.2_f64.sin() + 0.5 * 0.2_f64.cos()) / 10.0;
-    let mut motion = simulate(&scene, (0.0, [0.0; 3], [0.0]), 2.0, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: [0.0; 3], input_rates: [0.0] }, 2.0, 1e-9).unwrap();
     let mut slips = vec![];
     while let Some(state) = motion.advance().unwrap() {
         slips.extend(state.changes().map(|(_, change)| (state.t, change)));
@@ -88,7 +88,7 @@ fn a_journal_bearing_brakes_by_the_explicit_law() {
     let factor = 0.05;
     let scene = pendulum([factor]);
     let start = [scene.path.0.at(1.2)[0][0], scene.path.0.at(1.2)[0][1], 1.2];
-    let mut motion = simulate(&scene, (0.0, start, [-0.5]), 0.7, 1e-12).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: [-0.5] }, 0.7, 1e-12).unwrap();
     let mut y = [1.2, -0.5];
     for k in 1..=7 {
         for _ in 0..1000 {
@@ -105,7 +105,8 @@ fn a_pendulum_in_a_journal_bearing_comes_to_rest_within_the_friction_circle() {
     for (factor, angle) in [(0.02, 1.0), (0.1, 2.0), (0.3, 1.5)] {
         let scene = pendulum([factor]);
         let [point, ..] = scene.path.0.at(angle);
-        let mut motion = simulate(&scene, (0.0, [point[0], point[1], angle], [0.0]), 40.0, 1e-9).unwrap();
+        let mut motion =
+            simulate(&scene, Start { t: 0.0, q: [point[0], point[1], angle], input_rates: [0.0] }, 40.0, 1e-9).unwrap();
         let mut reversals = 0;
         while let Some(state) = motion.advance().unwrap() {
             reversals += state.changes().count();
@@ -121,7 +122,8 @@ fn a_pendulum_in_a_journal_bearing_comes_to_rest_within_the_friction_circle() {
         let scene = pendulum([0.1]);
         let angle = (0.1_f64 / 0.8).asin() * share;
         let [point, ..] = scene.path.0.at(angle);
-        let motion = simulate(&scene, (0.0, [point[0], point[1], angle], [0.0]), 1.0, 1e-9).unwrap();
+        let motion =
+            simulate(&scene, Start { t: 0.0, q: [point[0], point[1], angle], input_rates: [0.0] }, 1.0, 1e-9).unwrap();
         assert_eq!(motion.state().contacts[0].mode, mode, "{share}");
     }
 }
@@ -131,7 +133,8 @@ fn a_pendulum_in_a_journal_bearing_comes_to_rest_within_the_friction_circle() {
 fn several_frictions_of_one_motion_come_to_rest() {
     let scene = pendulum([0.03, 0.05, 0.02, 0.01]);
     let [point, ..] = scene.path.0.at(1.4);
-    let mut motion = simulate(&scene, (0.0, [point[0], point[1], 1.4], [0.0]), 20.0, 1e-9).unwrap();
+    let mut motion =
+        simulate(&scene, Start { t: 0.0, q: [point[0], point[1], 1.4], input_rates: [0.0] }, 20.0, 1e-9).unwrap();
     let mut reversals = 0;
     while let Some(state) = motion.advance().unwrap() {
         reversals += usize::from(state.changes().next().is_some());
@@ -156,7 +159,8 @@ const GAUSS: [(f64, f64); 5] = [
 fn the_energy_lost_is_the_work_of_friction() {
     let scene = pendulum([0.03, 0.05]);
     let [point, ..] = scene.path.0.at(1.4);
-    let mut motion = simulate(&scene, (0.0, [point[0], point[1], 1.4], [0.0]), 3.0, 1e-12).unwrap();
+    let mut motion =
+        simulate(&scene, Start { t: 0.0, q: [point[0], point[1], 1.4], input_rates: [0.0] }, 3.0, 1e-12).unwrap();
     let (mut work, mut from) = (0.0, 0.0);
     let start = scene.energy(1.4, 0.0);
     let mut events = 0;
@@ -182,7 +186,7 @@ fn the_energy_lost_is_the_work_of_friction() {
 fn redundant_frictions_hold_up_to_the_sum_of_their_limits() {
     let push: fn(f64) -> f64 = |t| 2.0 * t;
     let scene = Particle { push, ..pendulum([0.1, 0.2]) };
-    let mut motion = simulate(&scene, (0.0, [0.0, -0.8, 0.0], [0.0]), 4.0, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: [0.0, -0.8, 0.0], input_rates: [0.0] }, 4.0, 1e-9).unwrap();
     assert!(!motion.loads().unwrap().are_unique);
     let mut slips = vec![];
     while let Some(state) = motion.advance().unwrap() {
@@ -205,7 +209,7 @@ fn redundant_frictions_hold_up_to_the_sum_of_their_limits() {
 fn a_motion_that_ceases_to_exist_is_an_error_with_its_time() {
     let path = Path(Curve::Ellipse(1.0, 0.3));
     let scene = Particle { path, mass: 1.0, inertia: 0.0, gravity: 0.0, push: at_rest, factors: [0.5], normal: None };
-    let mut motion = simulate(&scene, (0.0, [0.0, -0.3, 0.0], [3.0]), 5.0, 1e-9).unwrap();
+    let mut motion = simulate(&scene, Start { t: 0.0, q: [0.0, -0.3, 0.0], input_rates: [3.0] }, 5.0, 1e-9).unwrap();
     let error = loop {
         match motion.advance() {
             Ok(Some(_)) => {}

@@ -49,7 +49,7 @@ fn blocks_wedges_and_toggles_lock_exactly_at_the_angle_of_friction() {
                 assert!(motion.are_unique);
                 assert_eq!(motion.acceleration[0] == 0.0, locks, "{angle} {friction}: {motion:?}");
                 // The event function tells on which side of the limit a stuck contact is.
-                assert!(!locks || contacts.review(&equations).unwrap().1);
+                assert!(!locks || contacts.review(&equations).unwrap().modes_hold);
             }
         }
     }
@@ -168,7 +168,7 @@ fn a_slider_crank_with_friction_in_its_joints_holds_or_slips() {
         let (contacts, motion) = solved(&equations).unwrap();
         assert_eq!(motion.acceleration[0] == 0.0, contacts.modes[0] == Mode::Stick, "{torque}");
         assert_eq!(motion.are_unique, contacts.modes[0] != Mode::Stick, "{torque}");
-        assert!(contacts.review(&equations).unwrap().1, "{torque}");
+        assert!(contacts.review(&equations).unwrap().modes_hold, "{torque}");
         // The margin of all frictions that stick is negative where they slip.
         let stuck = Contacts::in_modes(Column::repeat(Mode::Stick));
         let margins = stuck.events(&equations).unwrap();

@@ -45,8 +45,8 @@ macro_rules! scene {
         fn state(q: &[f64; 3], input_rates: &Column<f64, D<1>>) -> StateColumn<Self> {
             [q[0], q[1], q[2], input_rates[0]].into()
         }
-        fn parts(state: &StateColumn<Self>) -> ([f64; 3], Column<f64, D<1>>) {
-            ([state[0], state[1], state[2]], [state[3]].into())
+        fn parts(state: &StateColumn<Self>) -> StateParts<[f64; 3], Column<f64, D<1>>> {
+            StateParts { q: [state[0], state[1], state[2]], input_rates: [state[3]].into() }
         }
         fn check(&self) -> Result<(), MotionError> {
             Ok(())

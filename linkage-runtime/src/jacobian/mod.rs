@@ -4,7 +4,7 @@
 //! - [`Jacobian`] and [`Elimination`]: [J A], its pivots, its null space, and its linear systems;
 //! - [`Blocks`]: the distance of each group from a singularity;
 //! - [`contract()`]: undamped Newton's method from near a solution;
-//! - [`root()`]: the point at which a function changes its sign;
+//! - [`root()`], [`first_not_positive`]: the point at which a function changes its sign;
 //! - [`ulp`]: tolerances in ulps.
 
 mod blocks;
@@ -20,7 +20,7 @@ pub use blocks::Blocks;
 pub use cholesky::Cholesky;
 pub use contract::{Iteration, contract, correction};
 pub use elimination::{Elimination, Order};
-pub use root::root;
+pub use root::{first_not_positive, root};
 pub use scales::{Jacobian, Scales, largest_entries, scale_or_one};
 pub use vector::Vector;
 

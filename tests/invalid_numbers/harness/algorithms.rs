@@ -7,11 +7,11 @@ use linkage::continuation::{AtChangePoint, Direction, Options, Path};
 use linkage::integrate::{Action, Crossing, FixedStep, Tolerance, dop853, dopri5, watched};
 use linkage::nalgebra::{SMatrix, SVector};
 use linkage::position::{newton, newton_any_branch, newton_step};
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 use linkage::singularity::{accuracy, report, sigma_min};
 use linkage::{
     Bearing, Column, Contact, D, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
-    PositionError, Prescribed, Scene, Unreduced,
+    PositionError, Prescribed, Scene, StateParts, Unreduced,
 };
 
 use super::tally::evaluated;
@@ -120,7 +120,7 @@ impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
     fn state(q: &Q<S>, input_rates: &Inputs<S>) -> Column<f64, S::State> {
         S::state(q, input_rates)
     }
-    fn parts(state: &Column<f64, S::State>) -> (Q<S>, Inputs<S>) {
+    fn parts(state: &Column<f64, S::State>) -> StateParts<Q<S>, Inputs<S>> {
         S::parts(state)
     }
     fn check(&self) -> Result<(), MotionError> {
@@ -310,7 +310,7 @@ where
     let (end, tolerance) = (s.number(), [1e-3, 1e-6, 1e-9, s.number()][s.below(4)]);
     let mut simulation = None;
     t.fallible(s, "simulate", || {
-        let begun = simulate(scene, (time, q, input_rates), end, tolerance)?.most_steps(60);
+        let begun = simulate(scene, Start { t: time, q, input_rates }, end, tolerance)?.most_steps(60);
         let state = *begun.state();
         simulation = Some(begun);
         Ok::<_, MotionError>(state)

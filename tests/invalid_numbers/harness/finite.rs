@@ -12,7 +12,7 @@ use linkage::simulation::{Loads, State, Touch};
 use linkage::singularity::{Accuracy, Exchange, GroupMeasure, Singularity};
 use linkage::{
     AnyBranch, Assembled, AssemblyMode, Balance, Bearing, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
-    Mechanism, OutputMotion, PointMotion, Power, ReactionRow, Scene, Slider, Slope, Solution, Unreduced,
+    Mechanism, OutputMotion, PointMotion, Power, ReactionRow, Scene, Slider, Slope, Solution, StateRates, Unreduced,
 };
 
 /// Checks every number of a value: a type passes on its parts.
@@ -125,6 +125,9 @@ parts! {
     [] PointMotion<f64> { PointMotion { position, velocity, acceleration } => position velocity acceleration }
     [] OutputMotion<f64> { OutputMotion { value, velocity, acceleration } => value velocity acceleration }
     [] Energy<f64> { Energy { kinetic, potential } => kinetic potential }
+    [R: Finite, V: Finite] StateRates<R, V> {
+        StateRates { rates, input_accelerations } => rates input_accelerations
+    }
     [] Power<f64> { Power { applied, dissipated } => applied dissipated }
     [const N: usize] Balance<f64, N> { Balance { forces, scales, slopes } => forces scales slopes }
     [U: Dim, V: Dim] Equations<f64, U, V> {

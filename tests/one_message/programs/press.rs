@@ -1,5 +1,5 @@
 use linkage::linkage;
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 linkage! {
     /// A press with a joint that rubs and a ram that hits a stop.
@@ -41,13 +41,13 @@ linkage! {
 pub fn main() -> Result<(), linkage::Error> {
     let scene = Working { g: 1.62, ..Working::default() };
     let start = PressCoordinates { phi: 1.0, psi: 0.2, z: 0.4 };
-    let mut motion = simulate(&scene, (0.0, start, 3.0), 0.5, 1e-9)?;
+    let mut motion = simulate(&scene, Start { t: 0.0, q: start, input_rates: 3.0 }, 0.5, 1e-9)?;
     motion.finish(|state, _| state.q.z.is_finite())?;
     let q = motion.state().q;
     println!("{} J at {} m", scene.energy(&q, 1.0)?.kinetic, scene.mechanism.pose_at(&q).z);
     let driven = Driven::default();
-    let [linkage::Prescribed { rate, .. }] = driven.drives(0.0);
-    println!("{} N m", driven.drive_forces(0.0, &q, rate)?[0] + driven.omega);
+    let rate = driven.drives(0.0).phi.rate;
+    println!("{} N m", driven.drive_forces(0.0, &q, rate)?.phi + driven.omega);
     println!("{} N", driven.reactions(0.0, &q, rate)?.multipliers.norm());
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Along a simulation: the seal of one cylinder slips or sticks while the other meets its end, bounces and stays there.
 
 use linkage::Mode;
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 use super::*;
 
@@ -12,7 +12,8 @@ fn along_a_simulation() {
     for run in 0..6 {
         let (scene, q) = at_random!(random, Stopped);
         let scene = Stopped { lower: q.s2 - 0.004, f2: -2.0 * scene.f2, mu: 0.5 * scene.mu, ..scene };
-        let mut motion = simulate(&scene, (0.0, q, inputs([0.1, 0.3, -0.2])), 0.25, 1e-9).unwrap();
+        let mut motion =
+            simulate(&scene, Start { t: 0.0, q, input_rates: inputs([0.1, 0.3, -0.2]) }, 0.25, 1e-9).unwrap();
         while let Some(state) = motion.advance().unwrap() {
             if state.changes().next().is_some() {
                 continue;

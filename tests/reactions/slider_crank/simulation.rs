@@ -1,6 +1,6 @@
 //! Along a simulation over dead points, with frictions by the reactions of a pin and of the guide.
 
-use linkage::simulation::simulate;
+use linkage::simulation::{Start, simulate};
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn along_a_simulation() {
     let mut instants = 0;
     for run in 0..3 {
         let (scene, q) = at_random!(random, Worn);
-        let mut motion = simulate(&scene, (0.0, q, 40.0), 0.4, 1e-9).unwrap();
+        let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 40.0 }, 0.4, 1e-9).unwrap();
         for step in 0.. {
             let Some(state) = motion.advance().unwrap() else { break };
             if step % STEPS > 0 || state.changes().next().is_some() {

@@ -17,6 +17,12 @@ impl ScenePlan<'_, '_, '_> {
         names.collect::<Vec<_>>().join(", ")
     }
 
+    /// One value for each driven input, by name.
+    fn each_drive(&self, values: impl IntoIterator<Item = Expression>) -> Expression {
+        let names = self.signatures.driven.iter().map(|&at| self.signatures.inputs[at].clone());
+        Expression::structure(Type::Bare(self.signatures.drives_type.clone()), names.zip(values))
+    }
+
     /// The laws of the driven inputs with their derivatives.
     pub(super) fn drives(&mut self) {
         let doc = vec![format!("The prescribed value, rate and acceleration of {}.", self.driven())];
@@ -30,7 +36,7 @@ impl ScenePlan<'_, '_, '_> {
             let members = members.zip(results(3 * at..3 * at + 3));
             Expression::structure(Type::Runtime("Prescribed", Vec::new()), members)
         };
-        let body = Body::of(kernel, Expression::List((0..many).map(law).collect()));
+        let body = Body::of(kernel, self.each_drive((0..many).map(law)));
         self.add(self.signatures.drives(), without_result(doc), body);
     }
 
@@ -46,7 +52,7 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(lines(ERRORS));
         let (mut body, forces) = self.driving(Vec::new());
         body = self.checked_with_effects(body, "the driving force", forces.clone());
-        let body = Body { value: Value::Plain(Expression::List(forces)), ..self.with_rates(body) };
+        let body = Body { value: Value::Plain(self.each_drive(forces)), ..self.with_rates(body) };
         self.add(self.signatures.drive_forces(), doc, body);
     }
 

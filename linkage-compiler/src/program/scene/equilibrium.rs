@@ -42,13 +42,15 @@ impl ScenePlan<'_, '_, '_> {
         let mut body = Body::result(Expression::runtime("equilibrium", search));
         if !driven.is_empty() {
             let given_by_drives = driven.iter().map(Expression::name).collect();
-            let laws = driven.into_iter().map(|input| Pattern::Struct {
-                of: Type::Runtime("Prescribed", Vec::new()),
-                fields: vec![("value".to_owned(), Pattern::Name(input))],
-                is_whole: false,
+            let laws = driven.into_iter().map(|input| {
+                let fields = vec![("value".to_owned(), Pattern::Name(input.clone()))];
+                let of = Type::Runtime("Prescribed", Vec::new());
+                (input, Pattern::Struct { of, fields, is_whole: false })
             });
+            let of = Type::Bare(self.signatures.drives_type.clone());
+            let laws = Pattern::Struct { of, fields: laws.collect(), is_whole: true };
             let drives = Expression::call("drives", [Expression::name(&time)]);
-            body.before = vec![Statement::Let(Pattern::List(laws.collect()), drives)];
+            body.before = vec![Statement::Let(laws, drives)];
             // No solution for unknowns finds that a given coordinate is not finite.
             let what = "the law of a drive".to_owned();
             body.before.extend(is_open.then_some(Statement::Check { what, values: given_by_drives, detail: None }));

@@ -139,7 +139,9 @@ impl ScenePlan<'_, '_, '_> {
         let body = self.with_rates(body);
         let inputs = self.signatures.inputs.iter().cloned().zip(accelerations);
         let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), inputs);
-        let body = Body { value: Value::Plain(Expression::Tuple(vec![rates, inputs])), ..body };
+        let members = [("rates", rates), ("input_accelerations", inputs)].map(|(name, value)| (name.to_owned(), value));
+        let rates = Expression::structure(Type::Runtime("StateRates", Vec::new()), members);
+        let body = Body { value: Value::Plain(rates), ..body };
         let mut errors = lines(ERRORS);
         if !self.signatures.free.is_empty() {
             errors.push(
@@ -159,7 +161,7 @@ impl ScenePlan<'_, '_, '_> {
         let arguments = &self.signatures.arguments;
         let state = [&arguments.time, &arguments.q, &arguments.input_rates];
         let rates = Expression::call("rates", state.map(Expression::name)).tried();
-        let body = Body::plain(rates.field("1"));
+        let body = Body::plain(rates.field("input_accelerations"));
         self.add(self.signatures.acceleration(), doc, body);
     }
 }

@@ -128,7 +128,9 @@ impl ScenePlan<'_, '_, '_> {
             let state = [Expression::own(), at(time), at(q), at(input_rates).method("into", [])];
             return Body { value: Value::Result(Expression::runtime("reactions", state)), ..body };
         }
-        let both = Pattern::Tuple(vec![Pattern::Name(rates.clone()), Pattern::Name(input_accelerations.clone())]);
+        let fields = [("rates", rates), ("input_accelerations", input_accelerations)];
+        let fields = fields.map(|(field, name)| (field.to_owned(), Pattern::Name(name.clone()))).to_vec();
+        let both = Pattern::Struct { of: Type::Runtime("StateRates", Vec::new()), fields, is_whole: true };
         let moving = Expression::call("rates", [at(time), at(q), at(input_rates)]).tried();
         body.before.push(Statement::Let(both, moving));
         self.pose_at(&mut body);

@@ -20,6 +20,8 @@ pub struct SceneSignatures<'a> {
     pub inputs: Table<InputId, String>,
     pub free: Vec<InputId>,
     pub driven: Vec<InputId>,
+    /// The type with one value for each driven input.
+    pub drives_type: String,
     /// The type of the forces in its joints.
     pub reactions_type: String,
     pub(crate) unknowns: usize,
@@ -39,6 +41,7 @@ impl<'a> SceneSignatures<'a> {
             inputs: inputs.collect(),
             free,
             driven,
+            drives_type: format!("{}Drives", scene.name),
             reactions_type: format!("{}Reactions", scene.name),
             unknowns: driver.unknowns.len(),
         }
@@ -93,8 +96,8 @@ impl<'a> SceneSignatures<'a> {
     }
 
     pub fn rates(&self) -> Function<Body> {
-        let of = Type::Tuple(vec![self.coordinates_type(Order::Rate), Type::Own(self.types.inputs.clone())]);
-        fallible("rates", self.state(), of)
+        let (rates, inputs) = (self.types.rates.clone(), self.types.inputs.clone());
+        fallible("rates", self.state(), Type::StateRates { rates, inputs })
     }
 
     pub fn acceleration(&self) -> Function<Body> {
@@ -106,12 +109,15 @@ impl<'a> SceneSignatures<'a> {
     }
 
     pub fn drives(&self) -> Function<Body> {
-        let law = Type::Runtime("Prescribed", Vec::new());
-        total("drives", [self.time()], Type::List(Box::new(law), self.driven.len()))
+        total("drives", [self.time()], self.each_drive(Type::Runtime("Prescribed", Vec::new())))
     }
 
     pub fn drive_forces(&self) -> Function<Body> {
-        fallible("drive_forces", self.state(), Type::List(Box::new(Type::Scalar), self.driven.len()))
+        fallible("drive_forces", self.state(), self.each_drive(Type::Scalar))
+    }
+
+    fn each_drive(&self, of: Type) -> Type {
+        Type::Each(self.drives_type.clone(), Box::new(of))
     }
 
     pub fn energy(&self) -> Function<Body> {

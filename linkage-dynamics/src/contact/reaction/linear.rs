@@ -25,19 +25,9 @@ pub(super) fn solve<T: Real, C: Dim>(
             column.as_mut_slice().swap(step, best);
         }
         side.as_mut_slice().swap(step, best);
-        for row in step + 1..count {
-            let factor = matrix[(row, step)] / pivot;
-            if !factor.is_zero() {
-                matrix.take_row(row, step, factor);
-                side[row] = side[row] - factor * side[step];
-            }
-        }
+        eliminate(&mut matrix, &mut side, step, count);
     }
-    for step in (0..count).rev() {
-        let known = (step + 1..count).fold(T::zero(), |sum, later| sum + matrix[(step, later)] * side[later]);
-        side[step] = (side[step] - known) / matrix[(step, step)];
-    }
-    side.as_slice()[..count].iter().all(T::is_finite).then_some(side)
+    substitute(&matrix, side, count)
 }
 
 /// Solves (I - G) x = `side` for G >= 0 if the spectral radius of G is below 1: then, and only then, all pivots
@@ -56,14 +46,25 @@ pub(super) fn contraction<T: Real, C: Dim>(
         if !is_positive {
             return None;
         }
-        for row in step + 1..count {
-            let factor = matrix[(row, step)] / pivot;
-            if !factor.is_zero() {
-                matrix.take_row(row, step, factor);
-                side[row] = side[row] - factor * side[step];
-            }
+        eliminate(&mut matrix, &mut side, step, count);
+    }
+    substitute(&matrix, side, count)
+}
+
+/// Eliminates the unknown `step` from the equations below it, by the pivot on the diagonal.
+fn eliminate<T: Real, C: Dim>(matrix: &mut Matrix<T, C, C>, side: &mut Column<T, C>, step: usize, count: usize) {
+    let pivot = matrix[(step, step)];
+    for row in step + 1..count {
+        let factor = matrix[(row, step)] / pivot;
+        if !factor.is_zero() {
+            matrix.take_row(row, step, factor);
+            side[row] = side[row] - factor * side[step];
         }
     }
+}
+
+/// Solves the triangular system that elimination leaves; None if the solution is not finite.
+fn substitute<T: Real, C: Dim>(matrix: &Matrix<T, C, C>, mut side: Column<T, C>, count: usize) -> Option<Column<T, C>> {
     for step in (0..count).rev() {
         let known = (step + 1..count).fold(T::zero(), |sum, later| sum + matrix[(step, later)] * side[later]);
         side[step] = (side[step] - known) / matrix[(step, step)];
