@@ -30,7 +30,8 @@ pub const CHUNKS: &str = "chunks";
 /// A scan of a table.
 ///
 /// In a query of this process a partition takes the next chunk that no other one has taken; the partitions of a scan that
-/// is opened by [`new`](Self::new) have the same chunks in each process. A limit is one of all partitions: only the first rows are computed, the last chunk of them as a whole.
+/// is opened by [`new`](Self::new) have the same chunks in each process. A limit is one of all partitions: only the first
+/// rows are computed, the last chunk of them as a whole.
 #[derive(Debug)]
 pub struct SweepScan {
     spec: ScanSpec,
