@@ -181,9 +181,12 @@ impl<'a> Formulas<'a> {
         let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
         writer.well_conditioned = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
         writer.write();
-        let results = writer.all_signed(&schedule.results);
+        let mut results = writer.all_signed(&schedule.results);
         let Writer { mut statements, names, externals, well_conditioned, flags, factors, .. } = writer;
         parameters_where_used(&mut statements);
+        if flags.is_empty() {
+            passed_on(&mut statements, &mut results);
+        }
         let mut taken = names.taken;
         let results = kernel.results.iter().zip(results).map(|(output, result)| match &output.name {
             Some(preferred) if is_formula(&result) => {
@@ -246,6 +249,33 @@ fn taken_by_others(kernel: &Kernel, context: &Context) -> Vec<(usize, SymbolId)>
         Some((place, determinant.or(ratio)?))
     };
     places.filter_map(of).collect()
+}
+
+/// Reads a field that is only passed on, such as the position of a slider, where it is passed on: `q.s`.
+fn passed_on(statements: &mut Vec<Statement>, results: &mut [Expression]) {
+    let mut used = BTreeSet::new();
+    let mut uses = |name: &str| used.extend([name.to_owned()]);
+    statements.iter().for_each(|statement| statement.each_name(&mut uses));
+    let formulas = results.iter().filter(|result| is_formula(result));
+    formulas.for_each(|result| result.each_name(&mut uses));
+    statements.retain_mut(|statement| {
+        let Statement::Let(Pattern::Struct { fields, is_whole, .. }, Expression::Dereferenced(of)) = statement else {
+            return true;
+        };
+        let count = fields.len();
+        fields.retain(|(field, pattern)| {
+            let Pattern::Name(name) = pattern else { return true };
+            let is_used = used.contains(name);
+            if !is_used {
+                let passed =
+                    results.iter_mut().filter(|result| matches!(result, Expression::Name(other) if other == name));
+                passed.for_each(|result| *result = of.clone().field(field));
+            }
+            is_used
+        });
+        *is_whole &= fields.len() == count;
+        !fields.is_empty()
+    });
 }
 
 /// Moves the statement that reads the parameters to their first use: what is computed before, such as the sines of the
