@@ -1,7 +1,8 @@
-//! Time and memory of queries: the extremes of one found column, by `linkage-sweep` alone and by SQL.
+//! Time and memory of queries of one found column, by `linkage-sweep` alone and by SQL.
 //!
-//! Run it with `--release`. `cost overhead ROUNDS` takes a million positions, in chunks of 100 000, on one thread and on
-//! all; rounds of both take turns, and the median is that of the ratio within a round. `cost memory POSITIONS` answers
+//! Run it with `--release`. `cost overhead ROUNDS` takes ten million positions, in chunks of 100 000, on one thread and on
+//! all: the number of positions that exist, which costs next to nothing to reduce, then the extremes. Rounds of both take
+//! turns, and the median is that of the ratio within a round. `cost memory POSITIONS` answers
 //! one query of that many positions, and prints the largest memory at a tenth of the chunks and at the end.
 
 use std::error::Error;
@@ -10,14 +11,15 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use datafusion::arrow::array::{AsArray, RecordBatch};
-use datafusion::arrow::datatypes::Float64Type;
+use datafusion::arrow::array::{ArrayRef, AsArray, RecordBatch};
+use datafusion::arrow::datatypes::{Float64Type, Int64Type};
 use datafusion::physical_plan::collect;
 use datafusion::prelude::SessionContext;
 use linkage::Elbow;
+use linkage::lanes::Lanes;
 use linkage_engine::mechanisms::{FourBar, FourBarBranch};
 use linkage_engine::{Mechanisms, Request, progress, register, session};
-use linkage_sweep::{Extremes, Plan, Sweep, found};
+use linkage_sweep::{Block, Column, Extremes, Place, Plan, Reducer, Sweep, SweepError, found};
 
 const ROWS_PER_CHUNK: usize = 100_000;
 /// The rows of a turn.
@@ -30,9 +32,9 @@ fn plan(positions: u64) -> Plan {
     Plan::new().grid("a", 30.0, 70.0, positions.div_ceil(TURN)).turn("theta2", TURN)
 }
 
-fn query(plan: Plan) -> Result<String> {
+fn query(what: &str, plan: Plan) -> Result<String> {
     let request = Request { rows_per_chunk: Some(ROWS_PER_CHUNK), ..plan.into() };
-    Ok(format!("SELECT min(mu), max(mu) FROM sweep('four_bar', '{}')", request.to_json()?))
+    Ok(format!("SELECT {what} FROM sweep('four_bar', '{}')", request.to_json()?))
 }
 
 fn context(threads: usize) -> Result<SessionContext> {
@@ -42,10 +44,42 @@ fn context(threads: usize) -> Result<SessionContext> {
     Ok(context)
 }
 
-/// The two numbers of a result.
-fn extremes(batches: &[RecordBatch]) -> Option<[u64; 2]> {
-    let batch = batches.first()?;
-    Some([0, 1].map(|column| batch.column(column).as_primitive::<Float64Type>().value(0).to_bits()))
+/// The numbers of a result by their bits.
+fn numbers(batches: &[RecordBatch]) -> Vec<u64> {
+    let columns = batches.iter().flat_map(RecordBatch::columns);
+    let number = |column: &ArrayRef| match column.as_primitive_opt::<Float64Type>() {
+        Some(floats) => floats.value(0).to_bits(),
+        None => column.as_primitive::<Int64Type>().value(0).cast_unsigned(),
+    };
+    columns.map(number).collect()
+}
+
+/// Counts the accepted rows.
+struct Accepted(Column);
+
+impl<M: Lanes> Reducer<M> for Accepted {
+    type Part = (Place, u64);
+    type Output = u64;
+
+    fn columns(&self) -> Vec<Column> {
+        vec![self.0.clone()]
+    }
+
+    fn start(&self) -> std::result::Result<Self::Part, SweepError> {
+        Ok((self.0.place::<M>()?, 0))
+    }
+
+    fn fold(&self, (place, count): &mut Self::Part, block: &Block<'_, M>) {
+        *count += block.accepted(*place).count() as u64;
+    }
+
+    fn merge(&self, (_, count): &mut Self::Part, (_, other): Self::Part) {
+        *count += other;
+    }
+
+    fn finish(&self, (_, count): Self::Part) -> u64 {
+        count
+    }
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -55,40 +89,43 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// Prints the rows per second of both, and the median of the ratio of their times.
 fn overhead(threads: usize, rounds: usize) -> Result<()> {
-    let plan = plan(1_000_000);
+    let plan = plan(10_000_000);
     let branch = FourBarBranch::new(Elbow::Left);
     let sweep = Sweep::new(&FourBar::default(), branch, plan.clone())?;
     let sweep = sweep.with_rows_per_chunk(ROWS_PER_CHUNK)?.with_threads(threads)?;
-    let (rows, query) = (sweep.rows() as f64, query(plan)?);
     let context = context(threads)?;
     let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(threads).build()?;
-    let [mut alone, mut engine, mut ratio] = [const { Vec::new() }; 3];
-    for _ in 0..rounds {
-        let start = Instant::now();
-        let range = sweep.reduce(&Extremes::of(found("mu")), |_| ControlFlow::Continue(()))?;
-        let time = start.elapsed().as_secs_f64();
-        let start = Instant::now();
-        // A task, so that it runs on the threads of the runtime and not on this one.
-        let answer = context.clone();
-        let text = query.clone();
-        let batches = runtime.block_on(runtime.spawn(async move { answer.sql(&text).await?.collect().await }))??;
-        let by_engine = start.elapsed().as_secs_f64();
-        let numbers = [range.least, range.most].map(|extreme| extreme.map(|extreme| extreme.value.to_bits()));
-        if extremes(&batches).map(|numbers| numbers.map(Some)) != Some(numbers) {
-            return Err("the numbers differ".into());
+    let compare = |what: &str, alone: &dyn Fn() -> Result<Vec<u64>>| -> Result<()> {
+        let query = query(what, plan.clone())?;
+        let [mut by_sweep, mut by_sql, mut ratio] = [const { Vec::new() }; 3];
+        for _ in 0..rounds {
+            let start = Instant::now();
+            let expected = alone()?;
+            by_sweep.push(start.elapsed().as_secs_f64());
+            let start = Instant::now();
+            // A task, so that it runs on the threads of the runtime and not on this one.
+            let (context, query) = (context.clone(), query.clone());
+            let batches =
+                runtime.block_on(runtime.spawn(async move { context.sql(&query).await?.collect().await }))??;
+            by_sql.push(start.elapsed().as_secs_f64());
+            if numbers(&batches) != expected {
+                return Err("the numbers differ".into());
+            }
+            ratio.extend(by_sql.last().zip(by_sweep.last()).map(|(sql, sweep)| sql / sweep));
         }
-        alone.push(time);
-        engine.push(by_engine);
-        ratio.push(by_engine / time);
-    }
-    let speed = |times: Vec<f64>| rows / median(times) / 1e6;
-    println!(
-        "{threads} threads, {rounds} rounds: linkage-sweep {:.2} million rows/s, SQL {:.2}, ratio of times {:.3}",
-        speed(alone),
-        speed(engine),
-        median(ratio),
-    );
-    Ok(())
+        let speed = |times: Vec<f64>| sweep.rows() as f64 / median(times) / 1e6;
+        let (by_sweep, by_sql, ratio) = (speed(by_sweep), speed(by_sql), median(ratio));
+        println!(
+            "{threads} threads, {what}: {by_sweep:.2} million rows/s alone, {by_sql:.2} by SQL, {ratio:.3} of the time"
+        );
+        Ok(())
+    };
+    let go_on = |_| ControlFlow::Continue(());
+    compare("count(mu)", &|| Ok(vec![sweep.reduce(&Accepted(found("mu")), go_on)?]))?;
+    compare("min(mu), max(mu)", &|| {
+        let range = sweep.reduce(&Extremes::of(found("mu")), go_on)?;
+        Ok([range.least, range.most].into_iter().flatten().map(|extreme| extreme.value.to_bits()).collect())
+    })
 }
 
 /// The largest memory of the process so far in MB, as Linux counts it.
@@ -103,7 +140,7 @@ fn memory(positions: u64) -> Result<()> {
     let threads = std::thread::available_parallelism()?.get();
     let (plan, context) = (plan(positions), context(threads)?);
     let rows = plan.factors.iter().map(linkage_sweep::Factor::count).product::<u64>();
-    let query = query(plan)?;
+    let query = query("min(mu), max(mu)", plan)?;
     let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(threads).build()?;
     let print = |part, seconds: f64| println!("{part}: {seconds:.1} s, at most {:.1} MB", peak().unwrap_or(f64::NAN));
     let start = Instant::now();
