@@ -1,6 +1,6 @@
 //! Time and memory of queries of one found column, by `linkage-sweep` alone and by SQL.
 //!
-//! Run it with `--release`. `cost overhead ROUNDS` takes ten million positions, in chunks of 100 000, on one thread and on
+//! Run it with `--release`. `cost overhead ROUNDS` takes fifty million positions, in chunks of 100 000, on one thread and on
 //! all: the number of positions that exist, which costs next to nothing to reduce, then the extremes. Rounds of both take
 //! turns, and the median is that of the ratio within a round. `cost memory POSITIONS` answers
 //! one query of that many positions, and prints the largest memory at a tenth of the chunks and at the end.
@@ -89,7 +89,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// Prints the rows per second of both, and the median of the ratio of their times.
 fn overhead(threads: usize, rounds: usize) -> Result<()> {
-    let plan = plan(10_000_000);
+    let plan = plan(50_000_000);
     let branch = FourBarBranch::new(Elbow::Left);
     let sweep = Sweep::new(&FourBar::default(), branch, plan.clone())?;
     let sweep = sweep.with_rows_per_chunk(ROWS_PER_CHUNK)?.with_threads(threads)?;

@@ -21,8 +21,10 @@ where
     M::Scalar: Scalar,
 {
     check(schema, chunk)?;
-    let accepted = BooleanBuffer::from(chunk.accepted());
-    let nulls = (chunk.rejected() > 0).then(|| NullBuffer::new(accepted.clone()));
+    let is_whole = chunk.rejected() == 0;
+    let flags = chunk.accepted();
+    let accepted = if is_whole { BooleanBuffer::new_set(flags.len()) } else { BooleanBuffer::from(flags) };
+    let nulls = (!is_whole).then(|| NullBuffer::new(accepted.clone()));
     let array = |place: Place, values: &[M::Scalar]| {
         let nulls = nulls.clone().filter(|_| matches!(place, Place::Found(_)));
         let values = values.to_vec().into();
