@@ -45,7 +45,7 @@ fn loops<const CHECKED: bool, const N: usize>(
     let (mut input, mut turning, mut speeding) = ([cosine, sine], rate, acceleration);
     for ((&[a, b, c, d], &side), solved) in m.iter().zip(sides).zip(&mut loops) {
         let back = times(input, -a);
-        let dyad = Dyad::new::<CHECKED>("coupler and rocker", [back[0] + d, back[1]], [b, c], side)?;
+        let dyad = Dyad::new::<CHECKED>([back[0] + d, back[1]], [b, c], side)?;
         let rates = dyad.rates(turned(back, turning));
         let accelerations = dyad.accelerations(rates, bent(back, turning, speeding));
         finite::<CHECKED, _>(accelerations)?;
@@ -55,7 +55,7 @@ fn loops<const CHECKED: bool, const N: usize>(
         *solved = Loop { links, determinant: dyad.determinant, rates, accelerations };
         (input, turning, speeding) = (rocker, rates[1], accelerations[1]);
     }
-    Ok(loops)
+    Some(loops)
 }
 
 /// The rates and accelerations at the angles of couplers and rockers.
@@ -75,12 +75,12 @@ pub fn at<const N: usize>(
         let [first, second, between] = f64::sines_cosines([coupler, rocker, coupler - rocker]);
         let back = super::at(input, -a);
         let links = [super::at(first, b), super::at(second, -c)];
-        let dyad = Dyad::at::<true>("coupler and rocker", links, b * c * between.0, b * c)?;
+        let dyad = Dyad::at::<true>(links, b * c * between.0, b * c)?;
         let rates = dyad.rates(turned(back, turning));
         let accelerations = dyad.accelerations(rates, bent(back, turning, speeding));
         finite::<true, _>(accelerations)?;
         (*to_rates, *to_accelerations) = (rates, accelerations);
         (input, turning, speeding) = (second, rates[1], accelerations[1]);
     }
-    Ok(motions)
+    Some(motions)
 }

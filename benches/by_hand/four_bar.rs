@@ -22,7 +22,7 @@ pub fn checked(m: &FourBar, theta: f64, rate: f64, acceleration: f64, side: f64)
     let (sine, cosine) = theta.sine_cosine();
     let State { dyad, rates: [theta3, theta4], accelerations: [theta3_acceleration, theta4_acceleration] } =
         state::<true>(m, (sine, cosine), rate, acceleration, side)?;
-    Ok(FourBarKinematics {
+    Some(FourBarKinematics {
         pose: FourBarPose {
             theta: direction([cosine, sine], 1.0),
             theta3: direction(dyad.first, 1.0 / m.l3),
@@ -48,7 +48,7 @@ fn state<const CHECKED: bool>(
     side: f64,
 ) -> Checked<State> {
     let crank = times([cosine, sine], m.l2);
-    let dyad = Dyad::new::<CHECKED>("theta3, theta4", minus([m.l1, 0.0], crank), [m.l3, m.l4], side)?;
+    let dyad = Dyad::new::<CHECKED>(minus([m.l1, 0.0], crank), [m.l3, m.l4], side)?;
     moved::<CHECKED>(crank, dyad, rate, acceleration)
 }
 
@@ -57,12 +57,12 @@ pub fn at(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration: f64) -> 
     let [crank, first, second, between] = f64::sines_cosines([q.theta, q.theta3, q.theta4, q.theta4 - q.theta3]);
     let links = [super::at(first, m.l3), super::at(second, m.l4)];
     let size = m.l3 * m.l4;
-    let dyad = Dyad::at::<true>("theta3, theta4", links, size * between.0, size)?;
+    let dyad = Dyad::at::<true>(links, size * between.0, size)?;
     let State { rates, accelerations, .. } = moved::<true>(super::at(crank, m.l2), dyad, rate, acceleration)?;
     let ([theta3, theta4], theta) = (rates, rate);
     let rates = FourBarRates { theta3, theta4, theta };
     let ([theta3, theta4], theta) = (accelerations, acceleration);
-    Ok(FourBarMotion { position: *q, rates, accelerations: FourBarAccelerations { theta3, theta4, theta } })
+    Some(FourBarMotion { position: *q, rates, accelerations: FourBarAccelerations { theta3, theta4, theta } })
 }
 
 #[inline(always)]
@@ -71,5 +71,5 @@ fn moved<const CHECKED: bool>(crank: Vector, dyad: Dyad, rate: f64, acceleration
     let rates = dyad.rates(turned(back, rate));
     let accelerations = dyad.accelerations(rates, bent(back, rate, acceleration));
     finite::<CHECKED, _>(accelerations)?;
-    Ok(State { dyad, rates, accelerations })
+    Some(State { dyad, rates, accelerations })
 }

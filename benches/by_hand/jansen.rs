@@ -19,31 +19,25 @@ pub struct Moving {
 
 impl Moving {
     #[inline(always)]
-    fn new<const CHECKED: bool>(
-        group: &'static str,
-        [d, d_rate, d_acceleration]: [Vector; 3],
-        links: Vector,
-        side: f64,
-    ) -> Checked<Self> {
-        let dyad = Dyad::new::<CHECKED>(group, d, links, side)?;
+    fn new<const CHECKED: bool>([d, d_rate, d_acceleration]: [Vector; 3], links: Vector, side: f64) -> Checked<Self> {
+        let dyad = Dyad::new::<CHECKED>(d, links, side)?;
         let rates = dyad.rates(d_rate);
         let accelerations = dyad.accelerations(rates, d_acceleration);
-        Ok(Self { dyad, rates, accelerations })
+        Some(Self { dyad, rates, accelerations })
     }
 
     /// The dyad at these angles and their difference, the second link backwards.
     #[inline(always)]
     fn at(
-        group: &'static str,
         [_, d_rate, d_acceleration]: [Vector; 3],
         [p, q]: Vector,
         [first, second, difference]: [(f64, f64); 3],
     ) -> Checked<Self> {
         let links = [super::at(first, p), super::at(second, -q)];
-        let dyad = Dyad::at::<true>(group, links, p * q * difference.0, p * q)?;
+        let dyad = Dyad::at::<true>(links, p * q * difference.0, p * q)?;
         let rates = dyad.rates(d_rate);
         let accelerations = dyad.accelerations(rates, d_acceleration);
-        Ok(Self { dyad, rates, accelerations })
+        Some(Self { dyad, rates, accelerations })
     }
 
     /// The first link and its derivatives.
@@ -98,7 +92,7 @@ pub fn checked(m: &Jansen, theta: f64, rate: f64, acceleration: f64, sides: [f64
         determinant_5: ih.dyad.determinant,
     };
     let dyads = [bj, de, ck, fg, ih];
-    Ok(JansenKinematics { pose, rates: rates(&dyads, rate), accelerations: accelerations(&dyads, acceleration) })
+    Some(JansenKinematics { pose, rates: rates(&dyads, rate), accelerations: accelerations(&dyads, acceleration) })
 }
 
 #[inline(always)]
@@ -113,14 +107,14 @@ fn state<const CHECKED: bool>(
     let [_, pin_rate, pin_acceleration] = moving(crank, rate, acceleration);
     // From the pivot to the pin.
     let pin = [[crank[0] + m.a, crank[1] + m.l], pin_rate, pin_acceleration];
-    let bj = Moving::new::<CHECKED>("angle_b, angle_j", pin, [m.b, m.j], sides[0])?;
-    let de = Moving::new::<CHECKED>("angle_d, angle_e", bj.first(), [m.d, m.e], sides[1])?;
-    let ck = Moving::new::<CHECKED>("angle_c, angle_k", pin, [m.c, m.k], sides[2])?;
-    let fg = Moving::new::<CHECKED>("angle_f, angle_g", less(ck.first(), de.first()), [m.f, m.g], sides[3])?;
-    let ih = Moving::new::<CHECKED>("angle_i, angle_h", fg.second(), [m.i, m.h], sides[4])?;
+    let bj = Moving::new::<CHECKED>(pin, [m.b, m.j], sides[0])?;
+    let de = Moving::new::<CHECKED>(bj.first(), [m.d, m.e], sides[1])?;
+    let ck = Moving::new::<CHECKED>(pin, [m.c, m.k], sides[2])?;
+    let fg = Moving::new::<CHECKED>(less(ck.first(), de.first()), [m.f, m.g], sides[3])?;
+    let ih = Moving::new::<CHECKED>(fg.second(), [m.i, m.h], sides[4])?;
     let dyads = [bj, de, ck, fg, ih];
     check::<CHECKED>(&dyads)?;
-    Ok(State { dyads })
+    Some(State { dyads })
 }
 
 #[inline(always)]
@@ -150,14 +144,14 @@ pub fn at(m: &Jansen, q: &JansenCoordinates, rate: f64, acceleration: f64) -> Ch
         q.angle_i - q.angle_h,
     ]);
     let pin = moving(super::at(crank, m.m), rate, acceleration);
-    let bj = Moving::at("angle_b, angle_j", pin, [m.b, m.j], [b, j, bj])?;
-    let de = Moving::at("angle_d, angle_e", bj.first(), [m.d, m.e], [d, e, de])?;
-    let ck = Moving::at("angle_c, angle_k", pin, [m.c, m.k], [c, k, ck])?;
-    let fg = Moving::at("angle_f, angle_g", less(ck.first(), de.first()), [m.f, m.g], [f, g, fg])?;
-    let ih = Moving::at("angle_i, angle_h", fg.second(), [m.i, m.h], [i, h, ih])?;
+    let bj = Moving::at(pin, [m.b, m.j], [b, j, bj])?;
+    let de = Moving::at(bj.first(), [m.d, m.e], [d, e, de])?;
+    let ck = Moving::at(pin, [m.c, m.k], [c, k, ck])?;
+    let fg = Moving::at(less(ck.first(), de.first()), [m.f, m.g], [f, g, fg])?;
+    let ih = Moving::at(fg.second(), [m.i, m.h], [i, h, ih])?;
     let dyads = [bj, de, ck, fg, ih];
     check::<true>(&dyads)?;
-    Ok(JansenMotion { position: *q, rates: rates(&dyads, rate), accelerations: accelerations(&dyads, acceleration) })
+    Some(JansenMotion { position: *q, rates: rates(&dyads, rate), accelerations: accelerations(&dyads, acceleration) })
 }
 
 #[inline(always)]

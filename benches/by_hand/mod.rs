@@ -1,8 +1,8 @@
 //! Position, velocity and acceleration in closed form as a person writes them for speed: link vectors instead of
 //! directions, determinants from half chords, nothing computed twice.
 //!
-//! `checked` makes the checks of the emitted code and returns what it returns, directions included; `bare` returns link
-//! vectors, and NaN and dead points go unnoticed. `at` starts from coordinates, with the sines of the emitted `motion`.
+//! `checked` makes the checks of the emitted code and returns what it returns, directions included, or nothing instead of an
+//! error; `bare` returns link vectors, and NaN and dead points go unnoticed. `at` starts from coordinates, with the sines of the emitted `motion`.
 
 pub mod chain;
 pub mod four_bar;
@@ -10,7 +10,6 @@ pub mod jansen;
 pub mod slider_crank;
 pub mod stephenson_iii;
 
-use linkage::PositionError;
 use linkage::nalgebra::{Complex, UnitComplex};
 
 pub type Vector = [f64; 2];
@@ -18,8 +17,8 @@ pub type Vector = [f64; 2];
 /// Products of squared lengths between this and its inverse neither overflow nor underflow.
 pub const SMALLEST: f64 = 1e-62;
 
-/// A group that cannot be assembled or moved, and why.
-pub type Checked<T> = Result<T, PositionError>;
+/// `None` if a check fails.
+pub type Checked<T> = Option<T>;
 
 /// The direction of a link with this inverse of its length.
 pub fn direction([x, y]: Vector, inverse: f64) -> UnitComplex<f64> {
@@ -65,7 +64,7 @@ pub struct Dyad {
 impl Dyad {
     /// The dyad of links p and q with V left of D, for the side 1, or right of it, for the side -1.
     #[inline(always)]
-    pub fn new<const CHECKED: bool>(group: &'static str, d: Vector, [p, q]: Vector, side: f64) -> Checked<Self> {
+    pub fn new<const CHECKED: bool>(d: Vector, [p, q]: Vector, side: f64) -> Checked<Self> {
         let square = dot(d, d);
         let (sum, difference) = (p + q, p - q);
         let reach = sum * sum;
@@ -78,37 +77,31 @@ impl Dyad {
                 && product > SMALLEST
                 && product < 1.0 / SMALLEST)
         {
-            return Err(unbuildable(group, low.min(high)));
+            return None;
         }
-        let chord = side * product.sqrt();
+        let root = product.sqrt();
         let along = square + sum * difference;
         let half = times(d, 0.5 / square);
-        let first = [along * half[0] - chord * half[1], along * half[1] + chord * half[0]];
-        let determinant = -0.5 * chord;
-        if CHECKED && !(determinant.abs() > 8.0 * f64::EPSILON * (p * q).abs() && determinant.is_finite()) {
-            return Err(PositionError::Singular { mechanism: "by hand", group, regularity: 0.0 });
-        }
-        Ok(Self { first, second: minus(d, first), determinant, inverse: 1.0 / determinant })
+        let across = times(half, side);
+        let first = [along * half[0] - root * across[1], along * half[1] + root * across[0]];
+        let determinant = (-0.5 * side) * root;
+        let inverse = 1.0 / determinant;
+        Some(Self { first, second: minus(d, first), determinant, inverse })
     }
 
     /// The dyad of links with these vectors and this determinant, by a sine of a difference.
     #[inline(always)]
-    pub fn at<const CHECKED: bool>(
-        group: &'static str,
-        [first, second]: [Vector; 2],
-        determinant: f64,
-        size: f64,
-    ) -> Checked<Self> {
+    pub fn at<const CHECKED: bool>([first, second]: [Vector; 2], determinant: f64, size: f64) -> Checked<Self> {
         if CHECKED && !(determinant.abs() > 8.0 * f64::EPSILON * size.abs() && determinant.is_finite()) {
-            return Err(PositionError::Singular { mechanism: "by hand", group, regularity: 0.0 });
+            return None;
         }
-        Ok(Self { first, second, determinant, inverse: 1.0 / determinant })
+        Some(Self { first, second, determinant, inverse: 1.0 / determinant })
     }
 
     /// The rates a and b with V' + W' = `d_rate`.
     #[inline(always)]
     pub fn rates(&self, d_rate: Vector) -> Vector {
-        [dot(d_rate, self.second) * self.inverse, -dot(d_rate, self.first) * self.inverse]
+        [dot(d_rate, times(self.second, self.inverse)), -dot(d_rate, times(self.first, self.inverse))]
     }
 
     /// The second derivatives of a and b with V'' + W'' = `d_acceleration`.
@@ -117,12 +110,6 @@ impl Dyad {
         let centripetal = plus(times(self.first, a * a), times(self.second, b * b));
         self.rates(plus(d_acceleration, centripetal))
     }
-}
-
-#[cold]
-#[inline(never)]
-pub fn unbuildable(group: &'static str, gap: f64) -> PositionError {
-    PositionError::Unbuildable { mechanism: "by hand", group, gap }
 }
 
 /// A vector at an angle with this sine and cosine.
@@ -135,7 +122,7 @@ pub fn at((sine, cosine): (f64, f64), length: f64) -> Vector {
 pub fn finite<const CHECKED: bool, const N: usize>(values: [f64; N]) -> Checked<()> {
     let sum: f64 = values.iter().sum();
     if CHECKED && !sum.is_finite() {
-        return Err(PositionError::NotFinite { mechanism: "by hand", quantity: "acceleration" });
+        return None;
     }
-    Ok(())
+    Some(())
 }

@@ -1,6 +1,6 @@
-use linkage::{PositionError, Real};
+use linkage::Real;
 
-use super::{Checked, SMALLEST, Vector, bent, direction, finite, times, unbuildable};
+use super::{Checked, SMALLEST, Vector, bent, direction, finite, times};
 use crate::mechanisms::{
     SliderCrank, SliderCrankAccelerations, SliderCrankCoordinates, SliderCrankKinematics, SliderCrankMotion,
     SliderCrankPose, SliderCrankRates,
@@ -25,7 +25,7 @@ pub fn checked(m: &SliderCrank, theta: f64, rate: f64, acceleration: f64, side: 
     let (sine, cosine) = theta.sine_cosine();
     let State { rod, slider, rates: [phi, s], accelerations: [phi_acceleration, s_acceleration] } =
         state::<true>(m, (sine, cosine), rate, acceleration, side)?;
-    Ok(SliderCrankKinematics {
+    Some(SliderCrankKinematics {
         pose: SliderCrankPose {
             theta: direction([cosine, sine], 1.0),
             phi: direction(rod, 1.0 / m.rod),
@@ -50,7 +50,7 @@ fn state<const CHECKED: bool>(
     let y = m.offset - crank[1];
     let product = (m.rod - y) * (m.rod + y);
     if CHECKED && !(product > SMALLEST && product < 1.0 / SMALLEST) {
-        return Err(unbuildable("phi", product));
+        return None;
     }
     let rod = [side * product.sqrt(), y];
     moved::<CHECKED>(m, crank, rod, rate, acceleration)
@@ -66,7 +66,7 @@ pub fn at(m: &SliderCrank, q: &SliderCrankCoordinates, rate: f64, acceleration: 
     let ([phi, s], theta) = (rates, rate);
     let rates = SliderCrankRates { phi, s, theta };
     let ([phi, s], theta) = (accelerations, acceleration);
-    Ok(SliderCrankMotion { position: *q, rates, accelerations: SliderCrankAccelerations { phi, s, theta } })
+    Some(SliderCrankMotion { position: *q, rates, accelerations: SliderCrankAccelerations { phi, s, theta } })
 }
 
 #[inline(always)]
@@ -79,7 +79,7 @@ fn moved<const CHECKED: bool>(
 ) -> Checked<State> {
     let [x, y] = rod;
     if CHECKED && x.abs() <= 8.0 * f64::EPSILON * m.rod.abs() {
-        return Err(PositionError::Singular { mechanism: "by hand", group: "phi", regularity: 0.0 });
+        return None;
     }
     let inverse = 1.0 / x;
     // The rod turns so that its end stays on the guide.
@@ -91,5 +91,5 @@ fn moved<const CHECKED: bool>(
     let s = -(crank[1] * rate + y * phi);
     // The acceleration of the rod is a part of that of the slider.
     finite::<CHECKED, _>([s, s_acceleration])?;
-    Ok(State { rod, slider: crank[0] + x, rates: [phi, s], accelerations: [phi_acceleration, s_acceleration] })
+    Some(State { rod, slider: crank[0] + x, rates: [phi, s], accelerations: [phi_acceleration, s_acceleration] })
 }

@@ -1,6 +1,6 @@
 use linkage::Real;
 
-use super::{Checked, Dyad, Vector, bent, direction, dot, finite, minus, plus, times, turned};
+use super::{Checked, Dyad, Vector, bent, direction, dot, finite, plus, times, turned};
 use crate::mechanisms::{
     StephensonIII, StephensonIIIAccelerations, StephensonIIICoordinates, StephensonIIIKinematics, StephensonIIIMotion,
     StephensonIIIPose, StephensonIIIRates,
@@ -46,7 +46,7 @@ pub fn checked(
         determinant_1: first.determinant,
         determinant_2: second.determinant,
     };
-    Ok(StephensonIIIKinematics { pose, rates, accelerations })
+    Some(StephensonIIIKinematics { pose, rates, accelerations })
 }
 
 #[inline(always)]
@@ -57,14 +57,22 @@ fn state<const CHECKED: bool>(
     acceleration: f64,
     sides: [f64; 2],
 ) -> Checked<State> {
-    let crank = times([cosine, sine], m.a);
-    let first = Dyad::new::<CHECKED>("theta3, theta4", minus([m.d, 0.0], crank), [m.b, m.c], sides[0])?;
+    // From the joint of the coupler back to the ground, and so on: dyads close these.
+    let crank = times([cosine, sine], -m.a);
+    let (crank_rate, crank_acceleration) = (turned(crank, rate), bent(crank, rate, acceleration));
+    let first = Dyad::new::<CHECKED>(plus([m.d, 0.0], crank), [m.b, m.c], sides[0])?;
+    let rates = first.rates(crank_rate);
+    let accelerations = first.accelerations(rates, crank_acceleration);
+    finite::<CHECKED, _>(accelerations)?;
     let coupler = times(first.first, 1.0 / m.b);
-    let arm = arm(m, coupler);
+    let arm = arm([-m.px, -m.py], coupler);
+    let (arm_rate, arm_acceleration) = (turned(arm, rates[0]), bent(arm, rates[0], accelerations[0]));
     let point = plus(crank, arm);
-    let second = Dyad::new::<CHECKED>("theta5, theta6", minus([m.fx, m.fy], point), [m.e, m.f], sides[1])?;
-    let (rates, accelerations) = moved::<CHECKED>(crank, arm, &[first, second], rate, acceleration)?;
-    Ok(State { coupler, dyads: [first, second], rates, accelerations })
+    let second = Dyad::new::<CHECKED>(plus([m.fx, m.fy], point), [m.e, m.f], sides[1])?;
+    let rates = [rates, second.rates(plus(crank_rate, arm_rate))];
+    let accelerations = [accelerations, second.accelerations(rates[1], plus(crank_acceleration, arm_acceleration))];
+    finite::<CHECKED, _>(accelerations[1])?;
+    Some(State { coupler, dyads: [first, second], rates, accelerations })
 }
 
 #[inline(never)]
@@ -77,23 +85,23 @@ pub fn at(
     let [crank, coupler, rocker, third, fourth, first_difference, second_difference] =
         f64::sines_cosines([q.theta, q.theta3, q.theta4, q.theta5, q.theta6, q.theta3 - q.theta4, q.theta5 - q.theta6]);
     let (size, links) = (m.b * m.c, [super::at(coupler, m.b), super::at(rocker, -m.c)]);
-    let first = Dyad::at::<true>("theta3, theta4", links, size * first_difference.0, size)?;
+    let first = Dyad::at::<true>(links, size * first_difference.0, size)?;
     let (size, links) = (m.e * m.f, [super::at(third, m.e), super::at(fourth, -m.f)]);
-    let second = Dyad::at::<true>("theta5, theta6", links, size * second_difference.0, size)?;
-    let arm = arm(m, [coupler.1, coupler.0]);
+    let second = Dyad::at::<true>(links, size * second_difference.0, size)?;
+    let arm = arm([m.px, m.py], [coupler.1, coupler.0]);
     let crank = super::at(crank, m.a);
     let (rates, accelerations) = moved::<true>(crank, arm, &[first, second], rate, acceleration)?;
     let [[theta3, theta4], [theta5, theta6]] = rates;
     let rates = StephensonIIIRates { theta3, theta4, theta5, theta6, theta: rate };
     let [[theta3, theta4], [theta5, theta6]] = accelerations;
     let accelerations = StephensonIIIAccelerations { theta3, theta4, theta5, theta6, theta: acceleration };
-    Ok(StephensonIIIMotion { position: *q, rates, accelerations })
+    Some(StephensonIIIMotion { position: *q, rates, accelerations })
 }
 
 /// The vector on the coupler from the crank's pin to the joint of the second dyad.
 #[inline(always)]
-fn arm(m: &StephensonIII, coupler: Vector) -> Vector {
-    [dot([m.px, -m.py], coupler), dot([m.py, m.px], coupler)]
+fn arm([x, y]: Vector, coupler: Vector) -> Vector {
+    [dot([x, -y], coupler), dot([y, x], coupler)]
 }
 
 #[inline(always)]
@@ -114,5 +122,5 @@ fn moved<const CHECKED: bool>(
     let accelerations = [accelerations, second.accelerations(rates[1], times(point_acceleration, -1.0))];
     let [[a, b], [c, d]] = accelerations;
     finite::<CHECKED, _>([a, b, c, d])?;
-    Ok((rates, accelerations))
+    Some((rates, accelerations))
 }

@@ -336,7 +336,15 @@ impl Solver<'_> {
         let along = g.add(distance_squared, squares);
         let across = g.scale(Number::integer(-left), twice);
         let divisor = g.scale(Number::integer(2), distance_squared);
-        (half_chord, with_products(g, d, divisor, along, across))
+        // The line is divided, and not the link, so that little is left to do when the root of the chord is there.
+        let [x, y] = d.map(|part| g.divide(part, divisor));
+        let number = self.block.number();
+        let divided = [("x", x), ("y", y)].map(|(axis, part)| match self.graph.node(part) {
+            Node::Product { .. } => self.fresh(&format!("divided_line_{number}_{axis}"), part),
+            _ => part,
+        });
+        let one = self.graph.one();
+        (half_chord, with_products(self.graph, divided, one, along, across))
     }
 
     pub(super) fn slider(&mut self, rows: [NodeId; 2], phi: SymbolId, s: SymbolId, group: Group) -> Option<NodeId> {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::assembly::Assembly;
 use crate::algebra::factor;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{RowId, Table, UnknownId};
@@ -16,13 +17,16 @@ pub type Solutions<I, X> = Table<I, Table<UnknownId, X>>;
 pub type System = (Table<RowId, NodeId>, Table<UnknownId, SymbolId>);
 
 /// The form of the solution of two equations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Form {
+#[derive(Debug, Clone, Copy)]
+pub enum Form<'a> {
     /// With common factors taken out: fewest operations for a single system.
     Factored,
     /// In terms of the entries of J: fewest operations if the right side has the same entries, as for
     /// accelerations (l_i cos theta_i occurs in both).
     Entries,
+    /// By the entries of J^-1, which are named, in terms of the links that the assembly has solved: fewest operations
+    /// between det J and the solutions of several systems, since no solution is divided.
+    Inverse(&'a Assembly),
 }
 
 /// The solution of J x = r where `determinant` is det J:
@@ -32,7 +36,7 @@ pub fn solve_closed(
     jacobian: &[Vec<NodeId>],
     determinant: NodeId,
     right: &[NodeId],
-    form: Form,
+    form: Form<'_>,
 ) -> Vec<NodeId> {
     match (jacobian, right) {
         ([_], &[r]) => vec![graph.divide(r, determinant)],
@@ -40,7 +44,7 @@ pub fn solve_closed(
             let mut cramer = |(a, r): (NodeId, NodeId), (b, s): (NodeId, NodeId)| {
                 let (left, right) = (graph.multiply(a, r), graph.multiply(b, s));
                 let numerator = graph.subtract(left, right);
-                let numerator = if form == Form::Factored { factor(graph, numerator) } else { numerator };
+                let numerator = if matches!(form, Form::Factored) { factor(graph, numerator) } else { numerator };
                 graph.divide(numerator, determinant)
             };
             vec![cramer((bottom[1], r0), (top[1], r1)), cramer((top[0], r1), (bottom[0], r0))]

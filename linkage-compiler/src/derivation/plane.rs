@@ -27,7 +27,7 @@ pub(super) fn cross(g: &mut Graph, [a, b]: Vector, [c, d]: Vector) -> NodeId {
 /// The vector w with w . e = `along` and w x e = `across`.
 pub(super) fn with_products(g: &mut Graph, e: Vector, square: NodeId, along: NodeId, across: NodeId) -> Vector {
     let minus = g.negate(across);
-    let [x, y] = [[along, across], [minus, along]].map(|row| dot(g, row, e));
+    let (x, y) = (dot(g, [along, across], e), dot(g, [along, minus], [e[1], e[0]]));
     [g.divide(x, square), g.divide(y, square)]
 }
 

@@ -1,8 +1,8 @@
 //! The closed form of each block as formulas for documentation: what the steps of its position name, one after the other.
 //!
 //! The steps keep a cosine and a sine of each solved angle under names of their own; here they are cos θ and sin θ again. The
-//! other names are letters: Δ for the vector between the outer joints of a dyad, κ for the root whose sign is the branch, λ for
-//! the distance of a guide, x and y with the name of an angle for the vector of its link.
+//! other names are letters: Δ for the vector between the outer joints of a dyad, δ for Δ / 2Δ², κ for the root whose sign is the
+//! branch, λ for the distance of a guide, x and y with the name of an angle for the vector of its link.
 
 use std::collections::BTreeSet;
 
@@ -27,9 +27,10 @@ pub struct ClosedForm {
 const SQUARE: &str = "distance_squared_";
 
 /// The letters for what a block computes on the way: the first that the mechanism leaves free, else the word.
-const LETTERS: [(&str, [&str; 3]); 4] = [
+const LETTERS: [(&str, [&str; 3]); 5] = [
     ("line_", ["Delta", "rho", "distance"]),
     (SQUARE, ["Delta", "rho", "distance"]),
+    ("divided_line_", ["delta", "tau", "divided"]),
     ("offset_", ["lambda", "sigma", "offset"]),
     ("chord_", ["kappa", "chi", "chord"]),
 ];

@@ -1,7 +1,9 @@
 //! The solution of linear systems in J as steps of a kernel, block by block.
 
+use super::assembly::Assembly;
 use super::data::{Block, Derivation};
 use super::linear::{Form, Row, System, solve_closed};
+use super::plane::dot;
 use super::step::Step;
 use crate::graph::NodeId;
 use crate::ids::{BlockId, ColumnId, Table, UnknownId};
@@ -10,18 +12,24 @@ impl Derivation {
     /// The steps that solve J x = right for several right sides: each block is checked, then solved for all systems.
     ///
     /// A system may use the solution of an earlier one, since each block solves the systems in order.
-    pub fn solution(&mut self, systems: &[System], form: Form) -> Vec<Step> {
+    pub fn solution(&mut self, systems: &[System], form: Form<'_>) -> Vec<Step> {
         self.solve(systems, form).0
     }
 
     /// The steps of [`solution`](Self::solution), and the solutions: symbols, or zero.
-    pub fn solve(&mut self, systems: &[System], form: Form) -> (Vec<Step>, Vec<Table<UnknownId, NodeId>>) {
+    pub fn solve(&mut self, systems: &[System], form: Form<'_>) -> (Vec<Step>, Vec<Table<UnknownId, NodeId>>) {
         let mut steps = Vec::new();
         let mut solved: Vec<Row<ColumnId>> = vec![Row::new(); systems.len()];
         for id in self.blocks.ids() {
             let block = self.blocks[id].clone();
             let divisor = self.check_block(id, &block, &mut steps);
             let matrix = self.block_matrix(&block);
+            let inverse = match (form, divisor) {
+                (Form::Inverse(assembly), Some(divisor)) => {
+                    self.named_inverse(assembly, &block, &matrix, divisor, &mut steps)
+                }
+                _ => None,
+            };
             for ((right, targets), solved) in systems.iter().zip(&mut solved) {
                 let right: Vec<NodeId> =
                     block.equations.iter().map(|&equation| self.remainder(equation, right[equation], solved)).collect();
@@ -29,6 +37,14 @@ impl Derivation {
                 let mut solution = targets.iter().map(|&symbol| self.graph.variable(symbol)).collect::<Vec<_>>();
                 let formulas = match divisor {
                     _ if right.iter().all(|&side| self.graph.is_zero(side)) => right,
+                    Some(_) if let Some(inverse) = inverse => {
+                        let sides = targets.iter().zip(right).map(|(&target, side)| {
+                            let name = format!("right_{}", self.graph.symbol_name(target));
+                            self.named(&name, side, &mut steps)
+                        });
+                        let sides: Vec<NodeId> = sides.collect();
+                        inverse.map(|row| dot(&mut self.graph, row, [sides[0], sides[1]])).to_vec()
+                    }
                     Some(divisor) => solve_closed(&mut self.graph, &matrix, divisor, &right, form),
                     None => {
                         steps.push(Step::Solve { block: id, targets: targets.clone(), right });
@@ -48,6 +64,49 @@ impl Derivation {
         let columns = &self.unknowns;
         let values = solved.iter().map(|solved| columns.iter().map(|column| solved[column]).collect());
         (steps, values.collect())
+    }
+
+    /// Names the entries of J^-1 of two unknowns, by rows: (J_11, -J_01; -J_10, J_00) / det J. `None` if an entry of J is
+    /// a number, which would make products of more factors.
+    fn named_inverse(
+        &mut self,
+        assembly: &Assembly,
+        block: &Block,
+        matrix: &[Vec<NodeId>],
+        divisor: NodeId,
+        steps: &mut Vec<Step>,
+    ) -> Option<[[NodeId; 2]; 2]> {
+        let [top, bottom] = matrix else { return None };
+        let (&[a, b], &[c, d]) = (top.as_slice(), bottom.as_slice()) else { return None };
+        if [a, b, c, d].into_iter().any(|entry| self.graph.constant_value(entry).is_some()) {
+            return None;
+        }
+        let entries = assembly.solved(&mut self.graph, &[a, b, c, d]);
+        let &[a, b, c, d] = entries.as_slice() else { return None };
+        let names = self.unknowns.at(&block.unknowns);
+        let names = [names[0], names[1]].map(|column| self.coordinates[column].name.clone());
+        let (minus_b, minus_c) = (self.graph.negate(b), self.graph.negate(c));
+        let [first, second] = names;
+        let mut row = |unknown: String, entries: [NodeId; 2]| {
+            [(1, entries[0]), (2, entries[1])].map(|(place, entry)| {
+                let entry = self.graph.divide(entry, divisor);
+                self.named(&format!("inverse_{unknown}_{place}"), entry, steps)
+            })
+        };
+        Some([row(first, [d, minus_b]), row(second, [minus_c, a])])
+    }
+
+    /// Names a value unless it is zero. Its sign is not a part of the name.
+    fn named(&mut self, name: &str, node: NodeId, steps: &mut Vec<Step>) -> NodeId {
+        if self.graph.is_zero(node) {
+            return node;
+        }
+        let is_negative = self.graph.leads_negative(node);
+        let node = if is_negative { self.graph.negate(node) } else { node };
+        let symbol = self.graph.symbol(name);
+        steps.push(Step::Let { symbol, node });
+        let value = self.graph.variable(symbol);
+        if is_negative { self.graph.negate(value) } else { value }
     }
 
     /// Adds the check of a block; returns the divisor of its closed form.

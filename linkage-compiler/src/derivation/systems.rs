@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::data::{Coordinate, Derivation, Quantity};
 use super::linear::{Row, System};
 use super::scale;
+use crate::algebra::gather;
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Id, InputId, RowId, Table, UnknownId};
 
@@ -77,9 +78,12 @@ impl Derivation {
         self.residual.ids().map(|row| self.minus_inputs(row, |c| c.rate, None)).collect()
     }
 
-    /// -(A v'' + gamma): the right side of J u'' = -(A v'' + gamma).
+    /// -(A v'' + gamma): the right side of J u'' = -(A v'' + gamma). Terms with the same product of rates are gathered:
+    /// the points of a link have its squared rate in common.
     pub fn acceleration_side(&mut self) -> Table<RowId, NodeId> {
-        self.residual.ids().map(|row| self.minus_inputs(row, |c| c.acceleration, Some(self.gamma[row]))).collect()
+        let rates = self.coordinates.iter().map(|coordinate| self.graph.variable(coordinate.rate)).collect();
+        let gamma = self.gamma.clone().map(|gamma| gather(&mut self.graph, gamma, &rates));
+        self.residual.ids().map(|row| self.minus_inputs(row, |c| c.acceleration, Some(gamma[row]))).collect()
     }
 
     pub(super) fn minus_inputs(
