@@ -35,9 +35,9 @@ impl Derivation {
                     block.equations.iter().map(|&equation| self.remainder(equation, right[equation], solved)).collect();
                 let targets = targets.at(&block.unknowns);
                 let mut solution = targets.iter().map(|&symbol| self.graph.variable(symbol)).collect::<Vec<_>>();
-                let formulas = match divisor {
+                let formulas = match (divisor, inverse) {
                     _ if right.iter().all(|&side| self.graph.is_zero(side)) => right,
-                    Some(_) if let Some(inverse) = inverse => {
+                    (Some(_), Some(inverse)) => {
                         let sides = targets.iter().zip(right).map(|(&target, side)| {
                             let name = format!("right_{}", self.graph.symbol_name(target));
                             self.named(&name, side, &mut steps)
@@ -45,8 +45,8 @@ impl Derivation {
                         let sides: Vec<NodeId> = sides.collect();
                         inverse.map(|row| dot(&mut self.graph, row, [sides[0], sides[1]])).to_vec()
                     }
-                    Some(divisor) => solve_closed(&mut self.graph, &matrix, divisor, &right, form),
-                    None => {
+                    (Some(divisor), None) => solve_closed(&mut self.graph, &matrix, divisor, &right, form),
+                    (None, _) => {
                         steps.push(Step::Solve { block: id, targets: targets.clone(), right });
                         Vec::new()
                     }
