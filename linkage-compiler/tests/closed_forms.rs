@@ -138,8 +138,8 @@ fn letters_of_the_mechanism_are_left_alone() {
         |node| derivation.graph.symbols_of(&[node]).into_iter().map(|symbol| derivation.graph.symbol_name(symbol));
     let names: Vec<&str> = left.into_iter().flat_map(names).collect();
     let links = ["x_u", "y_u", "x_v", "y_v", "v", "v", "u", "u"];
-    assert_eq!(names[..4], ["rho_x", "rho_y", "rho", "chi"]);
-    assert_eq!(names[4..], links);
+    assert_eq!(names[..6], ["rho_x", "rho_y", "rho", "chi", "tau_x", "tau_y"]);
+    assert_eq!(names[6..], links);
 }
 
 /// Newton's method has no formulas.

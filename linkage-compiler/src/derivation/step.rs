@@ -34,7 +34,7 @@ pub enum Step {
     /// Names the unknowns of a block of loops: of all its positions the one whose number the branch has. `system` and
     /// `known` are those of Newton's method.
     Modes { block: BlockId, targets: Vec<SymbolId>, loops: Loops, known: Vec<NodeId>, system: Vec<NodeId> },
-    /// Fails if a value is not finite. Only for kernels that return another value if a check fails: others ignore it.
+    /// Fails if a value is not finite.
     Finite { values: Vec<NodeId> },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },

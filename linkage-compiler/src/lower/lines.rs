@@ -206,9 +206,18 @@ impl<'a, 'n> Writer<'a, 'n> {
                 self.statements.push(Statement::Do(call.tried()));
             }
             Line::Finite { values } => {
-                let Failure::Return(otherwise) = &self.kernel.failure else { return };
-                let is_finite = Expression::all_finite(self.all_signed(values));
-                self.statements.push(Statement::Unless(vec![is_finite], vec![Statement::Return(otherwise.clone())]));
+                let values = self.all_signed(values);
+                match &self.kernel.failure {
+                    Failure::Return(otherwise) => {
+                        let otherwise = Statement::Return(otherwise.clone());
+                        self.statements.push(Statement::Unless(vec![Expression::all_finite(values)], vec![otherwise]));
+                    }
+                    Failure::Flag => self.flags.push(Expression::all_finite(values)),
+                    Failure::Error => {
+                        let arguments = [self.error_name(), Expression::text("the solution"), Expression::List(values)];
+                        self.statements.push(Statement::Do(Expression::runtime("finite", arguments).tried()));
+                    }
+                }
             }
             Line::Chord { block, symbol, factors, size, of } => self.chord((*block, *symbol), *factors, *size, *of),
             Line::Pivots { symbol, matrix } => {
