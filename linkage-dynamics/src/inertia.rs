@@ -1,7 +1,7 @@
 //! Accelerations from a mass matrix: symmetric elimination without pivoting.
 
 use crate::MotionError;
-use linkage_runtime::__shared::to_f64;
+use linkage_runtime::__shared::{greatest, to_f64};
 use linkage_runtime::{Column, D, Dim, Matrix, PositionError, Real, real};
 
 /// A pivot below this many ulps of its diagonal entry counts as zero: it is rounding error.
@@ -25,7 +25,7 @@ impl<T: Real, N: Dim> Inertia<T, N> {
         let mut matrix = *mass;
         for (k, coordinate) in coordinates.iter().enumerate() {
             let (pivot, entry) = (matrix.part(k, k), mass.part(k, k));
-            if !(pivot > real::<T>(LEAST_PIVOT_ULPS) * T::default_epsilon() * entry && pivot.is_finite()) {
+            if !(pivot > real::<T>(LEAST_PIVOT_ULPS) * T::default_epsilon() * entry && pivot <= greatest()) {
                 return Err(without_inertia(scene, coordinate, pivot, entry));
             }
             for i in k + 1..N::COUNT {

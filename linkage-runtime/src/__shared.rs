@@ -10,7 +10,7 @@ pub use crate::jacobian::ulp::ZERO_ULPS;
 pub use crate::linear::{Factorization, product_of_pivots, same_signs};
 pub use crate::newton::{Constraints, search};
 pub use crate::position::hadamard_ratio;
-pub use crate::scalar::{arithmetic, larger, largest, smallest, to_f64};
+pub use crate::scalar::{arithmetic, greatest, larger, largest, smallest, to_f64};
 pub use crate::sine::{HALF_PI, SINE_COEFFICIENTS, SINE_ERROR, sine_kernel, sine_polynomials};
 #[cfg(feature = "serde")]
 pub use crate::written::{array, columns};

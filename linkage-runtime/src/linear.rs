@@ -4,7 +4,7 @@ use core::mem;
 
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::native::{self, native};
-use crate::scalar::{largest, smallest, to_f64};
+use crate::scalar::{greatest, largest, smallest, to_f64};
 use crate::wide::loses_digits;
 use crate::{PositionError, Real, real};
 
@@ -20,7 +20,7 @@ pub fn regular<T: Real>(
     determinant: T,
     scale: T,
 ) -> Result<(), PositionError> {
-    if is_nonzero(determinant, scale) && determinant.is_finite() {
+    if is_nonzero(determinant, scale) && determinant.abs() <= greatest() {
         return Ok(());
     }
     // The error is put together here: a compiler that does not see a function return an error goes on behind the call.

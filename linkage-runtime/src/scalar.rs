@@ -129,6 +129,13 @@ pub fn larger<T: Real>(a: T, b: T) -> T {
     }
 }
 
+/// The largest finite number of the type. A comparison with it takes fewer instructions than `is_finite`, which moves
+/// the bits to an integer register.
+#[inline(always)]
+pub fn greatest<T: Real>() -> T {
+    T::max_value().unwrap_or(real(f64::INFINITY))
+}
+
 /// The largest magnitude; NaN if one of the values is, unlike nalgebra's `amax`.
 #[inline]
 pub fn largest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
@@ -139,8 +146,7 @@ pub fn largest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
 /// unlike nalgebra's `amin`.
 #[inline]
 pub fn smallest<T: Real>(values: impl IntoIterator<Item = T>) -> T {
-    let none = T::max_value().unwrap_or_else(T::one);
-    values.into_iter().fold(none, |least, value| {
+    values.into_iter().fold(greatest(), |least, value| {
         let value = value.abs();
         if least <= value {
             least
