@@ -4,8 +4,8 @@
 use super::value::{Signed, Value, ValueId};
 
 /// Inlines operands used once into the sums and products that the roots depend on. A kernel that is inlined into other
-/// functions keeps its inverses, since these may use the same ones.
-pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], keeps_inverses: bool) {
+/// functions keeps its inverses and the components of its links, since these may use the same ones.
+pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], is_inlined: bool) {
     let (mut uses, mut stack) = (vec![0; values.len()], Vec::new());
     let mut reached = Vec::new();
     stack.extend(roots.iter().map(|root| root.value));
@@ -40,11 +40,15 @@ pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], keeps_inverses: bo
                 while let Some(factor) = stack.pop() {
                     match &values[factor.0] {
                         // Products with a number stay apart, so that a product has at most one number.
-                        Value::Product(inner) if once(factor) && !inner.iter().any(|&part| is_number(values, part)) => {
+                        Value::Product(inner)
+                            if once(factor)
+                                && !inner.iter().any(|&part| is_number(values, part))
+                                && !(is_inlined && is_component(values, inner)) =>
+                        {
                             stack.extend(inner.iter().rev());
                         }
                         Value::Quotient(one, below)
-                            if once(factor) && !keeps_inverses && divisor.is_none() && is_one(values, *one) =>
+                            if once(factor) && !is_inlined && divisor.is_none() && is_one(values, *one) =>
                         {
                             divisor = Some(*below);
                         }
@@ -63,6 +67,12 @@ pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], keeps_inverses: bo
             _ => {}
         }
     }
+}
+
+/// True for the product of a symbol, such as a length, and a sine or cosine.
+fn is_component(values: &[Value], factors: &[ValueId]) -> bool {
+    let is_any = |is: fn(&Value) -> bool| factors.iter().any(|factor| is(&values[factor.0]));
+    factors.len() == 2 && is_any(|value| matches!(value, Value::Symbol(_))) && is_any(Value::is_circular)
 }
 
 fn is_number(values: &[Value], id: ValueId) -> bool {

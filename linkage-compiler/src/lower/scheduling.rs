@@ -19,7 +19,7 @@ pub fn schedule(
     results: &[NodeId],
     given: &Given,
     named: &[(NodeId, String)],
-    keeps_inverses: bool,
+    is_inlined: bool,
 ) -> Schedule {
     let mut nodes: Vec<NodeId> = steps.iter().flat_map(Step::nodes).collect();
     nodes.extend(results);
@@ -27,8 +27,8 @@ pub fn schedule(
     let (mut values, translated) = Builder::translate_all(graph, given, &nodes);
     let roots: Vec<Signed> = nodes.iter().map(|node| translated[node]).collect();
     graph.budget().spend(nodes.len() + values.len());
-    sharing::share(&mut values, &roots, graph.budget());
-    joined::join(&mut values, &roots, keeps_inverses);
+    sharing::share(&mut values, &roots, graph.budget(), is_inlined);
+    joined::join(&mut values, &roots, is_inlined);
     factors::order(&mut values);
     let mut names: Vec<(ValueId, bool, String)> = Vec::new();
     for (node, name) in named {

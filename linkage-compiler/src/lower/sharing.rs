@@ -17,7 +17,6 @@ use rustc_hash::FxHashMap;
 
 use super::value::{Signed, Value, ValueId};
 use crate::budget::Budget;
-use crate::graph::Function;
 
 /// The longest sum or product in which all pairs of operands are considered; in a longer one only neighbours are, since
 /// the number of pairs grows with the square of the length.
@@ -59,7 +58,10 @@ struct List {
 }
 
 /// Rewrites the sums and products that `roots` depend on until no two of them have a pair of operands in common.
-pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget) {
+///
+/// A kernel that is inlined into other functions has the components of all its links, even those used once, since these
+/// functions have them too.
+pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget, is_inlined: bool) {
     let mut is_used = vec![false; values.len()];
     let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
     while let Some(id) = stack.pop() {
@@ -79,24 +81,43 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget) 
             };
             Some(List { value: ValueId(index), parts, is_changed: false })
         });
-        Sharing::new(kind, lists.collect(), values, budget).run(values);
+        let keeps_components = is_inlined && kind == Kind::Products;
+        Sharing::new(kind, lists.collect(), values, budget, keeps_components).run(values);
     }
 }
 
 struct Sharing<'a> {
     kind: Kind,
     budget: &'a Budget,
+    /// True if each component of a link is a product, even if it is used once.
+    keeps_components: bool,
     lists: Vec<List>,
     /// True for operands that occur in several lists or are lists themselves; a pair with any other operand occurs at
     /// most once.
     frequent: Vec<bool>,
     /// The lists that contain a pair, by index.
     holders: FxHashMap<Pair, Vec<usize>>,
-    /// The pairs in more than one list, with their frequency when they were added, and true for the component of a
-    /// link. Among equals the oldest pair comes first, so that the result is deterministic.
-    candidates: BinaryHeap<(usize, bool, Reverse<Pair>)>,
+    /// The pairs to replace by their priority, with their frequency when they were added. Among equals the oldest pair
+    /// comes first, so that the result is deterministic.
+    candidates: BinaryHeap<(Priority, Reverse<Pair>)>,
     /// The kind of each value as a factor, to recognise components of links.
     factors: Vec<Factor>,
+}
+
+/// The priority of a pair.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Priority {
+    /// True if it is replaced even if no list shares it.
+    is_kept: bool,
+    /// The number of lists that contain it.
+    count: usize,
+    is_component: bool,
+}
+
+impl Priority {
+    fn is_worthwhile(self) -> bool {
+        self.count > 1 || (self.is_kept && self.count > 0)
+    }
 }
 
 /// The kind of a factor: a component of a link is the product of a symbol and a sine or cosine.
@@ -111,15 +132,15 @@ impl Factor {
     fn of(value: &Value) -> Self {
         match value {
             Value::Symbol(_) => Self::Symbol,
-            Value::Direction(..) | Value::Call(Function::Sin | Function::Cos, _) => Self::Circular,
+            circular if circular.is_circular() => Self::Circular,
             _ => Self::Other,
         }
     }
 }
 
 impl<'a> Sharing<'a> {
-    fn new(kind: Kind, lists: Vec<List>, values: &[Value], budget: &'a Budget) -> Self {
-        let (mut met, mut frequent) = (vec![false; values.len()], vec![false; values.len()]);
+    fn new(kind: Kind, lists: Vec<List>, values: &[Value], budget: &'a Budget, keeps_components: bool) -> Self {
+        let (mut met, mut frequent) = (vec![false; values.len()], vec![keeps_components; values.len()]);
         for list in &lists {
             frequent[list.value.0] = true;
             for part in &list.parts {
@@ -127,7 +148,8 @@ impl<'a> Sharing<'a> {
             }
         }
         let factors = values.iter().map(Factor::of).collect();
-        Self { kind, budget, lists, frequent, holders: FxHashMap::default(), candidates: BinaryHeap::new(), factors }
+        let (holders, candidates) = (FxHashMap::default(), BinaryHeap::new());
+        Self { kind, budget, keeps_components, lists, frequent, holders, candidates, factors }
     }
 
     fn run(mut self, values: &mut Vec<Value>) {
@@ -136,15 +158,15 @@ impl<'a> Sharing<'a> {
                 self.record(pair, place);
             }
         }
-        while let Some((count, is_component, Reverse(pair))) = self.candidates.pop()
+        while let Some((priority, Reverse(pair))) = self.candidates.pop()
             && !self.budget.is_spent()
         {
-            let now = self.holders.get(&pair).map_or(0, Vec::len);
-            if now == count {
+            let now = Priority { count: self.holders.get(&pair).map_or(0, Vec::len), ..priority };
+            if now == priority {
                 let holders = self.holders.remove(&pair).unwrap_or_default();
                 self.merge(pair, &holders, values);
-            } else if now > 1 {
-                self.candidates.push((now, is_component, Reverse(pair)));
+            } else if now.is_worthwhile() {
+                self.candidates.push((now, Reverse(pair)));
             }
         }
         for List { value, parts, .. } in self.lists.into_iter().filter(|list| list.is_changed) {
@@ -211,8 +233,10 @@ impl<'a> Sharing<'a> {
         let holders = self.holders.entry(pair).or_default();
         holders.push(place);
         let count = holders.len();
-        if count > 1 {
-            self.candidates.push((count, self.is_component(pair), Reverse(pair)));
+        let is_component = self.is_component(pair);
+        let priority = Priority { is_kept: is_component && self.keeps_components, count, is_component };
+        if priority.is_worthwhile() {
+            self.candidates.push((priority, Reverse(pair)));
         }
     }
 

@@ -30,6 +30,11 @@ pub enum Value {
 }
 
 impl Value {
+    /// True for a sine or cosine.
+    pub(super) fn is_circular(&self) -> bool {
+        matches!(self, Self::Direction(..) | Self::Call(Function::Sin | Function::Cos, _))
+    }
+
     pub(super) fn each_part(&self, mut visit: impl FnMut(ValueId)) {
         match self {
             Self::Symbol(_) | Self::Direction(..) | Self::Constant(_) => {}
