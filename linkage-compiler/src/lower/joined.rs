@@ -71,8 +71,11 @@ pub(super) fn join(values: &mut Vec<Value>, roots: &[Signed], is_inlined: bool) 
 
 /// True for the product of a symbol, such as a length, and a sine or cosine.
 fn is_component(values: &[Value], factors: &[ValueId]) -> bool {
-    let is_any = |is: fn(&Value) -> bool| factors.iter().any(|factor| is(&values[factor.0]));
-    factors.len() == 2 && is_any(|value| matches!(value, Value::Symbol(_))) && is_any(Value::is_circular)
+    let &[one, other] = factors else { return false };
+    let is = |symbol: ValueId, circular: ValueId| {
+        matches!(values[symbol.0], Value::Symbol(_)) && values[circular.0].is_circular(values)
+    };
+    is(one, other) || is(other, one)
 }
 
 fn is_number(values: &[Value], id: ValueId) -> bool {

@@ -129,10 +129,10 @@ enum Factor {
 }
 
 impl Factor {
-    fn of(value: &Value) -> Self {
+    fn of(value: &Value, values: &[Value]) -> Self {
         match value {
             Value::Symbol(_) => Self::Symbol,
-            circular if circular.is_circular() => Self::Circular,
+            circular if circular.is_circular(values) => Self::Circular,
             _ => Self::Other,
         }
     }
@@ -147,7 +147,7 @@ impl<'a> Sharing<'a> {
                 frequent[part.value.0] |= std::mem::replace(&mut met[part.value.0], true);
             }
         }
-        let factors = values.iter().map(Factor::of).collect();
+        let factors = values.iter().map(|value| Factor::of(value, values)).collect();
         let (holders, candidates) = (FxHashMap::default(), BinaryHeap::new());
         Self { kind, budget, keeps_components, lists, frequent, holders, candidates, factors }
     }

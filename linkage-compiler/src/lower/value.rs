@@ -30,9 +30,16 @@ pub enum Value {
 }
 
 impl Value {
-    /// True for a sine or cosine.
-    pub(super) fn is_circular(&self) -> bool {
-        matches!(self, Self::Direction(..) | Self::Call(Function::Sin | Function::Cos, _))
+    /// True for the sine or cosine of an angle that is a symbol, as in the components of links; that of a difference of
+    /// angles belongs to a determinant.
+    pub(super) fn is_circular(&self, values: &[Value]) -> bool {
+        match self {
+            Self::Direction(..) => true,
+            Self::Call(Function::Sin | Function::Cos, angle) => {
+                angle.iter().all(|angle| matches!(values[angle.value.0], Self::Symbol(_)))
+            }
+            _ => false,
+        }
     }
 
     pub(super) fn each_part(&self, mut visit: impl FnMut(ValueId)) {
