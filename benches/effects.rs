@@ -54,7 +54,7 @@ impl Row {
     }
 
     fn smooth<S: Scene<Scalar = f64, State = D<4>> + 'static>(title: &'static str, scene: S) -> Self {
-        Self::new(title, (S::NAME, &["rates"]), scene, |scene, y| scene.derivative(0.5, y))
+        Self::new(title, (S::NAME, &["rates"]), scene, |scene, y| scene.derivative(black_box(0.5), y))
     }
 
     /// A row with contacts in these modes.
@@ -71,7 +71,7 @@ impl Row {
         let (mut contacts, _) = begun.expect("modes at the start");
         contacts.modes = modes.into();
         Self::new(title, (S::NAME, &["equations", "contacts"]), scene, move |scene, y| {
-            let equations = ReducedEquations::of(scene, 0.5, y)?;
+            let equations = ReducedEquations::of(scene, black_box(0.5), y)?;
             let acceleration = contacts.acceleration(&equations)?;
             Ok(State::from([0.0, 0.0, equations.rates[0], acceleration[0]]))
         })
@@ -104,7 +104,7 @@ fn main() {
         Row::smooth("+ drive", Driven::default()),
         Row::new("  drive forces", ("Driven", &["drive_forces"]), Driven::default(), |scene, y| {
             let StateParts { q, input_rates } = Driven::parts(y);
-            Ok(State::from([0.0, 0.0, 0.0, scene.drive_forces(0.5, &q, input_rates)?.theta2]))
+            Ok(State::from([0.0, 0.0, 0.0, scene.drive_forces(black_box(0.5), &q, input_rates)?.theta2]))
         }),
         Row::in_contact("+ stop, open", Stopped::default(), [Mode::Open]),
         Row::in_contact("+ friction, slips", Rough::default(), [Mode::SlipForward]),
@@ -113,12 +113,12 @@ fn main() {
         Row::in_contact("+ friction by reaction, sticks", Worn::default(), [Mode::Stick]),
         Row::new("  reaction at a pin", ("Measured", &["reactions"]), Measured::default(), |scene, y| {
             let StateParts { q, input_rates } = Measured::parts(y);
-            let force = scene.reactions(0.5, &q, input_rates)?.c_on_rocker;
+            let force = scene.reactions(black_box(0.5), &q, input_rates)?.c_on_rocker;
             Ok(State::from([0.0, 0.0, force.x, force.y]))
         }),
         Row::new("  all reactions", ("Loaded", &["reactions"]), Loaded::default(), |scene, y| {
             let StateParts { q, input_rates } = Loaded::parts(y);
-            let all = scene.reactions(0.5, &q, input_rates)?;
+            let all = scene.reactions(black_box(0.5), &q, input_rates)?;
             Ok(State::from([all.c_on_rocker.x, all.origin_on_crank.y, all.multipliers[0], all.multipliers[1]]))
         }),
         Row::in_contact("all but the drive", Everything::default(), [Mode::SlipForward, Mode::Open]),
