@@ -181,6 +181,7 @@ pub(super) fn slipping<T: Real>(mode: Mode, law: &ContactLaw<T>) -> T {
 impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// # Errors
     /// Those of [`Response::new`].
+    #[inline(always)]
     pub(super) fn new(equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Result<Self, MotionError> {
         let forces = Column::from_fn(|place| slipping(modes[place], &equations.contacts[place].law));
         Self::with_forces(equations, modes, &forces)
@@ -190,6 +191,8 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     ///
     /// # Errors
     /// Those of [`Response::new`].
+    // Inlined always: a result of 200 bytes that was just written is slow to move.
+    #[inline(always)]
     pub(super) fn with_forces(
         equations: &ReducedEquations<T, V, C>,
         modes: &Column<Mode, C>,
