@@ -83,7 +83,7 @@ impl<S: System, M: Method> Integration<S, M> {
             self.slopes[table.end] = self.slope(end, &next)?;
         }
         let error = control::error(table, &self.tolerance, (y, &next), &self.slopes, to_f64(h));
-        if error.is_nan() || !next.is_finite() {
+        if error.is_nan() {
             return Err(MotionError::NotFinite { quantity: "the rate or the state", t: to_f64(end) });
         }
         if !of_end && error <= 1.0 {
