@@ -1,9 +1,9 @@
 //! Searches and integrations with numbers that overflow or are NaN: every position of such a number gives an error.
 
-use linkage_dynamics::__rt::equilibrium;
+use linkage_dynamics::__rt::{equilibrium, reduced};
 use linkage_dynamics::integrate::{FixedStep, Tolerance, dop853, dopri5};
 use linkage_dynamics::{Balance, MotionError};
-use linkage_runtime::__rt::newton_group;
+use linkage_runtime::__rt::{newton_group, regular};
 use linkage_runtime::PositionError;
 use linkage_runtime::nalgebra::SVector;
 
@@ -44,6 +44,27 @@ fn no_unknown_is_infinite() {
         ([if a.is_finite() { 1e5 } else { 0.0 }], [1.0], [[2_f64.powi(-1020)]])
     });
     assert!(matches!(found, Err(PositionError::NotConverged { .. })), "{found:?}");
+}
+
+/// An infinite determinant is larger than every rounding error, and so is an infinite pivot: what is divided by it
+/// would be zero.
+#[test]
+fn nothing_is_divided_by_infinity() {
+    for number in [f64::INFINITY, -f64::INFINITY, f64::NAN] {
+        let found = regular("mechanism", "a, b", number, 1.0);
+        assert!(matches!(found, Err(PositionError::NotFinite { .. })), "determinant {number}: {found:?}");
+    }
+    assert_eq!(regular("mechanism", "a, b", f64::MAX, f64::MAX), Ok(()));
+    for number in [f64::INFINITY, f64::NAN] {
+        for place in 0..2 {
+            let mut mass = IDENTITY;
+            mass[place][place] = number;
+            let found = reduced("scene", ["a", "b"], mass, [1.0; 2]);
+            let is_refused = matches!(found, Err(MotionError::Position(PositionError::NotFinite { .. })));
+            assert!(is_refused, "mass {number} at {place}: {found:?}");
+        }
+    }
+    assert_eq!(reduced("scene", ["a"], [[f64::MAX]], [f64::MAX]), Ok([1.0]));
 }
 
 /// An infinite scale, relative to which every force would be zero.
