@@ -46,8 +46,7 @@ fn no_unknown_is_infinite() {
     assert!(matches!(found, Err(PositionError::NotConverged { .. })), "{found:?}");
 }
 
-/// An infinite determinant is larger than every rounding error, and so is an infinite pivot: what is divided by it
-/// would be zero.
+/// An infinite determinant and an infinite pivot are errors: a quotient by infinity is zero, which looks like a result.
 #[test]
 fn nothing_is_divided_by_infinity() {
     for number in [f64::INFINITY, -f64::INFINITY, f64::NAN] {
