@@ -325,8 +325,9 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
     let has_contacts = !scene.contacts.is_empty();
     let equations = match has_contacts {
         false => quote! {
-            let (mass, forces) = (self.mass_matrix(&q)?, self.forces(t, &q, input_rates)?);
-            __rt::Equations::at(&self.#inner, &q, input_rates, mass, forces)
+            __rt::Equations::at(
+                &self.#inner, &q, input_rates, self.mass_matrix(&q)?, self.forces(t, &q, input_rates)?
+            )
         },
         true => quote!(self.equations(t, &q, input_rates)),
     };
@@ -364,8 +365,10 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
             }
             fn parts(state: &#state) -> __rt::StateParts<#coordinates<T>, #inputs_type<T>> {
                 let [#(#fields,)* #(#input_rates),*]: [T; #n] = (*state).into();
-                let (q, input_rates) = (#coordinates { #(#fields),* }, #inputs_type { #(#names: #input_rates),* });
-                __rt::StateParts { q, input_rates }
+                __rt::StateParts {
+                    q: #coordinates { #(#fields),* },
+                    input_rates: #inputs_type { #(#names: #input_rates),* },
+                }
             }
             fn check(&self) -> #nothing {
                 self.check()
@@ -413,8 +416,7 @@ fn reactions(signatures: &SceneSignatures, driver: &Driver, fields: &[Ident]) ->
         let forces = (!scene.contacts.is_empty()).then(|| quote!(&(*contact_forces).into()));
         quote! {
             let ([#(#unknowns),*], [#(#inputs),*]): ([T; #u], [T; #v]) = (accelerations.unknowns.into(), accelerations.inputs.into());
-            let accelerations = #accelerations { #(#fields),* };
-            self.reactions_of(t, q, rates, &accelerations, #forces)
+            self.reactions_of(t, q, rates, &#accelerations { #(#fields),* }, #forces)
         }
     } else {
         quote!(__rt::Ok(()))

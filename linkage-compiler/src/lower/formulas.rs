@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::rounding::Bound;
+use super::schedule::Schedule;
 use crate::graph::ExternalId;
 use crate::ids::BlockId;
-use crate::program::{Expression, Operations, Statement, Taken};
+use crate::program::{Expression, Statement, Taken};
 
 /// A lowered kernel.
 pub(super) struct Formulas<'a> {
@@ -24,7 +25,8 @@ pub(super) struct Formulas<'a> {
     pub(super) bound: Option<Bound>,
     pub(super) taken: Taken<'a>,
     pub(super) externals: BTreeSet<ExternalId>,
-    pub(super) operations: Operations,
+    /// The lines of the kernel, if there is one.
+    pub(super) schedule: Option<Schedule>,
 }
 
 impl<'a> Formulas<'a> {
@@ -42,7 +44,7 @@ impl<'a> Formulas<'a> {
             bound: None,
             taken: Taken::new(reserved),
             externals: BTreeSet::new(),
-            operations: Operations::default(),
+            schedule: None,
         }
     }
 }

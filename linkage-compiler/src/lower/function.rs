@@ -11,6 +11,7 @@ use super::schedule::Schedule;
 use super::scheduling::schedule;
 use super::stretches;
 use super::value::{Value, ValueId};
+use super::works::{Work, Works};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::BlockId;
@@ -32,8 +33,8 @@ pub struct Context<'a> {
     pub branch: &'a str,
     pub turn: &'a str,
     pub memory: &'a str,
-    /// The operation counts of the functions lowered so far.
-    pub works: BTreeMap<String, Operations>,
+    /// The operations of the functions lowered so far.
+    pub(super) works: Works,
     /// The rounding errors of a pose.
     pub roundings: Roundings,
 }
@@ -70,27 +71,24 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
             }
             _ => false,
         });
-    let mut body = body.map(|body| self::body(body, (is_layer, has_bound), context));
-    if let (Some(code), Access::Cold) = (&mut body, access) {
-        // It is called only after an error.
-        code.operations = Operations::default();
-    }
-    if let Some(code) = &body {
-        context.works.insert(name.clone(), code.operations);
-    }
+    let body = body.map(|body| {
+        let (code, work) = self::body(body, (is_layer, has_bound), context);
+        // A cold function is called only after an error.
+        let work = if access == Access::Cold { Work::default() } else { work };
+        let operations = work.total();
+        context.works.insert(name.clone(), work);
+        Code { operations, ..code }
+    });
     Function { name, doc, access, is_method, arguments, returns, is_fallible, body }
 }
 
-fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) -> Code {
-    let Body { before, kernel, after, value, locals, calls, mut operations } = body;
-    for call in calls {
-        operations += context.works.get(&call).copied().unwrap_or_default();
-    }
+fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) -> (Code, Work) {
+    let Body { before, kernel, after, value, locals, calls, operations } = body;
     let mut formulas = match kernel {
         Some(kernel) => Formulas::of(&kernel, (is_layer, has_bound), context),
         None => Formulas::none(context.reserved),
     };
-    operations += formulas.operations;
+    let work = context.works.work(formulas.schedule.as_ref(), is_layer, &calls, operations);
     let locals: Vec<String> = locals.iter().map(|preferred| formulas.taken.unique(preferred)).collect();
     let computed = std::mem::take(&mut formulas.statements);
     let finished = Finished { results: &formulas.results, locals: &locals };
@@ -112,10 +110,12 @@ fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) 
     let computed = stretches::divided(computed, uses.iter().map(String::as_str));
     computed.iter().for_each(|statement| statement.each_name(&mut |name| uses.extend([name.to_owned()])));
     let before = needed(before, &mut uses);
-    let mut statements: Vec<Statement> = before.into_iter().chain(computed).chain(after).collect();
+    let statements = before.into_iter().chain(computed).chain(after).collect();
+    let mut statements = taken_apart_at_once(statements, &value);
     let value = unnamed(&mut statements, value);
     let Formulas { externals, is_branch_free, bound, .. } = formulas;
-    Code { statements, value, operations, uses, externals, is_branch_free, bound }
+    let operations = work.total();
+    (Code { statements, value, operations, uses, externals, is_branch_free, bound }, work)
 }
 
 /// Returns the value of the last `let` instead of its name, if the function returns that name.
@@ -128,6 +128,39 @@ fn unnamed(statements: &mut Vec<Statement>, value: Returned) -> Returned {
         Some(Statement::Let(_, last)) => Returned::Plain(last),
         _ => value,
     }
+}
+
+/// Takes the value of a call apart where it is computed, if nothing else uses its name:
+/// `let Rates { theta3, .. } = coordinate_rates(…);`.
+fn taken_apart_at_once(statements: Vec<Statement>, value: &Returned) -> Vec<Statement> {
+    let mut uses: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut count = |name| *uses.entry(name).or_default() += 1;
+    let (Returned::Plain(last) | Returned::Result(last)) = value;
+    last.each_name(&mut count);
+    statements.iter().for_each(|statement| statement.each_name(&mut count));
+    let apart = statements.iter().filter_map(|statement| match statement {
+        Statement::Let(
+            pattern @ (Pattern::Struct { .. } | Pattern::List(_) | Pattern::Tuple(_)),
+            Expression::Name(name),
+        ) if uses[name.as_str()] == 1 => Some((name.clone(), pattern.clone())),
+        _ => None,
+    });
+    let mut apart: BTreeMap<String, Pattern> = apart.collect();
+    // Arguments are taken apart in a statement of their own.
+    let bound = statements.iter().filter_map(|statement| match statement {
+        Statement::Let(Pattern::Name(name), _) => Some(name.as_str()),
+        _ => None,
+    });
+    let bound: BTreeSet<&str> = bound.collect();
+    apart.retain(|name, _| bound.contains(name.as_str()));
+    let statements = statements.into_iter().filter_map(|statement| match statement {
+        Statement::Let(Pattern::Name(name), value) => {
+            Some(Statement::Let(apart.get(&name).cloned().unwrap_or(Pattern::Name(name)), value))
+        }
+        Statement::Let(_, Expression::Name(name)) if apart.contains_key(&name) => None,
+        statement => Some(statement),
+    });
+    statements.collect()
 }
 
 /// Removes `let`s with unused names, unless they may fail; adds the names that the others use.
@@ -198,7 +231,7 @@ impl<'a> Formulas<'a> {
         });
         let results = results.collect();
         let (dyads, well_conditioned) = (kernel.dyads.clone(), well_conditioned.into_values().flatten().collect());
-        let (operations, is_branch_free) = (schedule.operations(), schedule.is_branch_free());
+        let is_branch_free = schedule.is_branch_free();
         Self {
             statements,
             results,
@@ -211,7 +244,7 @@ impl<'a> Formulas<'a> {
             bound,
             taken,
             externals,
-            operations,
+            schedule: Some(schedule),
         }
     }
 }

@@ -26,6 +26,7 @@ mod sharing;
 mod stretches;
 mod translate;
 mod value;
+mod works;
 
 pub use function::Code;
 pub use program::program;

@@ -1,11 +1,12 @@
 //! Lowering of all functions of a planned program.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::function::{Code, Context, function};
 use super::rounding::Roundings;
+use super::works::Works;
 use crate::derivation::Derivation;
-use crate::program::{Access, Body, Derived, Function, Operations, Program, SceneProgram};
+use crate::program::{Access, Body, Derived, Function, Program, SceneProgram};
 
 /// Lowers all functions of a driver and of its scenes.
 #[must_use]
@@ -17,12 +18,11 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
         return Program { signatures, position, functions, scenes: Vec::new(), any_number, derived: None };
     };
     let reserved = signatures.arguments.reserved();
-    let mut context = context(derivation, &derived, &reserved, &signatures.arguments, BTreeMap::new());
+    let mut context = context(derivation, &derived, &reserved, &signatures.arguments, Works::default());
     let functions: Vec<_> = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
     let functions = without_branches(functions);
     let functions = ordered(functions, &signatures.all(&position));
-    let works = context.works.iter().map(|(name, work)| (signatures.types.function(name), *work));
-    let works: BTreeMap<String, Operations> = works.collect();
+    let works = context.works.renamed(|name| signatures.types.function(name));
     let any_number = any_number.map(|any_number| any_number.map(|planned| function(planned, &mut context)));
     let scenes = scenes.into_iter().map(|scene| {
         let SceneProgram { signatures, functions } = scene;
@@ -59,7 +59,7 @@ fn context<'c>(
     derived: &'c Derived,
     reserved: &'c BTreeSet<String>,
     arguments: &'c crate::program::Arguments,
-    works: BTreeMap<String, Operations>,
+    works: Works,
 ) -> Context<'c> {
     Context {
         derivation,

@@ -158,7 +158,7 @@ pub struct Operations {
 pub struct Kernel {
     /// The name of the function.
     pub function: &'static str,
-    /// The operations of one call.
+    /// The operations of one call. What the function has in common with others that are inlined in it counts once.
     pub operations: Operations,
     /// With `derive fpcore`, the formulas that it computes, in the order of its operations and in the notation of
     /// FPCore, a line each: `let` a name and its value, `check` a condition and its numbers, `return` a place in the

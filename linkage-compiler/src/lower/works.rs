@@ -1,0 +1,226 @@
+//! Operation counts of functions that call others.
+//!
+//! Layers are inlined, so that an optimiser computes once what a function and its layers have in common: the count of the
+//! function has it once as well. The operations of other functions that it calls are added.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rustc_hash::FxHashMap;
+
+use super::schedule::{Line, Schedule};
+use super::value::{Signed, Value, ValueId};
+use crate::graph::{External, Function};
+use crate::program::Operations;
+
+/// The operations of the functions lowered so far.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Works {
+    of: BTreeMap<String, Work>,
+    /// The numbers of operations, the same in all functions.
+    numbers: FxHashMap<Operation, usize>,
+}
+
+/// The operations of a function.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Work {
+    /// By number.
+    numbered: BTreeMap<usize, Operations>,
+    others: Operations,
+    is_layer: bool,
+}
+
+/// An operation of numbered operands, each with true if it is negative.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+struct Operation {
+    of: Operator,
+    operands: Vec<(bool, usize)>,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+enum Operator {
+    Leaf(Value),
+    Sum,
+    Product,
+    Quotient,
+    Call(Function),
+    External(External),
+}
+
+impl Work {
+    pub(super) fn total(&self) -> Operations {
+        self.numbered.values().fold(self.others, |total, operations| total.plus(*operations))
+    }
+}
+
+impl Works {
+    /// The work of a function: that of its kernel, of the functions that it calls, and others.
+    pub(super) fn work(
+        &mut self,
+        kernel: Option<&Schedule>,
+        is_layer: bool,
+        calls: &[String],
+        others: Operations,
+    ) -> Work {
+        let mut work = Work { others, is_layer, ..Work::default() };
+        let mut layers = BTreeSet::new();
+        for call in calls {
+            let Some(called) = self.of.get(call) else { continue };
+            // A second call has other arguments.
+            if called.is_layer && layers.insert(call) {
+                work.numbered.extend(&called.numbered);
+                work.others += called.others;
+            } else {
+                work.others += called.total();
+            }
+        }
+        match kernel {
+            Some(kernel) if is_layer || !layers.is_empty() => self.number_all(kernel, &mut work),
+            Some(kernel) => work.others += kernel.operations(),
+            None => {}
+        }
+        work
+    }
+
+    pub(super) fn insert(&mut self, name: String, work: Work) {
+        self.of.insert(name, work);
+    }
+
+    /// The same functions under the names by which others call them.
+    #[must_use]
+    pub(super) fn renamed(&self, name: impl Fn(&str) -> String) -> Self {
+        let of = self.of.iter().map(|(old, work)| (name(old), work.clone())).collect();
+        Self { of, numbers: self.numbers.clone() }
+    }
+
+    /// Adds the operations of a kernel.
+    fn number_all(&mut self, kernel: &Schedule, work: &mut Work) {
+        let mut numbers: FxHashMap<ValueId, usize> = FxHashMap::default();
+        let mut stack = kernel.used().to_vec();
+        while let Some(&id) = stack.last() {
+            let (value, depth) = (kernel.value(id), stack.len());
+            if !numbers.contains_key(&id) {
+                value.each_part(|part| stack.extend((!numbers.contains_key(&part)).then_some(part)));
+            }
+            if stack.len() == depth {
+                stack.pop();
+                let number = self.number(value, &numbers, work);
+                numbers.insert(id, number);
+            }
+        }
+        let is_external = |id: &&ValueId| matches!(kernel.value(**id), Value::External(..));
+        work.others.functions += kernel.used().iter().filter(is_external).count();
+        for line in &kernel.lines {
+            match line {
+                Line::Chord { .. } => {
+                    work.others += Operations { functions: 1, multiplications: 1, ..Operations::default() };
+                }
+                // A user function and its derivatives are one function; each function calls it anew.
+                Line::External { values, .. } => {
+                    work.others.functions -= values.iter().flatten().count().saturating_sub(1);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The number of a value; what it takes is added to the work. Sums and products are computed from left to right.
+    fn number(&mut self, value: &Value, numbers: &FxHashMap<ValueId, usize>, work: &mut Work) -> usize {
+        let signed = |part: &Signed| (part.negative, numbers[&part.value]);
+        let positive = |part: &ValueId| (false, numbers[part]);
+        let addition = Operations { additions: 1, ..Operations::default() };
+        let multiplication = Operations { multiplications: 1, ..Operations::default() };
+        let division = Operations { divisions: 1, ..Operations::default() };
+        let call = Operations { functions: 1, ..Operations::default() };
+        let none = Operations::default();
+        let mut chain = |of: Operator, parts: Vec<(bool, usize)>, cost| {
+            let joined = parts.into_iter().reduce(|left, right| {
+                let mut operands = vec![left, right];
+                operands.sort_unstable();
+                (false, self.numbered(of.clone(), operands, cost, work))
+            });
+            joined.map_or(0, |(_, number)| number)
+        };
+        match value {
+            Value::Sum(terms) => chain(Operator::Sum, terms.iter().map(signed).collect(), addition),
+            Value::Product(factors) => chain(Operator::Product, factors.iter().map(positive).collect(), multiplication),
+            Value::Square(base) => chain(Operator::Product, vec![positive(base); 2], multiplication),
+            Value::Quotient(above, below) => {
+                self.numbered(Operator::Quotient, vec![positive(above), positive(below)], division, work)
+            }
+            Value::Call(function, arguments) => {
+                let operands: Vec<_> = arguments.iter().map(signed).collect();
+                match function {
+                    Function::Abs => self.numbered(Operator::Call(*function), operands, none, work),
+                    // Sine and cosine of an angle are one function.
+                    Function::Cos => {
+                        self.numbered(Operator::Call(Function::Sin), operands.clone(), call, work);
+                        self.numbered(Operator::Call(*function), operands, none, work)
+                    }
+                    _ => self.numbered(Operator::Call(*function), operands, call, work),
+                }
+            }
+            Value::External(external, arguments) => {
+                self.numbered(Operator::External(external.clone()), arguments.iter().map(signed).collect(), none, work)
+            }
+            Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {
+                self.numbered(Operator::Leaf(value.clone()), Vec::new(), none, work)
+            }
+        }
+    }
+
+    fn numbered(&mut self, of: Operator, operands: Vec<(bool, usize)>, cost: Operations, work: &mut Work) -> usize {
+        let next = self.numbers.len();
+        let number = *self.numbers.entry(Operation { of, operands }).or_insert(next);
+        if cost != Operations::default() {
+            work.numbered.insert(number, cost);
+        }
+        number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::graph::Graph;
+    use crate::lower::schedule;
+    use crate::program::Given;
+
+    /// a b cos x + a b sin x + a^2 c / d, and a layer with a b and sin x alone.
+    #[test]
+    fn what_a_layer_computes_counts_once() {
+        let mut graph = Graph::default();
+        let [a, b, c, d, x] = ["a", "b", "c", "d", "x"].map(|name| {
+            let symbol = graph.symbol(name);
+            graph.variable(symbol)
+        });
+        let ab = graph.multiply(a, b);
+        let (sine, cosine) = (graph.call(Function::Sin, &[x]), graph.call(Function::Cos, &[x]));
+        let (first, second) = (graph.multiply(ab, cosine), graph.multiply(ab, sine));
+        let square = graph.multiply(a, a);
+        let third = graph.multiply(square, c);
+        let third = graph.divide(third, d);
+        let sum = graph.add(first, second);
+        let sum = graph.add(sum, third);
+        let kernel = |results: &[_], is_layer| schedule(&graph, &[], results, &Given::default(), &[], is_layer);
+        let whole = kernel(&[sum], false);
+        let expected = Operations { multiplications: 5, additions: 2, divisions: 1, functions: 1 };
+        let mut works = Works::default();
+        // As written, and by numbers.
+        let plain = works.work(Some(&whole), false, &[], Operations::default());
+        assert_eq!(plain.total(), expected);
+        let mut numbered = Work::default();
+        works.number_all(&whole, &mut numbered);
+        assert_eq!(numbered.total(), expected);
+
+        let layer = works.work(Some(&kernel(&[ab, sine], true)), true, &[], Operations::default());
+        assert_eq!(layer.total(), Operations { multiplications: 1, functions: 1, ..Operations::default() });
+        works.insert("layer".to_owned(), layer);
+        let calls = ["layer".to_owned(), "layer".to_owned()];
+        let once = works.work(Some(&whole), false, &calls[..1], Operations::default());
+        assert_eq!(once.total(), expected);
+        // The second call has other arguments.
+        let twice = works.work(Some(&whole), false, &calls, Operations::default());
+        let more = Operations { multiplications: 6, functions: 2, ..expected };
+        assert_eq!(twice.total(), more);
+    }
+}
