@@ -85,7 +85,7 @@ impl Works {
         self.of.insert(name, work);
     }
 
-    /// The same functions under the names by which others call them.
+    /// Gives the functions the names by which others call them.
     #[must_use]
     pub(super) fn renamed(&self, name: impl Fn(&str) -> String) -> Self {
         let of = self.of.iter().map(|(old, work)| (name(old), work.clone())).collect();
