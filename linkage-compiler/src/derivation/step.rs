@@ -34,8 +34,6 @@ pub enum Step {
     /// Names the unknowns of a block of loops: of all its positions the one whose number the branch has. `system` and
     /// `known` are those of Newton's method.
     Modes { block: BlockId, targets: Vec<SymbolId>, loops: Loops, known: Vec<NodeId>, system: Vec<NodeId> },
-    /// Fails if a value is not finite.
-    Finite { values: Vec<NodeId> },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
 }
@@ -88,11 +86,7 @@ impl Step {
             | Self::Pivots { symbol, .. }
             | Self::Chord { symbol, .. } => vec![*symbol],
             Self::Solve { targets, .. } | Self::Newton { targets, .. } | Self::Modes { targets, .. } => targets.clone(),
-            Self::Guard { .. }
-            | Self::Factor { .. }
-            | Self::Finite { .. }
-            | Self::Solvable { .. }
-            | Self::Reach { .. } => Vec::new(),
+            Self::Guard { .. } | Self::Factor { .. } | Self::Solvable { .. } | Self::Reach { .. } => Vec::new(),
         }
     }
 
@@ -123,7 +117,6 @@ impl Step {
             Self::Modes { block, targets, loops, known, system } => {
                 Self::Modes { block, targets, loops: loops.map(&f), known: all(known), system: all(system) }
             }
-            Self::Finite { values } => Self::Finite { values: all(values) },
             Self::Pivots { symbol, matrix } => Self::Pivots { symbol, matrix: matrix.into_iter().map(all).collect() },
         }
     }
@@ -144,7 +137,7 @@ impl Step {
             }
             Self::Factor { matrix, row_scales, .. } => matrix.iter().flatten().chain(row_scales).copied().collect(),
             Self::Pivots { matrix, .. } => matrix.iter().flatten().copied().collect(),
-            Self::Solve { right: values, .. } | Self::Finite { values } => values.clone(),
+            Self::Solve { right, .. } => right.clone(),
             Self::Newton { start, known, .. } => start.iter().chain(known).copied().collect(),
             Self::Modes { loops, known, .. } => loops.nodes().into_iter().chain(known.iter().copied()).collect(),
         }

@@ -202,7 +202,7 @@ impl ToTokens for Statement {
             Self::Assign(place, value) => quote!(#place = #value;),
             Self::Return(value) => quote!(return #value;),
             Self::LetElse(pattern, value, otherwise) => {
-                quote!(let __rt::Some(#pattern) = #value else { return #otherwise; };)
+                quote!(let #pattern = #value else { return #otherwise; };)
             }
             Self::Unless(conditions, inside) => match conditions.as_slice() {
                 [only] => quote!(if !#only { #(#inside)* }),
@@ -223,6 +223,10 @@ impl ToTokens for Pattern {
         tokens.extend(match self {
             Self::Name(name) => ident(name).into_token_stream(),
             Self::Mutable(inside) => quote!(mut #inside),
+            Self::Case(case, inside) => {
+                let case = ident(case);
+                quote!(__rt::#case(#inside))
+            }
             Self::Typed(name, of) => {
                 let name = ident(name);
                 quote!(#name: #of)

@@ -52,7 +52,10 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
         Some(Code { statements, value, .. }) => {
             let value = match value {
                 Value::Plain(value) if *is_fallible => quote!(__rt::Ok(#value)),
-                Value::Plain(value) | Value::Result(value) => quote!(#value),
+                value => {
+                    let value = value.returned();
+                    quote!(#value)
+                }
             };
             quote!(#(#statements)* #value)
         }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::graph::Number;
 use crate::lower::{Bound, Code};
-use crate::program::{Access, Expression, Function, Operations, Pattern, Program, Statement, Type, Value, count};
+use crate::program::{Access, Expression, Function, Operations, Pattern, Program, Statement, Type, count};
 
 /// The functions of a driver and of its scenes.
 #[must_use]
@@ -39,7 +39,7 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
         for statement in &code.statements {
             let _ = writeln!(text, "    {}", self::statement(statement));
         }
-        let (Value::Plain(value) | Value::Result(value)) = &code.value;
+        let value = code.value.returned();
         let _ = writeln!(text, "    {}", expression(value));
     }
     text + "\n"
@@ -72,7 +72,7 @@ fn pattern(pattern: &Pattern) -> String {
     let all = |patterns: &[Pattern]| patterns.iter().map(self::pattern).collect::<Vec<_>>().join(", ");
     match pattern {
         Pattern::Name(name) | Pattern::Typed(name, _) => name.clone(),
-        Pattern::Mutable(inside) => self::pattern(inside),
+        Pattern::Mutable(inside) | Pattern::Case(_, inside) => self::pattern(inside),
         Pattern::Ignored | Pattern::Local(_) => "_".to_owned(),
         Pattern::List(patterns) => format!("[{}]", all(patterns)),
         Pattern::Tuple(patterns) => format!("({})", all(patterns)),

@@ -51,7 +51,10 @@ impl Writer<'_, '_> {
             }
         };
         match otherwise {
-            Some(otherwise) => self.statements.push(Statement::LetElse(pattern, call, otherwise)),
+            Some(otherwise) => {
+                let found = Pattern::Case("Some", Box::new(pattern));
+                self.statements.push(Statement::LetElse(found, call, otherwise));
+            }
             None => self.let_pattern(pattern, call.tried()),
         }
     }

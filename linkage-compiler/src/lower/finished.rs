@@ -64,6 +64,7 @@ impl Finished<'_> {
             }
             Statement::Return(value) => out.push(Statement::Return(self.expression(value))),
             Statement::LetElse(pattern, value, otherwise) => {
+                let otherwise = self.expression(otherwise);
                 out.push(Statement::LetElse(self.pattern(pattern), self.expression(value), otherwise));
             }
             Statement::Unless(conditions, inside) => {
@@ -169,6 +170,7 @@ impl Finished<'_> {
         match pattern {
             Pattern::Local(place) => Pattern::Name(self.locals[place].clone()),
             Pattern::Mutable(inside) => Pattern::Mutable(Box::new(self.pattern(*inside))),
+            Pattern::Case(case, inside) => Pattern::Case(case, Box::new(self.pattern(*inside))),
             Pattern::List(patterns) => Pattern::List(all(patterns)),
             Pattern::Tuple(patterns) => Pattern::Tuple(all(patterns)),
             finished => finished,

@@ -9,15 +9,15 @@ use super::names::Names;
 use super::rounding::{Bound, DIRECTION, Roundings};
 use super::schedule::Schedule;
 use super::scheduling::schedule;
-use super::stretches;
 use super::value::{Value, ValueId};
 use super::works::{Work, Works};
+use super::{stored, stretches};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::BlockId;
 use crate::program::{
     Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement,
-    Type, Value as Returned,
+    Stored, Type, Value as Returned,
 };
 
 /// The data that the functions of one driver or scene share.
@@ -66,9 +66,7 @@ pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code
     let has_bound = access.is_public()
         && access != Access::Hidden
         && body.as_ref().is_some_and(|body| match (&body.kernel, &body.value) {
-            (Some(kernel), Returned::Plain(value) | Returned::Result(value)) => {
-                kernel.sources.iter().all(is_stored) && value.is_of_results()
-            }
+            (Some(kernel), value) => kernel.sources.iter().all(is_stored) && value.literal().is_of_results(),
             _ => false,
         });
     let body = body.map(|body| {
@@ -101,11 +99,19 @@ fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) 
     let value = match value {
         Returned::Plain(value) => Returned::Plain(finished.expression(value)),
         Returned::Result(value) => Returned::Result(finished.expression(value)),
+        Returned::Stored(stored) => {
+            let Stored { result, place, literal } = *stored;
+            let [result, place, literal] = [result, place, literal].map(|value| finished.expression(value));
+            Returned::Stored(Box::new(Stored { result, place, literal }))
+        }
+    };
+    let computed = match &value {
+        Returned::Stored(stored) => stored::stored(computed, stored),
+        _ => computed,
     };
     let mut uses = BTreeSet::new();
     let mut use_name = |name: &str| uses.extend([name.to_owned()]);
-    let (Returned::Plain(last) | Returned::Result(last)) = &value;
-    last.each_name(&mut use_name);
+    value.returned().each_name(&mut use_name);
     after.iter().for_each(|statement| statement.each_name(&mut use_name));
     let computed = stretches::divided(computed, uses.iter().map(String::as_str));
     computed.iter().for_each(|statement| statement.each_name(&mut |name| uses.extend([name.to_owned()])));
@@ -135,8 +141,7 @@ fn unnamed(statements: &mut Vec<Statement>, value: Returned) -> Returned {
 fn taken_apart_at_once(statements: Vec<Statement>, value: &Returned) -> Vec<Statement> {
     let mut uses: BTreeMap<&str, usize> = BTreeMap::new();
     let mut count = |name| *uses.entry(name).or_default() += 1;
-    let (Returned::Plain(last) | Returned::Result(last)) = value;
-    last.each_name(&mut count);
+    value.returned().each_name(&mut count);
     statements.iter().for_each(|statement| statement.each_name(&mut count));
     let apart = statements.iter().filter_map(|statement| match statement {
         Statement::Let(

@@ -169,7 +169,8 @@ impl<'a, 'n> Writer<'a, 'n> {
                     (Failure::Error | Failure::Flag, false) => self.statements.push(Statement::Do(call.tried())),
                     (Failure::Return(otherwise), _) => {
                         let pattern = if is_used { Pattern::Name(name.clone()) } else { Pattern::Ignored };
-                        self.statements.push(Statement::LetElse(pattern, call.method("ok", []), otherwise.clone()));
+                        let solved = Pattern::Case("Ok", Box::new(pattern));
+                        self.statements.push(Statement::LetElse(solved, call, otherwise.clone()));
                     }
                 }
                 if is_used {
@@ -204,20 +205,6 @@ impl<'a, 'n> Writer<'a, 'n> {
                 }
                 let call = self.group_call("reachable", *block, [length]);
                 self.statements.push(Statement::Do(call.tried()));
-            }
-            Line::Finite { values } => {
-                let values = self.all_signed(values);
-                match &self.kernel.failure {
-                    Failure::Return(otherwise) => {
-                        let otherwise = Statement::Return(otherwise.clone());
-                        self.statements.push(Statement::Unless(vec![Expression::all_finite(values)], vec![otherwise]));
-                    }
-                    Failure::Flag => self.flags.push(Expression::all_finite(values)),
-                    Failure::Error => {
-                        let arguments = [self.error_name(), Expression::text("the solution"), Expression::List(values)];
-                        self.statements.push(Statement::Do(Expression::runtime("finite", arguments).tried()));
-                    }
-                }
             }
             Line::Chord { block, symbol, factors, size, of } => self.chord((*block, *symbol), *factors, *size, *of),
             Line::Pivots { symbol, matrix } => {

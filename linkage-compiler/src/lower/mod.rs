@@ -3,8 +3,8 @@
 //!
 //! The formulas of a kernel are translated to values (`translate`), common pairs of operands are eliminated
 //! (`sharing`), single uses inlined again (`joined`), factors and lines ordered ([`schedule`]). An analysis finds
-//! results that are always finite (`proven`). Then lines get names (`names`) and become statements (`lines`), and long
-//! sequences are divided into blocks (`stretches`).
+//! results that are always finite (`proven`). Then lines get names (`names`) and become statements (`lines`). Results of
+//! long kernels are stored as they become known (`stored`), and long sequences are divided into blocks (`stretches`).
 
 mod chords;
 mod factors;
@@ -23,6 +23,7 @@ mod rounding;
 mod schedule;
 mod scheduling;
 mod sharing;
+mod stored;
 mod stretches;
 mod translate;
 mod value;

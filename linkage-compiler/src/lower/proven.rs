@@ -41,7 +41,6 @@ impl Schedule {
                     chords.push(*symbol);
                     checked.extend(factors.map(|factor| factor.value));
                 }
-                Line::Finite { values } => checked.extend(values.iter().map(|value| value.value)),
                 _ => {}
             }
         }

@@ -64,9 +64,6 @@ pub enum Line {
         block: BlockId,
         length: Signed,
     },
-    Finite {
-        values: Vec<Signed>,
-    },
     Newton {
         block: BlockId,
         targets: Vec<SymbolId>,

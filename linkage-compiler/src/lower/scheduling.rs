@@ -69,7 +69,6 @@ pub fn schedule(
                 size: translated[size],
                 of: of.map(|node| translated[&node]),
             },
-            Step::Finite { values } => Line::Finite { values: signed(values) },
             Step::Reach { block, length } => Line::Reach { block: *block, length: translated[length] },
             Step::Solvable { block, determinant, numerators, scales } => Line::Solvable {
                 block: *block,

@@ -10,11 +10,11 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::program::{Expression, Pattern, Statement};
 
-/// The largest number of statements that are not divided. The longest function of the mechanisms under test has 150
+/// The largest number of `let`s that are not divided. The longest function of the mechanisms under test has 150
 /// (the sensitivities of Jansen's leg); one of 3050 statements compiles, one of 3240 does not. With half the limit,
 /// functions would be divided needlessly, and division repeats names; with twice the limit, such a function inlined
 /// into another would overflow.
-const MOST_STATEMENTS: usize = 1024;
+const MOST_LETS: usize = 1024;
 
 /// The nominal number of statements of a stretch. With half of it there are twice as many blocks, which return more
 /// values in total; with twice as many the scopes are twice as deep.
@@ -28,14 +28,14 @@ const LEEWAY: usize = STRETCH / 4;
 /// is placed between stretches, since nearly all of its names are used later.
 const MOST_NAMES: usize = 16;
 
-/// Divides statements into stretches if there are more than [`MOST_STATEMENTS`]; `later` are the names used after them.
+/// Divides statements into stretches if more than [`MOST_LETS`] of them are `let`s; `later` are the names used after them.
 pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterator<Item = &'e str>) -> Vec<Statement> {
-    if statements.len() <= MOST_STATEMENTS {
+    if lets(&statements) <= MOST_LETS {
         return statements;
     }
     let later: FxHashSet<String> = later.into_iter().map(str::to_owned).collect();
     statements = read_late(statements);
-    while statements.len() > MOST_STATEMENTS {
+    while lets(&statements) > MOST_LETS {
         let before = statements.len();
         statements = divided_once(statements, &later);
         // Statements between stretches are not divided further.
@@ -44,6 +44,11 @@ pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterat
         }
     }
     statements
+}
+
+/// The number of statements that open a scope.
+fn lets(statements: &[Statement]) -> usize {
+    statements.iter().filter(|statement| matches!(statement, Statement::Let(..) | Statement::LetElse(..))).count()
 }
 
 /// Moves `let`s that only read fields to their first use, so that their names cross fewer stretches.

@@ -98,6 +98,8 @@ pub enum Pattern {
     Name(String),
     Local(usize),
     Mutable(Box<Pattern>),
+    /// `Some(pattern)` or `Ok(pattern)`
+    Case(&'static str, Box<Pattern>),
     Typed(String, Type),
     Ignored,
     List(Vec<Pattern>),
@@ -376,7 +378,7 @@ impl Pattern {
     pub fn each_name<'p>(&'p self, visit: &mut dyn FnMut(&'p str)) {
         match self {
             Self::Name(name) | Self::Typed(name, _) => visit(name),
-            Self::Mutable(inside) => inside.each_name(visit),
+            Self::Mutable(inside) | Self::Case(_, inside) => inside.each_name(visit),
             Self::List(all) | Self::Tuple(all) => all.iter().for_each(|pattern| pattern.each_name(visit)),
             Self::Struct { fields, .. } => fields.iter().for_each(|(_, pattern)| pattern.each_name(visit)),
             Self::Local(_) | Self::Ignored => {}

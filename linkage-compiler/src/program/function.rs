@@ -106,6 +106,34 @@ pub enum Value {
     Plain(Expression),
     /// The `Result` of another function.
     Result(Expression),
+    /// The `Result` in a variable that holds a literal.
+    Stored(Box<Stored>),
+}
+
+/// A literal in the `Ok` of a variable: lowering assigns its members to a place in it as they become known.
+#[derive(Debug, Clone)]
+pub struct Stored {
+    pub result: Expression,
+    pub place: Expression,
+    pub literal: Expression,
+}
+
+impl Value {
+    /// The expression that the function returns.
+    pub fn returned(&self) -> &Expression {
+        match self {
+            Self::Plain(value) | Self::Result(value) => value,
+            Self::Stored(stored) => &stored.result,
+        }
+    }
+
+    /// The value by its members.
+    pub fn literal(&self) -> &Expression {
+        match self {
+            Self::Plain(value) | Self::Result(value) => value,
+            Self::Stored(stored) => &stored.literal,
+        }
+    }
 }
 
 impl Default for Value {

@@ -5,20 +5,16 @@ use std::collections::BTreeSet;
 
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
-use super::function::{Body, Failure, Kernel, Source, Value, results};
+use super::function::{Body, Failure, Kernel, Source, Stored, Value, results};
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
 use crate::derivation::{ChordGeometry, Form, Quantity, Step, merged, needed_names};
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::NodeId;
 use crate::ids::{BlockId, ColumnId, Table};
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "The error that the separate calls for position, velocity and acceleration return first."];
-
-/// The number of groups with a chord from which on the accelerations of a group are checked before the next position. A
-/// chain of 16 four-bars then takes 0.88 of the time and one of 8 0.93, but Jansen's leg, of 5 groups, 1.02.
-const LONG_CHAIN: usize = 6;
 
 impl Plan<'_, '_> {
     /// `kinematics`, or `kinematics_near` from a guess, and the same with points and outputs.
@@ -30,9 +26,14 @@ impl Plan<'_, '_> {
         let otherwise = Expression::call("kinematics_by_parts", arguments.map(Expression::name));
         let (kernel, conditions) = self.kinematics_kernel(Failure::Return(otherwise.clone()));
         let is_factorised = kernel.is_factorised();
+        let is_chord = |step: &&Step| matches!(step, Step::Chord { .. });
+        let is_long = kernel.steps.iter().filter(is_chord).count() > 1;
         let value = self.kinematics_of_results(&kernel);
         let mut body = Body::of(kernel, value);
         body.before = self.before_kinematics();
+        if is_long && !is_factorised {
+            self.store_kinematics(&mut body);
+        }
         body.calls.push("kinematics_by_parts".to_owned());
         body.after.push(Statement::CheckKinematics { conditions, otherwise });
         if is_factorised {
@@ -47,6 +48,22 @@ impl Plan<'_, '_> {
         if self.signatures.has_quantities() {
             self.full_kinematics();
         }
+    }
+
+    /// Stores the results of several groups as they become known.
+    fn store_kinematics(&mut self, body: &mut Body) {
+        let Value::Plain(literal) = std::mem::take(&mut body.value) else { return };
+        let zeros = self.signatures.zero_kinematics();
+        let [result, place] = ["result", "kinematics"].map(|name| body.local(name));
+        let [to_result, to_place] = [0, 1].map(|local| Box::new(Pattern::Local(body.locals.len() - 2 + local)));
+        let zero = Expression::runtime("Ok", [Expression::associated(Type::Itself, &zeros.name, [])]);
+        body.before.push(Statement::Let(Pattern::Mutable(to_result), zero));
+        let borrowed = result.clone().mutably_borrowed();
+        body.before.push(Statement::LetElse(Pattern::Case("Ok", to_place), borrowed, result.clone()));
+        let doc = lines(["All numbers are zero, in place of results."]);
+        body.calls.push(zeros.name.clone());
+        self.add(zeros, doc, Body::plain(zeroed(&literal)));
+        body.value = Value::Stored(Box::new(Stored { result, place, literal }));
     }
 
     /// Refines the rates and accelerations of `kinematics`.
@@ -96,7 +113,6 @@ impl Plan<'_, '_> {
         outputs.extend(unnamed(determinants.iter().flatten().chain(&implied).copied()));
         let nodes: Vec<NodeId> = outputs.iter().map(|output| output.node).collect();
         let steps = needed_names(&self.derivation.graph, steps, &nodes);
-        let steps = if matches!(failure, Failure::Return(_)) { self.checked_by_group(steps) } else { steps };
         let names = self.signatures.arguments.clone();
         let by_value = |source: Source, name: &str| Source { from: Expression::name(name), ..source };
         let sources = vec![
@@ -144,37 +160,6 @@ impl Plan<'_, '_> {
         }
         let assembling = self.assembly.steps.iter().cloned().map(regular).collect();
         (determinants, merged(&self.derivation.graph, assembling, solving))
-    }
-
-    /// Checks the accelerations of each group on which no later one depends: a later one is not finite if one of its terms
-    /// is not.
-    ///
-    /// In a long chain of groups this is done before the position of the next group. Without a use there the compiler of
-    /// the emitted code computes all accelerations after all positions, which must then be kept in memory. In a short
-    /// one they stay in registers, and all checks come last.
-    fn checked_by_group(&mut self, steps: Vec<Step>) -> Vec<Step> {
-        let unknowns = self.derivation.unknowns.clone();
-        let accelerations: BTreeSet<SymbolId> = self.accelerations(&unknowns).iter().copied().collect();
-        let nodes: Vec<NodeId> = steps.iter().flat_map(Step::nodes).collect();
-        let used: BTreeSet<SymbolId> = self.derivation.graph.symbols_of(&nodes).into_iter().collect();
-        let last: BTreeSet<SymbolId> = accelerations.difference(&used).copied().collect();
-        let is_chord = |step: &Step| matches!(step, Step::Chord { .. });
-        let is_long = steps.iter().filter(|step| is_chord(step)).count() >= LONG_CHAIN;
-        let (mut checked, mut checks, mut values) = (Vec::new(), Vec::new(), Vec::new());
-        for step in steps {
-            if is_chord(&step) && !values.is_empty() {
-                let check = Step::Finite { values: std::mem::take(&mut values) };
-                if is_long { checked.push(check) } else { checks.push(check) }
-            }
-            let found = step.introduced().into_iter().filter(|symbol| last.contains(symbol));
-            values.extend(found.map(|symbol| self.derivation.graph.variable(symbol)));
-            checked.push(step);
-        }
-        if !checks.is_empty() {
-            checked.push(Step::Finite { values });
-            checked.extend(checks);
-        }
-        checked
     }
 
     /// Statements that convert the arguments that are `impl Into`, and bind the turns of angles.
@@ -287,6 +272,17 @@ impl Plan<'_, '_> {
             }
         }
         (nodes, members)
+    }
+}
+
+/// A literal with zero in place of every number.
+fn zeroed(value: &Expression) -> Expression {
+    match value {
+        Expression::Struct(of, members, _) => {
+            Expression::structure(of.clone(), members.iter().map(|(name, value)| (name.clone(), zeroed(value))))
+        }
+        Expression::Runtime(function, arguments) => Expression::runtime(function, arguments.iter().map(zeroed)),
+        _ => Expression::zero(),
     }
 }
 

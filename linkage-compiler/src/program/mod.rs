@@ -33,7 +33,7 @@ pub use any_number::AnyNumber;
 pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
 pub use expression::{Expression, Pattern, Statement, Type};
-pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};
+pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Stored, Value};
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};

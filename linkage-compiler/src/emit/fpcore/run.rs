@@ -9,9 +9,7 @@ use super::value::{Given, Role, Value};
 use crate::graph::Function as Elementary;
 use crate::lower::Code;
 use crate::model::Mechanism;
-use crate::program::{
-    Arguments, Expression, Family, Function, Order, Passed, Pattern, Statement, Type, Value as Returned,
-};
+use crate::program::{Arguments, Expression, Family, Function, Order, Passed, Pattern, Statement, Type};
 
 /// The functions of a type.
 pub(super) struct Owner<'a> {
@@ -93,8 +91,7 @@ impl Run {
         if !self.statements(of, &code.statements, &mut scope) {
             return Value::Unknown;
         }
-        let (Returned::Plain(value) | Returned::Result(value)) = &code.value;
-        self.value(of, value, &mut scope)
+        self.value(of, code.value.literal(), &mut scope)
     }
 
     /// Executes statements; false if the function ends with a value of its own.
@@ -148,7 +145,7 @@ impl Run {
                 }
                 scope.insert(name.clone(), value);
             }
-            Pattern::Mutable(inside) => self.bind(inside, value, scope),
+            Pattern::Mutable(inside) | Pattern::Case(_, inside) => self.bind(inside, value, scope),
             Pattern::List(patterns) | Pattern::Tuple(patterns) => {
                 for (place, pattern) in patterns.iter().enumerate() {
                     self.bind(pattern, value.index(place), scope);
