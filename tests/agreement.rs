@@ -180,6 +180,26 @@ fn motion_is_its_parts<F: Fixture>() {
     }
 }
 
+/// `kinematics` gives the results of the separate calls, determinants included; `tests/forty_digits` measures the errors.
+fn kinematics_is_its_parts<F: Fixture>() {
+    let oracle = Oracle::of::<F>();
+    let d = &oracle.derivation;
+    let close_to = |what: &str, found: &[f64], expected: &[f64]| all_close(what, found, expected, 0.0, 1e-9);
+    for (count, sample) in oracle.samples(poses()).into_iter().enumerate() {
+        let Sample { parameters, q, rates, accelerations, .. } = &sample;
+        let m = F::with_parameters(parameters);
+        let (v1, v2) = (pick(rates, &d.inputs), pick(accelerations, &d.inputs));
+        let branch = count % F::branch_count();
+        let Ok(parts) = m.moving_by_parts(q, branch, v1.as_slice(), v2.as_slice()) else { continue };
+        let fused = m.moving(q, branch, v1.as_slice(), v2.as_slice(), false).unwrap();
+        close_to("position", &F::listed(&fused.pose), &F::listed(&parts.pose));
+        let [found, expected] = [&fused.pose, &parts.pose].map(|pose| m.block_determinants(pose));
+        close_to("determinants", found.as_slice(), expected.as_slice());
+        close_to("rates", &fused.rates, &parts.rates);
+        close_to("accelerations", &fused.accelerations, &parts.accelerations);
+    }
+}
+
 /// First and second derivatives.
 fn derivatives(values: &[Dual2_64]) -> [Vec<f64>; 2] {
     [values.iter().map(|x| x.v1).collect(), values.iter().map(|x| x.v2).collect()]
@@ -248,6 +268,10 @@ macro_rules! tests {
             #[test]
             fn motion_is_its_parts() {
                 $(super::motion_is_its_parts::<$Mechanism>();)+
+            }
+            #[test]
+            fn kinematics_is_its_parts() {
+                $(super::kinematics_is_its_parts::<$Mechanism>();)+
             }
             #[test]
             fn derivatives_are_dual_numbers() {
