@@ -185,7 +185,7 @@ fn kinematics_is_its_parts<F: Fixture>() {
     let oracle = Oracle::of::<F>();
     let d = &oracle.derivation;
     let close_to = |what: &str, found: &[f64], expected: &[f64]| all_close(what, found, expected, 0.0, 1e-9);
-    for (count, sample) in oracle.samples(poses()).into_iter().enumerate() {
+    for (count, sample) in oracle.samples(poses()).enumerate() {
         let Sample { parameters, q, rates, accelerations, .. } = &sample;
         let m = F::with_parameters(parameters);
         let (v1, v2) = (pick(rates, &d.inputs), pick(accelerations, &d.inputs));
