@@ -1,9 +1,10 @@
 //! Invalid numbers: each gives a typed error, and nothing runs for ever.
 
 use linkage::continuation::{Direction, Event, Options, Path};
-use linkage::{Elbow, InputError, PathError, PositionError};
+use linkage::{Elbow, InputError, PathError, PositionError, Slider};
 
 use linkage_gallery::four_bar::*;
+use linkage_gallery::offset_slider_crank::*;
 
 const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
@@ -40,6 +41,18 @@ fn infinite_and_nan_numbers() {
         let mut path = Path::new(&m, &q, Direction::Increasing).unwrap();
         assert!(matches!(path.advance_to(bad), Err(PathError::Position(PositionError::NotFinite { .. }))));
         assert!(matches!(path.advance_watching(|_, _| bad), Err(PathError::Position(PositionError::NotFinite { .. }))));
+    }
+}
+
+/// No rate depends on the slider.
+#[test]
+fn motion_at_a_slider_that_is_not_finite() {
+    let m = OffsetSliderCrank::default();
+    let q = m.assemble(0.35, OffsetSliderCrankBranch::new(Slider::Far)).unwrap().coordinates();
+    assert!(m.motion(&q, 1.0, 0.0).is_ok());
+    for bad in BAD {
+        let error = PositionError::NotFinite { mechanism: "OffsetSliderCrank", quantity: "the position" };
+        assert_eq!(m.motion(&OffsetSliderCrankCoordinates { d: bad, ..q }, 1.0, 0.0).err(), Some(error));
     }
 }
 

@@ -96,17 +96,14 @@ impl Derivation {
         Some([row(first, [d, minus_b]), row(second, [minus_c, a])])
     }
 
-    /// Names a value unless it is zero. Its sign is not a part of the name.
+    /// Names a value unless it is zero.
     fn named(&mut self, name: &str, node: NodeId, steps: &mut Vec<Step>) -> NodeId {
         if self.graph.is_zero(node) {
             return node;
         }
-        let is_negative = self.graph.leads_negative(node);
-        let node = if is_negative { self.graph.negate(node) } else { node };
         let symbol = self.graph.symbol(name);
         steps.push(Step::Let { symbol, node });
-        let value = self.graph.variable(symbol);
-        if is_negative { self.graph.negate(value) } else { value }
+        self.graph.variable(symbol)
     }
 
     /// Adds the check of a block; returns the divisor of its closed form.

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::names::Names;
 use super::schedule::{Circular, Line, Schedule};
-use super::stretches;
 use super::value::{Signed, Value, ValueId};
+use super::{stretches, terms};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::BlockId;
@@ -321,43 +321,60 @@ impl<'a, 'n> Writer<'a, 'n> {
         values.iter().map(|value| self.signed(*value)).collect()
     }
 
-    /// A value by its name or inline. A negative difference, or a negative product with one, is written with the
-    /// difference reversed.
+    /// A value by its name or inline. A negative difference, or a negative product with one, is written with the difference
+    /// reversed. The sign of a sum that waits for its last term is written where it is known earlier.
     pub(super) fn signed(&self, signed: Signed) -> Expression {
         let (is_negative, value) = self.parts(signed);
         if !is_negative {
             return value;
         }
-        let turned = |value: ValueId| self.turned(value);
-        match self.schedule.value(signed.value) {
-            _ if self.names.get(self.schedule, signed.value).is_some() => {}
-            Value::Sum(_) => {
-                if let Some(sum) = turned(signed.value) {
-                    return sum;
-                }
+        let turned = match self.schedule.value(signed.value) {
+            _ if self.is_named(signed.value) => None,
+            Value::Sum(terms) => {
+                let waits = |term: &Signed| self.schedule.is_earlier(term.value, signed.value);
+                (self.is_difference(terms) || terms.iter().any(waits)).then(|| self.turned(terms))
             }
-            Value::Product(factors) => {
-                let mut expressions: Vec<Expression> = factors.iter().map(|&factor| self.parts_of(factor).1).collect();
-                let difference = factors.iter().enumerate().find_map(|(at, &factor)| Some((at, turned(factor)?)));
-                if let Some((at, sum)) = difference {
-                    expressions[at] = sum;
-                    return Expression::Product(expressions);
-                }
-            }
-            _ => {}
-        }
-        Expression::Negative(Box::new(value))
+            Value::Product(factors) => self.turned_product(factors),
+            _ => None,
+        };
+        turned.unwrap_or_else(|| Expression::Negative(Box::new(value)))
     }
 
-    /// b - a for an inline difference a - b.
-    fn turned(&self, value: ValueId) -> Option<Expression> {
-        let is_named = self.names.get(self.schedule, value).is_some();
-        let Value::Sum(terms) = self.schedule.value(value) else { return None };
-        if is_named || !terms.iter().any(|term| self.is_taken_away(*term)) {
+    /// The negative of a sum.
+    fn turned(&self, terms: &[Signed]) -> Expression {
+        let terms: Vec<Signed> = terms.iter().map(|term| Signed { negative: !term.negative, ..*term }).collect();
+        self.sum(&terms)
+    }
+
+    /// The negative of a product with a difference, or of one that begins with a sum, whose last named factor takes the sign
+    /// if it is known earlier.
+    fn turned_product(&self, factors: &[ValueId]) -> Option<Expression> {
+        let mut expressions: Vec<Expression> = factors.iter().map(|&factor| self.parts_of(factor).1).collect();
+        let difference = |&factor: &ValueId| match self.schedule.value(factor) {
+            Value::Sum(terms) if !self.is_named(factor) && self.is_difference(terms) => Some(terms),
+            _ => None,
+        };
+        let mut differences = factors.iter().map(difference).enumerate();
+        if let Some((place, terms)) = differences.find_map(|(place, terms)| Some((place, terms?))) {
+            expressions[place] = self.turned(terms);
+            return Some(Expression::Product(expressions));
+        }
+        let first = *factors.first()?;
+        let name = factors.iter().rposition(|&factor| self.is_named(factor))?;
+        let is_sum = matches!(self.schedule.value(first), Value::Sum(_)) && !self.is_named(first);
+        if !is_sum || !self.schedule.is_earlier(factors[name], first) {
             return None;
         }
-        let terms: Vec<Signed> = terms.iter().map(|term| Signed { negative: !term.negative, ..*term }).collect();
-        Some(self.sum(&terms))
+        expressions[name] = Expression::Negative(Box::new(expressions[name].clone()));
+        Some(Expression::Product(expressions))
+    }
+
+    fn is_named(&self, value: ValueId) -> bool {
+        self.names.get(self.schedule, value).is_some()
+    }
+
+    fn is_difference(&self, terms: &[Signed]) -> bool {
+        terms.iter().any(|term| self.is_taken_away(*term))
     }
 
     /// True if the term is written with a minus.
@@ -379,10 +396,10 @@ impl<'a, 'n> Writer<'a, 'n> {
         }
     }
 
-    /// A sum, positive terms first.
+    /// A sum, with a positive term first if it has one.
     fn sum(&self, terms: &[Signed]) -> Expression {
         let mut terms = terms.to_vec();
-        terms.sort_by_key(|term| self.is_taken_away(*term));
+        terms::sort(&mut terms, &self.schedule.known, |term| self.is_taken_away(*term));
         let term = |(place, term): (usize, &Signed)| match place {
             // The first term may absorb its sign.
             0 => match self.signed(*term) {

@@ -25,6 +25,7 @@ mod scheduling;
 mod sharing;
 mod stored;
 mod stretches;
+mod terms;
 mod translate;
 mod value;
 mod works;

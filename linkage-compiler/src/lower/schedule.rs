@@ -104,6 +104,8 @@ impl Circular {
 #[derive(Debug, Clone)]
 pub struct Schedule {
     pub(super) values: Vec<Value>,
+    /// The number of the last step that each value depends on.
+    pub(super) known: Vec<usize>,
     pub lines: Vec<Line>,
     /// The results.
     pub results: Vec<Signed>,
@@ -116,6 +118,11 @@ impl Schedule {
     #[must_use]
     pub fn value(&self, id: ValueId) -> &Value {
         &self.values[id.0]
+    }
+
+    /// True if a value is known before another one.
+    pub(super) fn is_earlier(&self, one: ValueId, other: ValueId) -> bool {
+        self.known[one.0] < self.known[other.0]
     }
 
     /// The preferred name of a value, with true if it is the name of the negative of the value.

@@ -6,7 +6,7 @@ use super::order::Ordering;
 use super::schedule::{Line, Schedule};
 use super::translate::Builder;
 use super::value::{Signed, ValueId};
-use super::{factors, joined, sharing};
+use super::{factors, joined, sharing, terms};
 use crate::derivation::Step;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::program::Given;
@@ -30,6 +30,7 @@ pub fn schedule(
     sharing::share(&mut values, &roots, graph.budget(), is_inlined);
     joined::join(&mut values, &roots, is_inlined);
     factors::order(&mut values);
+    let known = terms::order(&mut values, steps);
     let mut names: Vec<(ValueId, bool, String)> = Vec::new();
     for (node, name) in named {
         if let Some(Signed { negative, value }) = translated.get(node).copied() {
@@ -108,5 +109,5 @@ pub fn schedule(
     }
     let used = ordering.used();
     let Ordering { values, lines, .. } = ordering;
-    Schedule { values, lines, results, names, used }
+    Schedule { values, known, lines, results, names, used }
 }

@@ -132,8 +132,6 @@ impl<'a> Builder<'a> {
         for term in &mut terms {
             term.negative ^= flip;
         }
-        // Positive terms come first, to avoid a leading minus.
-        terms.sort_by_key(|term| term.negative);
         Signed { negative: flip, value: self.intern(Value::Sum(terms)) }
     }
 

@@ -7,7 +7,7 @@ use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
-use crate::derivation::{Form, Step};
+use crate::derivation::{Assembly, Form, Step};
 use crate::graph::{NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Table, UnknownId};
 
@@ -264,7 +264,10 @@ impl Plan<'_, '_> {
             (self.derivation.velocity_side(), self.rates(&unknowns)),
             (self.derivation.acceleration_side(), self.accelerations(&unknowns)),
         ];
-        let steps = self.derivation.solution(&sides, Form::Entries);
+        let links = Assembly::default();
+        // With several groups, the next one waits for the solution of a group.
+        let form = if self.derivation.blocks.len() > 1 { Form::Inverse(&links) } else { Form::Entries };
+        let steps = self.derivation.solution(&sides, form);
         let steps = self.with_determinants(steps);
         let all = self.all();
         let mut nodes = self.variables(&self.rates(&all));
@@ -283,16 +286,17 @@ impl Plan<'_, '_> {
             ("accelerations".to_owned(), self.coordinates_of(Order::Acceleration, count)),
         ];
         members.extend(of_quantities);
-        // A coordinate that is not finite need not make a rate so: check coordinates, too.
-        let checked = [self.checked(0), self.checked(count), results(2 * count..3 * count)].concat();
+        let checked = [self.checked(0), self.checked(count)].concat();
         let motion = Type::Bare(self.signatures.types.motion.clone());
-        let body = Body::of(kernel, Expression::structure(motion, members)).checked("motion", checked);
+        let body = Body::of(kernel, Expression::structure(motion, members));
+        // A coordinate that is not finite need not make a rate so. It is known before the accelerations.
+        let body = body.checked("the position", results(2 * count..3 * count)).checked("motion", checked);
         let doc = lines([
             "The rates q', the accelerations q'', and the motion of points and outputs at the coordinates q of a position, input",
             "rates v' and input accelerations v'', with common subexpressions computed once.",
             "",
             "# Errors",
-            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a result is not finite.",
+            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a coordinate or a result is not finite.",
         ]);
         self.add(self.signatures.motion(), doc, body);
     }
