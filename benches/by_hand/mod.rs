@@ -85,7 +85,8 @@ impl Dyad {
         let across = times(half, side);
         let first = [along * half[0] - root * across[1], along * half[1] + root * across[0]];
         let determinant = (-0.5 * side) * root;
-        let inverse = 1.0 / determinant;
+        // Of the determinant, without waiting for it.
+        let inverse = (-2.0 * side) / root;
         Some(Self { first, second: minus(d, first), determinant, inverse })
     }
 
@@ -101,14 +102,13 @@ impl Dyad {
     /// The rates a and b with V' + W' = `d_rate`.
     #[inline(always)]
     pub fn rates(&self, d_rate: Vector) -> Vector {
-        [dot(d_rate, times(self.second, self.inverse)), -dot(d_rate, times(self.first, self.inverse))]
+        [dot(d_rate, times(self.second, self.inverse)), dot(d_rate, times(self.first, -self.inverse))]
     }
 
     /// The second derivatives of a and b with V'' + W'' = `d_acceleration`.
     #[inline(always)]
     pub fn accelerations(&self, [a, b]: Vector, d_acceleration: Vector) -> Vector {
-        let centripetal = plus(times(self.first, a * a), times(self.second, b * b));
-        self.rates(plus(d_acceleration, centripetal))
+        self.rates(plus(plus(d_acceleration, times(self.first, a * a)), times(self.second, b * b)))
     }
 }
 
