@@ -127,27 +127,28 @@ impl Ordering {
         let mut known = FxHashSet::default();
         let several = self.circular.values().filter(|one| self.is_known(one.angle.value, introduced, &mut known));
         let mut several: Vec<Circular> = several.copied().collect();
-        // A fifth angle needs a vector operation of its own: if some angle needs no pair, compute it separately.
-        if several.len() % SIDE_BY_SIDE == 1
-            && let Some(alone) = several.iter().rposition(|one| !one.is_pair())
-        {
-            several.remove(alone);
-        }
         if let [one] = several.as_slice()
-            && one.is_pair()
+            && !one.is_pair()
         {
-            self.require(one.angle.value, false);
-            self.give_names(one);
-            self.lines.push(Line::SineCosine(*one));
-        }
-        if several.len() < 2 {
             return;
         }
+        // A fifth angle needs a vector operation of its own: if some angle needs no pair, compute it separately.
+        let is_fifth = several.len() % SIDE_BY_SIDE == 1;
+        let alone = several.iter().rposition(|one| !one.is_pair()).filter(|_| is_fifth);
+        let alone = alone.map(|place| several.remove(place));
         for one in &several {
             self.require(one.angle.value, false);
             self.give_names(one);
         }
-        self.lines.push(Line::SinesCosines(several));
+        match several.as_slice() {
+            [] => {}
+            [one] => self.lines.push(Line::SineCosine(*one)),
+            _ => self.lines.push(Line::SinesCosines(several)),
+        }
+        if let Some(value) = alone.and_then(|one| one.sine.or(one.cosine)) {
+            self.require(value, true);
+            self.lines.push(Line::Let(value));
+        }
     }
 
     /// True if a value depends neither on results of steps nor on a sine or cosine; `known` caches values for which
