@@ -100,13 +100,15 @@ fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) 
         Returned::Plain(value) => Returned::Plain(finished.expression(value)),
         Returned::Result(value) => Returned::Result(finished.expression(value)),
         Returned::Stored(stored) => {
-            let Stored { result, place, literal } = *stored;
-            let [result, place, literal] = [result, place, literal].map(|value| finished.expression(value));
-            Returned::Stored(Box::new(Stored { result, place, literal }))
+            let Stored { result, members, literal } = *stored;
+            let [result, literal] = [result, literal].map(|value| finished.expression(value));
+            let finish = |(member, value)| (finished.expression(member), finished.expression(value));
+            let members = members.into_iter().map(finish);
+            Returned::Stored(Box::new(Stored { result, members: members.collect(), literal }))
         }
     };
     let computed = match &value {
-        Returned::Stored(stored) => stored::stored(computed, stored),
+        Returned::Stored(stored) => stored::stored(computed, stored.members.clone()),
         _ => computed,
     };
     let mut uses = BTreeSet::new();

@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::operations::Operations;
 use super::pose::Given;
+use super::stored::Stored;
 use crate::derivation::Step;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::BlockId;
@@ -108,14 +109,6 @@ pub enum Value {
     Result(Expression),
     /// The `Result` in a variable that holds a literal.
     Stored(Box<Stored>),
-}
-
-/// A literal in the `Ok` of a variable: lowering assigns its members to a place in it as they become known.
-#[derive(Debug, Clone)]
-pub struct Stored {
-    pub result: Expression,
-    pub place: Expression,
-    pub literal: Expression,
 }
 
 impl Value {

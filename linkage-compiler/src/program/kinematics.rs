@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
-use super::function::{Body, Failure, Kernel, Source, Stored, Value, results};
+use super::function::{Body, Failure, Kernel, Source, Value, results};
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
@@ -32,7 +32,7 @@ impl Plan<'_, '_> {
         let mut body = Body::of(kernel, value);
         body.before = self.before_kinematics();
         if is_long && !is_factorised {
-            self.store_kinematics(&mut body);
+            body = body.stored_in("kinematics");
         }
         body.calls.push("kinematics_by_parts".to_owned());
         body.after.push(Statement::CheckKinematics { conditions, otherwise });
@@ -48,22 +48,6 @@ impl Plan<'_, '_> {
         if self.signatures.has_quantities() {
             self.full_kinematics();
         }
-    }
-
-    /// Stores the results of several groups as they become known.
-    fn store_kinematics(&mut self, body: &mut Body) {
-        let Value::Plain(literal) = std::mem::take(&mut body.value) else { return };
-        let zeros = self.signatures.zero_kinematics();
-        let [result, place] = ["result", "kinematics"].map(|name| body.local(name));
-        let [to_result, to_place] = [0, 1].map(|local| Box::new(Pattern::Local(body.locals.len() - 2 + local)));
-        let zero = Expression::runtime("Ok", [Expression::associated(Type::Itself, &zeros.name, [])]);
-        body.before.push(Statement::Let(Pattern::Mutable(to_result), zero));
-        let borrowed = result.clone().mutably_borrowed();
-        body.before.push(Statement::LetElse(Pattern::Case("Ok", to_place), borrowed, result.clone()));
-        let doc = lines(["All numbers are zero, in place of results."]);
-        body.calls.push(zeros.name.clone());
-        self.add(zeros, doc, Body::plain(zeroed(&literal)));
-        body.value = Value::Stored(Box::new(Stored { result, place, literal }));
     }
 
     /// Refines the rates and accelerations of `kinematics`.
@@ -272,17 +256,6 @@ impl Plan<'_, '_> {
             }
         }
         (nodes, members)
-    }
-}
-
-/// A literal with zero in place of every number.
-fn zeroed(value: &Expression) -> Expression {
-    match value {
-        Expression::Struct(of, members, _) => {
-            Expression::structure(of.clone(), members.iter().map(|(name, value)| (name.clone(), zeroed(value))))
-        }
-        Expression::Runtime(function, arguments) => Expression::runtime(function, arguments.iter().map(zeroed)),
-        _ => Expression::zero(),
     }
 }
 

@@ -26,6 +26,7 @@ mod ratio_derivatives;
 mod scene;
 mod sensitivity;
 mod signatures;
+mod stored;
 
 use std::collections::BTreeSet;
 
@@ -33,12 +34,13 @@ pub use any_number::AnyNumber;
 pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
 pub use expression::{Expression, Pattern, Statement, Type};
-pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Stored, Value};
+pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
 pub use scene::{MULTIPLIERS, SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
+pub use stored::Stored;
 
 use crate::derivation::{ClosedForm, Derivation, Formulas};
 use crate::graph::NodeId;

@@ -50,11 +50,6 @@ impl Signatures<'_> {
         Function { access: Access::Cold, ..itself }
     }
 
-    pub fn zero_kinematics(&self) -> Function<Body> {
-        let zeros = total("zero_kinematics", [], Type::Own(self.types.kinematics.clone()));
-        Function { access: Access::Inlined, is_method: false, ..zeros }
-    }
-
     /// With points and outputs.
     pub fn full_kinematics(&self, position: &Position) -> Function<Body> {
         let name = if position.is_closed { "full_kinematics" } else { "full_kinematics_near" };

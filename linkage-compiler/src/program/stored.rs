@@ -1,0 +1,57 @@
+//! Results that a function stores as they become known: the variable that it returns, and what it assigns to its members.
+
+use super::expression::{Expression, Pattern, Statement};
+use super::function::{Body, Value};
+
+/// A literal in the `Ok` of a variable, with zero in place of each result of the kernel. Lowering assigns a result to its
+/// member as soon as it is known.
+#[derive(Debug, Clone)]
+pub struct Stored {
+    /// The variable.
+    pub result: Expression,
+    /// The members that are results, each with its value.
+    pub members: Vec<(Expression, Expression)>,
+    pub literal: Expression,
+}
+
+impl Body {
+    /// Stores the members of its literal as they become known, in a place with this name.
+    #[must_use]
+    pub fn stored_in(mut self, place: &str) -> Self {
+        let Value::Plain(literal) = std::mem::take(&mut self.value) else { return self };
+        let [result, place] = ["result", place].map(|name| self.local(name));
+        let [to_result, to_place] = [2, 1].map(|back| Box::new(Pattern::Local(self.locals.len() - back)));
+        // The literal stands here and not in a function: LLVM copies the value that a function returns.
+        let start = Expression::runtime("Ok", [zeroed(&literal)]);
+        self.before.push(Statement::Let(Pattern::Mutable(to_result), start));
+        let borrowed = result.clone().mutably_borrowed();
+        self.before.push(Statement::LetElse(Pattern::Case("Ok", to_place), borrowed, result.clone()));
+        let mut members = Vec::new();
+        assigned(place, &literal, &mut members);
+        self.value = Value::Stored(Box::new(Stored { result, members, literal }));
+        self
+    }
+}
+
+/// A literal with zero in place of every result.
+fn zeroed(value: &Expression) -> Expression {
+    match value {
+        Expression::Struct(of, members, _) => {
+            Expression::structure(of.clone(), members.iter().map(|(name, value)| (name.clone(), zeroed(value))))
+        }
+        Expression::Runtime(function, arguments) => Expression::runtime(function, arguments.iter().map(zeroed)),
+        Expression::Result(_) => Expression::zero(),
+        known => known.clone(),
+    }
+}
+
+/// The members of a literal that are made of results, with those of literals in it, and their values.
+fn assigned(place: Expression, value: &Expression, all: &mut Vec<(Expression, Expression)>) {
+    match value {
+        Expression::Struct(_, fields, _) => {
+            fields.iter().for_each(|(field, value)| assigned(place.clone().field(field), value, all));
+        }
+        Expression::Runtime(..) | Expression::Result(_) => all.push((place, value.clone())),
+        _ => {}
+    }
+}
