@@ -122,7 +122,8 @@ impl Ordering {
     }
 
     /// Adds one line for the sines and cosines of all angles known at the start: in vector operations they cost half as
-    /// much as one by one. They come first, where they have the registers for themselves, also those of a single angle.
+    /// much as one by one. They come first, where they have the registers for themselves, also those of a single angle,
+    /// and one that is computed separately. A single sine or cosine stays where it is used.
     pub(super) fn gather_sines(&mut self, introduced: &BTreeSet<SymbolId>) {
         let mut known = FxHashSet::default();
         let several = self.circular.values().filter(|one| self.is_known(one.angle.value, introduced, &mut known));

@@ -33,25 +33,25 @@ impl Body {
     }
 }
 
-/// A literal with zero in place of every result.
+/// A literal with zero in place of all but arguments.
 fn zeroed(value: &Expression) -> Expression {
     match value {
         Expression::Struct(of, members, _) => {
             Expression::structure(of.clone(), members.iter().map(|(name, value)| (name.clone(), zeroed(value))))
         }
         Expression::Runtime(function, arguments) => Expression::runtime(function, arguments.iter().map(zeroed)),
-        Expression::Result(_) => Expression::zero(),
-        known => known.clone(),
+        argument if argument.stored().is_some() => argument.clone(),
+        _ => Expression::zero(),
     }
 }
 
-/// The members of a literal that are made of results, with those of literals in it, and their values.
+/// The members of a literal that are no arguments, with those of literals in it, and their values.
 fn assigned(place: Expression, value: &Expression, all: &mut Vec<(Expression, Expression)>) {
     match value {
         Expression::Struct(_, fields, _) => {
             fields.iter().for_each(|(field, value)| assigned(place.clone().field(field), value, all));
         }
-        Expression::Runtime(..) | Expression::Result(_) => all.push((place, value.clone())),
-        _ => {}
+        argument if argument.stored().is_some() => {}
+        result => all.push((place, result.clone())),
     }
 }
