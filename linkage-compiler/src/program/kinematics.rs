@@ -31,7 +31,7 @@ impl Plan<'_, '_> {
         let value = self.kinematics_of_results(&kernel);
         let mut body = Body::of(kernel, value);
         body.before = self.before_kinematics();
-        if is_long && !is_factorised {
+        if is_long {
             body = body.stored_in("kinematics");
         }
         body.calls.push("kinematics_by_parts".to_owned());

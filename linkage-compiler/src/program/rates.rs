@@ -291,9 +291,7 @@ impl Plan<'_, '_> {
         let body = Body::of(kernel, Expression::structure(motion, members));
         // A coordinate that is not finite need not make a rate so. It is known before the accelerations.
         let body = body.checked("the position", results(2 * count..3 * count)).checked("motion", checked);
-        // Points and outputs are known only after all groups.
-        let stores = self.derivation.blocks.len() > 1 && !self.signatures.has_quantities();
-        let body = if stores { body.stored_in("motion") } else { body };
+        let body = if self.derivation.blocks.len() > 1 { body.stored_in("motion") } else { body };
         let doc = lines([
             "The rates q', the accelerations q'', and the motion of points and outputs at the coordinates q of a position, input",
             "rates v' and input accelerations v'', with common subexpressions computed once.",

@@ -1,7 +1,7 @@
 //! Results that a function stores as they become known: the variable that it returns, and what it assigns to its members.
 
 use super::expression::{Expression, Pattern, Statement};
-use super::function::{Body, Value};
+use super::function::{Body, Kernel, Value};
 
 /// A literal in the `Ok` of a variable, with zero in place of each result of the kernel. Lowering assigns a result to its
 /// member as soon as it is known.
@@ -15,10 +15,15 @@ pub struct Stored {
 }
 
 impl Body {
-    /// Stores the members of its literal as they become known, in a place with this name.
+    /// Stores the members of its literal as they become known, in a place with this name. Results of a factorisation are
+    /// refined at the end: they are not stored before.
     #[must_use]
     pub fn stored_in(mut self, place: &str) -> Self {
-        let Value::Plain(literal) = std::mem::take(&mut self.value) else { return self };
+        let is_factorised = self.kernel.as_ref().is_some_and(Kernel::is_factorised);
+        let literal = match &self.value {
+            Value::Plain(literal) if !is_factorised => literal.clone(),
+            _ => return self,
+        };
         let [result, place] = ["result", place].map(|name| self.local(name));
         let [to_result, to_place] = [2, 1].map(|back| Box::new(Pattern::Local(self.locals.len() - back)));
         // The literal stands here and not in a function: LLVM copies the value that a function returns.
@@ -28,6 +33,9 @@ impl Body {
         self.before.push(Statement::LetElse(Pattern::Case("Ok", to_place), borrowed, result.clone()));
         let mut members = Vec::new();
         assigned(place, &literal, &mut members);
+        // Points and outputs are checked, after all else.
+        let checked = members.extract_if(.., |(_, value)| matches!(value, Expression::Try(_)));
+        self.after.extend(checked.map(|(member, value)| Statement::Assign(member, value)));
         self.value = Value::Stored(Box::new(Stored { result, members, literal }));
         self
     }
@@ -40,6 +48,12 @@ fn zeroed(value: &Expression) -> Expression {
             Expression::structure(of.clone(), members.iter().map(|(name, value)| (name.clone(), zeroed(value))))
         }
         Expression::Runtime(function, arguments) => Expression::runtime(function, arguments.iter().map(zeroed)),
+        Expression::Try(inside) => zeroed(inside).tried(),
+        Expression::List(all) => {
+            let one = all.first().map_or_else(Expression::zero, zeroed);
+            Expression::Repeated(Box::new(one), all.len())
+        }
+        Expression::Constant(name) => Expression::Constant(name),
         argument if argument.stored().is_some() => argument.clone(),
         _ => Expression::zero(),
     }
