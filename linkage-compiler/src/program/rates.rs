@@ -266,7 +266,8 @@ impl Plan<'_, '_> {
         ];
         let links = Assembly::default();
         // With several groups, the next one waits for the solution of a group.
-        let form = if self.derivation.blocks.len() > 1 { Form::Inverse(&links) } else { Form::Entries };
+        let is_long = self.derivation.blocks.len() > 1;
+        let form = if is_long { Form::Inverse(&links) } else { Form::Entries };
         let steps = self.derivation.solution(&sides, form);
         let steps = self.with_determinants(steps);
         let all = self.all();
@@ -291,7 +292,7 @@ impl Plan<'_, '_> {
         let body = Body::of(kernel, Expression::structure(motion, members));
         // A coordinate that is not finite need not make a rate so. It is known before the accelerations.
         let body = body.checked("the position", results(2 * count..3 * count)).checked("motion", checked);
-        let body = if self.derivation.blocks.len() > 1 { body.stored_in("motion") } else { body };
+        let body = if is_long { body.stored_in("motion") } else { body };
         let doc = lines([
             "The rates q', the accelerations q'', and the motion of points and outputs at the coordinates q of a position, input",
             "rates v' and input accelerations v'', with common subexpressions computed once.",
