@@ -35,8 +35,10 @@
 //! | watt_ii                | 1.28 | 0.66 | 0.69 | watt_line              | 1.09 | 1.11 | 0.99 |
 //! | whitworth              | 0.71 | 0.54 | 0.56 | wiper                  | 2.81 | 1.09 | 1.63 |
 //!
-//! These are of separate calls. At 2000 poses of all mechanisms of the gallery, by separate calls and by `kinematics`, the
-//! largest is 2.26, but 7.66 for a point of `multiples` at four and two times solved angles.
+//! These are of separate calls. At 20 000 poses of all mechanisms of the gallery `kinematics` has at most 2.90 too, but for
+//! positions by number and at multiples of solved angles: 4.27 of `slider_triad`, 3.36 of `stephenson_far`, 7.02 of
+//! `multiples` at four and two times an angle. The separate calls have the same there, and 5.10 for velocities of
+//! `two_triads`, where `kinematics` has 1.27.
 //!
 //! ```text
 //! POSES=100000 cargo test --release --all-features --test forty_digits -- --nocapture
