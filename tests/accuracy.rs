@@ -80,6 +80,22 @@ fn errors<F: Fixture, T: Real, R: PositionMethod<In<F, T>>>(
     Ok(largest)
 }
 
+/// The largest errors of u, u' and u'' that are found at once at v' = 1, v'' = 0.
+fn errors_at_once<F: Fixture, T: Real, const N: usize>(
+    pose: &str,
+    kinematics: impl Fn(&In<F, T>, &Case) -> Result<[SVector<T, N>; 3], PositionError>,
+) -> Result<[f64; 3], PositionError> {
+    let mut largest = [0.0_f64; 3];
+    for case in cases::<F>(pose, false) {
+        let found = kinematics(&mechanism::<F, T>(&case), &case)?;
+        for (order, (largest, found)) in largest.iter_mut().zip(&found).enumerate() {
+            let unknowns = unknowns_of::<T, In<F, T>>(found.as_slice());
+            *largest = largest.max(case.error(order, unknowns.as_slice()));
+        }
+    }
+    Ok(largest)
+}
+
 /// The largest errors of u' and u'' where the angles are given.
 fn errors_at_angles<F: Fixture, T: Real>(pose: &str) -> Result<[f64; 2], PositionError> {
     let mut largest = [0.0_f64; 2];
@@ -172,6 +188,42 @@ fn closed_form_near_a_dead_point() {
         errors::<Jansen, f64, ClosedForm>("1e-9", leg::<f64>),
         Err(PositionError::Singular { group: "angle_b, angle_j (Pivot-Upper-Pin)", .. })
     ));
+}
+
+fn four_bar_at_once<T: Real>(m: &FourBar<T>, case: &Case) -> Result<[SVector<T, 3>; 3], PositionError> {
+    let moving = m.kinematics(scalar::<T>(case.input), branch::<T>(case), T::one(), T::zero())?;
+    Ok([moving.pose.coordinates().into(), moving.rates.into(), moving.accelerations.into()])
+}
+
+fn leg_at_once(m: &Jansen, case: &Case) -> Result<[SVector<f64, 11>; 3], PositionError> {
+    let moving = m.kinematics(case.input, leg::<f64>(case), 1.0, 0.0)?;
+    Ok([moving.pose.coordinates().into(), moving.rates.into(), moving.accelerations.into()])
+}
+
+/// `kinematics` is as accurate as the separate calls. Near a dead point the error is that of the input and of the half
+/// chord, the same by both, and both fail at the same one.
+#[test]
+fn kinematics_near_a_dead_point() {
+    let same = |found: [f64; 3], separate: [f64; 3]| {
+        println!("{found:?} {separate:?}");
+        for (found, separate) in found.into_iter().zip(separate) {
+            assert!((found - separate).abs() <= 1e-5 * separate, "{found:e} is not {separate:e}");
+        }
+    };
+    let four_bar = |sine: &str| errors_at_once::<FourBar, f64, 3>(sine, four_bar_at_once);
+    let jansen = |sine: &str| errors_at_once::<Jansen, f64, 11>(sine, leg_at_once);
+    within(four_bar("benign").unwrap(), [1e-15, 1e-15, 1e-15]);
+    within(jansen("benign").unwrap(), [4e-15, 8e-15, 1e-14]);
+    for sine in ["1e-3", "1e-6"] {
+        same(four_bar(sine).unwrap(), errors::<FourBar, f64, ClosedForm>(sine, branch::<f64>).unwrap());
+        same(jansen(sine).unwrap(), errors::<Jansen, f64, ClosedForm>(sine, leg::<f64>).unwrap());
+    }
+    assert!(matches!(four_bar("1e-9"), Err(PositionError::Singular { group: "theta3, theta4", .. })));
+    assert!(matches!(jansen("1e-9"), Err(PositionError::Singular { group: "angle_b, angle_j (Pivot-Upper-Pin)", .. })));
+    for sine in ["1e-6", "1e-9"] {
+        let separate = errors::<FourBar, DoubleDouble, ClosedForm>(sine, branch::<DoubleDouble>).unwrap();
+        same(errors_at_once::<FourBar, DoubleDouble, 3>(sine, four_bar_at_once).unwrap(), separate);
+    }
 }
 
 /// Determinants are sines of differences and lose no digit, however small they are. That of the butterfly is a product
