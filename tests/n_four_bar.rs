@@ -11,7 +11,7 @@
 
 use linkage::integrate::{Tolerance, dop853};
 use linkage::simulation::{Start, simulate};
-use linkage::{MotionError, PathError, PositionError, linkage};
+use linkage::{MotionError, PositionError, linkage};
 use nalgebra::vector;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -69,8 +69,7 @@ fn check_runs(windows: f64, count: usize, run: impl Fn(f64, (f64, f64)) -> Run) 
             assert!(
                 matches!(
                     error,
-                    MotionError::Path(PathError::ChangePoint { .. })
-                        | MotionError::Position(PositionError::Singular { .. })
+                    MotionError::ChangePoint { .. } | MotionError::Position(PositionError::Singular { .. })
                 ),
                 "{error}"
             );

@@ -96,12 +96,40 @@ pub enum MotionError {
         /// The index of the last event.
         event: usize,
     },
+    /// The position is a change point, where motions of the mechanism cross, and none of them is chosen: at a start
+    /// there, or where a contact changes exactly there. Also where motions are nearer to each other than rounding
+    /// errors.
+    ChangePoint {
+        /// The scene.
+        scene: &'static str,
+        /// The unknowns of the group that is singular; of several the one nearest to a singularity.
+        group: &'static str,
+        /// The rates along the motions that cross, if there are two of one input.
+        crossing: Option<CrossingRates>,
+    },
+    /// Forces in joints, or frictions that depend on them, are infinite or undetermined at a change point.
+    UndeterminedReactions {
+        /// The scene.
+        scene: &'static str,
+        /// The unknowns of the group that is singular.
+        group: &'static str,
+    },
     /// A position during the motion could not be computed.
     Position(PositionError),
-    /// The motion reached a change point, or could not be followed.
+    /// An error of path following, in a function of the user's.
     Path(PathError),
     /// An argument is invalid.
     Input(InputError),
+}
+
+/// The rates of two coordinates along the two motions that cross at a change point, each pair up to a factor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct CrossingRates {
+    /// The names of the coordinates.
+    pub coordinates: [&'static str; 2],
+    /// Their rates along each motion; the larger one is 1.
+    pub rates: [[f64; 2]; 2],
 }
 
 impl MotionError {
@@ -178,6 +206,19 @@ impl fmt::Display for MotionError {
             Self::EventsWithoutEnd { t, event } => write!(
                 f,
                 "event {event} repeats without end at t = {t}: let its action stop, or restart with another law"
+            ),
+            Self::ChangePoint { scene, group, crossing } => {
+                write!(f, "motions of {scene} cross here, where group {group} is singular")?;
+                if let Some(CrossingRates { coordinates: [one, two], rates: [first, second] }) = crossing {
+                    let [[a, b], [c, d]] = [first, second];
+                    write!(f, " ({one}' : {two}' = {a:.3} : {b:.3} or {c:.3} : {d:.3})")?;
+                }
+                write!(f, ": start next to it, on one of them")
+            }
+            Self::UndeterminedReactions { scene, group } => write!(
+                f,
+                "forces in joints of {scene} are infinite or undetermined at the change point where group {group} is \
+                 singular: end the motion before it, and give frictions a limit without `reaction`"
             ),
             Self::Position(error) => error.fmt(f),
             Self::Path(error) => error.fmt(f),

@@ -26,7 +26,7 @@ pub mod simulation;
 pub use contact::{Bearing, Contact, ContactCoordinate, ContactLaw, Mode, ReactionRow};
 pub use equations::Equations;
 pub use equilibrium::Balance;
-pub use error::MotionError;
+pub use error::{CrossingRates, MotionError};
 pub use scene::{
     Accelerations, Coordinates, Energy, Inputs, Power, Prescribed, Rates, Scene, StateColumn, StateParts, StateRates,
     Unreduced,

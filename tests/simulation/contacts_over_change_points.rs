@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use linkage::contact::Change;
 use linkage::simulation::{Start, State, simulate};
-use linkage::{Mode, MotionError, PathError, linkage};
+use linkage::{Mode, MotionError, linkage};
 
 use linkage_oracle::close;
 
@@ -90,11 +90,22 @@ fn a_stop_near_a_change_point() {
         }
         if beyond == 0.0 {
             // In the change point itself the motion that follows is not determined.
-            assert!(matches!(failure, Some(MotionError::Path(PathError::ChangePoint { .. }))), "{failure:?}");
+            let Some(MotionError::ChangePoint { crossing: Some(crossing), .. }) = failure else {
+                panic!("{failure:?}")
+            };
+            // The cranks turn alike, or crossed as d - a to -(d + a).
+            assert_eq!(crossing.coordinates, ["psi", "theta"]);
+            for (found, right) in crossing.rates.iter().flatten().zip([-1.0 / 3.0, 1.0, 1.0, 1.0]) {
+                close("rates", *found, right, 1e-12);
+            }
+
             continue;
         }
         assert_eq!(failure, None, "{beyond}");
-        assert!(motion.passages().change_points >= if beyond > 0.0 { 2 } else { 1 });
+        // The crank passes each multiple of pi, on its way to the stop and back.
+        let passed = |from: f64, to: f64| ((from / PI).floor() - (to / PI).floor()).abs();
+        let all = passed(start, bound) + passed(bound, bound - 0.5 * speed * (6.0 - hits));
+        assert_eq!(f64::from(u32::try_from(motion.passages().change_points).unwrap()), all, "{beyond}");
         let [(t, Change::Impact)] = impacts[..] else { panic!("{beyond} {impacts:?}") };
         close("hits", t, hits, 1e-8);
     }
@@ -123,7 +134,8 @@ fn the_account_of_energy_closes() {
     (kite.mechanism.b, kite.mechanism.c, kite.mechanism.d) = (2.0, 2.0, 1.0);
     let of_kite = WheelsCoordinates { theta: 1.0, phi: -0.4, psi: 1.8 };
     let of_crossed = WheelsCoordinates { theta: 0.9, phi: -1.03, psi: -1.93 };
-    for (name, scene, q) in [("crossed", crossed, of_crossed), ("kite", kite, of_kite)] {
+    // The angle of the crank from one change point to the next.
+    for (name, scene, q, between) in [("crossed", crossed, of_crossed, PI), ("kite", kite, of_kite, 2.0 * PI)] {
         for (mu, least) in [(1.5, -20.0), (0.3, -20.0), (0.3, -3.3), (0.3, -3.2), (0.0, -4.0), (1.5, -6.0)] {
             let mut scene = scene.clone();
             (scene.mu, scene.least) = (mu, least);
@@ -133,8 +145,11 @@ fn the_account_of_energy_closes() {
                 0.5 * (scene.j1 * rate.theta.powi(2) + scene.j2 * rate.phi.powi(2) + scene.j3 * rate.psi.powi(2))
             };
             let (whole, mut taken, mut last) = (kinetic(&motion.state().rates), 0.0, motion.state().q.psi);
-            let mut impacts = 0;
+            let (mut impacts, mut passed, mut half_turns) = (0, 0, (motion.state().q.theta / between).floor());
             for state in motion.by_ref().map(Result::unwrap) {
+                let now = (state.q.theta / between).floor();
+                passed += usize::from(now != half_turns);
+                half_turns = now;
                 taken += mu * (state.q.psi - last).abs();
                 last = state.q.psi;
                 close(name, kinetic(&state.rates), whole - taken, 1e-7 * whole);
@@ -143,7 +158,8 @@ fn the_account_of_energy_closes() {
                     taken += (1.0 - scene.e.powi(2)) * kinetic(&state.rates);
                 }
             }
-            assert!(impacts == 1 && motion.passages().change_points > 4, "{name} {mu} {least}: {impacts}");
+            assert!(impacts == 1 && passed > 1, "{name} {mu} {least}: {impacts} {passed}");
+            assert_eq!(motion.passages().change_points, passed, "{name} {mu} {least}");
         }
     }
 }

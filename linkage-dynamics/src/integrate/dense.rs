@@ -1,7 +1,5 @@
 //! Dense output: the state between the ends of a step.
 
-use nalgebra::SMatrix;
-
 use super::tableau::{self, Slopes, Tableau};
 use linkage_runtime::{Column, Dim, Real, real};
 
@@ -57,66 +55,6 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         }
         self.used += tableau.dense.len();
         self
-    }
-
-    /// The polynomial with the value `state` at the start and these slopes y' at the fractions `parts` of the step;
-    /// None if the fractions do not determine it.
-    pub(crate) fn of_slopes<const P: usize>(
-        (start, state): (T, Column<T, N>),
-        length: T,
-        parts: &[f64; P],
-        slopes: &[Column<T, N>; P],
-    ) -> Option<Self> {
-        // The derivative of each basis function, a column, at each fraction, a row.
-        let mut by_coefficient = SMatrix::<f64, P, P>::zeros();
-        for (row, &s) in parts.iter().enumerate() {
-            // Value and slope of the k-th basis function, from k = 1.
-            let (mut value, mut slope) = (s, 1.0);
-            for column in 0..P {
-                by_coefficient[(row, column)] = slope;
-                let (factor, rate) = if column % 2 == 0 { (1.0 - s, -1.0) } else { (s, 1.0) };
-                (value, slope) = (value * factor, slope * factor + value * rate);
-            }
-        }
-        let inverse = by_coefficient.try_inverse()?;
-        let mut coefficients = [Column::zeros(); COEFFICIENTS];
-        coefficients[0] = state;
-        for (row, coefficient) in coefficients[1..].iter_mut().take(P).enumerate() {
-            for (column, slope) in slopes.iter().enumerate() {
-                *coefficient += *slope * (real::<T>(inverse[(row, column)]) * length);
-            }
-        }
-        Some(Self { start, length, coefficients, used: P + 1 })
-    }
-
-    /// Restricts the polynomial, of degree 8 at most, to the part of its step before `end`; None if `end` is not within
-    /// the step. Eight slopes and the state at the start determine it.
-    pub(crate) fn up_to(&self, end: T) -> Option<Self> {
-        let length = end - self.start;
-        if length.abs() >= self.length.abs() {
-            return None;
-        }
-        let parts = [0.0, 0.14, 0.28, 0.42, 0.58, 0.72, 0.86, 1.0];
-        let slopes = parts.map(|part| self.slope_at(self.start + length * real(part)));
-        Self::of_slopes((self.start, self.coefficients[0]), length, &parts, &slopes)
-    }
-
-    /// The last coefficient, from which the error of the polynomial is estimated.
-    pub(crate) fn last(&self) -> Column<T, N> {
-        self.coefficients[self.used - 1]
-    }
-
-    /// y' at t.
-    pub(crate) fn slope_at(&self, t: T) -> Column<T, N> {
-        let s = (t - self.start) / self.length;
-        let rest = T::one() - s;
-        let (inner, last) = self.coefficients[..self.used].split_at(self.used - 1);
-        let start = (last[0], Column::zeros());
-        let (_, slope) = inner.iter().enumerate().rev().fold(start, |(value, slope), (i, coefficient)| {
-            let (factor, rate) = if i % 2 == 0 { (s, T::one()) } else { (rest, -T::one()) };
-            (*coefficient + value * factor, slope * factor + value * rate)
-        });
-        slope / self.length
     }
 
     /// The times of the start and the end of the step.

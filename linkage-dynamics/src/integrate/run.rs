@@ -405,16 +405,6 @@ impl<S: System, M: Method> Integration<S, M> {
         self.exchange(state);
     }
 
-    /// Takes a step that was computed by another method, given by its interpolant.
-    pub(crate) fn pass(&mut self, step: Interpolant<S::Scalar, S::N>) {
-        let end = step.interval().1;
-        self.from = (self.t, self.state);
-        self.to = (end, step.at(end));
-        self.interpolant = Some(step);
-        self.place = Place::Within(0.0);
-        self.has_rate = false;
-    }
-
     /// The interval with available states: from the start of the last step to the time reached.
     pub(crate) fn reached(&self) -> [S::Scalar; 2] {
         [self.from.0, self.t]

@@ -74,6 +74,8 @@ impl<S: System, M: Method> Integration<S, M> {
     fn attempt(&mut self, (t, y): (S::Scalar, &StateOf<S>), end: S::Scalar) -> Result<(f64, StateOf<S>), MotionError> {
         let table = const { &M::TABLEAU };
         let h = end - t;
+        // Errors of other steps.
+        self.system.uncertainty();
         tableau::evaluate(counted(&mut self.system, &mut self.counts), table.stages, 1, (t, y), h, &mut self.slopes)?;
         let next = *y + tableau::combination(&self.slopes, table.solution) * h;
         // Relative to an infinite state every error would be zero.
@@ -89,7 +91,8 @@ impl<S: System, M: Method> Integration<S, M> {
         if !of_end && error <= 1.0 {
             self.slopes[table.end] = self.slope(end, &next)?;
         }
-        Ok((error, next))
+        let uncertain = self.system.uncertainty().map(|of_rate| self.tolerance.relative_change(&(of_rate * h), &next));
+        Ok((error + uncertain.unwrap_or(0.0), next))
     }
 
     fn slope(&mut self, t: S::Scalar, y: &StateOf<S>) -> Result<StateOf<S>, MotionError> {

@@ -42,6 +42,12 @@ pub trait System {
     /// If the rate does not exist at this state; a shorter step is then tried.
     fn rate(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<StateOf<Self>, MotionError>;
 
+    /// The largest estimated error of each component of the rates returned since the last call, or None if these are
+    /// exact to rounding error. It adds to the error of a step.
+    fn uncertainty(&mut self) -> Option<StateOf<Self>> {
+        None
+    }
+
     /// The functions whose zeros are the events.
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use super::watch::{Then, Watch};
 use crate::contact::Change;
 use crate::integrate::Method;
 use crate::{MotionError, Scene, StateColumn};
-use linkage_runtime::__shared::{same_signs, to_f64};
+use linkage_runtime::__shared::same_signs;
 use linkage_runtime::{Column, Dim, Mechanism};
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
@@ -18,17 +18,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             if self.integration.is_at_boundary() && !is_prepared {
                 self.prepare()?;
             }
-            let start = (self.integration.is_at_boundary()).then(|| (self.integration.t(), *self.integration.state()));
             let Some(step) = self.integration.advance()? else { return Ok(None) };
-            if let Some((t, y)) = start.filter(|_| step.event.is_none())
-                && self.ends_too_near(&y, &step.state)
-            {
-                // Repeat it in two parts: a step over a change point must begin well before it.
-                self.integration.go_back(t, y);
-                self.integration.limit_next(0.5 * to_f64(step.t - t).abs());
-                self.is_prepared = true;
-                continue;
-            }
             let motion = self.integration.system();
             let q = S::parts(&step.state).q;
             let mechanism = motion.scene.mechanism();
@@ -46,6 +36,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             let contacts = motion.contacts;
             let projected = motion.projected(step.t, &step.state)?;
             let (kept, holds) = motion.reviewed(&contacts, step.t, &projected)?;
+            self.count_passage(&projected);
+            let motion = self.integration.system();
             let mut state =
                 State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
             let result = match step.event {

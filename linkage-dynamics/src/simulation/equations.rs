@@ -3,7 +3,9 @@
 //! q' = N z' and M_r z'' = Q_r with M_r = N' M N and Q_r = N' (F - M b), where the columns of N span the null space of
 //! [J A] and b is q'' at z'' = 0. With z = v these are the emitted equations.
 
-use super::motion::{Choice, FactorsOf, LEAST_PIVOT_RATIO, Motion, Parametrisation, Reduced};
+use super::frame::Frame;
+use super::motion::{Choice, LEAST_PIVOT_RATIO, Motion, Parametrisation, Reduced};
+use super::sheet::Errors;
 use super::watch::Watch;
 use crate::contact::{ReducedContact, ReducedEquations, Reduction};
 use crate::integrate::{Crossing, Guard, System};
@@ -11,19 +13,9 @@ use crate::scene::coordinate_name;
 use crate::{Mode, MotionError, Rates, Scene, StateColumn};
 use linkage_runtime::__shared::all_finite;
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, Dim, Mechanism, real};
+use linkage_runtime::{Column, Dim, Mechanism, PerInput, real};
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// y' in a choice of independent coordinates.
-    pub(super) fn rate_by(
-        &self,
-        independent: &Choice<S>,
-        factors: &FactorsOf<S>,
-        (t, y): (S::Scalar, &StateColumn<S>),
-    ) -> Result<StateColumn<S>, MotionError> {
-        self.rate_of(t, &self.equations_by(independent, factors, (t, y))?)
-    }
-
     /// y' from the equations and q'.
     fn rate_of(
         &self,
@@ -41,10 +33,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
     pub(super) fn equations_by(
         &self,
         independent: &Choice<S>,
-        factors: &FactorsOf<S>,
+        frame: &Frame<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
     ) -> Result<(Reduced<S>, Rates<S>), MotionError> {
-        let (mut equations, rates) = self.unprescribed_by(independent, factors, (t, y))?;
+        let (mut equations, rates) = self.unprescribed_by(independent, frame, (t, y))?;
         // Prescribed coordinates follow their laws.
         for (input, law) in self.scene.prescribed(t).iter().enumerate() {
             let Some(law) = law else { continue };
@@ -59,17 +51,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
     pub(super) fn unprescribed_by(
         &self,
         independent: &Choice<S>,
-        factors: &FactorsOf<S>,
+        frame: &Frame<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
     ) -> Result<(Reduced<S>, Rates<S>), MotionError> {
-        let mechanism = self.scene.mechanism();
-        let (q, free_rates) = Self::unpack(y);
-        let (unknowns, inputs) = factors.basis();
+        let (_, free_rates) = Self::unpack(y);
+        let Frame { q, basis: (unknowns, inputs), bias, .. } = frame;
+        let (unknowns, inputs) = (*unknowns, *inputs);
         let rates = S::Mechanism::rates(unknowns * free_rates, inputs * free_rates);
-        let gamma = mechanism.gamma(&mechanism.pose_at(&q), &rates);
-        // q'' at z'' = 0.
-        let bias = -factors.solve(&gamma);
-        let all = self.scene.unreduced(t, &q, &rates)?;
+        let all = self.scene.unreduced(t, q, &rates)?;
         let moved = all.unknowns * unknowns + all.mixed * inputs;
         let of_inputs_alone = all.mixed.tr_mul_matrix(&unknowns) + all.inputs * inputs;
         let mass = unknowns.tr_mul_matrix(&moved) + inputs.tr_mul_matrix(&of_inputs_alone);
@@ -77,12 +66,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let left_inputs = all.input_forces - all.mixed.tr_mul(&bias.unknowns) - all.inputs * bias.inputs;
         let forces = unknowns.tr_mul(&left_unknowns) + inputs.tr_mul(&left_inputs);
         let (basis, bias) = ((&unknowns, &inputs), (&bias.unknowns, &bias.inputs));
-        let found = self.scene.contacts(t, &q, &rates)?;
+        let found = self.scene.contacts(t, q, &rates)?;
         let mut bearings = Column::repeat(None);
         if S::BEARINGS {
             let reduction = Reduction { basis, bias, all: &all, contacts: &found };
-            bearings = reduction.bearings(S::NAME, &self.scene.bearings(t, &q, &rates)?, |rows| {
-                let solution = factors.solve(rows);
+            bearings = reduction.bearings(S::NAME, &self.scene.bearings(t, q, &rates)?, |rows| {
+                let solution = self.factors(independent, q).solve(rows);
                 Ok((solution.unknowns, solution.inputs))
             })?;
         }
@@ -94,6 +83,26 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 }
 
+impl<S: Scene, W> Motion<'_, S, W> {
+    /// The errors of y' with an interpolated frame, from those of its values: of q' N's times z', of z'' that of the
+    /// bias and those of the directions in which inertia and forces act, which are relative to z''.
+    fn errors_of_rate(
+        &self,
+        errors: &Errors<S::Scalar>,
+        frame: &Frame<S>,
+        (rates, accelerations): (&PerInput<S::Mechanism>, &PerInput<S::Mechanism>),
+    ) -> StateColumn<S> {
+        let scales = &self.scales.coordinates;
+        let speed = self.scaled_norm(&frame.rates(rates));
+        let urge = self.scaled_norm(&frame.accelerations(accelerations));
+        let of_rates = errors.basis * speed;
+        let of_accelerations = errors.bias * speed * speed + (errors.basis + errors.position) * urge;
+        let free = self.parametrisation.independent().map_or(scales.inputs, |independent| independent.of(scales));
+        let q = S::Mechanism::coordinates(scales.unknowns * of_rates, scales.inputs * of_rates);
+        Self::pack(&q, &(free * of_accelerations))
+    }
+}
+
 impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
     type Scalar = S::Scalar;
     type N = S::State;
@@ -102,23 +111,37 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
 
     #[inline]
     fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
-        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
-        else {
-            if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) {
+        let (q, free_rates) = Self::unpack(y);
+        let (independent, frame) = match &self.parametrisation {
+            Parametrisation::Inputs if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) => {
                 return self.scene.derivative(t, y);
             }
-            return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
+            Parametrisation::Inputs => {
+                return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
+            }
+            Parametrisation::Others(independent) => {
+                let factors = self.factors(independent, &q);
+                // An error near a singularity of the choice: the integrator then tries a shorter step.
+                let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
+                let signed = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
+                let pivots = factors.pivots().zip_map(&independent.pivots, signed);
+                if !pivots.iter().all(|&pivot| pivot >= least) {
+                    return Err(self.singular_error(&q));
+                }
+                (independent, self.exact_frame(&factors, &q, &free_rates))
+            }
+            Parametrisation::Over(sheet) => (&sheet.independent, self.frame_on(sheet, &q, &free_rates)?),
         };
-        let (q, _) = Self::unpack(y);
-        let factors = self.factors(independent, &q);
-        // An error near a singularity of the choice: the integrator then tries a shorter step.
-        let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
-        let signed = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
-        let pivots = factors.pivots().zip_map(&independent.pivots, signed);
-        if !pivots.iter().all(|&pivot| pivot >= least) {
-            return Err(self.singular_error(&q));
+        let rate = self.rate_of(t, &self.equations_by(independent, &frame, (t, y))?)?;
+        if let (true, Parametrisation::Over(sheet)) = (frame.is_interpolated, &self.parametrisation) {
+            let errors = self.errors_of_rate(&sheet.errors, &frame, (&free_rates, &Self::unpack(&rate).1));
+            self.uncertainty = Some(self.uncertainty.map_or(errors, |known| known.zip_map(&errors, S::Scalar::max)));
         }
-        self.rate_by(independent, &factors, (t, y))
+        Ok(rate)
+    }
+
+    fn uncertainty(&mut self) -> Option<StateColumn<S>> {
+        self.uncertainty.take()
     }
 
     fn events(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Column<S::Scalar, W::Events>, MotionError> {

@@ -1,19 +1,88 @@
 //! Errors for motions that end at a singularity.
 
+use nalgebra::ComplexField;
+
 use super::independent::Independent;
-use super::motion::Motion;
+use super::motion::{Change, Motion, Parametrisation};
+use crate::error::CrossingRates;
+use crate::scene::coordinate_name;
 use crate::{Coordinates, MotionError, Scene};
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::jacobian::Blocks;
 use linkage_runtime::jacobian::ulp::nearly_zero;
-use linkage_runtime::{Column, Mechanism, PathError, PositionError};
+use linkage_runtime::jacobian::{Blocks, EliminationOf as Elimination};
+use linkage_runtime::{Column, Dim, Mechanism, PositionError};
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// The change-point error with the group of least regularity.
+    /// The change-point error with the group of least regularity, and the rates along the motions that cross.
     pub(super) fn change_point_error(&self, q: &Coordinates<S>) -> MotionError {
+        MotionError::ChangePoint {
+            scene: S::NAME,
+            group: self.least_regular_group(q),
+            crossing: self.crossing_rates(q),
+        }
+    }
+
+    /// The error for forces in joints next to a change point.
+    pub(super) fn no_reactions_error(&self, q: &Coordinates<S>) -> MotionError {
+        MotionError::UndeterminedReactions { scene: S::NAME, group: self.least_regular_group(q) }
+    }
+
+    fn least_regular_group(&self, q: &Coordinates<S>) -> &'static str {
         let mechanism = self.scene.mechanism();
-        let (_, group) = Blocks::of(mechanism, &mechanism.pose_at(q)).least_regular();
-        PathError::ChangePoint { mechanism: S::Mechanism::NAME, group }.into()
+        Blocks::of(mechanism, &mechanism.pose_at(q)).least_regular().1
+    }
+
+    /// True if the position is that of the change point, to its accuracy.
+    pub(super) fn is_at_change_point(&self, q: &Coordinates<S>) -> bool {
+        let Parametrisation::Over(sheet) = &self.parametrisation else { return false };
+        let pivots = self.factors(&sheet.independent, q).pivots();
+        pivots.iter().zip(&sheet.vanishes).any(|(pivot, &vanishes)| vanishes && pivot.abs() <= nearly_zero())
+    }
+
+    /// True if [J A] is nearly singular and the position is on a sheet.
+    pub(super) fn is_next_to_change_point(&self, q: &Coordinates<S>) -> bool {
+        let Parametrisation::Over(sheet) = &self.parametrisation else { return false };
+        !sheet.is_regular(&self.factors(&sheet.independent, q).pivots())
+    }
+
+    /// The rates of two coordinates along the two motions of one input that cross at a position: the zeros of the
+    /// quadratic form N (Psi_q x)_q x, where N is the left null vector of [J A] and x in its null space. `None` where
+    /// the position is not a crossing of two motions.
+    fn crossing_rates(&self, q: &Coordinates<S>) -> Option<CrossingRates> {
+        if S::V::COUNT != 1 {
+            return None;
+        }
+        let mechanism = self.scene.mechanism();
+        let pose = mechanism.pose_at(q);
+        let jacobian = self.scales.jacobian(mechanism, &pose);
+        if Elimination::<S::Mechanism>::new(jacobian).defect(nearly_zero()) != 1 {
+            return None;
+        }
+        let elimination = Elimination::<S::Mechanism>::all_but(1, jacobian);
+        let mut free = elimination.free();
+        let columns = [free.next()?, free.next()?];
+        let [one, two] = columns.map(|column| elimination.null_vector(column).scaled(&self.scales.coordinates));
+        let form = |x: &Change<S>| {
+            let rates = S::Mechanism::rates(x.unknowns, x.inputs);
+            let along = mechanism.gamma(&pose, &rates).component_div(&self.scales.residuals);
+            to_f64(elimination.left_null_product(&along).sum())
+        };
+        // The form of (x, y) is a x^2 + 2 b x y + c y^2.
+        let [a, c, sum] = [form(&one), form(&two), form(&(one + two))];
+        let b = 0.5 * (sum - a - c);
+        let discriminant = b * b - a * c;
+        let is_crossing = discriminant > to_f64(nearly_zero::<S::Scalar>()) * (a * a + b * b + c * c);
+        if !is_crossing {
+            return None;
+        }
+        let root = b + ComplexField::sqrt(discriminant).copysign(b);
+        let scales = columns.map(|column| to_f64(self.scales.coordinates.get(column)));
+        let rates = [[-c, root], [root, -a]].map(|[x, y]| {
+            let [x, y] = [x * scales[0], y * scales[1]];
+            let size = if x.abs() > y.abs() { x } else { y };
+            [x / size, y / size]
+        });
+        Some(CrossingRates { coordinates: columns.map(coordinate_name::<S::Mechanism>), rates })
     }
 
     /// The error if no choice of coordinates is regular: a prescribed input is at a dead point, or two motions cross.
@@ -22,7 +91,13 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let is_driven = self.prescribed_inputs(t).iter().any(|&held| held);
         let freely = Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &Column::repeat(false));
         let is_regular = freely.regularity() > nearly_zero();
-        if is_driven && is_regular { self.singular_error(q) } else { self.change_point_error(q) }
+        if is_driven && is_regular {
+            self.singular_error(q)
+        } else if S::BEARINGS {
+            self.no_reactions_error(q)
+        } else {
+            self.change_point_error(q)
+        }
     }
 
     pub(super) fn singular_error(&self, q: &Coordinates<S>) -> MotionError {

@@ -11,9 +11,10 @@
 //!    columns without pivot after elimination of [J A] with complete pivoting, and returns to the inputs beyond it. A
 //!    step that passes a singularity of its own coordinates is repeated in others.
 //! 3. *Change points*, where [J A] itself loses rank (the links of a parallelogram in line) and no choice of
-//!    coordinates is regular: one collocation step passes it along the branch whose tangent continues. The step is
-//!    accepted if it satisfies the constraints at its nodes, and at the change point to rounding error. Where two
-//!    branches only come near each other, it is rejected, and shorter steps follow the branch of the motion.
+//!    coordinates is regular: the motion is smooth on its sheet, the positions reached by the branch whose tangent
+//!    continues. Position, basis and bias are interpolated near the crossing from positions around it, with an estimate
+//!    of their error that adds to that of each step: step lengths, events and contacts are as everywhere. Where two
+//!    branches only come near each other, shorter steps follow the branch of the motion.
 //!
 //! Contacts change where their guards fall through zero ([detection of events](crate::integrate)): the rate of the gap
 //! of a stop is known, so that even a brief touch within a step is found. Frictions and stops are simulated forward in
@@ -28,6 +29,7 @@ mod advance;
 mod change_point;
 mod equations;
 mod failure;
+mod frame;
 mod independent;
 mod motion;
 mod outputs;
@@ -35,6 +37,7 @@ mod parametrisation;
 mod real_time;
 mod run;
 pub(crate) mod scales;
+mod sheet;
 mod start;
 mod state;
 mod touching;

@@ -1,26 +1,25 @@
 //! A scene as a system of differential equations: its coordinates, velocities, states, and projection onto the
 //! constraints.
 
+use super::frame::Frame;
 use super::independent::{Factors, Independent};
+use super::sheet::Sheet;
 use super::state::{State, Touch};
 use super::watch::Unwatched;
 use crate::contact::{Contacts, ReducedEquations};
-use crate::integrate::Interpolant;
 use crate::{Coordinates, MotionError, Scene, StateColumn, StateParts};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, smallest};
-use linkage_runtime::jacobian::{Iteration, ScalesOf, VectorOf, contract, correction};
-use linkage_runtime::{Column, Dim, Mechanism, PerInput, Real, newton, real};
+use linkage_runtime::jacobian::ulp::nearly_zero;
+use linkage_runtime::jacobian::{Elimination, Iteration, Jacobian, ScalesOf, VectorOf, contract, correction};
+use linkage_runtime::{Column, D, Dim, Matrix, Mechanism, PerInput, Real, newton, real};
 
 /// A choice of independent coordinates of a scene.
 pub(super) type Choice<S> = Independent<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The factored [J A] of a scene.
 pub(super) type FactorsOf<S> = Factors<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The parametrisation of a scene.
-pub(super) type ParametrisationOf<S> =
-    Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V, <S as Scene>::State>;
-/// The states of a scene within a step.
-pub(super) type Polynomial<S> = Interpolant<<S as Scene>::Scalar, <S as Scene>::State>;
+pub(super) type ParametrisationOf<S> = Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The equations of motion of a scene in independent coordinates.
 pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>;
 /// The pose of a scene's mechanism.
@@ -29,14 +28,26 @@ type PoseOf<S> = <<S as Scene>::Mechanism as Mechanism>::Pose;
 pub(super) type Change<S> = VectorOf<<S as Scene>::Mechanism>;
 
 /// The choice of coordinates in which the motion is integrated.
+// Nothing is allocated, and one such value exists at a time.
+#[allow(clippy::large_enum_variant)]
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Parametrisation<T: Real, U: Dim, V: Dim, N: Dim> {
+pub(super) enum Parametrisation<T: Real, U: Dim, V: Dim> {
     /// The inputs, by the emitted equations.
     Inputs,
     /// Other coordinates.
     Others(Independent<T, U, V>),
-    /// Other coordinates, within the collocation polynomial over a change point.
-    Over(Independent<T, U, V>, Interpolant<T, N>),
+    /// Other coordinates, on a sheet through a change point.
+    Over(Sheet<T, U, V>),
+}
+
+impl<T: Real, U: Dim, V: Dim> Parametrisation<T, U, V> {
+    /// The choice of coordinates other than the inputs.
+    pub(super) fn independent(&self) -> Option<&Independent<T, U, V>> {
+        match self {
+            Self::Inputs => None,
+            Self::Others(independent) | Self::Over(Sheet { independent, .. }) => Some(independent),
+        }
+    }
 }
 
 /// A step is rejected if a pivot falls below this fraction of the smallest pivot at its start. At half or twice this
@@ -59,21 +70,24 @@ pub struct Motion<'a, S: Scene, W> {
     pub(super) parametrisation: ParametrisationOf<S>,
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
     pub(super) names: Column<&'static str, S::Contacts>,
+    /// The largest estimated errors of interpolated y' since they were last asked for.
+    pub(super) uncertainty: Option<StateColumn<S>>,
 }
 
 impl<'a, S: Scene> Motion<'a, S, Unwatched> {
     /// Starts in the inputs, with all contacts open.
     pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>) -> Self {
         let (contacts, names) = (Contacts::open(), Column::repeat(""));
-        Self { scene, watch: Unwatched, scales, parametrisation: Parametrisation::Inputs, contacts, names }
+        let (parametrisation, uncertainty) = (Parametrisation::Inputs, None);
+        Self { scene, watch: Unwatched, scales, parametrisation, contacts, names, uncertainty }
     }
 }
 
 impl<'a, S: Scene, W> Motion<'a, S, W> {
     /// Replaces the user's events.
     pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2> {
-        let Self { scene, scales, parametrisation, contacts, names, .. } = self;
-        Motion { scene, watch, scales, parametrisation, contacts, names }
+        let Self { scene, scales, parametrisation, contacts, names, uncertainty, .. } = self;
+        Motion { scene, watch, scales, parametrisation, contacts, names, uncertainty }
     }
 
     /// Packs a position and the rates of the independent coordinates into y.
@@ -91,16 +105,30 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         self.scene.prescribed(t).map(|law| law.is_some())
     }
 
-    pub(super) fn factors(&self, independent: &Choice<S>, q: &Coordinates<S>) -> FactorsOf<S> {
-        let mechanism = self.scene.mechanism();
-        independent.factors(mechanism, &mechanism.pose_at(q), &self.scales)
-    }
-
     /// Returns the factors of [J A] if no pivot is too small.
     pub(super) fn regular(&self, independent: &Choice<S>, q: &Coordinates<S>) -> Option<FactorsOf<S>> {
         let factors = self.factors(independent, q);
         (smallest(factors.pivots().iter().copied()) > independent.regularity() * real(LEAST_PIVOT_RATIO))
             .then_some(factors)
+    }
+
+    /// The choice of coordinates other than the inputs, and the frame at a position; `None` in the inputs.
+    ///
+    /// # Errors
+    /// The change-point error if [J A] is nearly singular and the position is on no known sheet.
+    pub(super) fn frame(
+        &self,
+        q: &Coordinates<S>,
+        rates: &PerInput<S::Mechanism>,
+    ) -> Result<Option<(&Choice<S>, Frame<S>)>, MotionError> {
+        match &self.parametrisation {
+            Parametrisation::Inputs => Ok(None),
+            Parametrisation::Others(independent) => {
+                let factors = self.regular(independent, q).ok_or_else(|| self.change_point_error(q))?;
+                Ok(Some((independent, self.exact_frame(&factors, q, rates))))
+            }
+            Parametrisation::Over(sheet) => Ok(Some((&sheet.independent, self.frame_on(sheet, q, rates)?))),
+        }
     }
 
     /// A position as columns.
@@ -120,7 +148,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     }
 
     /// u' and v'.
-    pub(super) fn velocity(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Change<S>, MotionError> {
+    pub(super) fn velocity(&self, y: &StateColumn<S>) -> Result<Change<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let mechanism = self.scene.mechanism();
         match &self.parametrisation {
@@ -130,14 +158,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
                 Ok(Change::<S> { unknowns: mechanism.solve_jacobian(&pose, &right)?, inputs: rates })
             }
             Parametrisation::Others(independent) => Ok(self.factors(independent, &q).rates(&rates)),
-            Parametrisation::Over(independent, step) => {
-                if let Some(factors) = self.regular(independent, &q) {
-                    return Ok(factors.rates(&rates));
-                }
-                // Near the change point [J A] is too close to singular: use the polynomial.
-                let (unknowns, inputs) = S::Mechanism::rate_parts(&S::rate_parts(&step.slope_at(t)).rates);
-                Ok(Change::<S> { unknowns, inputs })
-            }
+            Parametrisation::Over(sheet) => Ok(self.frame_on(sheet, &q, &rates)?.rates(&rates)),
         }
     }
 
@@ -147,20 +168,31 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         q: &Coordinates<S>,
         rates: &PerInput<S::Mechanism>,
     ) -> Result<StateColumn<S>, MotionError> {
-        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
-        else {
-            return Ok(Self::pack(q, rates));
-        };
-        let mechanism = self.scene.mechanism();
-        let pose = mechanism.pose_at(q);
-        let right = mechanism.jacobian_inputs(&pose) * -*rates;
-        let rates = Change::<S> { unknowns: mechanism.solve_jacobian(&pose, &right)?, inputs: *rates };
-        Ok(Self::pack(q, &independent.of(&rates)))
+        match &self.parametrisation {
+            Parametrisation::Inputs => Ok(Self::pack(q, rates)),
+            Parametrisation::Others(independent) => {
+                let mechanism = self.scene.mechanism();
+                let pose = mechanism.pose_at(q);
+                let right = mechanism.jacobian_inputs(&pose) * -*rates;
+                let rates = Change::<S> { unknowns: mechanism.solve_jacobian(&pose, &right)?, inputs: *rates };
+                Ok(Self::pack(q, &independent.of(&rates)))
+            }
+            Parametrisation::Over(sheet) => {
+                // v' = N_v z'.
+                let (_, inputs) = self.frame_on(sheet, q, &Column::zeros())?.basis;
+                let jacobian = Jacobian::<S::Scalar, S::V, D<0>> { unknowns: inputs, inputs: Matrix::zeros() };
+                let elimination = Elimination::new(jacobian);
+                if !(elimination.regularity() > nearly_zero()) {
+                    return Err(self.singular_error(q));
+                }
+                Ok(Self::pack(q, &elimination.solve(rates).unknowns))
+            }
+        }
     }
 
     pub(super) fn state(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<State<S>, MotionError> {
         let (q, _) = Self::unpack(y);
-        let Change::<S> { unknowns, inputs } = self.velocity(t, y)?;
+        let Change::<S> { unknowns, inputs } = self.velocity(y)?;
         all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter()))?;
         let rates = S::Mechanism::rates(unknowns, inputs);
         let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
@@ -175,12 +207,9 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         for (input, law) in laws.iter().enumerate() {
             if let Some(law) = law {
                 inputs[input] = law.value;
-                let at = match &self.parametrisation {
-                    Parametrisation::Inputs => Some(input),
-                    Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
-                        independent.free.iter().position(|&free| free == S::U::COUNT + input)
-                    }
-                };
+                let place =
+                    |independent: &Choice<S>| independent.free.iter().position(|&free| free == S::U::COUNT + input);
+                let at = self.parametrisation.independent().map_or(Some(input), place);
                 if let Some(at) = at {
                     rates[at] = law.rate;
                 }
@@ -192,8 +221,10 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         let q = match &self.parametrisation {
             Parametrisation::Inputs => self.projected_in_inputs(&q)?,
             Parametrisation::Others(independent) => self.projected_in(independent, &q)?,
-            Parametrisation::Over(independent, _) if self.regular(independent, &q).is_none() => q,
-            Parametrisation::Over(independent, _) => self.projected_in(independent, &q)?,
+            Parametrisation::Over(sheet) => {
+                let Frame { q, is_interpolated, .. } = self.frame_on(sheet, &q, &rates)?;
+                if is_interpolated { q } else { self.projected_in(&sheet.independent, &q)? }
+            }
         };
         Ok(Self::pack(&q, &rates))
     }

@@ -1,20 +1,21 @@
-//! Choice of independent coordinates before each step: the inputs, or others where J is nearly singular. A change
-//! point, where no choice is regular, is passed in one step.
+//! Choice of independent coordinates before each step: the inputs, or others where J is nearly singular. Through a
+//! change point, where no choice is regular, the motion goes on its [sheet](super::sheet).
 //!
 //! The regularity of the inputs is the least of those of the groups, |det| of its block of J divided by the largest
 //! value it can take; that of other coordinates is their smallest pivot of [J A].
 
 use super::change_point::Ahead;
 use super::independent::Independent;
-use super::motion::{Change, Choice, Motion, Parametrisation, ParametrisationOf, Polynomial};
+use super::motion::{Change, Choice, Motion, Parametrisation, ParametrisationOf};
 use super::run::{Signs, Simulation};
+use super::sheet::Sheet;
 use super::watch::Watch;
 use crate::integrate::{Method, Tolerance};
 use crate::{MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{same_signs, to_f64};
 use linkage_runtime::jacobian::Blocks;
-use linkage_runtime::{Column, Mechanism, PerInput, real};
+use linkage_runtime::{Dim, Mechanism, PerInput, real};
 
 /// Below this regularity of the inputs other coordinates are used: two links of a dyad are then within 6 degrees of a
 /// line. At twice this value all simulation tests pass; at half of it that of an engine driven by its piston fails.
@@ -41,13 +42,6 @@ pub(super) const STEPS_BEFORE_RETURN: u32 = 16;
 
 /// Below this regularity of the other coordinates the tangent of the motion is only rounding error.
 const LEAST_REGULARITY: f64 = 1e-7;
-
-/// A step is halved if the regularity of the best coordinates is below this value at its end and at least four times as
-/// large at its start. This regularity is about the angle to the change point in radians, and a step over the change
-/// point from so near loses too many digits, more with more singular groups. Of 450 simulations of 10, 20 and 40
-/// windows (parallelograms in a row) at tolerances from 1e-12 to 1e-4 none stops, also at half or twice this value; at
-/// a quarter 5 stop, and without the rule 48.
-const LEAST_CLEARANCE: f64 = 0.15;
 
 /// The behaviour of a simulation at a singularity of the inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -82,7 +76,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let blocks = Blocks::of(mechanism, &pose);
         let (regularity, _) = blocks.least_regular();
         let determinants = *blocks.determinants();
-        match motion.parametrisation {
+        match &motion.parametrisation {
             Parametrisation::Inputs
                 if regularity < real(LEAVE_INPUTS_BELOW) && self.at_singularity == AtSingularity::Pass =>
             {
@@ -98,14 +92,17 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                     Ok(())
                 }
             }
+            Parametrisation::Over(sheet) if !motion.leaves(sheet, &y) => self.go_on(),
             _ if regularity > real(RETURN_TO_INPUTS_ABOVE) && self.is_past(&determinants) => {
-                let Change::<S> { inputs, .. } = motion.velocity(t, &y)?;
+                let Change::<S> { inputs, .. } = motion.velocity(&y)?;
                 self.steps_before_return = 0;
                 self.signs = determinants;
                 self.exchange(Parametrisation::Inputs, &inputs);
                 Ok(())
             }
-            Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => self.stay(independent),
+            &Parametrisation::Others(independent) | &Parametrisation::Over(Sheet { independent, .. }) => {
+                self.stay(independent)
+            }
         }
     }
 
@@ -119,13 +116,12 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             .reduce(|a, b| if a < b { a } else { b })
     }
 
-    /// Prepares for a singularity of the inputs expected after `time`. A change point is passed from a distance: the
-    /// longer the step over it, the smaller its rounding error.
+    /// Prepares for a singularity of the inputs expected after `time`.
     fn prepare_for_singularity(&mut self, time: f64) -> Result<(), MotionError> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
-        let velocity = motion.velocity(t, &y)?;
+        let velocity = motion.velocity(&y)?;
         let is_near = time * to_f64(motion.scaled_norm(&velocity)) < LOOK_AHEAD;
         let is_next = self.integration.next_length().is_some_and(|next| time < 2.0 * next);
         if !(is_near || is_next) {
@@ -137,15 +133,12 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let rates = independent.of(&velocity);
         let ahead = motion.change_point_ahead(
             &independent,
-            (t, &Motion::<S, W>::pack(&q, &rates)),
+            &Motion::<S, W>::pack(&q, &rates),
             self.direction(),
-            self.relative(),
-        )?;
+            real(self.relative),
+        );
         match ahead {
-            Ahead::ChangePoint(step) => {
-                self.exchange(Parametrisation::Others(independent), &rates);
-                self.pass(independent, step);
-            }
+            Ahead::Sheet(sheet) => self.exchange(Parametrisation::Over(sheet), &rates),
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),
             Ahead::Clear if is_next => {
                 self.steps_before_return = STEPS_BEFORE_RETURN;
@@ -161,17 +154,6 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         if self.integration.end() < self.integration.t() { -S::Scalar::one() } else { S::Scalar::one() }
     }
 
-    fn relative(&self) -> S::Scalar {
-        real(self.relative)
-    }
-
-    /// Takes the step over a change point.
-    fn pass(&mut self, independent: Choice<S>, step: Polynomial<S>) {
-        self.integration.system_mut().parametrisation = Parametrisation::Over(independent, step);
-        self.integration.pass(step.up_to(self.integration.end()).unwrap_or(step));
-        self.passages.change_points += 1;
-    }
-
     /// Returns true if the simulation may return to the inputs: the singularity is passed, or was not reached in time.
     fn is_past(&self, signs: &Signs<S>) -> bool {
         self.steps_before_return == 0 || !same_signs(self.signs.as_slice(), signs.as_slice())
@@ -184,29 +166,36 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let mechanism = motion.scene.mechanism();
         let pose = mechanism.pose_at(&S::parts(&y).q);
         let independent = Independent::choose(mechanism, &pose, &motion.scales, &motion.prescribed_inputs(t));
-        let rates = independent.of(&motion.velocity(t, &y)?);
+        let rates = independent.of(&motion.velocity(&y)?);
         self.exchange(Parametrisation::Others(independent), &rates);
         self.look_ahead(independent)
     }
 
-    /// Returns true if a step ends just before a possible change point but starts far from it.
-    pub(super) fn ends_too_near(&self, start: &StateColumn<S>, end: &StateColumn<S>) -> bool {
-        if self.at_singularity == AtSingularity::Stop {
-            return false;
-        }
+    /// Stays on the sheet, moved to the current position: nodes are found from near ones.
+    fn go_on(&mut self) -> Result<(), MotionError> {
+        let y = *self.integration.state();
         let motion = self.integration.system();
-        let mechanism = motion.scene.mechanism();
-        let regularity = |y: &StateColumn<S>| {
-            Independent::choose(mechanism, &mechanism.pose_at(&S::parts(y).q), &motion.scales, &Column::repeat(false))
-                .regularity()
-        };
-        // At a change point some group is singular in the inputs too: if none is near that, skip the costlier test.
-        let (by_inputs, _) = Blocks::of(mechanism, &mechanism.pose_at(&S::parts(end).q)).least_regular();
-        if by_inputs > real(2.0 * LEAST_CLEARANCE) {
-            return false;
+        let Parametrisation::Over(sheet) = &motion.parametrisation else { return Ok(()) };
+        if S::V::COUNT == 1 {
+            return Ok(());
         }
-        let at_end = regularity(end);
-        at_end < real(LEAST_CLEARANCE) && at_end < regularity(start) * real(0.25)
+        let (q, rates) = Motion::<S, W>::unpack(&y);
+        let z = sheet.independent.of(&Motion::<S, W>::column(&q));
+        if let Some(moved) = motion.sheet_through(sheet, &z, &sheet.reach) {
+            self.set(Parametrisation::Over(moved), &rates);
+        }
+        Ok(())
+    }
+
+    /// Counts a change point that the last step has passed, to this state.
+    pub(super) fn count_passage(&mut self, y: &StateColumn<S>) {
+        let motion = self.integration.system();
+        let Parametrisation::Over(sheet) = &motion.parametrisation else { return };
+        let pivots = motion.factors(&sheet.independent, &S::parts(y).q).pivots();
+        let is_beyond = sheet.is_beyond(&pivots);
+        if is_beyond != core::mem::replace(&mut self.is_beyond, is_beyond) {
+            self.passages.change_points += 1;
+        }
     }
 
     /// Keeps the current coordinates, or changes to better ones.
@@ -232,12 +221,12 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         self.look_ahead(independent)
     }
 
-    /// Takes the step over a change point if one is near.
+    /// Goes on the sheet through a change point if one is near.
     fn look_ahead(&mut self, independent: Choice<S>) -> Result<(), MotionError> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
-        match motion.change_point_ahead(&independent, (t, &y), self.direction(), self.relative())? {
-            Ahead::ChangePoint(step) => self.pass(independent, step),
+        match motion.change_point_ahead(&independent, &y, self.direction(), real(self.relative)) {
+            Ahead::Sheet(sheet) => self.exchange(Parametrisation::Over(sheet), &Motion::<S, W>::unpack(&y).1),
             _ if independent.regularity() < real(LEAST_REGULARITY) => {
                 return Err(motion.no_coordinates_error(t, &S::parts(&y).q));
             }
@@ -250,6 +239,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     /// Changes to a parametrisation with these rates of its independent coordinates, and counts the change.
     fn exchange(&mut self, parametrisation: ParametrisationOf<S>, rates: &PerInput<S::Mechanism>) {
         self.passages.exchanges += 1;
+        self.is_beyond = false;
         self.set(parametrisation, rates)
     }
 
@@ -270,9 +260,6 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
 pub(super) fn scale_of<S: Scene, W>(motion: &Motion<'_, S, W>, frequency: S::Scalar) -> StateColumn<S> {
     let scales = &motion.scales.coordinates;
     let scale = S::Mechanism::coordinates(scales.unknowns, scales.inputs);
-    let rates = match &motion.parametrisation {
-        Parametrisation::Inputs => scales.inputs,
-        Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => independent.of(scales),
-    };
+    let rates = motion.parametrisation.independent().map_or(scales.inputs, |independent| independent.of(scales));
     Motion::<S, W>::pack(&scale, &(rates * frequency))
 }

@@ -36,6 +36,8 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) from: (S::Scalar, StateColumn<S>),
     pub(super) signs: Signs<S>,
     pub(super) passages: Passages,
+    /// True if the motion has passed the change point of the sheet on which it goes.
+    pub(super) is_beyond: bool,
     /// The remaining steps before the simulation may return to the inputs, if it does not pass the expected singularity
     /// sooner.
     pub(super) steps_before_return: u32,
@@ -76,7 +78,7 @@ pub fn simulate<S: Scene>(
     }
     let y = if S::Contacts::COUNT > 0 { motion.begin(t, &y)? } else { y };
     let contacts = motion.contacts;
-    let velocity = motion.velocity(t, &y)?;
+    let velocity = motion.velocity(&y)?;
     let (_, accelerations) = Motion::<S, Unwatched>::unpack(&scene.derivative(t, &y)?);
     let speed = motion.scaled_norm(&velocity);
     let urge = accelerations.component_div(&scales.coordinates.inputs).largest().sqrt();
@@ -98,6 +100,7 @@ pub fn simulate<S: Scene>(
         from: (t, y),
         signs: mechanism.block_determinants(&mechanism.pose_at(&q)),
         passages: Passages::default(),
+        is_beyond: false,
         steps_before_return: 0,
         is_over: false,
         failure: None,
@@ -146,6 +149,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
             from: self.from,
             signs: self.signs,
             passages: self.passages,
+            is_beyond: self.is_beyond,
             steps_before_return: self.steps_before_return,
             is_over: self.is_over,
             failure: self.failure,
@@ -200,8 +204,8 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// The forces of frictions, stops, drives and joints at the state reached; at an event, those after it.
     ///
     /// # Errors
-    /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very
-    /// near to one.
+    /// Those of the equations of motion, and [`MotionError::UndeterminedReactions`] next to a change point if the scene
+    /// has forces in joints.
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;
@@ -219,7 +223,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         self.integration.progress()
     }
 
-    /// The cost so far, without the evaluations of steps over change points.
+    /// The cost so far.
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.integration.counts()
@@ -255,8 +259,8 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     ///
     /// # Errors
     /// Those of the scene, if no shorter step avoids them,
-    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) and
-    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) where the motion cannot be followed, and
+    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) and [`MotionError::ChangePoint`] where the
+    /// motion cannot be followed, and
     /// those of [`Integration::advance`]. After an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {

@@ -8,7 +8,7 @@ use crate::integrate::Guard;
 use crate::scene::coordinate_name;
 use crate::{Accelerations, Equations, Mode, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput};
+use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, PositionError};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
@@ -19,26 +19,19 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// M, Q and the contacts in the current coordinates.
     ///
     /// # Errors
-    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) if [J A] is nearly singular and no step over
-    /// a change point is in progress.
+    /// [`MotionError::ChangePoint`] if [J A] is nearly singular and the position is on no known sheet.
     fn equations(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
-        match &self.parametrisation {
-            Parametrisation::Inputs => ReducedEquations::of(self.scene, t, y),
-            Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
-                let q = S::parts(y).q;
-                match (self.regular(independent, &q), &self.parametrisation) {
-                    (Some(factors), _) => Ok(self.equations_by(independent, &factors, (t, y))?.0),
-                    (None, Parametrisation::Over(_, step)) => self.equations_over(independent, step, (t, y)),
-                    (None, _) => Err(self.change_point_error(&q)),
-                }
-            }
+        let (q, rates) = Self::unpack(y);
+        match self.frame(&q, &rates)? {
+            None => ReducedEquations::of(self.scene, t, y),
+            Some((independent, frame)) => Ok(self.equations_by(independent, &frame, (t, y))?.0),
         }
     }
 
     /// The contacts with s and s' only, without derivatives by the coordinates: no equations of motion are needed.
     pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
         let (q, rates) = Self::unpack(y);
-        let velocity = self.velocity(t, y)?;
+        let velocity = self.velocity(y)?;
         let rates_of_all = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let contacts = self.scene.contacts(t, &q, &rates_of_all)?.map(|contact| ReducedContact {
             name: contact.name,
@@ -71,13 +64,13 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The rounding error of each s.
     fn resolution(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<PerContact<S>, MotionError> {
         let (q, _) = Self::unpack(y);
-        let velocity = self.velocity(t, y)?;
+        let velocity = self.velocity(y)?;
         let contacts = self.scene.contacts(t, &q, &S::Mechanism::rates(velocity.unknowns, velocity.inputs))?;
         let mut resolution = Column::zeros();
         for (resolution, Contact { along, .. }) in resolution.iter_mut().zip(&contacts) {
             *resolution = match self.parametrisation {
                 Parametrisation::Inputs => resolution_by_inputs(self.scene.mechanism(), &self.scales, &q, along)?,
-                Parametrisation::Others(_) | Parametrisation::Over(..) => {
+                Parametrisation::Others(_) | Parametrisation::Over(_) => {
                     resolution_of::<S::Mechanism>(&self.scales, &q, along)
                 }
             };
@@ -123,6 +116,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
             return Ok((*y, Column::repeat(None)));
         }
         let (q, rates) = Self::unpack(y);
+        // In the change point itself a change of a contact may lead to any of the motions that cross.
+        if self.is_at_change_point(&q) {
+            return Err(self.change_point_error(&q));
+        }
         self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
         let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
@@ -159,13 +156,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
     pub(super) fn loads(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Loads<S>, MotionError> {
-        let q = S::parts(y).q;
-        let (free, places) = match &self.parametrisation {
-            Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
-            Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
-                let factors = self.regular(independent, &q).ok_or_else(|| self.change_point_error(&q))?;
+        let (q, rates) = Self::unpack(y);
+        let (free, places) = match self.frame(&q, &rates)? {
+            None => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
+            Some((independent, frame)) => {
                 let place = |input: usize| independent.free.iter().position(|&free| free == S::U::COUNT + input);
-                (self.unprescribed_by(independent, &factors, (t, y))?.0, Column::from_fn(place))
+                (self.unprescribed_by(independent, &frame, (t, y))?.0, Column::from_fn(place))
             }
         };
         let motion = self.contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
@@ -179,10 +175,15 @@ impl<S: Scene, W> Motion<'_, S, W> {
             Some(place) if prescribed[input] => residual[place],
             _ => S::Scalar::zero(),
         });
-        let velocity = self.velocity(t, y)?;
+        let velocity = self.velocity(y)?;
         let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let accelerations = self.accelerations(t, y, &motion.acceleration)?;
-        let joints = self.scene.reactions(t, &q, &rates, &accelerations, &motion.forces)?;
+        let joints = match self.scene.reactions(t, &q, &rates, &accelerations, &motion.forces) {
+            Err(MotionError::Position(PositionError::Singular { .. })) if self.is_next_to_change_point(&q) => {
+                return Err(self.no_reactions_error(&q));
+            }
+            joints => joints?,
+        };
         Ok(Loads {
             contacts: motion.forces,
             are_unique: motion.are_unique,
@@ -199,17 +200,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
         y: &StateColumn<S>,
         free: &PerInput<S::Mechanism>,
     ) -> Result<Accelerations<S>, MotionError> {
-        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
-        else {
+        let (q, free_rates) = Self::unpack(y);
+        let Some((_, frame)) = self.frame(&q, &free_rates)? else {
             let Equations { ratios, bias, .. } = self.scene.equations(t, y)?;
             return Ok(Accelerations::<S> { unknowns: ratios * *free + bias, inputs: *free });
         };
-        let (q, free_rates) = Self::unpack(y);
-        let factors = self.regular(independent, &q).ok_or_else(|| self.change_point_error(&q))?;
-        let (unknowns, inputs) = factors.basis();
-        let rates = S::Mechanism::rates(unknowns * free_rates, inputs * free_rates);
-        let mechanism = self.scene.mechanism();
-        let bias = -factors.solve(&mechanism.gamma(&mechanism.pose_at(&q), &rates));
-        Ok(Accelerations::<S> { unknowns: unknowns * *free, inputs: inputs * *free } + bias)
+        Ok(frame.accelerations(free))
     }
 }
