@@ -1,0 +1,64 @@
+//! A slider-crank with equal rods, psi = -phi, whose slider passes the crank's axis; a spring and a stop.
+
+use linkage::linkage;
+use linkage::simulation::{Start, simulate};
+use rand::Rng;
+
+use crate::judge::{Case, compare};
+
+linkage! {
+    #[derive(Debug, Clone)]
+    mechanism EqualRods {
+        param r = 0.1, j = 0.01, m = 1, k = 500, l0 = 0.03, at = 0.05, least = -1, e = 0.5;
+        input phi;
+        unknown psi, s;
+        loop r@phi + r@psi = (s, 0);
+        body crank { inertia j; angle phi; }
+        body rod { inertia j/2; angle psi; }
+        body slider { mass m; center (s, 0); }
+        scene Sprung { inertia; spring k, l0 between (at, at/2) and (s, 0); stop s in least..1, restitution e; }
+    }
+}
+
+linkage! {
+    /// The same with phi alone.
+    #[derive(Debug, Clone)]
+    mechanism Angle {
+        param r = 0.1, j = 0.01, m = 1, k = 500, l0 = 0.03, at = 0.05, least = -1, e = 0.5;
+        input phi;
+        let s = 2 * r * cos(phi);
+        body crank { inertia j; angle phi; }
+        body rod { inertia j/2; angle -phi; }
+        body slider { mass m; center (s, 0); }
+        output way = s;
+        scene Alone { inertia; spring k, l0 between (at, at/2) and (s, 0); stop way in least..1, restitution e; }
+    }
+}
+
+#[test]
+fn the_slider_passes_the_axis() {
+    compare("equal rods", 16, 0, |random| {
+        let (phi, rate) = (random.random_range(-1.4..1.4_f64), random.random_range(-8.0..8.0_f64));
+        let (k, least) = (random.random_range(50.0..500.0), random.random_range(-0.3..-0.02_f64));
+        let e = f64::from(random.random_range(0..=4)) / 4.0;
+        let scene = Sprung { k, least, e, ..Sprung::default() };
+        let alone = Alone { k, least, e, ..Alone::default() };
+        let end = 1.5;
+        let reference = move |position: f64, by: f64| {
+            let (phi, rate) = (phi + position * (1.0 + phi.abs()), rate + by * (10.0 + rate.abs()));
+            let start = Start { t: 0.0, q: AngleCoordinates { phi }, input_rates: rate };
+            let mut motion = simulate(&alone, start, end, 1e-13).unwrap();
+            motion.finish(|_, _| true).unwrap();
+            let phi = motion.state().q.phi;
+            vec![phi, -phi, 2.0 * phi.cos()]
+        };
+        let motion = move |tolerance| {
+            let q = EqualRodsCoordinates { phi, psi: -phi, s: 0.2 * phi.cos() };
+            let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: rate }, end, tolerance)?;
+            motion.finish(|_, _| true)?;
+            let q = motion.state().q;
+            Ok((vec![q.phi, q.psi, q.s / 0.1], motion.passages().change_points))
+        };
+        Case { motion: Box::new(motion), reference: Box::new(reference) }
+    });
+}
