@@ -37,7 +37,8 @@ linkage! {
 #[test]
 fn smooth_motions_are_those_of_a_rotor() {
     compare("smooth", 40, 0, |random| {
-        let (th, v, p) = (random.random_range(0.0..6.3_f64), random.random_range(-0.6..0.6_f64), random.random_range(0.0..6.3));
+        let (th, v, p) =
+            (random.random_range(0.0..6.3_f64), random.random_range(-0.6..0.6_f64), random.random_range(0.0..6.3));
         let scene = Smooth { p, ..Smooth::default() };
         let (inertia, w, t0, end) = (0.03, scene.w, scene.t0, 10.0);
         let reference = move |position: f64, rate: f64| {

@@ -57,6 +57,12 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         self
     }
 
+    /// A bound of the way of each component within the step, for a cubic.
+    pub(crate) fn way(&self) -> Column<T, N> {
+        let moves = self.coefficients[..self.used].iter().skip(1);
+        moves.fold(Column::zeros(), |way, coefficient| way + coefficient.map(|entry| entry.abs()))
+    }
+
     /// The times of the start and the end of the step.
     #[must_use]
     pub fn interval(&self) -> (T, T) {

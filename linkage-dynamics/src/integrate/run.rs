@@ -427,7 +427,8 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(state)
     }
 
-    pub(super) fn cubic(&self) -> Interpolant<S::Scalar, S::N> {
+    /// The cubic through the last step.
+    pub(crate) fn cubic(&self) -> Interpolant<S::Scalar, S::N> {
         let ((t, y), (end, next)) = (&self.from, &self.to);
         Interpolant::cubic(*t, *end - *t, [y, next], [&self.slopes[0], &self.slopes[M::TABLEAU.end]])
     }

@@ -1,15 +1,23 @@
 //! The main loop of a simulation: steps and events.
 
-use super::motion::Parametrisation;
+use super::motion::{Motion, Parametrisation};
 use super::parametrisation::{AtSingularity, STEPS_BEFORE_RETURN};
 use super::run::Simulation;
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
 use crate::contact::Change;
 use crate::integrate::Method;
-use crate::{MotionError, Scene, StateColumn};
-use linkage_runtime::__shared::same_signs;
-use linkage_runtime::{Column, Dim, Mechanism};
+use crate::{Coordinates, MotionError, Scene, StateColumn};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::{same_signs, to_f64};
+use linkage_runtime::{Column, Dim, Mechanism, real};
+
+/// Along a step in the inputs the signs of the determinants are checked each time that a coordinate has moved so far, in
+/// radians or divided by the scale of its length. Change points of one group are about pi apart.
+const LONGEST_UNCHECKED: f64 = 0.5;
+
+/// The most checks in one step.
+const MOST_CHECKS: f64 = 64.0;
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     pub(super) fn proceed(&mut self) -> Result<Option<State<S>>, MotionError> {
@@ -18,20 +26,18 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             if self.integration.is_at_boundary() && !is_prepared {
                 self.prepare()?;
             }
-            let Some(step) = self.integration.advance()? else { return Ok(None) };
+            let step = self.integration.advance();
+            let step = step.map_err(|error| self.integration.system().of_reactions(self.integration.state(), error))?;
+            let Some(step) = step else { return Ok(None) };
             let motion = self.integration.system();
             let q = S::parts(&step.state).q;
-            let mechanism = motion.scene.mechanism();
-            if matches!(motion.parametrisation, Parametrisation::Inputs) {
-                let signs = mechanism.block_determinants(&mechanism.pose_at(&q));
-                if !same_signs(self.signs.as_slice(), signs.as_slice()) {
-                    if self.at_singularity == AtSingularity::Stop {
-                        return Err(motion.singular_error(&q));
-                    }
-                    // The step passed a singularity: repeat it from its start in regular coordinates.
-                    self.go_back()?;
-                    continue;
+            if matches!(motion.parametrisation, Parametrisation::Inputs) && !self.keeps_signs(step.t, &q) {
+                if self.at_singularity == AtSingularity::Stop {
+                    return Err(motion.singular_error(&q));
                 }
+                // The step passed a singularity: repeat it from its start in regular coordinates.
+                self.go_back()?;
+                continue;
             }
             let contacts = motion.contacts;
             let projected = motion.projected(step.t, &step.state)?;
@@ -62,6 +68,35 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             (self.state, self.contacts) = (state, contacts);
             return Ok(Some(self.state));
         }
+    }
+
+    /// True if the determinants of the groups have the signs of the start at the end `q` of a step in the inputs, and
+    /// between on a long one: a step that passes two change points has the same signs at both ends.
+    fn keeps_signs(&self, t: S::Scalar, q: &Coordinates<S>) -> bool {
+        let motion = self.integration.system();
+        let mechanism = motion.scene.mechanism();
+        let keeps = |q: &Coordinates<S>| {
+            let signs = mechanism.block_determinants(&mechanism.pose_at(q));
+            same_signs(self.signs.as_slice(), signs.as_slice())
+        };
+        if !keeps(q) {
+            return false;
+        }
+        let step = self.integration.cubic();
+        let way = motion.scaled_norm(&Motion::<S, W>::column(&S::parts(&step.way()).q));
+        // NaN and infinity are errors of the step itself.
+        let parts = (to_f64(way) / LONGEST_UNCHECKED).clamp(0.0, MOST_CHECKS);
+        let (start, end) = step.interval();
+        let mut part = 1.0;
+        while part < parts {
+            let between = start + (end - start) * real(part / parts);
+            let is_before = (t - between) * (end - start) > S::Scalar::zero();
+            if is_before && !keeps(&S::parts(&step.at(between)).q) {
+                return false;
+            }
+            part += 1.0;
+        }
+        true
     }
 
     /// Repeats the last step in other coordinates than the inputs.

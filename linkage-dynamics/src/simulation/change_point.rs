@@ -77,6 +77,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
         direction: S::Scalar,
         tolerance: S::Scalar,
     ) -> Ahead<S> {
+        // At a change point forces in joints are infinite or undetermined, and with them these frictions.
+        if S::BEARINGS {
+            return Ahead::Clear;
+        }
         let (q, rates) = Self::unpack(y);
         let factors = self.factors(independent, &q);
         let velocity = factors.rates(&rates);

@@ -6,11 +6,16 @@ use super::independent::Independent;
 use super::motion::{Change, Motion, Parametrisation};
 use crate::error::CrossingRates;
 use crate::scene::coordinate_name;
-use crate::{Coordinates, MotionError, Scene};
-use linkage_runtime::__shared::to_f64;
+use crate::{Coordinates, MotionError, Scene, StateColumn};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::{smallest, to_f64};
 use linkage_runtime::jacobian::ulp::nearly_zero;
-use linkage_runtime::jacobian::{Blocks, EliminationOf as Elimination};
-use linkage_runtime::{Column, Dim, Mechanism, PositionError};
+use linkage_runtime::jacobian::{Blocks, EliminationOf as Elimination, Scales};
+use linkage_runtime::{Column, Dim, Mechanism, PositionError, real};
+
+/// Below this regularity of the best choice of coordinates a failed step is ascribed to forces in joints. In the tests
+/// steps fail at 0.0005 to 0.003.
+const NEXT_TO_CHANGE_POINT: f64 = 0.01;
 
 impl<S: Scene, W> Motion<'_, S, W> {
     /// The change-point error with the group of least regularity, and the rates along the motions that cross.
@@ -27,6 +32,22 @@ impl<S: Scene, W> Motion<'_, S, W> {
         MotionError::UndeterminedReactions { scene: S::NAME, group: self.least_regular_group(q) }
     }
 
+    /// The error of a step; next to a change point that of forces in joints, if frictions depend on them: steps fail
+    /// there, since these forces become infinite or rounding errors.
+    pub(super) fn of_reactions(&self, y: &StateColumn<S>, error: MotionError) -> MotionError {
+        let is_of_step = matches!(
+            error,
+            MotionError::StepTooSmall { .. } | MotionError::TooManySteps { .. } | MotionError::Position(_)
+        );
+        let q = S::parts(y).q;
+        if !(S::BEARINGS && is_of_step) {
+            return error;
+        }
+        let mechanism = self.scene.mechanism();
+        let freely = Independent::choose(mechanism, &mechanism.pose_at(&q), &self.scales, &Column::repeat(false));
+        if freely.regularity() < real(NEXT_TO_CHANGE_POINT) { self.no_reactions_error(&q) } else { error }
+    }
+
     fn least_regular_group(&self, q: &Coordinates<S>) -> &'static str {
         let mechanism = self.scene.mechanism();
         Blocks::of(mechanism, &mechanism.pose_at(q)).least_regular().1
@@ -39,10 +60,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
         pivots.iter().zip(&sheet.vanishes).any(|(pivot, &vanishes)| vanishes && pivot.abs() <= nearly_zero())
     }
 
-    /// True if [J A] is nearly singular and the position is on a sheet.
+    /// True if the errors of interpolated accelerations, divided by the pivot that vanishes, are larger than
+    /// sqrt(epsilon): forces in joints grow as these quotients.
     pub(super) fn is_next_to_change_point(&self, q: &Coordinates<S>) -> bool {
         let Parametrisation::Over(sheet) = &self.parametrisation else { return false };
-        !sheet.is_regular(&self.factors(&sheet.independent, q).pivots())
+        let pivots = self.factors(&sheet.independent, q).pivots();
+        let vanishing = pivots.iter().zip(&sheet.vanishes).filter(|&(_, &vanishes)| vanishes);
+        let least = smallest(vanishing.map(|(&pivot, _)| pivot));
+        !sheet.is_regular(&pivots) && sheet.errors.largest() > least * S::Scalar::default_epsilon().sqrt()
     }
 
     /// The rates of two coordinates along the two motions of one input that cross at a position: the zeros of the
@@ -106,4 +131,13 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let regularity = to_f64(regularity);
         PositionError::Singular { mechanism: S::Mechanism::NAME, group, regularity }.into()
     }
+}
+
+/// The change-point error for a start at one, else this error.
+pub(super) fn start_error<S: Scene>(scene: &S, q: &Coordinates<S>, error: MotionError) -> MotionError {
+    let mechanism = scene.mechanism();
+    let pose = mechanism.pose_at(q);
+    let motion = Motion::new(scene, Scales::of(mechanism, &pose));
+    let freely = Independent::choose(mechanism, &pose, &motion.scales, &Column::repeat(false));
+    if freely.regularity() <= nearly_zero() { motion.change_point_error(q) } else { error }
 }

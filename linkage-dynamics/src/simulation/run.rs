@@ -1,5 +1,6 @@
 //! A simulation: start, settings and results.
 
+use super::failure::start_error;
 use super::motion::Motion;
 use super::outputs::States;
 use super::parametrisation::{AtSingularity, Passages, scale_of};
@@ -12,7 +13,7 @@ use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, real};
+use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, PositionError, real};
 
 /// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
 /// every third step is rejected.
@@ -56,8 +57,9 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
 ///
 /// # Errors
 /// Those of [`Scene::start`]: [`InputError::OutOfRange`], [`InputError::Inconsistent`],
-/// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged); those of the equations of motion at
-/// the start; [`MotionError::Irreversible`] if `end` is before the start and the scene has frictions or stops;
+/// [`PositionError::NotConverged`]; those of the equations of motion at the start,
+/// [`PositionError::Singular`] at a dead point and [`MotionError::ChangePoint`] at a change point, which of whose motions
+/// is to follow the rates of the inputs do not tell; [`MotionError::Irreversible`] if `end` is before the start and the scene has frictions or stops;
 /// [`InputError::OutOfRange`] for a tolerance below ten ulps or above 1 and for times that are not finite.
 pub fn simulate<S: Scene>(
     scene: &S,
@@ -66,8 +68,20 @@ pub fn simulate<S: Scene>(
     tolerance: f64,
 ) -> Result<Simulation<'_, S>, MotionError> {
     let Start { t, q, input_rates } = start;
+    started(scene, (t, &q, &input_rates.into()), end, tolerance).map_err(|error| match error {
+        MotionError::Position(PositionError::Singular { .. }) => start_error(scene, &q, error),
+        error => error,
+    })
+}
+
+fn started<'a, S: Scene>(
+    scene: &'a S,
+    (t, q, input_rates): (S::Scalar, &Coordinates<S>, &Inputs<S>),
+    end: S::Scalar,
+    tolerance: f64,
+) -> Result<Simulation<'a, S>, MotionError> {
     let mechanism = scene.mechanism();
-    let y = scene.start(t, &q, &input_rates.into())?;
+    let y = scene.start(t, q, input_rates)?;
     let q = S::parts(&y).q;
     let scales = Scales::of(mechanism, &mechanism.pose_at(&q));
     let mut motion = Motion::new(scene, scales);
