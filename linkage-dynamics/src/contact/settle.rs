@@ -181,8 +181,19 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             // The series of bounces has ended, either resting on the stop or leaving it from rest.
             self.hardest[place] = T::zero();
         }
-        // A contact released at its limit is held again if it does not accelerate away, to rounding error.
+        self.hold_again(equations, at_rest)
+    }
+
+    /// Holds again the contacts that are released at their limit and do not accelerate away, to rounding error: those
+    /// whose margin is not negative if they are held. This is the test that ends the mode, so that a contact held here
+    /// is not released again at the same state.
+    fn hold_again<V: Dim>(
+        &mut self,
+        equations: &ReducedEquations<T, V, C>,
+        at_rest: &Column<Option<Mode>, C>,
+    ) -> Result<(), MotionError> {
         let acceleration = self.acceleration(equations)?;
+        let mut held = self.modes;
         for (place, contact) in equations.contacts.iter().enumerate() {
             let Some(side) = at_rest[place] else { continue };
             let terms = contact.row.component_mul(&acceleration);
@@ -194,7 +205,16 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 _ => continue,
             };
             if departure <= held_tolerance::<T>() * size {
-                self.modes[place] = side;
+                held[place] = side;
+            }
+        }
+        if held == self.modes {
+            return Ok(());
+        }
+        let margins = Held::new(equations, &held)?.margins(equations, &held);
+        for ((mode, held), margin) in self.modes.iter_mut().zip(held).zip(margins) {
+            if margin >= T::zero() {
+                *mode = held;
             }
         }
         Ok(())
