@@ -29,14 +29,19 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let mut equations = evaluate(rates)?;
         // The mode in which each contact with s' = 0 would be held; None for the others.
         let mut at_rest: Column<Option<Mode>, C> = Column::from_fn(|place| self.at_rest(place, &equations));
+        // A contact that is released from rest begins with s' = 0, without the error of the step. One that goes on
+        // slipping keeps its rate, however small: s' passes zero at a dead centre while the mechanism moves.
+        let mut resting = self.modes;
         if let Some(struck) = self.struck(&equations, &at_rest) {
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
+            resting = Column::repeat(Mode::Open);
         }
         self.choose(&equations, &at_rest)?;
-        // A contact that goes on slipping keeps its rate, however small: s' passes zero at a dead centre while the
-        // mechanism moves.
-        if self.modes.iter().any(|mode| mode.is_held()) {
-            return Ok(Held::new(&equations, &self.modes)?.rates(&equations));
+        for (resting, mode) in resting.iter_mut().zip(self.modes).filter(|(_, mode)| mode.is_held()) {
+            *resting = mode;
+        }
+        if resting.iter().any(|mode| mode.is_held()) {
+            return Ok(Held::new(&equations, &resting)?.rates(&equations));
         }
         Ok(equations.rates)
     }
