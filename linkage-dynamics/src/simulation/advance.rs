@@ -12,7 +12,9 @@ use linkage_runtime::__shared::{same_signs, to_f64};
 use linkage_runtime::{Column, Dim, Mechanism};
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
-    pub(super) fn proceed(&mut self) -> Result<Option<State<S>>, MotionError> {
+    /// Advances to the next event or to the end of the step; None at the end. False for an event of the contacts that
+    /// changes nothing, which only outputs stop at: the motion restarts there.
+    pub(super) fn proceed(&mut self) -> Result<Option<bool>, MotionError> {
         loop {
             let is_prepared = core::mem::take(&mut self.is_prepared);
             if self.integration.is_at_boundary() && !is_prepared {
@@ -60,15 +62,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 _ => self.settle(&mut state, &projected),
             };
             // With several contact events at one time, the first settles all contacts.
-            if step.event.is_some() && state.event.is_none() && result.is_ok() && state.changes().next().is_none() {
-                continue;
-            }
+            let has_changed =
+                step.event.is_none() || state.event.is_some() || result.is_err() || state.changes().next().is_some();
             self.failure = result.err();
             if step.event.is_some() {
                 self.from = (step.t, *self.integration.state());
             }
             (self.state, self.contacts) = (state, contacts);
-            return Ok(Some(self.state));
+            return Ok(Some(has_changed));
         }
     }
 
