@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 
 use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
-use super::event::{EventSigns, Found};
+use super::event::EventSigns;
+use super::search::Found;
 use super::system::{IntoSystem, StateOf, System};
 use super::tableau::{self, Method, SLOPES, Slopes};
 use super::{Dop853, Outputs, step};
