@@ -10,9 +10,9 @@ use nalgebra::ComplexField;
 /// are taken, with 8 hardly fewer.
 const HALVINGS: u32 = 5;
 
-/// The fraction of the error estimated at the middle that counts as the error of each half; the error of a smooth
-/// function decreases to a sixteenth.
-const ERROR_OF_HALF: f64 = 0.25;
+/// The largest error of a cubic with a minimum, divided by the depth of the minimum below the higher end. With a larger
+/// one the minimum of the function may be much deeper.
+const ERROR_OF_MINIMUM: f64 = 0.0625;
 
 /// The factor by which the estimated error of interpolated states is increased.
 const ERROR_OF_STATES: f64 = 2.0;
@@ -48,15 +48,10 @@ impl Course {
         of_value.abs() + 0.143 * of_rate.abs()
     }
 
-    /// The error of each half, from that of the whole.
-    fn error_of_half(error: f64) -> f64 {
-        ERROR_OF_HALF * error
-    }
-
-    /// The error of each half from the value and rate of the function at the middle. It is not accepted if it is
-    /// smaller by chance.
-    pub(super) fn error_from_middle(&self, sample: [f64; 2]) -> f64 {
-        let error = Self::error_of_half(self.error_at_middle(sample));
+    /// The error of each half from the value and rate of the function at the middle: that of the whole, sixteen times as
+    /// large for a smooth function. It is not accepted if it is smaller by chance.
+    pub(super) fn error_of_half(&self, sample: [f64; 2]) -> f64 {
+        let error = self.error_at_middle(sample);
         if self.error < f64::INFINITY { error.max(self.error / 64.0) } else { error }
     }
 
@@ -96,6 +91,11 @@ impl Course {
         y * y * (y * a + 3.0 * x * b) + x * x * (3.0 * y * c + x * d)
     }
 
+    /// The depth of a value below the higher end.
+    fn depth(&self, value: f64) -> f64 {
+        self.cubic[0].max(self.cubic[3]) - value
+    }
+
     /// The next step of the search for the first zero of a function that begins at zero or above. Extrema nearer to an
     /// end than `near` change the value there by its rounding error only.
     pub(super) fn next(&self, has_passed: bool, near: f64) -> Next {
@@ -114,19 +114,17 @@ impl Course {
         {
             return Next::Sample(rise);
         }
-        let lowest = minimum.filter(is_inside);
-        if has_passed {
-            // A zero before the passage at the end?
-            return match lowest {
-                Some(x) if self.at(x) <= self.error => Next::Sample(x),
-                _ if self.error > self.cubic[0].max(-self.cubic[3]) => Next::Sample(0.5),
-                _ => Next::Done,
-            };
-        }
-        if self.without_extrema_near_ends(minimum, near).is_positive([0.0; 5]) {
-            return Next::Done;
-        }
-        Next::Sample(lowest.filter(|&x| self.error <= self.at(x).abs().max(0.25 * self.at(0.5).abs())).unwrap_or(0.5))
+        let lowest = minimum.filter(is_inside).map(|x| (x, self.at(x)));
+        let is_accurate = |value: f64| self.error <= ERROR_OF_MINIMUM * self.depth(value);
+        let place = lowest.filter(|&(_, value)| is_accurate(value)).map_or(0.5, |(x, _)| x);
+        let is_done = if has_passed {
+            // No passage before that at the end.
+            is_accurate(self.cubic[3]) && lowest.is_none_or(|(_, value)| value > self.error)
+        } else {
+            lowest.is_none_or(|(_, value)| is_accurate(value))
+                && self.without_extrema_near_ends(minimum, near).is_positive([0.0; 5])
+        };
+        if is_done { Next::Done } else { Next::Sample(place) }
     }
 
     /// Sets the rates at the ends to zero if the minimum is near.
@@ -192,12 +190,15 @@ pub(super) fn may_pass(samples: [[f64; 2]; 5]) -> bool {
     let whole = middle(0, 4);
     !(0..4).all(|part| {
         let half = part / 2 * 2;
-        let error = Course::error_of_half(middle(half, half + 2)).max(whole / 256.0);
+        let error = middle(half, half + 2).max(whole / 64.0);
         let more = match part {
             0 => [0.0, 0.0, of_states / 6.0, of_states / 2.0, of_states],
             3 => [of_states, of_states / 2.0, of_states / 6.0, 0.0, 0.0],
             _ => [of_states; 5],
         };
-        course(part, part + 1, error).is_positive(more)
+        let course = course(part, part + 1, error);
+        let [minimum, _] = course.extrema();
+        let is_accurate = |value: f64| error + of_states <= ERROR_OF_MINIMUM * course.depth(value);
+        minimum.is_none_or(|x| is_accurate(course.at(x))) && course.is_positive(more)
     })
 }

@@ -245,7 +245,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
                 let errors = Column::from_fn(|place| match &courses[place] {
                     Some(of) if x == 0.5 => {
                         let base = before.guards[place].value.min(0.0);
-                        of.error_from_middle(by_part(&between.guards[place], base))
+                        of.error_of_half(by_part(&between.guards[place], base))
                     }
                     _ => errors[place],
                 });
