@@ -96,6 +96,15 @@ pub enum MotionError {
         /// The index of the last event.
         event: usize,
     },
+    /// A friction or a stop changes without end at the same time: for example, a body hits two stops that meet in turn.
+    ContactWithoutEnd {
+        /// The scene.
+        scene: &'static str,
+        /// The friction or stop that changed last.
+        contact: &'static str,
+        /// The time that was reached.
+        t: f64,
+    },
     /// A position during the motion could not be computed.
     Position(PositionError),
     /// The motion reached a change point, or could not be followed.
@@ -178,6 +187,11 @@ impl fmt::Display for MotionError {
             Self::EventsWithoutEnd { t, event } => write!(
                 f,
                 "event {event} repeats without end at t = {t}: let its action stop, or restart with another law"
+            ),
+            Self::ContactWithoutEnd { scene, contact, t } => write!(
+                f,
+                "{contact} of {scene} changes again and again within the rounding error of t = {t}: end the simulation \
+                 before it"
             ),
             Self::Position(error) => error.fmt(f),
             Self::Path(error) => error.fmt(f),

@@ -57,7 +57,7 @@ pub(super) type StepOf<S> = Step<<S as System>::Scalar, <S as System>::N>;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Instant<T> {
     pub(super) t: T,
-    /// True if the motion restarted there.
+    /// True if the motion restarted there, or at an event just before it.
     pub(super) has_restarted: bool,
 }
 

@@ -21,7 +21,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 self.prepare()?;
             }
             let start = (self.integration.is_at_boundary()).then(|| (self.integration.t(), *self.integration.state()));
-            let Some(step) = self.integration.advance()? else { return Ok(None) };
+            let Some(step) = self.integration.advance().map_err(|error| self.named(error))? else { return Ok(None) };
             if let Some((t, y)) = start.filter(|_| step.event.is_none())
                 && self.ends_too_near(&y, &step.state)
             {
@@ -70,6 +70,18 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             }
             (self.state, self.contacts) = (state, contacts);
             return Ok(Some(has_changed));
+        }
+    }
+
+    /// Names the contact in the error for events without end: contacts are numbered after the user's events.
+    fn named(&self, error: MotionError) -> MotionError {
+        match error {
+            MotionError::EventsWithoutEnd { t, event } if event >= W::Events::COUNT => {
+                let names = self.integration.system().names;
+                let contact = names.iter().nth(event - W::Events::COUNT).copied().unwrap_or_default();
+                MotionError::ContactWithoutEnd { scene: S::NAME, contact, t }
+            }
+            error => error,
         }
     }
 
