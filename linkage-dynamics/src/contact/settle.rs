@@ -108,7 +108,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
         let free = Response::new(&after, &Column::zeros(), |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
-        let mut has_ended = false;
+        let (mut has_ended, mut too_short) = (false, Column::<_, C>::repeat(false));
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
             // The rebound rate, and the acceleration back towards the stop: a flight takes 2 rate / back and rises by
@@ -116,7 +116,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
             let lowest = self.resolution[place] / real(ZERO_ULPS);
             let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lowest * back;
-            if !restitution.is_zero() && back > T::zero() && is_over {
+            too_short[place] = back > T::zero() && is_over;
+            if !restitution.is_zero() && too_short[place] {
                 *restitution = T::zero();
                 has_ended = true;
             }
@@ -139,7 +140,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 ContactLaw::Stop { .. } => {
                     let Some(of) = struck[place] else { continue };
                     let side = if of.inward > T::zero() { Mode::AtLower } else { Mode::AtUpper };
-                    let rests = of.restitution.is_zero() && (none || pushed[place] > T::zero());
+                    // A flight from rest may be too short as well: a body rocks between two stops until it rests on both.
+                    let rests = of.restitution.is_zero() && (none || pushed[place] > T::zero() || too_short[place]);
                     at_rest[place] = rests.then_some(side);
                     self.modes[place] = if rests { side } else { Mode::Open };
                 }
@@ -186,30 +188,44 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             // The series of bounces has ended, either resting on the stop or leaving it from rest.
             self.hardest[place] = T::zero();
         }
-        self.hold_again(equations, at_rest)
+        let sizes = Column::from_fn(|place| {
+            let terms =
+                solution.forces.iter().enumerate().map(|(other, &force)| response.matrix[(place, other)] * force);
+            terms.fold(response.bias[place].1, |size, term| size + term.abs())
+        });
+        self.hold_again(equations, at_rest, &sizes)?;
+        // Where ds/dv = 0 at a dead centre, no force of friction holds s: it slips as soon as the mechanism moves.
+        let moves = response.acceleration.iter().any(|acceleration| !acceleration.is_zero());
+        for (place, contact) in equations.contacts.iter().enumerate() {
+            if moves && self.modes[place] == Mode::Stick && contact.row.iter().all(T::is_zero) && contact.bias.is_zero()
+            {
+                self.modes[place] = Mode::SlipForward;
+            }
+        }
+        Ok(())
     }
 
     /// Holds again the contacts that are released at their limit and do not accelerate away, to rounding error: those
-    /// whose margin is not negative if they are held. This is the test that ends the mode, so that a contact held here
+    /// whose margin is not negative if they are held. `sizes` are the sums of the magnitudes of the terms of s''. This is the test that ends the mode, so that a contact held here
     /// is not released again at the same state.
     fn hold_again<V: Dim>(
         &mut self,
         equations: &ReducedEquations<T, V, C>,
         at_rest: &Column<Option<Mode>, C>,
+        sizes: &Column<T, C>,
     ) -> Result<(), MotionError> {
         let acceleration = self.acceleration(equations)?;
         let mut held = self.modes;
         for (place, contact) in equations.contacts.iter().enumerate() {
             let Some(side) = at_rest[place] else { continue };
-            let terms = contact.row.component_mul(&acceleration);
-            let (sum, size) = (terms.sum() + contact.bias, terms.abs().sum() + contact.bias.abs());
+            let sum = contact.row.dot(&acceleration) + contact.bias;
             let departure = match self.modes[place] {
                 Mode::SlipForward => sum,
                 Mode::SlipBackward => -sum,
                 Mode::Open => sum * side.inward(),
                 _ => continue,
             };
-            if departure <= held_tolerance::<T>() * size {
+            if departure <= held_tolerance::<T>() * sizes[place] {
                 held[place] = side;
             }
         }
