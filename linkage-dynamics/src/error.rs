@@ -114,6 +114,15 @@ pub enum MotionError {
         /// The unknowns of the group that is singular.
         group: &'static str,
     },
+    /// A friction or a stop changes without end at the same time: for example, a body hits two stops that meet in turn.
+    ContactWithoutEnd {
+        /// The scene.
+        scene: &'static str,
+        /// The friction or stop that changed last.
+        contact: &'static str,
+        /// The time that was reached.
+        t: f64,
+    },
     /// A position during the motion could not be computed.
     Position(PositionError),
     /// An error of path following, in a function of the user's.
@@ -219,6 +228,11 @@ impl fmt::Display for MotionError {
                 f,
                 "forces in joints of {scene} are infinite or undetermined at the change point where group {group} is \
                  singular: end the motion before it, and give frictions a limit without `reaction`"
+            ),
+            Self::ContactWithoutEnd { scene, contact, t } => write!(
+                f,
+                "{contact} of {scene} changes again and again within the rounding error of t = {t}: end the simulation \
+                 before it"
             ),
             Self::Position(error) => error.fmt(f),
             Self::Path(error) => error.fmt(f),

@@ -26,7 +26,8 @@ pub(super) struct Response<T: Real, V: Dim, C: Dim> {
     pub columns: Matrix<T, V, C>,
     /// S M^-1 S'.
     pub matrix: Matrix<T, C, C>,
-    /// s'' without the forces of the requested contacts, and the sum of the magnitudes of its terms.
+    /// s'' without the forces of the requested contacts, and the sum of the magnitudes of its terms: of S M^-1 times each
+    /// force too, because these cancel in coordinates of one body relative to another.
     pub bias: Column<(T, T), C>,
 }
 
@@ -43,9 +44,10 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
     ) -> Result<Self, MotionError> {
         let ReducedEquations { scene, coordinates, mass, contacts, .. } = equations;
         let inertia = Inertia::new(scene, coordinates, mass)?;
-        let mut side = equations.forces;
+        let (mut side, mut size) = (equations.forces, equations.forces.abs());
         for (contact, &force) in contacts.iter().zip(forces) {
             side += contact.row * force;
+            size += contact.row.abs() * force.abs();
         }
         let acceleration = inertia.solve(&side);
         let mut columns = Matrix::<T, V, C>::zeros();
@@ -54,7 +56,8 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
         for (place, contact) in contacts.iter().enumerate().filter(|(place, _)| is_requested(*place)) {
             columns.set_column(place, inertia.solve(&contact.row));
             let terms = contact.row.component_mul(&acceleration);
-            bias[place] = (contact.bias + terms.sum(), contact.bias.abs() + terms.abs().sum());
+            let size = terms.abs().sum().max(columns.column(place).abs().dot(&size));
+            bias[place] = (contact.bias + terms.sum(), contact.bias.abs() + size);
             for (other, before) in contacts.iter().enumerate().take(place + 1).filter(|(other, _)| is_requested(*other))
             {
                 let entry = before.row.dot(&columns.column(place));

@@ -8,7 +8,7 @@
 //! redundancy only one contact moves in each of them; K sticking joints of a linkage with one input hold while
 //! |Q| <= sum |S| limit.
 
-use super::held::{Held, held_tolerance};
+use super::held::{Factors, Held, held_tolerance};
 use super::reduced::ReducedEquations;
 use super::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real};
@@ -33,6 +33,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         mut limits: impl FnMut(&Column<T, C>) -> Option<Column<T, C>>,
     ) -> Column<T, C> {
         let (rank, count) = (self.factors.rank, self.factors.count);
+        let tolerances = self.force_tolerances();
         let mut margins = Column::repeat(T::one());
         let mut found = Column::<_, C>::repeat(false);
         let combinations: Column<Column<T, C>, C> =
@@ -64,7 +65,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             let Some(limits) = limits(&rates) else { return };
             let mut margin = self.forces.iter().zip(z).take(rank).fold(T::zero(), |sum, (&h, &z)| sum + h * z);
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count) {
-                margin += (limits[contact] + self.force_tolerance(contact)) * moved.abs();
+                margin += (limits[contact] + tolerances[contact]) * moved.abs();
             }
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count).filter(|(_, s)| !s.is_zero()) {
                 let force = margin / moved.abs();
@@ -106,10 +107,29 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         margins
     }
 
-    /// The rounding error of the force of a contact.
-    fn force_tolerance(&self, contact: usize) -> T {
-        let inverse = self.response.matrix[(contact, contact)];
-        if inverse > T::zero() { held_tolerance::<T>() * self.response.bias[contact].1 / inverse } else { T::zero() }
+    /// The rounding error of the force of each contact, from those of s'': A h = -b has the error |A^-1| |d b|. The terms
+    /// of s'' include those of the held forces, as in the choice of the modes, whose tolerance is an eighth of this one:
+    /// a contact that is released here is not held again.
+    fn force_tolerances(&self) -> Column<T, C> {
+        let Factors { order, rank, count, .. } = &self.factors;
+        let matrix = &self.response.matrix;
+        let size = |row: usize| {
+            let terms = order.iter().zip(&self.forces).take(*rank);
+            terms.fold(self.response.bias[row].1, |size, (&other, &force)| size + (matrix[(row, other)] * force).abs())
+        };
+        let mut tolerances = Column::zeros();
+        for (place, &contact) in order.iter().enumerate().take(*count) {
+            let entry = matrix[(contact, contact)];
+            tolerances[contact] = if place < *rank {
+                let inverse = self.factors.solve(|row| if row == contact { T::one() } else { T::zero() });
+                order.iter().zip(&inverse).take(*rank).fold(T::zero(), |sum, (&row, &of)| sum + of.abs() * size(row))
+            } else if entry > T::zero() {
+                size(contact) / entry
+            } else {
+                T::zero()
+            };
+        }
+        tolerances * held_tolerance::<T>()
     }
 }
 

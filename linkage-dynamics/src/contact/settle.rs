@@ -29,14 +29,19 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let mut equations = evaluate(rates)?;
         // The mode in which each contact with s' = 0 would be held; None for the others.
         let mut at_rest: Column<Option<Mode>, C> = Column::from_fn(|place| self.at_rest(place, &equations));
+        // A contact that is released from rest begins with s' = 0, without the error of the step. One that goes on
+        // slipping keeps its rate, however small: s' passes zero at a dead centre while the mechanism moves.
+        let mut resting = self.modes;
         if let Some(struck) = self.struck(&equations, &at_rest) {
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
+            resting = Column::repeat(Mode::Open);
         }
         self.choose(&equations, &at_rest)?;
-        // A contact that goes on slipping keeps its rate, however small: s' passes zero at a dead centre while the
-        // mechanism moves.
-        if self.modes.iter().any(|mode| mode.is_held()) {
-            return Ok(Held::new(&equations, &self.modes)?.rates(&equations));
+        for (resting, mode) in resting.iter_mut().zip(self.modes).filter(|(_, mode)| mode.is_held()) {
+            *resting = mode;
+        }
+        if resting.iter().any(|mode| mode.is_held()) {
+            return Ok(Held::new(&equations, &resting)?.rates(&equations));
         }
         Ok(equations.rates)
     }
@@ -103,7 +108,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
         let free = Response::new(&after, &Column::zeros(), |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
-        let mut has_ended = false;
+        let (mut has_ended, mut too_short) = (false, Column::<_, C>::repeat(false));
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
             // The rebound rate, and the acceleration back towards the stop: a flight takes 2 rate / back and rises by
@@ -111,7 +116,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
             let lowest = self.resolution[place] / real(ZERO_ULPS);
             let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lowest * back;
-            if !restitution.is_zero() && back > T::zero() && is_over {
+            too_short[place] = back > T::zero() && is_over;
+            if !restitution.is_zero() && too_short[place] {
                 *restitution = T::zero();
                 has_ended = true;
             }
@@ -134,7 +140,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 ContactLaw::Stop { .. } => {
                     let Some(of) = struck[place] else { continue };
                     let side = if of.inward > T::zero() { Mode::AtLower } else { Mode::AtUpper };
-                    let rests = of.restitution.is_zero() && (none || pushed[place] > T::zero());
+                    // A flight from rest may be too short as well: a body rocks between two stops until it rests on both.
+                    let rests = of.restitution.is_zero() && (none || pushed[place] > T::zero() || too_short[place]);
                     at_rest[place] = rests.then_some(side);
                     self.modes[place] = if rests { side } else { Mode::Open };
                 }
@@ -181,20 +188,54 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             // The series of bounces has ended, either resting on the stop or leaving it from rest.
             self.hardest[place] = T::zero();
         }
-        // A contact released at its limit is held again if it does not accelerate away, to rounding error.
+        let sizes = Column::from_fn(|place| {
+            let terms =
+                solution.forces.iter().enumerate().map(|(other, &force)| response.matrix[(place, other)] * force);
+            terms.fold(response.bias[place].1, |size, term| size + term.abs())
+        });
+        self.hold_again(equations, at_rest, &sizes)?;
+        // Where ds/dv = 0 at a dead centre, no force of friction holds s: it slips as soon as the mechanism moves.
+        let moves = response.acceleration.iter().any(|acceleration| !acceleration.is_zero());
+        for (place, contact) in equations.contacts.iter().enumerate() {
+            if moves && self.modes[place] == Mode::Stick && contact.row.iter().all(T::is_zero) && contact.bias.is_zero()
+            {
+                self.modes[place] = Mode::SlipForward;
+            }
+        }
+        Ok(())
+    }
+
+    /// Holds again the contacts that are released at their limit and do not accelerate away, to rounding error: those
+    /// whose margin is not negative if they are held. `sizes` are the sums of the magnitudes of the terms of s''. This is the test that ends the mode, so that a contact held here
+    /// is not released again at the same state.
+    fn hold_again<V: Dim>(
+        &mut self,
+        equations: &ReducedEquations<T, V, C>,
+        at_rest: &Column<Option<Mode>, C>,
+        sizes: &Column<T, C>,
+    ) -> Result<(), MotionError> {
         let acceleration = self.acceleration(equations)?;
+        let mut held = self.modes;
         for (place, contact) in equations.contacts.iter().enumerate() {
             let Some(side) = at_rest[place] else { continue };
-            let terms = contact.row.component_mul(&acceleration);
-            let (sum, size) = (terms.sum() + contact.bias, terms.abs().sum() + contact.bias.abs());
+            let sum = contact.row.dot(&acceleration) + contact.bias;
             let departure = match self.modes[place] {
                 Mode::SlipForward => sum,
                 Mode::SlipBackward => -sum,
                 Mode::Open => sum * side.inward(),
                 _ => continue,
             };
-            if departure <= held_tolerance::<T>() * size {
-                self.modes[place] = side;
+            if departure <= held_tolerance::<T>() * sizes[place] {
+                held[place] = side;
+            }
+        }
+        if held == self.modes {
+            return Ok(());
+        }
+        let margins = Held::new(equations, &held)?.margins(equations, &held);
+        for ((mode, held), margin) in self.modes.iter_mut().zip(held).zip(margins) {
+            if margin >= T::zero() {
+                *mode = held;
             }
         }
         Ok(())

@@ -257,7 +257,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(values)
     }
 
-    /// The event functions as guards; the rate is known for open stops.
+    /// The event functions as guards; the rate is known for open stops. A contact that slips does so until s' is
+    /// negative beyond its rounding error: where slip begins, s' is zero within rounding error for some time.
     pub(crate) fn guards<V: Dim>(
         &self,
         equations: &ReducedEquations<T, V, C>,
@@ -265,14 +266,17 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let values = self.events(equations)?;
         Ok(Column::from_fn(|place| {
             let contact = &equations.contacts[place];
-            let rate = match (self.modes[place], contact.law) {
+            let (rate, size) = contact.rate(&equations.rates);
+            match (self.modes[place], contact.law) {
                 (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
                     let (side, _) = nearer(contact, lower, upper);
-                    Some(contact.rate(&equations.rates).0 * side.inward())
+                    Guard { value: values[place], rate: Some(rate * side.inward()) }
                 }
-                _ => None,
-            };
-            Guard { value: values[place], rate }
+                (Mode::SlipForward | Mode::SlipBackward, _) => {
+                    Guard { value: values[place] + sum_tolerance(size), rate: None }
+                }
+                _ => Guard { value: values[place], rate: None },
+            }
         }))
     }
 

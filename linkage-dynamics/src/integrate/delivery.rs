@@ -1,7 +1,8 @@
 //! Delivery of the events of a step, one after the other.
 
-use super::event::{Action, Found};
+use super::event::Action;
 use super::run::{Instant, Integration, Place, Step, StepOf, finite};
+use super::search::Found;
 use super::system::{StateOf, System};
 use super::tableau::Method;
 use crate::MotionError;
@@ -36,10 +37,13 @@ impl<S: System, M: Method> Integration<S, M> {
     pub(super) fn deliver(&mut self) -> Result<StepOf<S>, MotionError> {
         let (t, state) = (self.t, self.state);
         let resolution = 4.0 * self.resolution() * to_f64(self.to.0 - self.from.0).abs();
+        // Events count as simultaneous with the one before them, so that impacts cannot follow each other at ulps of the
+        // time without end.
         if to_f64(t - self.instant.t).abs() > resolution {
-            self.instant = Instant { t, has_restarted: false };
+            self.instant.has_restarted = false;
             self.signs.reset_counts();
         }
+        self.instant.t = t;
         let (event, again) = self.signs.take_pending();
         if again && self.instant.has_restarted {
             return Err(MotionError::EventsWithoutEnd { t: to_f64(t), event });

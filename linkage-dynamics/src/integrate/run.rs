@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 
 use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
-use super::event::{EventSigns, Found};
+use super::event::EventSigns;
+use super::search::Found;
 use super::system::{IntoSystem, StateOf, System};
 use super::tableau::{self, Method, SLOPES, Slopes};
 use super::{Dop853, Outputs, step};
@@ -56,7 +57,7 @@ pub(super) type StepOf<S> = Step<<S as System>::Scalar, <S as System>::N>;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Instant<T> {
     pub(super) t: T,
-    /// True if the motion restarted there.
+    /// True if the motion restarted there, or at an event just before it.
     pub(super) has_restarted: bool,
 }
 

@@ -20,14 +20,16 @@ const LONGEST_UNCHECKED: f64 = 0.5;
 const MOST_CHECKS: f64 = 64.0;
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
-    pub(super) fn proceed(&mut self) -> Result<Option<State<S>>, MotionError> {
+    /// Advances to the next event or to the end of the step; None at the end. False for an event of the contacts that
+    /// changes nothing, which only outputs stop at: the motion restarts there.
+    pub(super) fn proceed(&mut self) -> Result<Option<bool>, MotionError> {
         loop {
             let is_prepared = core::mem::take(&mut self.is_prepared);
             if self.integration.is_at_boundary() && !is_prepared {
                 self.prepare()?;
             }
             let step = self.integration.advance();
-            let step = step.map_err(|error| self.integration.system().of_reactions(self.integration.state(), error))?;
+            let step = step.map_err(|error| self.named(error))?;
             let Some(step) = step else { return Ok(None) };
             let motion = self.integration.system();
             let q = S::parts(&step.state).q;
@@ -58,15 +60,27 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 _ => self.settle(&mut state, &projected),
             };
             // With several contact events at one time, the first settles all contacts.
-            if step.event.is_some() && state.event.is_none() && result.is_ok() && state.changes().next().is_none() {
-                continue;
-            }
+            let has_changed =
+                step.event.is_none() || state.event.is_some() || result.is_err() || state.changes().next().is_some();
             self.failure = result.err();
             if step.event.is_some() {
                 self.from = (step.t, *self.integration.state());
             }
             (self.state, self.contacts) = (state, contacts);
-            return Ok(Some(self.state));
+            return Ok(Some(has_changed));
+        }
+    }
+
+    /// The error of a step in the words of a simulation: contacts, which are numbered after the user's events, by name,
+    /// and next to a change point that of the forces in joints.
+    fn named(&self, error: MotionError) -> MotionError {
+        match error {
+            MotionError::EventsWithoutEnd { t, event } if event >= W::Events::COUNT => {
+                let names = self.integration.system().names;
+                let contact = names.iter().nth(event - W::Events::COUNT).copied().unwrap_or_default();
+                MotionError::ContactWithoutEnd { scene: S::NAME, contact, t }
+            }
+            error => self.integration.system().of_reactions(self.integration.state(), error),
         }
     }
 

@@ -22,7 +22,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             return Err(InputError::OutOfRange { of: None, quantity, value, least, most }.into());
         }
         while if is_forward { t > self.state.t } else { t < self.state.t } {
-            if self.advance()?.is_none() {
+            if self.advance_within()?.is_none() {
                 return Ok(None);
             }
         }

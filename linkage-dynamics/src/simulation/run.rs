@@ -277,6 +277,16 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// motion cannot be followed, and
     /// those of [`Integration::advance`]. After an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
+        while let Some(has_changed) = self.advance_within()? {
+            if has_changed {
+                return Ok(Some(self.state));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Does the same, and returns false at an event that changes nothing.
+    pub(super) fn advance_within(&mut self) -> Result<Option<bool>, MotionError> {
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);
         }
