@@ -45,6 +45,7 @@ impl Derivation {
         let own = |scene: &model::Scene| mechanism.drivers[scene.driver].name == driver.name;
         for (place, scene) in mechanism.scenes.enumerated().filter(|(_, scene)| own(scene)) {
             let mut derived = self.derive_scene(mechanism, place, scene);
+            derived.kinks = self.derive_kinks(mechanism, driver, scene);
             derived.equilibrium =
                 scene.requests.contains(&SceneRequest::Equilibrium).then(|| self.derive_equilibrium(&derived));
             self.scenes.push(derived);
@@ -169,6 +170,7 @@ impl Derivation {
             contacts,
             masses,
             drives,
+            kinks: Vec::new(),
             kinetic,
             potential,
             applied,

@@ -405,6 +405,18 @@ impl<S: System, M: Method> Integration<S, M> {
         self.exchange(state);
     }
 
+    /// Restarts the motion from this state at a time just after the one reached. Outputs before it remain.
+    pub(crate) fn restart_at(&mut self, t: S::Scalar, state: StateOf<S>) -> Result<(), MotionError> {
+        self.restart(state)?;
+        self.t = t;
+        Ok(())
+    }
+
+    /// The start and the end of the last step.
+    pub(crate) fn last_step(&self) -> [(S::Scalar, StateOf<S>); 2] {
+        [self.from, self.to]
+    }
+
     /// Takes a step that was computed by another method, given by its interpolant.
     pub(crate) fn pass(&mut self, step: Interpolant<S::Scalar, S::N>) {
         let end = step.interval().1;

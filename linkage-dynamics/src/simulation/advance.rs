@@ -18,8 +18,19 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             if self.integration.is_at_boundary() && !is_prepared {
                 self.prepare()?;
             }
+            if self.integration.is_at_boundary()
+                && let Some(corner) = self.integration.system().corner_at(self.integration.t())
+            {
+                return self.cross_here(&corner).map(Some);
+            }
             let start = (self.integration.is_at_boundary()).then(|| (self.integration.t(), *self.integration.state()));
-            let Some(step) = self.integration.advance()? else { return Ok(None) };
+            let advanced = self.integration.advance();
+            let corners = &self.integration.system().corners;
+            let Some(step) = advanced.map_err(|error| corners.explained(S::NAME, error))? else { return Ok(None) };
+            if start.is_some() && !self.follows_laws() {
+                self.is_prepared = true;
+                continue;
+            }
             if let Some((t, y)) = start.filter(|_| step.event.is_none())
                 && self.ends_too_near(&y, &step.state)
             {
@@ -44,13 +55,18 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 }
             }
             let contacts = motion.contacts;
-            let projected = motion.projected(step.t, &step.state)?;
+            let mut projected = motion.projected(step.t, &step.state)?;
+            if step.event.is_none() {
+                projected = motion.on_stops(step.t, &projected, self.largest_deviation())?;
+            }
             let (kept, holds) = motion.reviewed(&contacts, step.t, &projected)?;
             let mut state =
                 State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
             let result = match step.event {
                 Some(event) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
+                None if holds && let Some(corner) = self.corner(step.t) => self.cross(&corner, &mut state, &kept),
                 None if holds => {
+                    state.kink = self.integration.system().corners.passed;
                     if kept != step.state {
                         self.integration.correct(kept);
                     }
@@ -107,7 +123,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Records the changes and the new modes of the contacts in the state.
-    fn note(&self, state: &mut State<S>, changes: Column<Option<Change>, S::Contacts>) {
+    pub(super) fn note(&self, state: &mut State<S>, changes: Column<Option<Change>, S::Contacts>) {
         let modes = self.integration.system().contacts.modes;
         for ((touch, mode), change) in state.contacts.iter_mut().zip(modes).zip(changes) {
             *touch = Touch { mode, change, ..*touch };

@@ -3,7 +3,7 @@
 //! q' = N z' and M_r z'' = Q_r with M_r = N' M N and Q_r = N' (F - M b), where the columns of N span the null space of
 //! [J A] and b is q'' at z'' = 0. With z = v these are the emitted equations.
 
-use super::motion::{Choice, FactorsOf, LEAST_PIVOT_RATIO, Motion, Parametrisation, Reduced};
+use super::motion::{Choice, FactorsOf, LEAST_PIVOT_RATIO, Motion, Parametrisation, Polynomial, Reduced};
 use super::watch::Watch;
 use crate::contact::{ReducedContact, ReducedEquations, Reduction};
 use crate::integrate::{Crossing, Guard, System};
@@ -46,7 +46,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     ) -> Result<(Reduced<S>, Rates<S>), MotionError> {
         let (mut equations, rates) = self.unprescribed_by(independent, factors, (t, y))?;
         // Prescribed coordinates follow their laws.
-        for (input, law) in self.scene.prescribed(t).iter().enumerate() {
+        for (input, law) in self.prescribed(t).iter().enumerate() {
             let Some(law) = law else { continue };
             if let Some(at) = independent.free.iter().position(|&free| free == S::U::COUNT + input) {
                 equations.prescribe(at, law.acceleration);
@@ -102,6 +102,7 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
 
     #[inline]
     fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+        let t = self.beside(t);
         let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
         else {
             if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) {
@@ -136,5 +137,20 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
         y: &StateColumn<S>,
     ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionError> {
         self.margins(t, y)
+    }
+
+    fn before_step(&mut self, t: S::Scalar, _: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionError> {
+        self.begin_step(t);
+        Ok(None)
+    }
+
+    #[inline]
+    fn end_of_step(&mut self, t: S::Scalar, end: S::Scalar) -> S::Scalar {
+        self.end_before_kink(t, end)
+    }
+
+    #[inline]
+    fn change_of_law(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionError> {
+        self.kink_within(step)
     }
 }

@@ -29,6 +29,8 @@ mod change_point;
 mod equations;
 mod failure;
 mod independent;
+mod jumps;
+pub(crate) mod kinks;
 mod motion;
 mod outputs;
 mod parametrisation;

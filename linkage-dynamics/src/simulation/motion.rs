@@ -2,6 +2,7 @@
 //! constraints.
 
 use super::independent::{Factors, Independent};
+use super::kinks::Corners;
 use super::state::{State, Touch};
 use super::watch::Unwatched;
 use crate::contact::{Contacts, ReducedEquations};
@@ -59,21 +60,23 @@ pub struct Motion<'a, S: Scene, W> {
     pub(super) parametrisation: ParametrisationOf<S>,
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
     pub(super) names: Column<&'static str, S::Contacts>,
+    pub(super) corners: Corners<S::Scalar>,
 }
 
 impl<'a, S: Scene> Motion<'a, S, Unwatched> {
-    /// Starts in the inputs, with all contacts open.
-    pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>) -> Self {
+    /// Starts in the inputs, with all contacts open. The motion is from the first to the second time.
+    pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>, [start, end]: [S::Scalar; 2]) -> Self {
         let (contacts, names) = (Contacts::open(), Column::repeat(""));
-        Self { scene, watch: Unwatched, scales, parametrisation: Parametrisation::Inputs, contacts, names }
+        let (parametrisation, corners) = (Parametrisation::Inputs, Corners::new(start, end));
+        Self { scene, watch: Unwatched, scales, parametrisation, contacts, names, corners }
     }
 }
 
 impl<'a, S: Scene, W> Motion<'a, S, W> {
     /// Replaces the user's events.
     pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2> {
-        let Self { scene, scales, parametrisation, contacts, names, .. } = self;
-        Motion { scene, watch, scales, parametrisation, contacts, names }
+        let Self { scene, scales, parametrisation, contacts, names, corners, .. } = self;
+        Motion { scene, watch, scales, parametrisation, contacts, names, corners }
     }
 
     /// Packs a position and the rates of the independent coordinates into y.
@@ -164,13 +167,13 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter()))?;
         let rates = S::Mechanism::rates(unknowns, inputs);
         let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
-        Ok(State { t, q, rates, event: None, contacts: Column::from_fn(touch) })
+        Ok(State { t, q, rates, event: None, kink: None, contacts: Column::from_fn(touch) })
     }
 
     /// Projects y onto the constraints, with prescribed inputs set to their laws.
     pub(super) fn projected(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (mut q, mut rates) = Self::unpack(y);
-        let laws = self.scene.prescribed(t);
+        let laws = self.prescribed(t);
         let mut inputs = S::Mechanism::inputs(&q);
         for (input, law) in laws.iter().enumerate() {
             if let Some(law) = law {

@@ -22,6 +22,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) if [J A] is nearly singular and no step over
     /// a change point is in progress.
     fn equations(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
+        let t = self.beside(t);
         match &self.parametrisation {
             Parametrisation::Inputs => ReducedEquations::of(self.scene, t, y),
             Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
@@ -37,6 +38,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// The contacts with s and s' only, without derivatives by the coordinates: no equations of motion are needed.
     pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
+        let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         let velocity = self.velocity(t, y)?;
         let rates_of_all = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
@@ -154,12 +156,28 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((Self::pack(&S::parts(y).q, &rates), modes_hold))
     }
 
+    /// Returns y with each s on the stop on which it rests; `most` is the largest distance from it.
+    pub(super) fn on_stops(
+        &self,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+        most: S::Scalar,
+    ) -> Result<StateColumn<S>, MotionError> {
+        if !self.contacts.has_stops() || matches!(self.parametrisation, Parametrisation::Over(..)) {
+            return Ok(*y);
+        }
+        let Some(change) = self.contacts.return_to_stops(t, &self.equations(t, y)?, most)? else { return Ok(*y) };
+        let (q, rates) = Self::unpack(y);
+        let there = Self::moved(&q, &self.velocity(t, &Self::pack(&q, &change))?);
+        self.projected(t, &Self::pack(&there, &rates))
+    }
+
     /// The forces of the contacts, of the drives by input, zero without a drive, and in the joints.
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
     pub(super) fn loads(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Loads<S>, MotionError> {
-        let q = S::parts(y).q;
+        let (t, q) = (self.beside(t), S::parts(y).q);
         let (free, places) = match &self.parametrisation {
             Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
             Parametrisation::Others(independent) | Parametrisation::Over(independent, _) => {
