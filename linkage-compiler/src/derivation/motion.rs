@@ -279,9 +279,7 @@ impl Derivation {
         let seeds: BTreeMap<SymbolId, NodeId> = mechanism.time.iter().map(|&time| (time, one)).collect();
         let mut drives = BTreeMap::new();
         for drive in &scene.drives {
-            let rate = self.graph.differentiate(&[drive.law], &seeds)[0];
-            let acceleration = self.graph.differentiate(&[rate], &seeds)[0];
-            drives.insert(drive.input, Prescribed { value: drive.law, rate, acceleration });
+            drives.insert(drive.input, self.prescribed_motion(drive.law, &seeds));
         }
         drives
     }
