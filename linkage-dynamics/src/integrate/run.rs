@@ -103,6 +103,8 @@ pub struct Integration<S: System, M = Dop853> {
     pub(super) instant: Instant<S::Scalar>,
     /// The number of times in a row that the step was shortened for its guards.
     pub(super) shortened: u32,
+    /// True after a change of the law, at a time between two of the motion.
+    pub(super) has_crossed: bool,
 }
 
 impl<S: System, M: Method> Integration<S, M> {
@@ -147,6 +149,7 @@ impl<S: System, M: Method> Integration<S, M> {
             signs,
             instant: Instant { t: start, has_restarted: false },
             shortened: 0,
+            has_crossed: false,
         })
     }
 
@@ -409,6 +412,7 @@ impl<S: System, M: Method> Integration<S, M> {
     pub(crate) fn restart_at(&mut self, t: S::Scalar, state: StateOf<S>) -> Result<(), MotionError> {
         self.restart(state)?;
         self.t = t;
+        self.has_crossed = true;
         Ok(())
     }
 

@@ -32,7 +32,11 @@ impl<S: System, M: Method> Integration<S, M> {
         if S::Events::COUNT + S::Guards::COUNT > 0 && is_new {
             let little = real::<S::Scalar>(ComplexField::sqrt(epsilon) * direction * self.length());
             let after = y + self.slopes[0] * little;
+            let before = self.signs;
             self.signs.begin(&mut self.system, (t, &y), (t + little, &after))?;
+            if core::mem::take(&mut self.has_crossed) {
+                self.signs.keep_events(&before);
+            }
         }
         let mut failure = None;
         // The length of the step before it was shortened to end at a change of the law; the next step has it.

@@ -57,7 +57,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             let contacts = motion.contacts;
             let mut projected = motion.projected(step.t, &step.state)?;
             if step.event.is_none() {
-                projected = motion.on_stops(step.t, &projected, self.largest_deviation())?;
+                projected = match motion.on_stops(step.t, &projected, self.largest_deviation()) {
+                    Ok(projected) => projected,
+                    Err(MotionError::LeftStop { .. }) if self.is_repeated_shorter(start.is_some()) => continue,
+                    Err(error) => return Err(error),
+                };
             }
             let (kept, holds) = motion.reviewed(&contacts, step.t, &projected)?;
             let mut state =

@@ -9,7 +9,7 @@
 //! jump within the step, in the rate or in the position. So kinks without an expression are found too, as in a user
 //! function.
 
-use super::kinks::{Corner, one_sided};
+use super::kinks::Corner;
 use super::motion::{Motion, Parametrisation, ParametrisationOf};
 use super::run::Simulation;
 use super::state::State;
@@ -37,6 +37,8 @@ const LEAST_JUMP_ULPS: f64 = 64.0;
 type Crossed<S> = (StateColumn<S>, Column<Option<Change>, <S as Scene>::Contacts>);
 /// A prescribed motion and its scales.
 type Law<T> = (Prescribed<T>, [T; 2]);
+/// The prescribed motion of each input.
+type Laws<S> = Column<Option<Prescribed<<S as Scene>::Scalar>>, <S as Scene>::V>;
 
 /// The jumps of the value and of the rate of a law between two times, relative to their scales, if each follows from its
 /// derivatives at both.
@@ -136,10 +138,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok(rates + inertia.solve(&equations.forces))
     }
 
-    /// The jumps of prescribed rates from those of y to their laws at t; zero where they are rounding errors.
-    fn jumps(&self, y: &StateColumn<S>, t: S::Scalar, is_after: bool, frequency: S::Scalar) -> PerInput<S::Mechanism> {
+    /// The jumps of prescribed rates from those of y to these laws; zero where they are rounding errors.
+    fn jumps(&self, y: &StateColumn<S>, laws: &Laws<S>, frequency: S::Scalar) -> PerInput<S::Mechanism> {
         let rates = Self::unpack(y).1;
-        let laws = one_sided(self.scene, t, is_after);
         Column::from_fn(|input| {
             let (Some(law), Some(place)) = (laws[input], place_of::<S>(&self.parametrisation, input)) else {
                 return S::Scalar::zero();
@@ -175,7 +176,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             }
         }
         let velocity = self.velocity(before, y)?;
-        let jumps = self.jumps(y, after, true, frequency);
+        let jumps = self.jumps(y, &laws, frequency);
         let has_jump = jumps.iter().any(|jump| !jump.is_zero());
         let rates = if has_jump { self.kicked(before, y, &jumps)? } else { Self::unpack(y).1 };
         let q = Self::moved(&Self::unpack(y).0, &(velocity * (after - before)));
@@ -191,8 +192,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// Projects y, and changes the free rates where a drive has jumped since: for steps that do not end at kinks.
     pub(super) fn projected_with_jumps(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let projected = self.projected(t, y)?;
-        let frequency = S::Scalar::zero();
-        let jumps = self.jumps(y, t, true, frequency);
+        let jumps = self.jumps(y, &self.prescribed(t), S::Scalar::zero());
         let (before, after) = (Self::unpack(y).1, Self::unpack(&projected).1);
         let least = S::Scalar::default_epsilon().sqrt();
         let has_jump = (0..S::V::COUNT).any(|i| jumps[i].abs() > least * (before[i].abs() + after[i].abs()));
@@ -235,6 +235,19 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
         self.integration.go_back(from, y);
         false
+    }
+
+    /// Repeats the last step with a quarter of its length, if it is not as short as the rounding error of the time.
+    pub(super) fn is_repeated_shorter(&mut self, is_new: bool) -> bool {
+        let [(from, y), (to, _)] = self.integration.last_step();
+        let least = from.abs().max(to.abs()) * S::Scalar::default_epsilon() * real(4.0 * LEAST_JUMP_ULPS);
+        let is_long = is_new && (to - from).abs() > least;
+        if is_long {
+            self.integration.go_back(from, y);
+            self.integration.limit_next(0.25 * to_f64(to - from).abs());
+            self.is_prepared = true;
+        }
+        is_long
     }
 
     /// The change of a law at this time, if a step has ended there.

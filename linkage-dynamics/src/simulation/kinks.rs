@@ -58,6 +58,7 @@ pub(super) struct Corner<T> {
 pub(super) struct Corners<T> {
     /// The start of the step.
     from: T,
+    is_forward: bool,
     /// The end of the simulation.
     end: T,
     /// The change at the end of the step.
@@ -80,6 +81,7 @@ impl<T: Real> Corners<T> {
     pub(super) fn new(start: T, end: T) -> Self {
         Self {
             from: start,
+            is_forward: end >= start,
             end,
             ahead: None,
             found: None,
@@ -90,10 +92,6 @@ impl<T: Real> Corners<T> {
             first: start,
             last: None,
         }
-    }
-
-    fn is_forward(&self) -> bool {
-        self.end >= self.from
     }
 
     /// Counts a kink of this effect at a time.
@@ -195,7 +193,7 @@ pub(crate) fn one_sided<S: Scene + ?Sized>(
 impl<S: Scene, W> Motion<'_, S, W> {
     /// True if the laws at t are those after a kink there: at the start of the step, else they are those before it.
     fn is_after(&self, t: S::Scalar) -> bool {
-        (t == self.corners.from) == self.corners.is_forward()
+        (t == self.corners.from) == self.corners.is_forward
     }
 
     /// Returns t, or at a kink of time a time next to it within the step.
@@ -243,7 +241,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// The first change of a law of time between two times, or just after the second.
     fn next_corner(&self, t: S::Scalar, end: S::Scalar) -> Option<Corner<S::Scalar>> {
-        let is_forward = self.corners.is_forward();
+        let is_forward = self.corners.is_forward;
         let is_ahead = |a: S::Scalar, b: S::Scalar| if is_forward { a <= b } else { a >= b };
         let found = self.corners.found;
         let mut first = found.filter(|corner| is_ahead(t, corner.before) && is_ahead(corner.before, end));
