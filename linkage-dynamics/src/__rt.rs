@@ -6,7 +6,7 @@ pub use crate::inertia::reduced;
 pub use crate::reactions::{bearing_loss, reactions};
 pub use crate::scene::{Kinematics, finite_each, not_negative};
 pub use crate::{
-    Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Energy, Equations, MotionError, Power, Prescribed,
+    Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Energy, Equations, Kink, MotionError, Power, Prescribed,
     ReactionRow, Scene, StateParts, StateRates, Unreduced,
 };
 pub use linkage_runtime::jacobian::Vector;

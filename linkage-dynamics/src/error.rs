@@ -61,6 +61,35 @@ pub enum MotionError {
         /// The first of its frictions and stops.
         contact: &'static str,
     },
+    /// s is not on the stop on which it rests: its position has jumped.
+    LeftStop {
+        /// The scene.
+        scene: &'static str,
+        /// The stop.
+        stop: &'static str,
+        /// s minus the position of the stop.
+        gap: f64,
+        /// The time.
+        t: f64,
+    },
+    /// The law of a drive jumps in position.
+    DriveJumps {
+        /// The scene.
+        scene: &'static str,
+        /// The driven input.
+        coordinate: &'static str,
+        /// The time.
+        t: f64,
+    },
+    /// The law of an effect has kinks without end: at this time, or ever closer together.
+    KinksWithoutEnd {
+        /// The scene.
+        scene: &'static str,
+        /// The effect, or the driven input.
+        effect: &'static str,
+        /// The time.
+        t: f64,
+    },
     /// A number became infinite or NaN during an integration.
     NotFinite {
         /// The quantity that is not finite.
@@ -200,6 +229,18 @@ impl fmt::Display for MotionError {
                     "{scene} has a {contact} and cannot be simulated backwards in time: choose an end after the start"
                 )
             }
+            Self::LeftStop { scene, stop, gap, t } => write!(
+                f,
+                "the {stop} in {scene} is left by {gap:.1e} at t = {t}, although it holds: the position jumps"
+            ),
+            Self::DriveJumps { scene, coordinate, t } => write!(
+                f,
+                "the drive of {coordinate} in {scene} jumps in position at t = {t}: write a law without jumps"
+            ),
+            Self::KinksWithoutEnd { scene, effect, t } => write!(
+                f,
+                "the law of {effect} in {scene} has kinks without end at t = {t}: write a smooth law there, or a friction"
+            ),
             Self::NotFinite { quantity, t } => write!(f, "{quantity} is not a finite number at t = {t}"),
             Self::StepTooSmall { t, step } => write!(
                 f,

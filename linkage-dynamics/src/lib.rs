@@ -28,6 +28,6 @@ pub use equations::Equations;
 pub use equilibrium::Balance;
 pub use error::{CrossingRates, MotionError};
 pub use scene::{
-    Accelerations, Coordinates, Energy, Inputs, Power, Prescribed, Rates, Scene, StateColumn, StateParts, StateRates,
-    Unreduced,
+    Accelerations, Coordinates, Energy, Inputs, Kink, Power, Prescribed, Rates, Scene, StateColumn, StateParts,
+    StateRates, Unreduced,
 };

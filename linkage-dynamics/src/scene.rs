@@ -1,6 +1,7 @@
 //! The trait of mechanisms with inertia and forces, and functions that the code emitted for scenes calls.
 
 use crate::contact::within;
+use crate::simulation::kinks::one_sided;
 use crate::simulation::scales::resolution_by_inputs;
 use crate::{Bearing, Contact, ContactLaw, Equations, MotionError};
 use linkage_runtime::__shared::arithmetic::*;
@@ -135,6 +136,14 @@ pub trait Scene {
         accelerations: &Accelerations<Self>,
         contact_forces: &Column<Self::Scalar, Self::Contacts>,
     ) -> Result<Self::Reactions, MotionError>;
+    /// The kinks of its laws.
+    const KINKS: &'static [Kink] = &[];
+
+    /// The expression at whose zeros the law of `KINKS[place]` has a kink or a jump, where it changes its sign.
+    fn kink(&self, place: usize, t: Self::Scalar, q: &Coordinates<Self>, rates: &Rates<Self>) -> Self::Scalar {
+        let _ = (place, t, q, rates);
+        Self::Scalar::one()
+    }
     /// The prescribed motion of each input, or None.
     fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;
 
@@ -162,7 +171,8 @@ pub trait Scene {
     ) -> Result<StateColumn<Self>, MotionError> {
         self.check()?;
         let (inputs, rates): (_, PerInput<Self::Mechanism>) = (Self::Mechanism::inputs(q), (*input_rates).into());
-        let laws = self.prescribed(t);
+        // At a kink the rate after it.
+        let laws = one_sided(self, t, true);
         let given = inputs.iter().zip(&rates).zip(&laws);
         for (&coordinate, ((&value, &rate), law)) in Self::Mechanism::INPUTS.iter().zip(given) {
             let Some(law) = law else { continue };
@@ -231,6 +241,15 @@ pub struct StateRates<R, V> {
     pub rates: R,
     /// The accelerations v'' of the inputs.
     pub input_accelerations: V,
+}
+
+/// A kink or a jump of a law of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kink {
+    /// The effect with the law, as in errors: `drive x`.
+    pub effect: &'static str,
+    /// True if its expression depends on time alone.
+    pub is_timed: bool,
 }
 
 /// The prescribed motion of an input at one time.

@@ -45,6 +45,7 @@ impl Derivation {
         let own = |scene: &model::Scene| mechanism.drivers[scene.driver].name == driver.name;
         for (place, scene) in mechanism.scenes.enumerated().filter(|(_, scene)| own(scene)) {
             let mut derived = self.derive_scene(mechanism, place, scene);
+            derived.kinks = self.derive_kinks(mechanism, driver, scene);
             derived.equilibrium =
                 scene.requests.contains(&SceneRequest::Equilibrium).then(|| self.derive_equilibrium(&derived));
             self.scenes.push(derived);
@@ -169,6 +170,7 @@ impl Derivation {
             contacts,
             masses,
             drives,
+            kinks: Vec::new(),
             kinetic,
             potential,
             applied,
@@ -277,9 +279,7 @@ impl Derivation {
         let seeds: BTreeMap<SymbolId, NodeId> = mechanism.time.iter().map(|&time| (time, one)).collect();
         let mut drives = BTreeMap::new();
         for drive in &scene.drives {
-            let rate = self.graph.differentiate(&[drive.law], &seeds)[0];
-            let acceleration = self.graph.differentiate(&[rate], &seeds)[0];
-            drives.insert(drive.input, Prescribed { value: drive.law, rate, acceleration });
+            drives.insert(drive.input, self.prescribed_motion(drive.law, &seeds));
         }
         drives
     }

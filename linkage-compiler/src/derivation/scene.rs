@@ -25,6 +25,8 @@ pub struct Scene {
     /// The masses, the inertias and the constant factors of friction limits, with their names in errors.
     pub masses: Vec<(String, NodeId)>,
     pub drives: BTreeMap<InputId, Prescribed>,
+    /// The kinks of its laws, if it has inertia.
+    pub kinks: Vec<Kink>,
     pub kinetic: NodeId,
     pub potential: NodeId,
     /// The applied power, and the dissipated power in the next field.
@@ -43,6 +45,16 @@ pub struct Prescribed {
     pub value: NodeId,
     pub rate: NodeId,
     pub acceleration: NodeId,
+}
+
+/// A kink or a jump of a law, where an expression changes its sign.
+#[derive(Debug, Clone)]
+pub struct Kink {
+    /// The effect with the law, as in errors.
+    pub label: String,
+    pub argument: NodeId,
+    /// True if the argument depends on time and parameters only.
+    pub is_timed: bool,
 }
 
 /// The formulas of one friction or stop, in terms of q, q' and t.

@@ -88,7 +88,10 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         tokens.extend(places::located(scene::types(&scene.signatures, root), place, 1));
         tokens.extend(drives::types(&scene.signatures, driver, root).map(|types| places::located(types, place, 1)));
         tokens.extend(reactions::types(&scene.signatures, root).map(|types| places::located(types, place, 1)));
-        let implemented = traits::of_scene(&scene.signatures, driver, &fields).unwrap_or_default();
+        let kinks =
+            derivation.and_then(|derivation| derivation.scenes.get(number)).map(|derived| derived.kinks.as_slice());
+        let kinks = kinks.unwrap_or_default();
+        let implemented = traits::of_scene(&scene.signatures, driver, (&fields, kinks)).unwrap_or_default();
         let text = "The name of the scene in errors.";
         let implemented = places::located(implemented, place, 1);
         tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| place, root, &implemented));

@@ -8,7 +8,7 @@ use quote::quote;
 use super::expression::{argument, literal};
 use super::names::{ident, string};
 use super::types::field;
-use crate::derivation::{Block, Derivation};
+use crate::derivation::{Block, Derivation, Kink};
 use crate::graph::SymbolId;
 use crate::ids::{ColumnId, CoordinateId, Id};
 use crate::lower::Code;
@@ -299,7 +299,11 @@ fn groups(derivation: &Derivation) -> Vec<TokenStream> {
 }
 
 /// Implements `Scene` if the scene has `inertia`.
-pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Ident]) -> Option<TokenStream> {
+pub(super) fn of_scene(
+    signatures: &SceneSignatures,
+    on: &Driver,
+    (fields, kinks): (&[Ident], &[Kink]),
+) -> Option<TokenStream> {
     let SceneSignatures { scene, types, field: inner, inputs, driven, unknowns, .. } = signatures;
     scene.inertia.as_ref()?;
     let (name, text) = (&scene.name, scene.name.to_string());
@@ -339,6 +343,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
     let state = quote!(__rt::Column<T, __rt::D<#n>>);
     let (reactions, joints) = reactions(signatures, on, fields);
     let bearings = bearings(signatures);
+    let kinks = of_kinks(signatures, kinks);
     let result = |of: TokenStream| quote!(__rt::Result<#of, __rt::MotionError>);
     let (nothing, derivative) = (result(quote!(())), result(state.clone()));
     let [all_contacts, all_equations, all_unreduced] = [
@@ -387,6 +392,7 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver, fields: &[Iden
             }
             #joints
             #bearings
+            #kinks
             fn unreduced(&self, t: T, q: &#coordinates<T>, rates: &#rates<T>) -> #all_unreduced {
                 self.unreduced(t, q, rates)
             }
@@ -434,6 +440,24 @@ fn reactions(signatures: &SceneSignatures, driver: &Driver, fields: &[Ident]) ->
         }
     };
     (of, function)
+}
+
+/// The constant and the function of `Scene` for the kinks of its laws, if there are any.
+fn of_kinks(signatures: &SceneSignatures, kinks: &[Kink]) -> Option<TokenStream> {
+    let [coordinates, rates] = [&signatures.types.coordinates, &signatures.types.rates].map(|name| ident(name));
+    let all = kinks.iter().map(|Kink { label, is_timed, .. }| {
+        let effect = string(label);
+        quote!(__rt::Kink { effect: #effect, is_timed: #is_timed })
+    });
+    let all: Vec<TokenStream> = all.collect();
+    (!kinks.is_empty()).then(|| {
+        quote! {
+            const KINKS: &'static [__rt::Kink] = &[#(#all),*];
+            fn kink(&self, place: usize, t: T, q: &#coordinates<T>, rates: &#rates<T>) -> T {
+                self.kinks(t, q, rates).get(place).copied().unwrap_or(T::one())
+            }
+        }
+    })
 }
 
 /// The constant and the function of `Scene` for the reactions that limit frictions, if there are any.

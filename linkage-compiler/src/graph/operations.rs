@@ -2,11 +2,14 @@
 
 use super::arena::Graph;
 use super::function::Function;
-use super::node::NodeId;
+use super::node::{Node, NodeId};
 use super::number::Number;
 
 /// The partial derivatives of `f` at `arguments`, one for each; `value` is `f(arguments)`.
 type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Vec<NodeId>;
+
+/// The expressions of the arguments at whose zeros the function has a kink or a jump, while they change their sign.
+type Kinks = fn(graph: &Graph, arguments: &[NodeId]) -> Vec<NodeId>;
 
 /// One row of the operation table.
 pub struct Operation {
@@ -19,6 +22,7 @@ pub struct Operation {
     pub partials: Partials,
     /// True if it is undefined at some finite arguments.
     pub may_be_undefined: bool,
+    pub kinks: Kinks,
 }
 
 /// The table, in the order of [`Function`].
@@ -31,6 +35,7 @@ pub const OPERATIONS: [Operation; 12] = [
         // d sin x = cos x
         partials: |g, x, _| vec![g.call(Function::Cos, &[x[0]])],
         may_be_undefined: false,
+        kinks: none,
     },
     Operation {
         function: Function::Cos,
@@ -43,6 +48,7 @@ pub const OPERATIONS: [Operation; 12] = [
             vec![g.negate(sine)]
         },
         may_be_undefined: false,
+        kinks: none,
     },
     Operation {
         function: Function::Tan,
@@ -56,6 +62,7 @@ pub const OPERATIONS: [Operation; 12] = [
             vec![g.add(one, square)]
         },
         may_be_undefined: true,
+        kinks: none,
     },
     Operation {
         function: Function::Asin,
@@ -65,6 +72,7 @@ pub const OPERATIONS: [Operation; 12] = [
         // d asin x = 1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| vec![inverse_half_chord(g, x[0])],
         may_be_undefined: true,
+        kinks: none,
     },
     Operation {
         function: Function::Acos,
@@ -77,6 +85,7 @@ pub const OPERATIONS: [Operation; 12] = [
             vec![g.negate(inverse)]
         },
         may_be_undefined: true,
+        kinks: none,
     },
     Operation {
         function: Function::Atan,
@@ -91,6 +100,7 @@ pub const OPERATIONS: [Operation; 12] = [
             vec![g.power(sum, -1)]
         },
         may_be_undefined: false,
+        kinks: none,
     },
     Operation {
         function: Function::Atan2,
@@ -106,6 +116,8 @@ pub const OPERATIONS: [Operation; 12] = [
             vec![by_y, g.negate(by_x)]
         },
         may_be_undefined: false,
+        // A jump by 2 pi at y = 0, x < 0.
+        kinks: |_, yx| vec![yx[0]],
     },
     Operation {
         function: Function::Sqrt,
@@ -118,6 +130,7 @@ pub const OPERATIONS: [Operation; 12] = [
             vec![g.scale(Number::ratio(1, 2), inverse)]
         },
         may_be_undefined: true,
+        kinks: |g, x| squared(g, x[0]),
     },
     Operation {
         function: Function::Abs,
@@ -127,6 +140,7 @@ pub const OPERATIONS: [Operation; 12] = [
         // d |x| = x / |x|, undefined at 0
         partials: |g, x, modulus| vec![g.divide(x[0], modulus)],
         may_be_undefined: false,
+        kinks: |_, x| vec![x[0]],
     },
     Operation {
         function: Function::Exp,
@@ -136,6 +150,7 @@ pub const OPERATIONS: [Operation; 12] = [
         // d e^x = e^x
         partials: |_, _, value| vec![value],
         may_be_undefined: false,
+        kinks: none,
     },
     Operation {
         function: Function::Ln,
@@ -145,6 +160,7 @@ pub const OPERATIONS: [Operation; 12] = [
         // d ln x = 1 / x
         partials: |g, x, _| vec![g.power(x[0], -1)],
         may_be_undefined: true,
+        kinks: none,
     },
     Operation {
         function: Function::Hypot,
@@ -154,6 +170,11 @@ pub const OPERATIONS: [Operation; 12] = [
         // d hypot(x, y) = (x dx + y dy) / hypot(x, y)
         partials: |g, xy, modulus| vec![g.divide(xy[0], modulus), g.divide(xy[1], modulus)],
         may_be_undefined: false,
+        // With one argument it is the modulus of the other. Elsewhere a motion passes x = y = 0 by chance only.
+        kinks: |g, xy| match xy.iter().filter(|&&x| !g.is_zero(x)).collect::<Vec<_>>().as_slice() {
+            &[&x] => vec![x],
+            _ => Vec::new(),
+        },
     },
 ];
 
@@ -167,6 +188,21 @@ impl Function {
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         OPERATIONS.iter().find(|row| row.name == name).map(|row| row.function)
+    }
+}
+
+/// The function has no kink inside its domain.
+fn none(_: &Graph, _: &[NodeId]) -> Vec<NodeId> {
+    Vec::new()
+}
+
+/// The bases b of the factors b^2, b^6, ...: sqrt(b^2) = |b|.
+fn squared(g: &Graph, x: NodeId) -> Vec<NodeId> {
+    match g.node(x) {
+        Node::Product { factors, .. } => {
+            factors.iter().filter(|(_, exponent)| exponent.rem_euclid(4) == 2).map(|(base, _)| *base).collect()
+        }
+        _ => Vec::new(),
     }
 }
 

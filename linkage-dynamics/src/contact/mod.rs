@@ -24,6 +24,7 @@ mod change;
 mod held;
 mod impact;
 mod margin;
+mod position;
 mod reaction;
 mod reduced;
 mod settle;

@@ -208,6 +208,13 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         Ok(())
     }
 
+    /// Takes the signs of the event functions before a change of the law, so that a zero there is an event after it.
+    pub(super) fn keep_events(&mut self, before: &Self) {
+        for (function, before) in self.events.iter_mut().zip(&before.events).filter(|(_, before)| before.sign != 0) {
+            function.sign = before.sign;
+        }
+    }
+
     pub(super) fn any_event(&self, sample: &Sample<K, C>) -> bool {
         self.each().zip(sample.each()).any(|(function, sample)| function.passed(sample) && function.is_event())
     }

@@ -104,6 +104,8 @@ pub struct Integration<S: System, M = Dop853> {
     pub(super) instant: Instant<S::Scalar>,
     /// The number of times in a row that the step was shortened for its guards.
     pub(super) shortened: u32,
+    /// True after a change of the law, at a time between two of the motion.
+    pub(super) has_crossed: bool,
 }
 
 impl<S: System, M: Method> Integration<S, M> {
@@ -148,6 +150,7 @@ impl<S: System, M: Method> Integration<S, M> {
             signs,
             instant: Instant { t: start, has_restarted: false },
             shortened: 0,
+            has_crossed: false,
         })
     }
 
@@ -404,6 +407,19 @@ impl<S: System, M: Method> Integration<S, M> {
         self.place = Place::Boundary;
         self.signs.drop_pending();
         self.exchange(state);
+    }
+
+    /// Restarts the motion from this state at a time just after the one reached. Outputs before it remain.
+    pub(crate) fn restart_at(&mut self, t: S::Scalar, state: StateOf<S>) -> Result<(), MotionError> {
+        self.restart(state)?;
+        self.t = t;
+        self.has_crossed = true;
+        Ok(())
+    }
+
+    /// The start and the end of the last step.
+    pub(crate) fn last_step(&self) -> [(S::Scalar, StateOf<S>); 2] {
+        [self.from, self.to]
     }
 
     /// The interval with available states: from the start of the last step to the time reached.

@@ -32,9 +32,15 @@ impl<S: System, M: Method> Integration<S, M> {
         if S::Events::COUNT + S::Guards::COUNT > 0 && is_new {
             let little = real::<S::Scalar>(ComplexField::sqrt(epsilon) * direction * self.length());
             let after = y + self.slopes[0] * little;
+            let before = self.signs;
             self.signs.begin(&mut self.system, (t, &y), (t + little, &after))?;
+            if core::mem::take(&mut self.has_crossed) {
+                self.signs.keep_events(&before);
+            }
         }
         let mut failure = None;
+        // The length of the step before it was shortened to end at a change of the law; the next step has it.
+        let mut whole = None;
         loop {
             let length = self.length();
             if self.counts.accepted + self.counts.rejected >= self.most_steps {
@@ -46,6 +52,14 @@ impl<S: System, M: Method> Integration<S, M> {
             if 0.1 * length <= epsilon * to_f64(t).abs() || length < f64::MIN_POSITIVE || end == t {
                 return Err(failure.unwrap_or(MotionError::StepTooSmall { t: to_f64(t), step: direction * length }));
             }
+            let proposed = end;
+            let end = self.system.end_of_step(t, proposed);
+            if end == t {
+                return Err(MotionError::StepTooSmall { t: to_f64(t), step: 0.0 });
+            }
+            if end != proposed {
+                whole.get_or_insert(length);
+            }
             let taken = to_f64(end - t).abs();
             match self.attempt((t, &y), end) {
                 Ok((error, next)) => {
@@ -55,6 +69,16 @@ impl<S: System, M: Method> Integration<S, M> {
                         self.to = (end, next);
                         self.interpolant = None;
                         self.has_rate = true;
+                        if let Some(part) = self.system.change_of_law(&self.cubic())? {
+                            whole.get_or_insert(length);
+                            self.controller.length = Some(part * taken);
+                            self.has_rate = false;
+                            self.counts.rejected += 1;
+                            continue;
+                        }
+                        if let Some(whole) = whole {
+                            self.controller.length = self.controller.length.map(|next| next.max(whole));
+                        }
                         self.counts.accepted += 1;
                         return self.test_stiffness();
                     }

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use super::{Action, Crossing};
+use super::{Action, Crossing, Interpolant};
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Column, D, Dim, Real};
@@ -86,6 +86,25 @@ pub trait System {
     ) -> Result<Action<StateOf<Self>>, MotionError> {
         let _ = (event, t, y);
         Ok(Action::Record)
+    }
+
+    /// The end of a step from `t` that would go to `end`: nearer if the law of the rate is known to change before it, so
+    /// that no step goes over the change.
+    #[inline]
+    fn end_of_step(&mut self, t: Self::Scalar, end: Self::Scalar) -> Self::Scalar {
+        let _ = t;
+        end
+    }
+
+    /// Returns the fraction of a step at which it must end because the law of the rate changes within it; the step is
+    /// then repeated with this length. `step` interpolates the states and the rates at both ends.
+    ///
+    /// # Errors
+    /// Any error ends the integration.
+    #[inline]
+    fn change_of_law(&mut self, step: &Interpolant<Self::Scalar, Self::N>) -> Result<Option<f64>, MotionError> {
+        let _ = step;
+        Ok(None)
     }
 
     /// Called before each step, after the outputs of the last one. A returned state replaces the current one: projected

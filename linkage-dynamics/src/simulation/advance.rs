@@ -28,9 +28,17 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             if self.integration.is_at_boundary() && !is_prepared {
                 self.prepare()?;
             }
+            let is_new = self.integration.is_at_boundary();
+            if is_new && let Some(corner) = self.integration.system().corner_at(self.integration.t()) {
+                return self.cross_here(&corner).map(|()| Some(true));
+            }
             let step = self.integration.advance();
             let step = step.map_err(|error| self.named(error))?;
             let Some(step) = step else { return Ok(None) };
+            if is_new && !self.follows_laws() {
+                self.is_prepared = true;
+                continue;
+            }
             let motion = self.integration.system();
             let q = S::parts(&step.state).q;
             if matches!(motion.parametrisation, Parametrisation::Inputs) && !self.keeps_signs(step.t, &q) {
@@ -42,7 +50,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 continue;
             }
             let contacts = motion.contacts;
-            let projected = motion.projected(step.t, &step.state)?;
+            let mut projected = motion.projected(step.t, &step.state)?;
+            if step.event.is_none() {
+                projected = match motion.on_stops(step.t, &projected, self.largest_deviation()) {
+                    Ok(projected) => projected,
+                    Err(MotionError::LeftStop { .. }) if self.is_repeated_shorter(is_new) => continue,
+                    Err(error) => return Err(error),
+                };
+            }
             let (kept, holds) = motion.reviewed(&contacts, step.t, &projected)?;
             self.count_passage(&projected);
             let motion = self.integration.system();
@@ -50,7 +65,9 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
             let result = match step.event {
                 Some(event) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
+                None if holds && let Some(corner) = self.corner(step.t) => self.cross(&corner, &mut state, &kept),
                 None if holds => {
+                    state.kink = self.integration.system().corners.passed;
                     if kept != step.state {
                         self.integration.correct(kept);
                     }
@@ -80,7 +97,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 let contact = names.iter().nth(event - W::Events::COUNT).copied().unwrap_or_default();
                 MotionError::ContactWithoutEnd { scene: S::NAME, contact, t }
             }
-            error => self.integration.system().of_reactions(self.integration.state(), error),
+            error => {
+                let motion = self.integration.system();
+                motion.corners.explained(S::NAME, motion.of_reactions(self.integration.state(), error))
+            }
         }
     }
 
@@ -148,7 +168,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Records the changes and the new modes of the contacts in the state.
-    fn note(&self, state: &mut State<S>, changes: Column<Option<Change>, S::Contacts>) {
+    pub(super) fn note(&self, state: &mut State<S>, changes: Column<Option<Change>, S::Contacts>) {
         let modes = self.integration.system().contacts.modes;
         for ((touch, mode), change) in state.contacts.iter_mut().zip(modes).zip(changes) {
             *touch = Touch { mode, change, ..*touch };

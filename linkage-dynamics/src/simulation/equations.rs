@@ -4,7 +4,7 @@
 //! [J A] and b is q'' at z'' = 0. With z = v these are the emitted equations.
 
 use super::frame::Frame;
-use super::motion::{Choice, LEAST_PIVOT_RATIO, Motion, Parametrisation, Reduced};
+use super::motion::{Choice, LEAST_PIVOT_RATIO, Motion, Parametrisation, Polynomial, Reduced};
 use super::sheet::Errors;
 use super::watch::Watch;
 use crate::contact::{ReducedContact, ReducedEquations, Reduction};
@@ -38,7 +38,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     ) -> Result<(Reduced<S>, Rates<S>), MotionError> {
         let (mut equations, rates) = self.unprescribed_by(independent, frame, (t, y))?;
         // Prescribed coordinates follow their laws.
-        for (input, law) in self.scene.prescribed(t).iter().enumerate() {
+        for (input, law) in self.prescribed(t).iter().enumerate() {
             let Some(law) = law else { continue };
             if let Some(at) = independent.free.iter().position(|&free| free == S::U::COUNT + input) {
                 equations.prescribe(at, law.acceleration);
@@ -111,6 +111,7 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
 
     #[inline]
     fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+        let t = self.beside(t);
         let (q, free_rates) = Self::unpack(y);
         let (independent, frame) = match &self.parametrisation {
             Parametrisation::Inputs if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) => {
@@ -159,5 +160,20 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
         y: &StateColumn<S>,
     ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionError> {
         self.margins(t, y)
+    }
+
+    fn before_step(&mut self, t: S::Scalar, _: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionError> {
+        self.begin_step(t);
+        Ok(None)
+    }
+
+    #[inline]
+    fn end_of_step(&mut self, t: S::Scalar, end: S::Scalar) -> S::Scalar {
+        self.end_before_kink(t, end)
+    }
+
+    #[inline]
+    fn change_of_law(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionError> {
+        self.kink_within(step)
     }
 }

@@ -137,7 +137,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 pub(super) fn start_error<S: Scene>(scene: &S, q: &Coordinates<S>, error: MotionError) -> MotionError {
     let mechanism = scene.mechanism();
     let pose = mechanism.pose_at(q);
-    let motion = Motion::new(scene, Scales::of(mechanism, &pose));
+    let motion = Motion::new(scene, Scales::of(mechanism, &pose), [S::Scalar::zero(); 2]);
     let freely = Independent::choose(mechanism, &pose, &motion.scales, &Column::repeat(false));
     if freely.regularity() <= nearly_zero() { motion.change_point_error(q) } else { error }
 }

@@ -31,6 +31,8 @@ mod equations;
 mod failure;
 mod frame;
 mod independent;
+mod jumps;
+pub(crate) mod kinks;
 mod motion;
 mod outputs;
 mod parametrisation;

@@ -3,10 +3,12 @@
 
 use super::frame::Frame;
 use super::independent::{Factors, Independent};
+use super::kinks::Corners;
 use super::sheet::Sheet;
 use super::state::{State, Touch};
 use super::watch::Unwatched;
 use crate::contact::{Contacts, ReducedEquations};
+use crate::integrate::Interpolant;
 use crate::{Coordinates, MotionError, Scene, StateColumn, StateParts};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, smallest};
@@ -20,6 +22,8 @@ pub(super) type Choice<S> = Independent<<S as Scene>::Scalar, <S as Scene>::U, <
 pub(super) type FactorsOf<S> = Factors<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The parametrisation of a scene.
 pub(super) type ParametrisationOf<S> = Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
+/// The states of a scene within a step.
+pub(super) type Polynomial<S> = Interpolant<<S as Scene>::Scalar, <S as Scene>::State>;
 /// The equations of motion of a scene in independent coordinates.
 pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>;
 /// The pose of a scene's mechanism.
@@ -72,22 +76,23 @@ pub struct Motion<'a, S: Scene, W> {
     pub(super) names: Column<&'static str, S::Contacts>,
     /// The largest estimated errors of interpolated y' since they were last asked for.
     pub(super) uncertainty: Option<StateColumn<S>>,
+    pub(super) corners: Corners<S::Scalar>,
 }
 
 impl<'a, S: Scene> Motion<'a, S, Unwatched> {
-    /// Starts in the inputs, with all contacts open.
-    pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>) -> Self {
+    /// Starts in the inputs, with all contacts open. The motion is from the first to the second time.
+    pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>, [start, end]: [S::Scalar; 2]) -> Self {
         let (contacts, names) = (Contacts::open(), Column::repeat(""));
-        let (parametrisation, uncertainty) = (Parametrisation::Inputs, None);
-        Self { scene, watch: Unwatched, scales, parametrisation, contacts, names, uncertainty }
+        let (parametrisation, uncertainty, corners) = (Parametrisation::Inputs, None, Corners::new(start, end));
+        Self { scene, watch: Unwatched, scales, parametrisation, contacts, names, uncertainty, corners }
     }
 }
 
 impl<'a, S: Scene, W> Motion<'a, S, W> {
     /// Replaces the user's events.
     pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2> {
-        let Self { scene, scales, parametrisation, contacts, names, uncertainty, .. } = self;
-        Motion { scene, watch, scales, parametrisation, contacts, names, uncertainty }
+        let Self { scene, scales, parametrisation, contacts, names, uncertainty, corners, .. } = self;
+        Motion { scene, watch, scales, parametrisation, contacts, names, uncertainty, corners }
     }
 
     /// Packs a position and the rates of the independent coordinates into y.
@@ -196,13 +201,13 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter()))?;
         let rates = S::Mechanism::rates(unknowns, inputs);
         let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
-        Ok(State { t, q, rates, event: None, contacts: Column::from_fn(touch) })
+        Ok(State { t, q, rates, event: None, kink: None, contacts: Column::from_fn(touch) })
     }
 
     /// Projects y onto the constraints, with prescribed inputs set to their laws.
     pub(super) fn projected(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let (mut q, mut rates) = Self::unpack(y);
-        let laws = self.scene.prescribed(t);
+        let laws = self.prescribed(t);
         let mut inputs = S::Mechanism::inputs(&q);
         for (input, law) in laws.iter().enumerate() {
             if let Some(law) = law {

@@ -22,8 +22,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             return Err(InputError::OutOfRange { of: None, quantity, value, least, most }.into());
         }
         while if is_forward { t > self.state.t } else { t < self.state.t } {
+            let before = self.state;
             if self.advance_within()?.is_none() {
                 return Ok(None);
+            }
+            // Between the times before and after a kink, where no step is.
+            let [earliest, _] = self.integration.reached();
+            if if is_forward { t < earliest } else { t > earliest } {
+                return Ok(Some(State { t, ..before }));
             }
         }
         if t == self.state.t {

@@ -26,7 +26,7 @@ impl<S: Scene<Contacts = D<0>>> System for Projected<'_, S> {
     type Guards = D<0>;
 
     fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
-        self.0.scene.derivative(t, y)
+        self.0.scene.derivative(self.0.beside(t), y)
     }
 
     fn events(&mut self, _: S::Scalar, _: &StateColumn<S>) -> Result<Column<S::Scalar, D<0>>, MotionError> {
@@ -34,7 +34,8 @@ impl<S: Scene<Contacts = D<0>>> System for Projected<'_, S> {
     }
 
     fn before_step(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionError> {
-        self.0.projected(t, y).map(Some)
+        self.0.begin_step(t);
+        self.0.projected_with_jumps(t, y).map(Some)
     }
 }
 
@@ -52,7 +53,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
         let Start { t, q, input_rates } = start;
         let y = scene.start(t, &q, &input_rates.into())?;
         let scales = Scales::of(scene.mechanism(), &scene.mechanism().pose_at(&q));
-        let motion = Motion::new(scene, scales);
+        let motion = Motion::new(scene, scales, [t, t + length]);
         Ok(Self { steps: FixedStep::new(Projected(motion), (t, y), length)? })
     }
 
@@ -69,7 +70,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
     /// satisfied, [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J is singular.
     pub fn state(&self) -> Result<State<S>, MotionError> {
         let (t, motion) = (self.t(), &self.steps.system().0);
-        motion.state(t, &motion.projected(t, self.steps.state())?)
+        motion.state(t, &motion.projected_with_jumps(t, self.steps.state())?)
     }
 
     /// Takes a step.

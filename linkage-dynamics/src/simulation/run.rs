@@ -84,7 +84,7 @@ fn started<'a, S: Scene>(
     let y = scene.start(t, q, input_rates)?;
     let q = S::parts(&y).q;
     let scales = Scales::of(mechanism, &mechanism.pose_at(&q));
-    let mut motion = Motion::new(scene, scales);
+    let mut motion = Motion::new(scene, scales, [t, end]);
     if S::Contacts::COUNT > 0 && end < t {
         let contacts = motion.contacts_alone(t, &y)?.contacts;
         let contact = contacts.iter().next().map(|contact| contact.name).unwrap_or_default();
@@ -93,7 +93,7 @@ fn started<'a, S: Scene>(
     let y = if S::Contacts::COUNT > 0 { motion.begin(t, &y)? } else { y };
     let contacts = motion.contacts;
     let velocity = motion.velocity(&y)?;
-    let (_, accelerations) = Motion::<S, Unwatched>::unpack(&scene.derivative(t, &y)?);
+    let (_, accelerations) = Motion::<S, Unwatched>::unpack(&scene.derivative(motion.beside(t), &y)?);
     let speed = motion.scaled_norm(&velocity);
     let urge = accelerations.component_div(&scales.coordinates.inputs).largest().sqrt();
     let span = to_f64(end - t).abs();

@@ -21,6 +21,9 @@ pub struct State<S: Scene> {
     pub rates: Rates<S>,
     /// The index of the user-defined event at this time, if there is one; the rates are those before it.
     pub event: Option<usize>,
+    /// The effect whose law has a kink at this time, or the driven input of a law whose kink the simulation has found;
+    /// the rates are those before it.
+    pub kink: Option<&'static str>,
     /// The frictions and stops in the order of declaration. At a change of one, the rates are those before it and the
     /// modes those after it.
     pub contacts: Column<Touch, S::Contacts>,
@@ -51,7 +54,7 @@ impl<S: Scene> State<S> {
     }
 }
 
-linkage_runtime::__by_fields!([S: Scene] State<S> { t, q, rates, event, contacts });
+linkage_runtime::__by_fields!([S: Scene] State<S> { t, q, rates, event, kink, contacts });
 
 /// The forces of frictions, stops, drives and joints.
 #[cfg_attr(

@@ -21,6 +21,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// # Errors
     /// [`MotionError::ChangePoint`] if [J A] is nearly singular and the position is on no known sheet.
     fn equations(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
+        let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         match self.frame(&q, &rates)? {
             None => ReducedEquations::of(self.scene, t, y),
@@ -30,6 +31,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// The contacts with s and s' only, without derivatives by the coordinates: no equations of motion are needed.
     pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
+        let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         let velocity = self.velocity(y)?;
         let rates_of_all = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
@@ -151,11 +153,28 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((Self::pack(&S::parts(y).q, &rates), modes_hold))
     }
 
+    /// Returns y with each s on the stop on which it rests; `most` is the largest distance from it.
+    pub(super) fn on_stops(
+        &self,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+        most: S::Scalar,
+    ) -> Result<StateColumn<S>, MotionError> {
+        if !self.contacts.has_stops() || matches!(self.parametrisation, Parametrisation::Over(..)) {
+            return Ok(*y);
+        }
+        let Some(change) = self.contacts.return_to_stops(t, &self.equations(t, y)?, most)? else { return Ok(*y) };
+        let (q, rates) = Self::unpack(y);
+        let there = Self::moved(&q, &self.velocity(&Self::pack(&q, &change))?);
+        self.projected(t, &Self::pack(&there, &rates))
+    }
+
     /// The forces of the contacts, of the drives by input, zero without a drive, and in the joints.
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
     pub(super) fn loads(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Loads<S>, MotionError> {
+        let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         let (free, places) = match self.frame(&q, &rates)? {
             None => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),

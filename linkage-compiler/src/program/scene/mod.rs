@@ -4,6 +4,7 @@ mod contacts;
 mod drives;
 mod energy;
 mod equilibrium;
+mod kinks;
 mod layers;
 mod motion;
 mod reactions;
@@ -96,6 +97,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             planned.bearings();
             planned.equations();
         }
+        planned.kinks();
         planned.check();
         if planned.calls_check_effects {
             planned.check_effects();

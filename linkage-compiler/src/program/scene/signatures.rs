@@ -184,6 +184,12 @@ impl<'a> SceneSignatures<'a> {
         Function { access: Access::Hidden, ..fallible("equations", self.state(), of) }
     }
 
+    /// The expressions at whose zeros laws have kinks.
+    pub fn kinks(&self, many: usize) -> Function<Body> {
+        let of = Type::List(Box::new(Type::Scalar), many);
+        Function { access: Access::Hidden, ..total("kinks", self.whole_state(), of) }
+    }
+
     pub fn check(&self) -> Function<Body> {
         fallible("check", [], Type::Tuple(Vec::new()))
     }

@@ -1,0 +1,363 @@
+//! Kinks of laws: the steps of a simulation end there.
+//!
+//! A scene has an expression for each kink of its laws, such as t - 1 for `abs(t - 1)`, which changes its sign there. At
+//! its zero the derivatives of the law may be undefined, so that no law is evaluated there:
+//! - an expression of time alone is searched before each step: the step ends at the last time before the change of sign,
+//!   and the motion continues from the first time after it;
+//! - for one of the state, a step that passes its zero is repeated with a shorter length, until it ends before the zero
+//!   by the rounding error of the time. A step of that length goes over it.
+//!
+//! An expression that touches zero without a change of sign is no kink.
+
+use super::motion::{Motion, Polynomial};
+use crate::scene::Kink;
+use crate::{MotionError, Prescribed, Scene, StateColumn};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::jacobian::first_not_positive;
+use linkage_runtime::{Column, Mechanism, Real, real};
+
+/// The number of equal parts of a step at whose ends expressions of time are sampled: two kinks within one part are
+/// missed. A drive is checked against its integral too, which shows them.
+const PARTS_OF_TIME: usize = 16;
+
+/// The number of equal parts of a step at whose ends expressions of the state are sampled.
+const PARTS_OF_STATE: usize = 8;
+
+/// A kink of the state is located to this many ulps of the time: half of it is more than ten ulps, the shortest step.
+const AT_KINK_ULPS: f64 = 24.0;
+
+/// A step towards a kink of the state first ends before it by this fraction of its length: the states of its stages are
+/// less accurate than that at its end, and must be before the kink too. Without it the error of the step shows a stage
+/// beyond the kink, and more steps are rejected.
+const ROOM: f64 = 1.0 / 1024.0;
+
+/// Nearer to a kink than this fraction of the time a step goes to it.
+const NEAR: f64 = 1e-6;
+
+/// The most kinks in a row without a longer step between them. A force that always points towards its kink, such as
+/// -x'/|x'|, has them without end.
+const MAX_IN_A_ROW: u32 = 16;
+
+/// A limit on the number of steps that is reached counts as kinks without end if there was one in this many steps.
+const STEPS_OF_A_KINK: usize = 16;
+
+/// The change of a law between two neighbouring times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner<T> {
+    /// The last time before the change.
+    pub(super) before: T,
+    /// The first time after it.
+    pub(super) after: T,
+    /// The effect with the law.
+    pub(super) effect: &'static str,
+}
+
+/// The kinks of a motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corners<T> {
+    /// The start of the step.
+    from: T,
+    is_forward: bool,
+    /// The end of the simulation.
+    end: T,
+    /// The change at the end of the step.
+    pub(super) ahead: Option<Corner<T>>,
+    /// A change that the integration of a drive has shown.
+    pub(super) found: Option<Corner<T>>,
+    /// The effect whose kink is at the end of the last step, for a kink of the state.
+    pub(super) passed: Option<&'static str>,
+    /// The number of times in a row that a step was shortened for a drive.
+    pub(super) shortened: u32,
+    /// The number of kinks so far, and of those in a row without a longer step.
+    count: usize,
+    in_a_row: u32,
+    /// The time of the first of these.
+    first: T,
+    last: Option<&'static str>,
+}
+
+impl<T: Real> Corners<T> {
+    pub(super) fn new(start: T, end: T) -> Self {
+        Self {
+            from: start,
+            is_forward: end >= start,
+            end,
+            ahead: None,
+            found: None,
+            passed: None,
+            shortened: 0,
+            count: 0,
+            in_a_row: 0,
+            first: start,
+            last: None,
+        }
+    }
+
+    /// Counts a kink of this effect at a time.
+    ///
+    /// # Errors
+    /// [`MotionError::KinksWithoutEnd`] after too many in a row.
+    pub(super) fn note(&mut self, scene: &'static str, effect: &'static str, t: T) -> Result<(), MotionError> {
+        self.count += 1;
+        if self.in_a_row == 0 {
+            self.first = t;
+        }
+        self.in_a_row += 1;
+        self.last = Some(effect);
+        if self.in_a_row > MAX_IN_A_ROW {
+            return Err(MotionError::KinksWithoutEnd { scene, effect, t: to_f64(self.first) });
+        }
+        Ok(())
+    }
+
+    /// The error of an integration, which names the effect if the limit on the steps is reached by kinks.
+    pub(super) fn explained(&self, scene: &'static str, error: MotionError) -> MotionError {
+        match (error, self.last) {
+            (MotionError::TooManySteps { t, steps }, Some(effect)) if steps < self.count * STEPS_OF_A_KINK => {
+                MotionError::KinksWithoutEnd { scene, effect, t }
+            }
+            _ => error,
+        }
+    }
+}
+
+/// The sign of a number; zero for NaN.
+fn sign<T: Real>(value: T) -> i8 {
+    if value > T::zero() {
+        1
+    } else if value < T::zero() {
+        -1
+    } else {
+        0
+    }
+}
+
+/// True if a kink of the scene depends on time alone.
+fn has_timed<S: Scene>() -> bool {
+    S::KINKS.iter().any(|kink| kink.is_timed)
+}
+
+/// True if a kink of the scene depends on the state.
+fn has_moving<S: Scene>() -> bool {
+    S::KINKS.iter().any(|kink| !kink.is_timed)
+}
+
+/// The sign of an expression of time alone.
+fn sign_at<S: Scene + ?Sized>(scene: &S, place: usize, t: S::Scalar) -> i8 {
+    let q = S::Mechanism::coordinates(Column::zeros(), Column::zeros());
+    let rates = S::Mechanism::rates(Column::zeros(), Column::zeros());
+    sign(scene.kink(place, t, &q, &rates))
+}
+
+/// Returns t, or if an expression of time alone is zero there, a time next to it, in this direction, where none is.
+fn beside<S: Scene + ?Sized>(scene: &S, t: S::Scalar, is_forward: bool) -> S::Scalar {
+    let is_smooth = |t: S::Scalar| {
+        let mut kinks = S::KINKS.iter().enumerate();
+        kinks.all(|(place, kink)| !kink.is_timed || sign_at(scene, place, t) != 0)
+    };
+    if is_smooth(t) {
+        return t;
+    }
+    // From one ulp; at t = 0, where there is no ulp, from a time whose square does not underflow.
+    let ulp = t.abs() * S::Scalar::default_epsilon();
+    let (mut little, factor) = if ulp > S::Scalar::zero() { (ulp, 2.0) } else { (real(1e-150), 1e8) };
+    for _ in 0..20 {
+        let near = if is_forward { t + little } else { t - little };
+        if is_smooth(near) {
+            return near;
+        }
+        little *= real(factor);
+    }
+    t
+}
+
+/// The prescribed motion of each input: at a kink its rate and acceleration just after it, or before it.
+pub(crate) fn one_sided<S: Scene + ?Sized>(
+    scene: &S,
+    t: S::Scalar,
+    is_after: bool,
+) -> Column<Option<Prescribed<S::Scalar>>, S::V> {
+    let laws = scene.prescribed(t);
+    let near = beside(scene, t, is_after);
+    if near == t {
+        return laws;
+    }
+    let beside = scene.prescribed(near);
+    Column::from_fn(|input| {
+        let (law, beside) = (laws[input]?, beside[input]?);
+        Some(Prescribed { value: law.value, ..beside })
+    })
+}
+
+impl<S: Scene, W> Motion<'_, S, W> {
+    /// True if the laws at t are those after a kink there: at the start of the step, else they are those before it.
+    fn is_after(&self, t: S::Scalar) -> bool {
+        (t == self.corners.from) == self.corners.is_forward
+    }
+
+    /// Returns t, or at a kink of time a time next to it within the step.
+    pub(super) fn beside(&self, t: S::Scalar) -> S::Scalar {
+        if has_timed::<S>() { beside(self.scene, t, self.is_after(t)) } else { t }
+    }
+
+    /// The prescribed motion of each input.
+    pub(super) fn prescribed(&self, t: S::Scalar) -> Column<Option<Prescribed<S::Scalar>>, S::V> {
+        if has_timed::<S>() { one_sided(self.scene, t, self.is_after(t)) } else { self.scene.prescribed(t) }
+    }
+
+    /// Begins a step here.
+    pub(super) fn begin_step(&mut self, t: S::Scalar) {
+        self.corners.from = t;
+        self.corners.ahead = None;
+        self.corners.passed = None;
+    }
+
+    /// Counts a step of this length: a long one ends a row of kinks.
+    pub(super) fn note_step(&mut self, from: S::Scalar, to: S::Scalar) {
+        if (to - from).abs() > self.resolution_of_time(from, to) * real(2.0) {
+            self.corners.in_a_row = 0;
+        }
+    }
+
+    /// The rounding error of the time, within which a kink of the state is located.
+    fn resolution_of_time(&self, from: S::Scalar, to: S::Scalar) -> S::Scalar {
+        from.abs().max(to.abs()) * S::Scalar::default_epsilon() * real(AT_KINK_ULPS)
+    }
+
+    /// The end of a step from `t` that would go to `end`, before the next kink of time.
+    pub(super) fn end_before_kink(&mut self, t: S::Scalar, end: S::Scalar) -> S::Scalar {
+        self.corners.ahead = self.next_corner(t, end);
+        match self.corners.ahead {
+            Some(corner) => corner.before,
+            None => end,
+        }
+    }
+
+    /// The change of a law at the time t itself: the motion continues after it.
+    pub(super) fn corner_at(&self, t: S::Scalar) -> Option<Corner<S::Scalar>> {
+        self.next_corner(t, t).filter(|corner| corner.before == t)
+    }
+
+    /// The first change of a law of time between two times, or just after the second.
+    fn next_corner(&self, t: S::Scalar, end: S::Scalar) -> Option<Corner<S::Scalar>> {
+        let is_forward = self.corners.is_forward;
+        let is_ahead = |a: S::Scalar, b: S::Scalar| if is_forward { a <= b } else { a >= b };
+        let found = self.corners.found;
+        let mut first = found.filter(|corner| is_ahead(t, corner.before) && is_ahead(corner.before, end));
+        if !has_timed::<S>() {
+            return first;
+        }
+        let timed = S::KINKS.iter().enumerate().filter(|(_, kink)| kink.is_timed);
+        for (place, Kink { effect, .. }) in timed {
+            // A zero at the end shows its change of sign a little later; not at the end of the simulation.
+            let little = self.resolution_of_time(t, end);
+            let beyond = if is_forward { end + little } else { end - little };
+            let most = if is_ahead(beyond, self.corners.end) { beyond } else { self.corners.end };
+            let sign = |t: S::Scalar| sign_at(self.scene, place, t);
+            let (mut last, mut own) = (t, sign(t));
+            if own == 0 {
+                own = sign(beside(self.scene, t, is_forward));
+            }
+            for part in 1..=PARTS_OF_TIME + 1 {
+                let fraction: S::Scalar = real(part as f64 / PARTS_OF_TIME as f64);
+                let here = if part > PARTS_OF_TIME { most } else { t + (end - t) * fraction };
+                let now = sign(here);
+                if own == 0 {
+                    own = now;
+                }
+                if now == own {
+                    last = here;
+                } else if now != 0 {
+                    let before = self.boundary(last, here, |t| sign(t) == own);
+                    let after = self.boundary(here, last, |t| sign(t) == now);
+                    if first.is_none_or(|first| !is_ahead(first.before, before)) {
+                        first = Some(Corner { before, after, effect });
+                    }
+                    break;
+                }
+            }
+        }
+        first
+    }
+
+    /// The last time after `from`, where `holds` is true, at which it is still true, towards `to`, where it is false.
+    pub(super) fn boundary(&self, from: S::Scalar, to: S::Scalar, holds: impl Fn(S::Scalar) -> bool) -> S::Scalar {
+        let (mut inside, mut outside) = (from, to);
+        let tiny = (self.corners.end - self.corners.from).abs() * real(f64::EPSILON * f64::EPSILON);
+        loop {
+            let middle = inside + (outside - inside) * real(0.5);
+            if middle == inside || middle == outside || (outside - inside).abs() <= tiny {
+                return inside;
+            }
+            if holds(middle) {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+    }
+
+    /// The value of an expression of the state; None if it cannot be computed.
+    fn kink_value(&self, place: usize, t: S::Scalar, y: &StateColumn<S>) -> Option<S::Scalar> {
+        let (q, _) = Self::unpack(y);
+        let velocity = self.velocity(y).ok()?;
+        let value = self.scene.kink(place, t, &q, &S::Mechanism::rates(velocity.unknowns, velocity.inputs));
+        value.is_finite().then_some(value)
+    }
+
+    /// The fraction of a step at which it must end because a kink of the state is within it.
+    ///
+    /// # Errors
+    /// [`MotionError::KinksWithoutEnd`].
+    pub(super) fn kink_within(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionError> {
+        self.corners.passed = None;
+        if !has_moving::<S>() {
+            return Ok(None);
+        }
+        let (from, to) = step.interval();
+        let length = to_f64(to - from).abs();
+        let at_kink = to_f64(self.resolution_of_time(from, to)) / length;
+        let mut first: Option<(f64, &'static str)> = None;
+        for (place, kink) in S::KINKS.iter().enumerate().filter(|(_, kink)| !kink.is_timed) {
+            let value = |part: f64| {
+                let value = self.kink_value(place, from + (to - from) * real(part), &step.at_fraction(real(part)));
+                value.map_or(0.0, to_f64)
+            };
+            let (mut last, mut own) = ((0.0, value(0.0)), 0);
+            for part in 1..=PARTS_OF_STATE {
+                own = if own == 0 { sign(last.1) } else { own };
+                let at = part as f64 / PARTS_OF_STATE as f64;
+                let here = (at, value(at));
+                if own != 0 && sign(here.1) == -own {
+                    let along = |value: f64| value * f64::from(own);
+                    let ends = [along(last.1), along(here.1)];
+                    let enough = 0.25 * at_kink;
+                    let at = first_not_positive::<f64, MotionError>([last.0, at], ends, enough, |at| {
+                        Ok(Some(along(value(at))))
+                    })?;
+                    if first.is_none_or(|(first, _)| at < first) {
+                        first = Some((at, kink.effect));
+                    }
+                    break;
+                }
+                if here.1 != 0.0 {
+                    last = here;
+                }
+            }
+        }
+        let Some((at, effect)) = first else { return Ok(None) };
+        if at > at_kink {
+            let is_near = at * length <= NEAR * to_f64(from.abs().max(to.abs()));
+            let room = if is_near { 0.0 } else { ROOM * at };
+            return Ok(Some((at - room.max(0.5 * at_kink)).max(0.5 * at_kink)));
+        }
+        if at_kink < 0.5 {
+            return Ok(Some(1.5 * at_kink));
+        }
+        // A step over the kink, too short for an error.
+        self.corners.passed = Some(effect);
+        self.corners.note(S::NAME, effect, to)?;
+        Ok(None)
+    }
+}

@@ -1,0 +1,192 @@
+//! Jumps of the rates of drives: in user functions, in linkages, with fixed steps, with events at the same time; and
+//! positions that jump.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use linkage::integrate::Crossing;
+use linkage::simulation::{RealTime, Simulation, Start, State, Then, simulate};
+use linkage::{MotionError, Real, Scene, linkage, real};
+
+/// |x - 1|, as a user function.
+fn corner<T: Real>(x: T) -> (T, T, T) {
+    let side = if x < T::one() { -T::one() } else { T::one() };
+    (side * (x - T::one()), side, T::zero())
+}
+
+/// 0 before 1, then 1/4.
+fn ledge<T: Real>(x: T) -> (T, T, T) {
+    (if x < T::one() { T::zero() } else { real(0.25) }, T::zero(), T::zero())
+}
+
+linkage! {
+    /// Two masses on one line, and user functions.
+    mechanism Pair {
+        param m = 1;
+        input x, y;
+        extern fn corner(t) -> (bend, bend_rate, bend_acceleration);
+        extern fn ledge(t) -> (level, level_rate, level_acceleration);
+        body ball { mass m; center (x + y, 0); }
+        scene Bent { inertia; drive x = bend(t); }
+        scene Lifted { inertia; drive x = level(t); }
+        scene Held { inertia; drive x = t; force (-1, 0) at (y, 0); stop y - level(x) in 0..9, restitution 0; }
+        scene Seen { inertia; drive x = abs(t - 1); }
+    }
+}
+
+fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>, Option<MotionError>) {
+    let mut states = Vec::new();
+    let error = motion
+        .finish(|state, _| {
+            states.push(*state);
+            true
+        })
+        .err();
+    (states, error)
+}
+
+fn pair(t: f64, [x, y]: [f64; 2], [x_rate, y_rate]: [f64; 2]) -> Start<f64, PairCoordinates<f64>, PairInputs<f64>> {
+    Start { t, q: PairCoordinates { x, y }, input_rates: PairInputs { x: x_rate, y: y_rate } }
+}
+
+/// The law of a user function has no expression for its kink: the motion finds it.
+#[test]
+fn a_kink_in_a_user_function() {
+    let scene = Bent::default();
+    for tolerance in [1e-4, 1e-12] {
+        let (states, error) = run(simulate(&scene, pair(0.0, [1.0, 0.0], [-1.0, 1.0]), 2.0, tolerance).unwrap());
+        assert_eq!(error, None);
+        let kinks: Vec<_> = states.iter().filter_map(|state| state.kink).collect();
+        assert_eq!(kinks, ["x"]);
+        let last = states.last().unwrap();
+        let errors = [last.q.x - 1.0, last.q.y, last.rates.x - 1.0, last.rates.y + 1.0];
+        assert!(errors.iter().all(|error| error.abs() <= 16.0 * f64::EPSILON), "{errors:?}");
+    }
+}
+
+/// A jump of the position has no rate: the error names the drive and the time.
+#[test]
+fn a_user_function_that_jumps() {
+    let scene = Lifted::default();
+    let (states, error) = run(simulate(&scene, pair(0.0, [0.0, 0.0], [0.0, 1.0]), 2.0, 1e-9).unwrap());
+    let t = 1.0;
+    assert_eq!(error, Some(MotionError::DriveJumps { scene: "Lifted", coordinate: "x", t }));
+    let last = states.last().unwrap();
+    assert!((last.t - 1.0).abs() <= f64::EPSILON && (last.q.y - 1.0).abs() < 1e-14);
+}
+
+/// y rests on a stop whose position jumps: an error, not a motion inside the stop.
+#[test]
+fn a_stop_that_jumps() {
+    let scene = Held::default();
+    let (states, error) = run(simulate(&scene, pair(0.0, [0.0, 0.0], [1.0, 0.0]), 2.0, 1e-9).unwrap());
+    println!("{error:?} {}", states.len());
+    let Some(MotionError::LeftStop { scene: "Held", stop: "stop on y - level(x)", gap, t }) = error else {
+        panic!("{error:?}")
+    };
+    assert!((gap + 0.25).abs() < 1e-12 && (t - 1.0).abs() < 1e-12);
+    assert!(states.iter().all(|state| state.q.x < 1.0 && state.q.y.abs() < 1e-14));
+}
+
+/// A user's event at the time of the kink, and one on each side of it.
+#[test]
+fn events_at_a_kink() {
+    let scene = Seen::default();
+    let motion = simulate(&scene, pair(0.0, [1.0, 0.0], [-1.0, 1.0]), 2.0, 1e-9).unwrap();
+    let mut seen = Vec::new();
+    let mut motion = motion
+        .events(
+            [Crossing::Either; 3],
+            |state| Ok([state.t - 1.0, state.q.x - 0.25, state.rates.x]),
+            |event, state| {
+                seen.push((event, state.t, state.rates.y));
+                Ok(Then::GoOn)
+            },
+        )
+        .unwrap();
+    motion.finish(|_, _| true).unwrap();
+    let last = *motion.state();
+    drop(motion);
+    println!("{seen:?}");
+    let times: Vec<_> = seen.iter().filter(|(event, ..)| *event == 1).map(|(_, t, rate)| (*t, *rate)).collect();
+    assert!((times[0].0 - 0.75).abs() < 1e-15 && (times[1].0 - 1.25).abs() < 1e-15 && times.len() == 2, "{times:?}");
+    assert!((times[0].1 - 1.0).abs() < 1e-14 && (times[1].1 + 1.0).abs() < 1e-14);
+    assert_eq!(seen.iter().filter(|(event, ..)| *event == 0).count(), 1);
+    assert!((last.rates.y + 1.0).abs() < 1e-14 && last.q.y.abs() < 1e-14);
+}
+
+/// Fixed steps do not end at the kink, but they transmit the impulse.
+#[test]
+fn fixed_steps() {
+    let scene = Seen::default();
+    for length in [0.125, 0.07] {
+        let mut motion = RealTime::new(&scene, pair(0.0, [1.0, 0.0], [-1.0, 1.0]), length).unwrap();
+        while motion.t() < 2.0 - 0.5 * length {
+            motion.step().unwrap();
+            let state = motion.state().unwrap();
+            // The kink may be anywhere in its step.
+            assert!((state.rates.x + state.rates.y).abs() < 1e-13, "{state:?}");
+            assert!((state.q.x + state.q.y - 1.0).abs() <= 2.0 * length, "{state:?}");
+        }
+    }
+}
+
+linkage! {
+    /// A slider on a crank that swings, with a load that hangs on the slider.
+    mechanism Crank {
+        param r = 0.1, l = 0.3, m = 2, w = 3;
+        input phi, load;
+        unknown psi, s;
+        loop r@phi + l@psi = (s, 0);
+        body slider { mass m; center (s, 0); }
+        body trolley { mass m; center (s + load, 0); }
+        scene Swinging { inertia; drive phi = 0.3 + abs(sin(w * t)); }
+        scene Sawing { inertia; drive phi = abs(t - 1); }
+    }
+}
+
+/// No force acts along s + load, so that its rate stays when the crank turns round: far from dead points, and near that
+/// of the piston, where the coordinates are others than the inputs.
+#[test]
+fn a_crank_that_turns_round() {
+    let check = |states: &[State<_>], kinks: usize| {
+        assert_eq!(states.iter().filter(|state| state.kink.is_some()).count(), kinks);
+    };
+    let _ = check as fn(&[State<Swinging<f64>>], usize);
+    let scene = Swinging::default();
+    let q = scene.mechanism.solve(&CrankCoordinates { phi: 0.3 + 0.3f64.sin(), load: 0.0, psi: -0.2, s: 0.4 }).unwrap();
+    let q = q.coordinates;
+    let rate = 3.0 * 0.3f64.cos();
+    let start = Start { t: 0.1, q, input_rates: CrankInputs { phi: rate, load: 0.5 } };
+    let mut motion = simulate(&scene, start, 5.0, 1e-11).unwrap();
+    let first = *motion.state();
+    let momentum = first.rates.s + first.rates.load;
+    let mut kinks = 0;
+    motion
+        .finish(|state, _| {
+            kinks += usize::from(state.kink.is_some());
+            assert!((state.rates.s + state.rates.load - momentum).abs() < 1e-9, "{state:?}");
+            let centre = first.q.s + first.q.load + momentum * (state.t - 0.1);
+            assert!((state.q.s + state.q.load - centre).abs() < 1e-9, "{state:?}");
+            true
+        })
+        .unwrap();
+    assert_eq!(kinks, (15.0 / PI) as usize);
+}
+
+/// The same with the turn exactly at the dead point of the piston, phi = 0, where s' = 0 on both sides, and from the
+/// piston's side with the kink 0.05 rad beyond it.
+#[test]
+fn a_kink_at_a_dead_point() {
+    let scene = Sawing::default();
+    let q = scene.mechanism.solve(&CrankCoordinates { phi: 1.0, load: 0.0, psi: -0.2, s: 0.4 }).unwrap().coordinates;
+    let start = Start { t: 0.0, q, input_rates: CrankInputs { phi: -1.0, load: 0.5 } };
+    let mut motion = simulate(&scene, start, 2.0, 1e-11).unwrap();
+    let first = *motion.state();
+    let momentum = first.rates.s + first.rates.load;
+    motion.finish(|_, _| true).unwrap();
+    let last = motion.state();
+    // By symmetry s and its rate are opposite.
+    assert!((last.q.s - first.q.s).abs() < 1e-10 && (last.rates.s + first.rates.s).abs() < 1e-10);
+    assert!((last.rates.load - (momentum - last.rates.s)).abs() < 1e-9, "{last:?}");
+    assert!(last.q.phi - 1.0 < 1e-15 && FRAC_PI_2 > 1.0);
+}
