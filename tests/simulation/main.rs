@@ -10,6 +10,7 @@ mod dead_points;
 mod doors;
 mod extremes;
 mod failures;
+mod loads;
 mod long_runs;
 mod no_load;
 mod rig;
