@@ -15,4 +15,5 @@ mod long_runs;
 mod no_load;
 mod rig;
 mod shallow_contacts;
+mod stiffness;
 mod windows;

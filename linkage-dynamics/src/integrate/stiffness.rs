@@ -29,6 +29,10 @@ const OTHERS_IN_A_ROW: u32 = 6;
 /// or 1/3.25 (Dopri5) of the critical one count as a part of the solution.
 const DECAY: f64 = 1.0;
 
+/// Below this part of the boundary of stability h |J d| / |d| is taken to show that the step is stable: this saves the
+/// evaluation.
+const CLEARLY_STABLE: f64 = 0.25;
+
 /// An eigenvalue.
 struct Eigenvalue {
     real: f64,
@@ -53,12 +57,13 @@ impl<S: System, M: Method> Integration<S, M> {
         let (difference, slope) = (end - stage, self.slopes[table.end]);
         let of_difference = slope - self.slopes[last];
         let tolerance = self.tolerance;
-        let eigenvalue = dominant((&tolerance, &end), &difference, &of_difference, |change| {
+        let length = to_f64(h);
+        let least = CLEARLY_STABLE * table.control.stability / length.abs();
+        let eigenvalue = dominant((&tolerance, &end), (&difference, &of_difference), least, |change| {
             self.counts.evaluations += 1;
             // If the rate fails there, the step counts as not stiff.
             self.system.rate(t, &(end + change)).ok().map(|there| there - slope)
         });
-        let length = to_f64(h);
         let is_stiff = eigenvalue.filter(|eigenvalue| {
             length.abs() * eigenvalue.modulus > table.control.stability && length * eigenvalue.real < -DECAY
         });
@@ -78,11 +83,11 @@ impl<S: System, M: Method> Integration<S, M> {
 }
 
 /// The dominant eigenvalue of J in the plane of d and J d; `by_jacobian` computes J times a small change of the state
-/// y. `None` if a number is not finite or d is zero.
+/// y. `None` if |J d| / |d| is below `least`, if a number is not finite or d is zero.
 fn dominant<T: Real, N: Dim>(
     (tolerance, y): (&Tolerance<T, N>, &Column<T, N>),
-    difference: &Column<T, N>,
-    of_difference: &Column<T, N>,
+    (difference, of_difference): (&Column<T, N>, &Column<T, N>),
+    least: f64,
     by_jacobian: impl FnOnce(Column<T, N>) -> Option<Column<T, N>>,
 ) -> Option<Eigenvalue> {
     let inner = |a: &Column<T, N>, b: &Column<T, N>| {
@@ -96,7 +101,9 @@ fn dominant<T: Real, N: Dim>(
     let along = inner(&first, &by_first);
     let rest = by_first - first * real::<T>(along);
     let across = norm(&rest);
-    if !(size > 0.0 && along.is_finite() && across.is_finite()) {
+    let stretch = ComplexField::sqrt(along * along + across * across);
+    // The comparisons are false for NaN.
+    if !(size > 0.0 && stretch >= least && stretch < f64::INFINITY) {
         return None;
     }
     if across <= to_f64(T::default_epsilon()) * along.abs() {

@@ -1,53 +1,116 @@
-//! What is stiff and what is not.
+//! Stiff equations are told from vibrations, in any units.
 
 use linkage_dynamics::MotionError;
-use linkage_dynamics::integrate::{Tolerance, dop853, dopri5};
+use linkage_dynamics::integrate::{Counts, Tolerance, dop853, dopri5};
 use linkage_runtime::nalgebra::vector;
 
+use super::systems::{HORIZONTAL, pendulum};
 use super::{Rate, State, tolerance};
 
-fn show<const N: usize>(name: &str, rate: impl Fn(f64, &State<N>) -> Rate<N> + Copy, y: State<N>, end: f64, scale: [f64; N], every: usize) {
-    for relative in [1e-4, 1e-6, 1e-8, 1e-10] {
-        let tol = || Tolerance::new(relative, scale).unwrap();
-        let mut a = dop853(rate, (0.0, y), end, tol()).unwrap().stiffness_test(every);
-        let ra = a.finish(|_, _| true);
-        let mut b = dopri5(rate, (0.0, y), end, tol()).unwrap().stiffness_test(every);
-        let rb = b.finish(|_, _| true);
-        println!("{name:24} {relative:.0e}  853: {:>8} {:?}   5: {:>8} {:?}", a.counts().accepted, ra, b.counts().accepted, rb);
+/// Integrates by both methods; returns the costs, or the first error of each.
+fn by_both<const N: usize>(
+    rate: impl Fn(f64, &State<N>) -> Rate<N> + Copy,
+    (y, end): (State<N>, f64),
+    (relative, scale): (f64, [f64; N]),
+    every: usize,
+) -> [Result<Counts, MotionError>; 2] {
+    let tolerance = || Tolerance::new(relative, scale).unwrap();
+    let mut one = dop853(rate, (0.0, y), end, tolerance()).unwrap().stiffness_test(every).most_steps(1_000_000);
+    let mut other = dopri5(rate, (0.0, y), end, tolerance()).unwrap().stiffness_test(every).most_steps(1_000_000);
+    [one.finish(|_, _| true).map(|()| one.counts()), other.finish(|_, _| true).map(|()| other.counts())]
+}
+
+/// Both methods find that stability limits their steps, within `most` of the interval.
+#[track_caller]
+fn is_stiff<const N: usize>(
+    rate: impl Fn(f64, &State<N>) -> Rate<N> + Copy,
+    (y, end): (State<N>, f64),
+    scale: [f64; N],
+) {
+    for relative in [1e-4, 1e-6] {
+        for result in by_both(rate, (y, end), (relative, scale), 1000) {
+            let Err(MotionError::Stiff { t, product }) = result else { panic!("{relative}: {result:?}") };
+            assert!(t < 0.5 * end && product > 3.25 && product < 10.0, "{relative}: {t} {product}");
+        }
     }
 }
 
+/// x'' = -2 zeta w x' - w^2 (x - sin t).
+fn oscillator(zeta: f64, w: f64) -> impl Fn(f64, &State<2>) -> Rate<2> + Copy {
+    move |t, y| Ok(vector![y[1], -2.0 * zeta * w * y[1] - w * w * (y[0] - t.sin())])
+}
+
 #[test]
-fn table() {
-  for every in [1000, 1] {
-    println!("every {every}");
-    show("prothero 1e4", |t, y: &State<1>| Ok(vector![-1e4 * (y[0] - t.cos())]), vector![0.0], 10.0, [1.0], every);
-    show("van der pol 1e3", |_, y: &State<2>| Ok(vector![y[1], 1e3 * (1.0 - y[0] * y[0]) * y[1] - y[0]]), vector![2.0, 0.0], 2000.0, [1.0, 1.0], every);
-    show("van der pol 10", |_, y: &State<2>| Ok(vector![y[1], 10.0 * (1.0 - y[0] * y[0]) * y[1] - y[0]]), vector![2.0, 0.0], 1000.0, [1.0, 1.0], every);
-    show("damped c 1e5 k 1e4", |t, y: &State<2>| Ok(vector![y[1], -1e5 * y[1] - 1e4 * (y[0] - t.sin())]), vector![0.0, 1.0], 10.0, [1.0, 1.0], every);
-    for (zeta, w) in [(0.0, 1e3), (0.01, 1e3), (0.05, 1e3), (0.1, 1e4), (0.2, 1e4), (0.3, 1e4), (0.5, 1e4), (0.7, 1e4), (1.0, 1e4), (3.0, 1e4)] {
-        for scale in [[1.0, 1.0], [1.0, 1e3], [1e3, 1.0]] {
-        show(&format!("zeta {zeta} w {w:.0e} {scale:?}"), move |t: f64, y: &State<2>| Ok(vector![y[1], -2.0 * zeta * w * y[1] - w * w * (y[0] - t.sin())]), vector![0.1, 1.0], 10.0, scale, every);
-        }
-    }
-    show("vibration 1e3", |_, y: &State<2>| Ok(vector![y[1], -1e6 * y[0]]), vector![0.1, 0.0], 10.0, [1.0, 1.0], every);
-    show("vibration 1e3 w", |_, y: &State<2>| Ok(vector![y[1], -1e6 * y[0]]), vector![0.1, 0.0], 10.0, [1.0, 316.0], every);
-    show("vibration 1e3 small", |_, y: &State<2>| Ok(vector![y[1], -1e6 * y[0]]), vector![1e-7, 0.0], 10.0, [1.0, 1e3], every);
-    show("robertson", |_, y: &State<3>| {
+fn stiff_equations_are_told() {
+    is_stiff(|t, y| Ok(vector![-1e4 * (y[0] - t.cos())]), (vector![0.0], 10.0), [1.0]);
+    // Van der Pol's equation with mu = 1000.
+    let relaxation = |_, y: &State<2>| Ok(vector![y[1], 1e3 * (1.0 - y[0] * y[0]) * y[1] - y[0]]);
+    is_stiff(relaxation, (vector![2.0, 0.0], 1000.0), [1.0; 2]);
+    // c = 1e5, k = 1e4, in metres and in micrometres.
+    let damped = |t: f64, y: &State<2>| Ok(vector![y[1], -1e5 * y[1] - 1e4 * (y[0] - t.sin())]);
+    is_stiff(damped, (vector![0.0, 1.0], 10.0), [1.0; 2]);
+    is_stiff(move |t, y| Ok(damped(t, &(y * 1e-6))? * 1e6), (vector![0.0, 1e6], 10.0), [1e6; 2]);
+    // An oscillation that is half as much damped as the critical one decays within a step.
+    is_stiff(oscillator(0.5, 1e4), (vector![0.1, 1.0], 10.0), [1.0, 1e3]);
+    // Robertson's reactions.
+    let reactions = |_, y: &State<3>| {
         let [a, b, c] = [0.04 * y[0], 1e4 * y[1] * y[2], 3e7 * y[1] * y[1]];
         Ok(vector![b - a, a - b - c, c])
-    }, vector![1.0, 0.0, 0.0], 1e3, [1.0, 1e-4, 1.0], every);
-    show("heat 8", |t, y: &State<8>| {
-        let at = |i: i32| if i < 0 { t.sin() } else if i > 7 { 0.0 } else { y[i as usize] };
-        Ok(State::<8>::from_fn(|i, _| 1e4 * (at(i as i32 - 1) - 2.0 * y[i] + at(i as i32 + 1))))
-    }, State::<8>::zeros(), 10.0, [1.0; 8], every);
-    show("string 4+4", |_, y: &State<8>| {
-        let at = |i: i32| if (0..4).contains(&i) { y[i as usize] } else { 0.0 };
-        Ok(State::<8>::from_fn(|i, _| if i < 4 { y[i + 4] } else { 1e4 * (at(i as i32 - 5) - 2.0 * at(i as i32 - 4) + at(i as i32 - 3)) }))
-    }, State::<8>::from_fn(|i, _| if i == 0 { 1.0 } else { 0.0 }), 10.0, [1.0; 8], every);
-    show("slow with light fast", |_, y: &State<4>| Ok(vector![y[2], y[3], -y[0] - 0.01 * (y[0]-y[1]), -1e6 * (y[1] - y[0])]), vector![1.0, 1.0, 0.0, 0.0], 10.0, [1.0; 4], every);
-    show("slow with damped fast", |_, y: &State<4>| Ok(vector![y[2], y[3], -y[0] - 0.01 * (y[0]-y[1]), -1e6 * (y[1] - y[0]) - 4e2 * (y[3]-y[2])]), vector![1.0, 1.0, 0.0, 0.0], 100.0, [1.0; 4], every);
-    show("pendulum", super::systems::pendulum, super::systems::HORIZONTAL, 2000.0, [1.0; 2], every);
-    show("arenstorf", super::systems::arenstorf, super::systems::ORBIT, 10.0*17.06, [1.0; 4], every);
-  }
+    };
+    is_stiff(reactions, (vector![1.0, 0.0, 0.0], 1e3), [1.0, 1e-4, 1.0]);
+    // Conduction of heat in eight equal parts of a rod: several large eigenvalues.
+    let heat = |t: f64, y: &State<8>| {
+        let before = |i: usize| if i == 0 { t.sin() } else { y[i - 1] };
+        let after = |i: usize| if i == 7 { 0.0 } else { y[i + 1] };
+        Ok(State::<8>::from_fn(|i, _| 1e4 * (before(i) - 2.0 * y[i] + after(i))))
+    };
+    is_stiff(heat, (State::<8>::zeros(), 10.0), [1.0; 8]);
+}
+
+/// A vibration is in the solution, however large |J d| / |d| is in the units of the state: its step is that of the
+/// accuracy, and no method can skip it.
+#[test]
+fn vibrations_are_not_stiff() {
+    let vibration = |_, y: &State<2>| Ok(vector![y[1], -1e6 * y[0]]);
+    for (start, scale) in [(0.1, [1.0, 1.0]), (0.1, [1.0, 1e3]), (0.1, [1e3, 1.0]), (1e-7, [1.0, 1e3])] {
+        for relative in [1e-4, 1e-8] {
+            for result in by_both(vibration, (vector![start, 0.0], 4.0), (relative, scale), 1) {
+                assert!(result.is_ok(), "{start} {scale:?} {relative}: {result:?}");
+            }
+        }
+    }
+    // A fast spring on a slow one: no motion of it, but the step is limited by it.
+    let chain = |_, y: &State<4>| Ok(vector![y[2], y[3], -y[0] - 0.01 * (y[0] - y[1]), -1e6 * (y[1] - y[0])]);
+    for result in by_both(chain, (vector![1.0, 1.0, 0.0, 0.0], 4.0), (1e-6, [1.0; 4]), 1) {
+        assert!(result.is_ok(), "{result:?}");
+    }
+    // Slightly damped.
+    for result in by_both(oscillator(0.02, 1e3), (vector![0.1, 1.0], 4.0), (1e-6, [1.0, 1e3]), 1) {
+        assert!(result.is_ok(), "{result:?}");
+    }
+    let mut motion = dopri5(pendulum, (0.0, HORIZONTAL), 200.0, tolerance(1e-10)).unwrap().stiffness_test(1);
+    motion.finish(|_, _| true).unwrap();
+    assert!(motion.counts().accepted > 5000);
+}
+
+/// A test changes no step, and costs an evaluation at most, none where the step is clearly stable.
+#[test]
+fn the_test_changes_no_step() {
+    let run = |end: f64, relative: f64, every: usize| {
+        let mut motion = dop853(pendulum, (0.0, HORIZONTAL), end, tolerance(relative)).unwrap().stiffness_test(every);
+        motion.finish(|_, _| true).unwrap();
+        (*motion.state(), motion.counts())
+    };
+    let ((tested, cost), (plain, least)) = (run(100.0, 1e-4, 1), run(100.0, 1e-4, 0));
+    assert_eq!(tested, plain);
+    assert!(cost.evaluations <= least.evaluations + least.accepted, "{cost:?} {least:?}");
+    assert_eq!(run(100.0, 1e-12, 1), run(100.0, 1e-12, 0));
+}
+
+#[test]
+fn the_test_can_be_switched_off() {
+    let rate = |t: f64, y: &State<1>| Ok(vector![-1e4 * (y[0] - t.cos())]);
+    let mut motion = dop853(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap().stiffness_test(0);
+    motion.finish(|_, _| true).unwrap();
+    assert!((motion.state()[0] - 10f64.cos()).abs() < 1e-3);
 }
