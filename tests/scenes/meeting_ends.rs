@@ -77,7 +77,7 @@ fn a_spring_passes_zero_length() {
     assert_eq!(joined.equilibrium(0.0, &BeadCoordinates { y: 0.7 }).unwrap().y, 0.0);
 }
 
-/// The same force and stiffness in every spelling, at the point where the length is zero and elsewhere.
+/// Every spelling gives one force and one stiffness, also at the point where the length is zero.
 #[test]
 fn spellings_of_one_spring() {
     let dotted = Dotted::default();

@@ -268,9 +268,19 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);
         }
-        let result = self.failure.take().map_or_else(|| self.proceed(), Err);
+        let result = self.failure.take().map_or_else(|| self.proceed(), Err).map_err(|error| self.in_own_words(error));
         self.is_over = result.is_err();
         result
+    }
+}
+
+impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
+    /// Names the friction or stop of an error that counts it among the events.
+    fn in_own_words(&self, error: MotionError) -> MotionError {
+        let MotionError::EventsWithoutEnd { t, event } = error else { return error };
+        let contact = event.checked_sub(W::Events::COUNT);
+        let contact = contact.and_then(|place| self.integration.system().names.as_slice().get(place));
+        contact.map_or(error, |contact| MotionError::ContactsWithoutEnd { scene: S::NAME, contact, t })
     }
 }
 
