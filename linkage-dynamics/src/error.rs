@@ -111,7 +111,8 @@ pub enum MotionError {
         /// The number of steps taken, rejected ones included.
         steps: usize,
     },
-    /// The equations have become stiff: stability, not accuracy, limits the step of an explicit method.
+    /// The equations have become stiff: a motion that decays within a step limits it, so that stability and not accuracy
+    /// determines the step of an explicit method.
     Stiff {
         /// The time that was reached.
         t: f64,
@@ -251,11 +252,12 @@ impl fmt::Display for MotionError {
             }
             Self::Stiff { t, product } => write!(
                 f,
-                "the equations are stiff at t = {t}, h |lambda| = {product:.1}: an explicit method does not suit them"
+                "the equations are stiff at t = {t}: a motion that decays within a step limits it, h |lambda| = \
+                 {product:.1}; give it less damping, or leave it out"
             ),
             Self::EventsWithoutEnd { t, event } => write!(
                 f,
-                "event {event} repeats without end at t = {t}: let its action stop, or restart with another law"
+                "event {event} repeats without end at t = {t}: let its action stop, or restart where it does not occur"
             ),
             Self::ChangePoint { scene, group, crossing } => {
                 write!(f, "motions of {scene} cross here, where group {group} is singular")?;

@@ -1,6 +1,7 @@
 //! The trait of mechanisms with inertia and forces, and functions that the code emitted for scenes calls.
 
 use crate::contact::within;
+use crate::simulation::Loads;
 use crate::simulation::kinks::one_sided;
 use crate::simulation::scales::resolution_by_inputs;
 use crate::{Bearing, Contact, ContactLaw, Equations, MotionError};
@@ -143,6 +144,24 @@ pub trait Scene {
     fn kink(&self, place: usize, t: Self::Scalar, q: &Coordinates<Self>, rates: &Rates<Self>) -> Self::Scalar {
         let _ = (place, t, q, rates);
         Self::Scalar::one()
+    }
+    /// The forces of frictions, stops, drives and joints in the motion that starts at a position with the rates v' of
+    /// the inputs: a friction slips by the sign of s', what is at rest is held if it can. At a state of a simulation
+    /// they are its [`loads`](crate::simulation::Simulation::loads).
+    ///
+    /// # Errors
+    /// Those of [`equations`](Self::equations), [`contacts`](Self::contacts) and [`reactions`](Self::reactions), those
+    /// of [`Contacts::begin`](crate::contact::Contacts::begin), and [`MotionError::NotFinite`].
+    fn loads(
+        &self,
+        t: Self::Scalar,
+        q: &Coordinates<Self>,
+        input_rates: impl Into<Inputs<Self>>,
+    ) -> Result<Loads<Self>, MotionError>
+    where
+        Self: Sized,
+    {
+        crate::reactions::loads(self, t, q, input_rates.into())
     }
     /// The prescribed motion of each input, or None.
     fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;

@@ -1,6 +1,7 @@
 //! Normal form of sums and products: like terms collected, constants folded, signs inside sums.
 
 use super::arena::Graph;
+use super::function::Function;
 use super::node::{Condition, Fault, Node, NodeId};
 use super::number::Number;
 
@@ -122,6 +123,28 @@ impl Graph {
         factors
     }
 
+    /// |x|^2 = x^2, and x^2 / |x| = |x|: factors with fewer magnitudes, if there are any.
+    fn without_magnitudes(&self, factors: &[(NodeId, i32)]) -> Option<Vec<(NodeId, i32)>> {
+        factors.iter().enumerate().find_map(|(place, &(modulus, exponent))| {
+            let &Node::Call(Function::Abs, ref arguments) = self.node(modulus) else { return None };
+            let &[x] = arguments.as_slice() else { return None };
+            let square = factors.iter().position(|&(base, power)| base == x && power >= 2);
+            let mut items = factors.to_vec();
+            match square {
+                _ if exponent.unsigned_abs() >= 2 => {
+                    items[place].1 = exponent % 2;
+                    items.push((x, exponent - exponent % 2));
+                }
+                Some(square) if exponent == -1 => {
+                    items[place].1 = 1;
+                    items[square].1 -= 2;
+                }
+                _ => return None,
+            }
+            Some(items)
+        })
+    }
+
     fn monic(&mut self, factors: Vec<(NodeId, i32)>) -> NodeId {
         match factors.as_slice() {
             [] => self.one(),
@@ -188,6 +211,10 @@ impl Graph {
             }
         }
         factors.retain(|(_, exponent)| *exponent != 0);
+        if let Some(items) = self.without_magnitudes(&factors) {
+            let rest = self.product(&items);
+            return self.scale(coefficient, rest);
+        }
         let factors = self.grouped(factors);
         if coefficient.is_zero() || factors.is_empty() {
             return self.number(coefficient);

@@ -71,6 +71,7 @@ mod sampled;
 mod samples;
 mod search;
 mod step;
+mod stiffness;
 mod system;
 mod tableau;
 

@@ -13,7 +13,7 @@ use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, PositionError, real};
+use linkage_runtime::{Column, Dim, InputError, Mechanism, PositionError, real};
 
 /// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
 /// every third step is rejected.
@@ -33,6 +33,8 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) state: State<S>,
     /// The contacts during the step before the state.
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
+    /// The time and the projected y that [`at`](Self::at) returned within the last step, if that was the last call.
+    pub(super) output: Option<(S::Scalar, StateColumn<S>)>,
     /// The start of the step, projected, and the determinants there.
     pub(super) from: (S::Scalar, StateColumn<S>),
     pub(super) signs: Signs<S>,
@@ -111,6 +113,7 @@ fn started<'a, S: Scene>(
         at_singularity: AtSingularity::Pass,
         state,
         contacts,
+        output: None,
         from: (t, y),
         signs: mechanism.block_determinants(&mechanism.pose_at(&q)),
         passages: Passages::default(),
@@ -160,6 +163,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
             at_singularity: self.at_singularity,
             state: self.state,
             contacts: self.contacts,
+            output: self.output,
             from: self.from,
             signs: self.signs,
             passages: self.passages,
@@ -215,20 +219,21 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         &self.state
     }
 
-    /// The forces of frictions, stops, drives and joints at the state reached; at an event, those after it.
+    /// The forces of frictions, stops, drives and joints at the state that [`advance`](Self::advance) or
+    /// [`at`](Self::at) returned last, before the first at the start; at an event, those after it.
+    /// [`States::with_loads`] has those of many times, and [`Scene::loads`] those of any state.
     ///
     /// # Errors
     /// Those of the equations of motion, and [`MotionError::UndeterminedReactions`] next to a change point if the scene
     /// has forces in joints.
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
-        let (t, motion) = (self.integration.t(), self.integration.system());
-        let y = motion.projected(t, self.integration.state())?;
-        let loads = motion.loads(t, &y)?;
-        let drives: PerInput<S::Mechanism> = loads.drives.into();
-        if !loads.contacts.iter().chain(drives.iter()).chain([&loads.drive_power]).all(S::Scalar::is_finite) {
-            return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
+        let motion = self.integration.system();
+        if let Some((t, y)) = self.output {
+            return motion.loads(&self.contacts, t, &y);
         }
-        Ok(loads)
+        let t = self.integration.t();
+        let y = motion.projected(t, self.integration.state())?;
+        motion.loads(&motion.contacts, t, &y)
     }
 
     /// The part of the interval that is done, from 0 to 1.
@@ -272,10 +277,8 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// Advances to the next event or to the end of the step; returns None at the end.
     ///
     /// # Errors
-    /// Those of the scene, if no shorter step avoids them,
-    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) and [`MotionError::ChangePoint`] where the
-    /// motion cannot be followed, and
-    /// those of [`Integration::advance`]. After an error the simulation has ended.
+    /// Those of the scene, if no shorter step avoids them, [`PositionError::Singular`] and
+    /// [`MotionError::ChangePoint`] where the motion cannot be followed, and those of [`Integration::advance`]. After an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
         while let Some(has_changed) = self.advance_within()? {
             if has_changed {
@@ -287,6 +290,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
 
     /// Does the same, and returns false at an event that changes nothing.
     pub(super) fn advance_within(&mut self) -> Result<Option<bool>, MotionError> {
+        self.output = None;
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);
         }

@@ -160,7 +160,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         y: &StateColumn<S>,
         most: S::Scalar,
     ) -> Result<StateColumn<S>, MotionError> {
-        if !self.contacts.has_stops() || matches!(self.parametrisation, Parametrisation::Over(..)) {
+        if !self.contacts.has_stops() {
             return Ok(*y);
         }
         let Some(change) = self.contacts.return_to_stops(t, &self.equations(t, y)?, most)? else { return Ok(*y) };
@@ -169,11 +169,17 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.projected(t, &Self::pack(&there, &rates))
     }
 
-    /// The forces of the contacts, of the drives by input, zero without a drive, and in the joints.
+    /// The forces of the contacts in the modes of `contacts`, of the drives by input, zero without a drive, and in the
+    /// joints.
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
-    pub(super) fn loads(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Loads<S>, MotionError> {
+    pub(super) fn loads(
+        &self,
+        contacts: &Contacts<S::Scalar, S::Contacts>,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+    ) -> Result<Loads<S>, MotionError> {
         let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         let (free, places) = match self.frame(&q, &rates)? {
@@ -183,11 +189,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 (self.unprescribed_by(independent, &frame, (t, y))?.0, Column::from_fn(place))
             }
         };
-        let motion = self.contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
-        let mut residual = free.mass * motion.acceleration - free.forces;
-        for (contact, &force) in free.contacts.iter().zip(&motion.forces) {
-            residual -= contact.row * force;
-        }
+        let motion = contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
+        let residual = motion.residual(&free);
         let places: Column<Option<usize>, S::V> = places;
         let prescribed = self.prescribed_inputs(t);
         let drives: PerInput<S::Mechanism> = Column::from_fn(|input| match places[input] {
@@ -201,13 +204,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
             return Err(self.no_reactions_error(&q));
         }
         let joints = self.scene.reactions(t, &q, &rates, &accelerations, &motion.forces)?;
-        Ok(Loads {
+        Loads {
             contacts: motion.forces,
             are_unique: motion.are_unique,
             drives: drives.into(),
             drive_power: drives.dot(&velocity.inputs),
             joints,
-        })
+        }
+        .finite(t)
     }
 
     /// u'' and v'' from the accelerations of the independent coordinates.
