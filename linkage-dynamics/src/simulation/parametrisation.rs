@@ -253,6 +253,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             self.integration.set_tolerance(tolerance);
         }
         self.integration.exchange(y);
+        // A repeated step begins in these coordinates.
+        self.from.1 = y;
     }
 }
 

@@ -13,7 +13,7 @@ use super::independent::Independent;
 use super::motion::{Change, Choice, LEAST_PIVOT_RATIO, Motion};
 use crate::{Coordinates, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::__shared::larger;
+use linkage_runtime::__shared::{larger, same_signs};
 use linkage_runtime::jacobian::Vector;
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, Real, real};
 
@@ -153,6 +153,13 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
         Node { q: self.position(x), basis, bias, pivots }
     }
 
+    /// True if these pivots have the signs of those on one side of the crossing: between the positions z has no dead
+    /// point of its own.
+    fn has_signs(&self, pivots: &Column<T, U>) -> bool {
+        let has_those_of = |node: &Node<T, U, V>| same_signs(node.pivots.as_slice(), pivots.as_slice());
+        has_those_of(&self.nodes[0]) || has_those_of(&self.nodes[NODES - 1])
+    }
+
     /// True if [J A] with these pivots is regular enough to be used itself.
     pub(super) fn is_regular(&self, pivots: &Column<T, U>) -> bool {
         let pairs = pivots.iter().zip(&self.independent.pivots).zip(&self.vanishes);
@@ -288,7 +295,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The frame at the coordinates z of `q`: exact where [J A] is regular, else interpolated.
     ///
     /// # Errors
-    /// The change-point error where the sheet is not known.
+    /// The change-point error where the sheet is not known, that of a singular J beyond a dead point of z.
     pub(super) fn frame_on(
         &self,
         sheet: &SheetOf<S>,
@@ -296,7 +303,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
         rates: &PerInput<S::Mechanism>,
     ) -> Result<Frame<S>, MotionError> {
         let factors = self.factors(&sheet.independent, q);
-        if sheet.is_regular(&factors.pivots()) {
+        let pivots = factors.pivots();
+        if sheet.is_regular(&pivots) {
+            if !sheet.has_signs(&pivots) {
+                return Err(self.singular_error(q));
+            }
             return Ok(self.exact_frame(&factors, q, rates));
         }
         let z = sheet.independent.of(&Self::column(q));
