@@ -185,10 +185,10 @@ impl<S: System, M: Method> Integration<S, M> {
         self
     }
 
-    /// Samples the event functions at the ends of `parts` equal parts of each step; the default is 4, the least 1. A
-    /// passage through zero and back between two samples is found if the function has one extremum in the step; with
-    /// several it may need more parts ([detection of events](super)). This evaluates the functions, but no rate without
-    /// a possible event.
+    /// Samples the event functions at the ends of `parts` equal parts of each step; the default is 4, the least 1, and a
+    /// multiple of 4 is used if the system has guards. A passage of an event function through zero and back between two
+    /// samples is found if the function has one extremum in the step; with several it may need more parts ([detection of
+    /// events](super)). This evaluates the functions, but no rate without a possible event.
     #[must_use]
     pub fn event_parts(mut self, parts: usize) -> Self {
         self.parts = parts.max(1);
