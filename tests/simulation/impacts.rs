@@ -222,7 +222,7 @@ fn outputs_between_events_and_impacts() {
     let states: Vec<_> = motion.at(between.iter().copied()).map(Result::unwrap).collect();
     assert_eq!(states.len(), between.len());
     for (state, &t) in states.iter().zip(&between) {
-        assert!(state.t == t && state.q.y - state.q.b > -1e-12, "{t}: {:?}", state.q);
+        assert!(state.t == t && state.q.y - state.q.b > -1e-9, "{t}: {:?}", state.q);
         if let Some((_, y)) = points.iter().find(|point| point.0 == t) {
             assert_eq!(state.q.y, *y);
         }

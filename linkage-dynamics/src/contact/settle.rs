@@ -106,12 +106,16 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let After { rates, .. } = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
         // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
-        let free = Response::new(&after, &Column::zeros(), |place| struck[place].is_some())?;
+        let forces = Column::from_fn(|place| {
+            let contact = &after.contacts[place];
+            slipping(slip_or_stick(contact.rate(&after.rates)), &contact.law)
+        });
+        let free = Response::new(&after, &forces, |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
         let (mut has_ended, mut too_short) = (false, Column::<_, C>::repeat(false));
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
-            // The rebound rate, and the acceleration back towards the stop: a flight takes 2 rate / back and rises by
+            // The rebound rate, and the acceleration back towards the stop, by frictions that slip too: a flight takes 2 rate / back and rises by
             // rate^2 / (2 back).
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
             let lowest = self.resolution[place] / real(ZERO_ULPS);
