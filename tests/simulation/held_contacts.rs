@@ -173,3 +173,90 @@ fn a_crank_starts_at_its_dead_centre() {
         assert!(found < phi && found > 0.99 * phi, "{found} {phi}");
     }
 }
+
+/// A block without load at its wall, e = 1, stays there while another one slides and sticks after 1.6 / (3 / 1.1) s.
+#[test]
+fn a_block_that_touches_its_wall_stays() {
+    let scene =
+        Row { m1: 1.1, m2: 1.1, m3: 1.1, push: -1.0, w: 2.0, f1: 4.0, f2: 4.0, f3: 3.0, wide: 0.09, ..Row::default() };
+    let scene = Row { length: 1.68, e: 1.0, e2: 1.0, ..scene };
+    for tolerance in [1e-6, 1e-9, 1e-11] {
+        let q = BlocksCoordinates { x: 0.0, u: 0.465, v: 0.09 };
+        let start = Start { t: 1.6, q, input_rates: BlocksInputs { x: 0.0, u: 0.0, v: 1.6 } };
+        let mut motion = simulate(&scene, start, 2.6, tolerance).unwrap();
+        let changes: Vec<_> = motion.by_ref().map(Result::unwrap).filter(|state| state.changes().count() > 0).collect();
+        let [stop] = changes[..] else { panic!("{changes:?}") };
+        close("time", stop.t, 1.6 + 1.6 / (3.0 / 1.1), 1e-12);
+    }
+}
+
+/// A block strikes a wall and another block in turn, at times that converge to 2.355019094, computed independently; the
+/// rates do not decrease as fast as the intervals. Both come to rest at the wall, and the first block strikes them later.
+#[test]
+fn a_block_rattles_between_a_wall_and_another_block() {
+    let scene = Row {
+        m1: 1.2028275711743752,
+        m2: 2.971840949736214,
+        m3: 0.8068673006313254,
+        slope: 1.089807312002332,
+        f1: 0.0,
+        f2: 0.0,
+        f3: 3.4637754254078272,
+        wide: 0.0618258814230281,
+        length: 0.6700006013032754,
+        e: 0.056295572423356414,
+        e2: 0.5389792264108847,
+        ..Row::default()
+    };
+    for tolerance in [1e-6, 1e-9, 1e-11] {
+        let q = BlocksCoordinates { x: 0.12243545335605716, u: 0.20586322737682933, v: 0.19035085850627742 };
+        let rates = [1.9885047979789796, 0.0, 1.1666237096981273];
+        let input_rates = BlocksInputs { x: rates[0], u: rates[1] - rates[0], v: rates[2] - rates[1] };
+        let start = Start { t: 1.9573271132775982, q, input_rates };
+        let mut motion = simulate(&scene, start, 3.588997967962249, tolerance).unwrap();
+        let mut rest = None;
+        motion
+            .finish(|state, _| {
+                if rest.is_none() && state.changes().any(|(_, change)| change == Change::Rests) {
+                    rest = Some(state.t);
+                }
+                true
+            })
+            .unwrap();
+        close("rest", rest.unwrap(), 2.355019094, 1e-9);
+        let state = motion.state();
+        assert!([state.rates.x, state.rates.u, state.rates.v].iter().all(|rate| rate.abs() < 1e-14), "{state:?}");
+        let places = [state.q.u, state.q.v, state.q.x + state.q.u + state.q.v];
+        for (place, exact) in places.into_iter().zip([scene.wide, scene.wide, scene.length]) {
+            close("place", place, exact, 10.0 * tolerance);
+        }
+    }
+}
+
+/// A block bounces on another one to rest, pressed by the friction of that one alone: without friction all blocks on
+/// the slope have one acceleration.
+#[test]
+fn bouncing_ends_where_friction_alone_presses() {
+    let scene = Row {
+        m1: 2.4600941846111373,
+        m2: 1.7182615158969967,
+        m3: 0.766172208819101,
+        slope: -2.5023201134878015,
+        f1: 0.7263102445765843,
+        f2: 4.2617260196255735,
+        f3: 0.0,
+        wide: 0.09716801234770353,
+        length: 1.4501605209396689,
+        e: 0.359664283883547,
+        e2: 0.8191452374481039,
+        ..Row::default()
+    };
+    for tolerance in [1e-6, 1e-9, 1e-11] {
+        let q = BlocksCoordinates { x: 0.0, u: 0.5267408169332928, v: 0.3936303852945754 };
+        let rates = [-0.49110800746367556, -1.0591108461078447, -0.09759883275015557];
+        let input_rates = BlocksInputs { x: rates[0], u: rates[1] - rates[0], v: rates[2] - rates[1] };
+        let start = Start { t: 1.0766302807710302, q, input_rates };
+        let mut motion = simulate(&scene, start, 2.3253427474656205, tolerance).unwrap().most_steps(1000);
+        motion.finish(|_, _| true).unwrap();
+    }
+}

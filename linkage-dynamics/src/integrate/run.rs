@@ -59,6 +59,8 @@ pub(super) struct Instant<T> {
     pub(super) t: T,
     /// True if the motion restarted there, or at an event just before it.
     pub(super) has_restarted: bool,
+    /// True if the motion was continued there after events without end.
+    pub(super) has_continued: bool,
 }
 
 /// The place reached by an integration.
@@ -146,7 +148,7 @@ impl<S: System, M: Method> Integration<S, M> {
             stiff: 0,
             not_stiff: 0,
             signs,
-            instant: Instant { t: start, has_restarted: false },
+            instant: Instant { t: start, has_restarted: false, has_continued: false },
             shortened: 0,
         })
     }

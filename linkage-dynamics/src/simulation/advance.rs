@@ -21,7 +21,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 self.prepare()?;
             }
             let start = (self.integration.is_at_boundary()).then(|| (self.integration.t(), *self.integration.state()));
-            let Some(step) = self.integration.advance().map_err(|error| self.named(error))? else { return Ok(None) };
+            let step = match self.integration.advance() {
+                Ok(Some(step)) => step,
+                Ok(None) => return Ok(None),
+                Err(error) => return self.settle_together(error),
+            };
             if let Some((t, y)) = start.filter(|_| step.event.is_none())
                 && self.ends_too_near(&y, &step.state)
             {
@@ -73,16 +77,29 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
     }
 
-    /// Names the contact in the error for events without end: contacts are numbered after the user's events.
-    fn named(&self, error: MotionError) -> MotionError {
-        match error {
-            MotionError::EventsWithoutEnd { t, event } if event >= W::Events::COUNT => {
-                let names = self.integration.system().names;
-                let contact = names.iter().nth(event - W::Events::COUNT).copied().unwrap_or_default();
-                MotionError::ContactWithoutEnd { scene: S::NAME, contact, t }
-            }
-            error => error,
+    /// Continues after contact events without end: a body that strikes stops in turn, at intervals that shrink to the
+    /// rounding error of the time, rests on all of them. Other errors, and a second one at this time, are returned, with
+    /// the name of the contact.
+    fn settle_together(&mut self, error: MotionError) -> Result<Option<bool>, MotionError> {
+        let MotionError::EventsWithoutEnd { t, event } = error else { return Err(error) };
+        // Contacts are numbered after the user's events.
+        let Some(place) = event.checked_sub(W::Events::COUNT) else { return Err(error) };
+        let contact = self.integration.system().names.iter().nth(place).copied().unwrap_or_default();
+        let error = MotionError::ContactWithoutEnd { scene: S::NAME, contact, t };
+        if !self.integration.continue_after_repeats() {
+            return Err(error);
         }
+        let (t, y) = (self.integration.t(), *self.integration.state());
+        let motion = self.integration.system_mut();
+        let contacts = motion.contacts;
+        let projected = motion.projected(t, &y)?;
+        let mut state = motion.state(t, &projected)?;
+        let (after, changes) = motion.settled_together(t, &projected).map_err(|_| error)?;
+        self.integration.restart(after)?;
+        self.note(&mut state, changes);
+        self.from = (t, after);
+        (self.state, self.contacts) = (state, contacts);
+        Ok(Some(state.changes().next().is_some()))
     }
 
     /// Repeats the last step in other coordinates than the inputs.
