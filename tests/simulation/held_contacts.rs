@@ -28,13 +28,14 @@ linkage! {
 linkage! {
     /// Three blocks in a row between two walls, in relative coordinates.
     mechanism Blocks {
-        param m1 = 3, m2 = 3, m3 = 3, push = 0, w = 3, f1 = 5, f2 = 4, f3 = 0, wide = 0.07, length = 2.14, e = 0.5, e2 = 0;
+        param m1 = 3, m2 = 3, m3 = 3, slope = 0, push = 0, w = 3, f1 = 5, f2 = 4, f3 = 0, wide = 0.07, length = 2.14, e = 0.5, e2 = 0;
         input x, u, v;
         body first { mass m1; center (x, 0); }
         body second { mass m2; center (x + u, 0); }
         body third { mass m3; center (x + u + v, 0); }
         scene Row {
             inertia;
+            gravity (slope, -9.81);
             torque push * sin(w * t) on x;
             friction f1, 1 on x;
             friction f2, 1 on x + u;
