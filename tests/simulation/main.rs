@@ -10,6 +10,8 @@ mod dead_points;
 mod doors;
 mod extremes;
 mod failures;
+mod held_contacts;
+mod impacts;
 mod jumps;
 mod kinks;
 mod loads;

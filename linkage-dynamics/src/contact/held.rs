@@ -26,8 +26,8 @@ pub(super) struct Response<T: Real, V: Dim, C: Dim> {
     pub columns: Matrix<T, V, C>,
     /// S M^-1 S'.
     pub matrix: Matrix<T, C, C>,
-    /// s'' without the forces of the requested contacts, and the sum of the magnitudes of its terms: of S M^-1 times each
-    /// force too, because these cancel in coordinates of one body relative to another.
+    /// s'' without the forces of the requested contacts, and the magnitude of its terms. In coordinates of one body
+    /// relative to another the terms within M^-1 cancel: by Cauchy and Schwarz, |S M^-1 Q|^2 <= (S M^-1 S') (Q M^-1 Q).
     pub bias: Column<(T, T), C>,
 }
 
@@ -50,13 +50,21 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
             size += contact.row.abs() * force.abs();
         }
         let acceleration = inertia.solve(&side);
+        // Without the coordinates that affect no contact, such as prescribed ones.
+        let affects = |at: usize| {
+            contacts.iter().any(|contact| !contact.row[at].is_zero())
+                || (0..V::COUNT).any(|other| other != at && !mass[(at, other)].is_zero())
+        };
+        let terms = (0..V::COUNT).filter(|&at| affects(at)).map(|at| side[at] * acceleration[at]);
+        let squared = terms.fold(T::zero(), |sum, term| sum + term).max(T::zero());
         let mut columns = Matrix::<T, V, C>::zeros();
         let mut matrix = Matrix::<T, C, C>::zeros();
         let mut bias = Column::repeat((T::zero(), T::zero()));
         for (place, contact) in contacts.iter().enumerate().filter(|(place, _)| is_requested(*place)) {
             columns.set_column(place, inertia.solve(&contact.row));
             let terms = contact.row.component_mul(&acceleration);
-            let size = terms.abs().sum().max(columns.column(place).abs().dot(&size));
+            let own = contact.row.dot(&columns.column(place)).max(T::zero());
+            let size = terms.abs().sum().max(columns.column(place).abs().dot(&size)).max((own * squared).sqrt());
             bias[place] = (contact.bias + terms.sum(), contact.bias.abs() + size);
             for (other, before) in contacts.iter().enumerate().take(place + 1).filter(|(other, _)| is_requested(*other))
             {

@@ -24,7 +24,31 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         &mut self,
         t: T,
         rates: &Column<T, V>,
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<Column<T, V>, MotionError> {
+        self.settle_by(t, rates, evaluate, false)
+    }
+
+    /// Does the same after impacts of several stops that follow each other within the rounding error of the time: all
+    /// stops that s touches take part in one impact without rebound.
+    ///
+    /// # Errors
+    /// Those of [`settle`](Self::settle).
+    pub(crate) fn settle_together<V: Dim>(
+        &mut self,
+        t: T,
+        rates: &Column<T, V>,
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<Column<T, V>, MotionError> {
+        self.settle_by(t, rates, evaluate, true)
+    }
+
+    fn settle_by<V: Dim>(
+        &mut self,
+        t: T,
+        rates: &Column<T, V>,
         mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+        is_together: bool,
     ) -> Result<Column<T, V>, MotionError> {
         let mut equations = evaluate(rates)?;
         // The mode in which each contact with s' = 0 would be held; None for the others.
@@ -32,7 +56,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // A contact that is released from rest begins with s' = 0, without the error of the step. One that goes on
         // slipping keeps its rate, however small: s' passes zero at a dead centre while the mechanism moves.
         let mut resting = self.modes;
-        if let Some(struck) = self.struck(&equations, &at_rest) {
+        if let Some(struck) = self.struck(&equations, &at_rest, is_together) {
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
             resting = Column::repeat(Mode::Open);
         }
@@ -62,11 +86,13 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         }
     }
 
-    /// Returns the stops that take part in an impact, those on which s rests included; None if s hits no stop.
+    /// Returns the stops that take part in an impact, those on which s rests included; None if s hits no stop. If
+    /// `is_together`, all that s touches, without rebound.
     fn struck<V: Dim>(
         &self,
         equations: &ReducedEquations<T, V, C>,
         at_rest: &Column<Option<Mode>, C>,
+        is_together: bool,
     ) -> Option<Column<Option<Struck<T>>, C>> {
         let mut hit = false;
         let struck = Column::from_fn(|place| {
@@ -77,8 +103,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             }
             let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
             let approaches = contact.rate(&equations.rates).0 * side.inward() < T::zero();
-            (gap <= tolerance && approaches).then(|| {
+            (gap <= tolerance && (approaches || is_together)).then(|| {
                 hit = true;
+                let restitution = if is_together { T::zero() } else { restitution };
                 Struck { inward: side.inward(), restitution }
             })
         });
@@ -106,12 +133,16 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let After { rates, .. } = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
         // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
-        let free = Response::new(&after, &Column::zeros(), |place| struck[place].is_some())?;
+        let forces = Column::from_fn(|place| {
+            let contact = &after.contacts[place];
+            slipping(slip_or_stick(contact.rate(&after.rates)), &contact.law)
+        });
+        let free = Response::new(&after, &forces, |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
         let (mut has_ended, mut too_short) = (false, Column::<_, C>::repeat(false));
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
-            // The rebound rate, and the acceleration back towards the stop: a flight takes 2 rate / back and rises by
+            // The rebound rate, and the acceleration back towards the stop, by frictions that slip too: a flight takes 2 rate / back and rises by
             // rate^2 / (2 back).
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
             let lowest = self.resolution[place] / real(ZERO_ULPS);

@@ -20,7 +20,8 @@ pub(super) const ZERO_ULPS: f64 = 16.0;
 ///
 /// **The end of bouncing.** s comes to rest on a stop where the rebound rate is less than sqrt(epsilon) times the
 /// greatest impact rate since it last rested, or where the rebound would be shorter than the rounding error of the
-/// time, or lower than that of the gap ([`with_resolution`](Self::with_resolution), which simulations call).
+/// time, or lower than that of the gap ([`with_resolution`](Self::with_resolution), which simulations call). So it does
+/// where s leaves a stop by the impact of another contact, so that a body that rocks between two stops rests on both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

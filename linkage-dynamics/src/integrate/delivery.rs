@@ -40,7 +40,7 @@ impl<S: System, M: Method> Integration<S, M> {
         // Events count as simultaneous with the one before them, so that impacts cannot follow each other at ulps of the
         // time without end.
         if to_f64(t - self.instant.t).abs() > resolution {
-            self.instant.has_restarted = false;
+            (self.instant.has_restarted, self.instant.has_continued) = (false, false);
             self.signs.reset_counts();
         }
         self.instant.t = t;
@@ -54,6 +54,18 @@ impl<S: System, M: Method> Integration<S, M> {
             Action::Restart(state) => self.restart(state)?,
         }
         Ok(Step { t, state, event: Some(event) })
+    }
+
+    /// Continues after the error for events without end, from a state that the caller then sets by
+    /// [`restart`](Self::restart); false if it has done so at this time.
+    pub(crate) fn continue_after_repeats(&mut self) -> bool {
+        let is_first = !core::mem::replace(&mut self.instant.has_continued, true);
+        if is_first {
+            self.place = Place::Boundary;
+            self.signs.drop_pending();
+            self.signs.reset_counts();
+        }
+        is_first
     }
 
     /// Ends the integration.

@@ -6,15 +6,17 @@
 
 use nalgebra::ComplexField;
 
-/// The number of halvings of a cubic before it counts as undecided. They evaluate no function. With 2 some more samples
-/// are taken, with 8 hardly fewer.
+/// The number of halvings of a cubic before it counts as undecided. They evaluate no function. With 2 an oscillator that
+/// passes its wall at a distance of 1e-6 takes 1.4 % more samples.
 const HALVINGS: u32 = 5;
 
 /// The largest error of a cubic with a minimum, divided by the depth of the minimum below the higher end. With a larger
-/// one the minimum of the function may be much deeper.
+/// one the minimum of the function may be much deeper. With 1/4 one in 5000 random functions with a narrow minimum is
+/// missed.
 const ERROR_OF_MINIMUM: f64 = 0.0625;
 
-/// The factor by which the estimated error of interpolated states is increased.
+/// The factor by which the estimated error of interpolated states is increased. With 8 an oscillator at three amplitudes
+/// from its wall takes 5 % more samples.
 const ERROR_OF_STATES: f64 = 2.0;
 
 /// A function between two samples: the Bernstein coefficients of its cubic, and its error E; infinite if unknown.

@@ -59,6 +59,8 @@ pub(super) struct Instant<T> {
     pub(super) t: T,
     /// True if the motion restarted there, or at an event just before it.
     pub(super) has_restarted: bool,
+    /// True if the motion was continued there after events without end.
+    pub(super) has_continued: bool,
 }
 
 /// The place reached by an integration.
@@ -148,7 +150,7 @@ impl<S: System, M: Method> Integration<S, M> {
             stiff: 0,
             not_stiff: 0,
             signs,
-            instant: Instant { t: start, has_restarted: false },
+            instant: Instant { t: start, has_restarted: false, has_continued: false },
             shortened: 0,
             has_crossed: false,
         })
@@ -188,10 +190,10 @@ impl<S: System, M: Method> Integration<S, M> {
         self
     }
 
-    /// Samples the event functions at the ends of `parts` equal parts of each step; the default is 4, the least 1. A
-    /// passage through zero and back between two samples is found if the function has one extremum in the step; with
-    /// several it may need more parts ([detection of events](super)). This evaluates the functions, but no rate without
-    /// a possible event.
+    /// Samples the event functions at the ends of `parts` equal parts of each step; the default is 4, the least 1, and a
+    /// multiple of 4 is used if the system has guards. A passage of an event function through zero and back between two
+    /// samples is found if the function has one extremum in the step; with several it may need more parts ([detection of
+    /// events](super)). This evaluates the functions, but no rate without a possible event.
     #[must_use]
     pub fn event_parts(mut self, parts: usize) -> Self {
         self.parts = parts.max(1);

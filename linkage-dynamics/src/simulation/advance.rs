@@ -32,9 +32,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             if is_new && let Some(corner) = self.integration.system().corner_at(self.integration.t()) {
                 return self.cross_here(&corner).map(|()| Some(true));
             }
-            let step = self.integration.advance();
-            let step = step.map_err(|error| self.named(error))?;
-            let Some(step) = step else { return Ok(None) };
+            let step = match self.integration.advance() {
+                Ok(Some(step)) => step,
+                Ok(None) => return Ok(None),
+                Err(error) => return self.settle_together(error),
+            };
             if is_new && !self.follows_laws() {
                 self.is_prepared = true;
                 continue;
@@ -88,20 +90,33 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
     }
 
-    /// The error of a step in the words of a simulation: contacts, which are numbered after the user's events, by name,
-    /// and next to a change point that of the forces in joints.
-    fn named(&self, error: MotionError) -> MotionError {
-        match error {
-            MotionError::EventsWithoutEnd { t, event } if event >= W::Events::COUNT => {
-                let names = self.integration.system().names;
-                let contact = names.iter().nth(event - W::Events::COUNT).copied().unwrap_or_default();
-                MotionError::ContactWithoutEnd { scene: S::NAME, contact, t }
-            }
-            error => {
-                let motion = self.integration.system();
-                motion.corners.explained(S::NAME, motion.of_reactions(self.integration.state(), error))
-            }
+    /// Continues after contact events without end: a body that strikes stops in turn, at intervals that shrink to the
+    /// rounding error of the time, rests on all of them. Other errors, and a second one at this time, are returned in the
+    /// words of a simulation: with the name of the contact or the kink, and next to a change point as that of the forces
+    /// in joints.
+    fn settle_together(&mut self, error: MotionError) -> Result<Option<bool>, MotionError> {
+        let MotionError::EventsWithoutEnd { t, event } = error else {
+            let motion = self.integration.system();
+            return Err(motion.corners.explained(S::NAME, motion.of_reactions(self.integration.state(), error)));
+        };
+        // Contacts are numbered after the user's events.
+        let Some(place) = event.checked_sub(W::Events::COUNT) else { return Err(error) };
+        let contact = self.integration.system().names.iter().nth(place).copied().unwrap_or_default();
+        let error = MotionError::ContactWithoutEnd { scene: S::NAME, contact, t };
+        if !self.integration.continue_after_repeats() {
+            return Err(error);
         }
+        let (t, y) = (self.integration.t(), *self.integration.state());
+        let motion = self.integration.system_mut();
+        let contacts = motion.contacts;
+        let projected = motion.projected(t, &y)?;
+        let mut state = motion.state(t, &projected)?;
+        let (after, changes) = motion.settled_together(t, &projected).map_err(|_| error)?;
+        self.integration.restart(after)?;
+        self.note(&mut state, changes);
+        self.from = (t, after);
+        (self.state, self.contacts) = (state, contacts);
+        Ok(Some(state.changes().next().is_some()))
     }
 
     /// True if the determinants of the groups have the signs of the start at the end `q` of a step in the inputs, and

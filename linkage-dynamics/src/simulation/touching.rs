@@ -15,6 +15,17 @@ type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
 /// y, and the change of each contact.
 type Changed<S> = (StateColumn<S>, Column<Option<Change>, <S as Scene>::Contacts>);
 
+/// The reason why contacts settle.
+#[derive(Debug, Clone, Copy)]
+enum Settling {
+    /// An event function of a contact has fallen through zero.
+    AtEvent,
+    /// The rates differ from those before.
+    NewRates,
+    /// Impacts follow each other within the rounding error of the time.
+    Together,
+}
+
 impl<S: Scene, W> Motion<'_, S, W> {
     /// M, Q and the contacts in the current coordinates.
     ///
@@ -93,7 +104,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Applies a contact event at this state; returns y after it and the change of each contact.
     pub(super) fn settled(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
-        self.changed(t, y, y, false)
+        self.changed(t, y, y, Settling::AtEvent)
+    }
+
+    /// Applies one impact without rebound to all stops that are touched.
+    pub(super) fn settled_together(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
+        self.changed(t, y, y, Settling::Together)
     }
 
     /// Updates the modes after the user has changed the rates from `before` to `y`.
@@ -103,16 +119,16 @@ impl<S: Scene, W> Motion<'_, S, W> {
         before: &StateColumn<S>,
         y: &StateColumn<S>,
     ) -> Result<Changed<S>, MotionError> {
-        self.changed(t, before, y, true)
+        self.changed(t, before, y, Settling::NewRates)
     }
 
-    /// Settles the contacts at y; `has_new_rates` if the rates differ from those before.
+    /// Settles the contacts at y.
     fn changed(
         &mut self,
         t: S::Scalar,
         before: &StateColumn<S>,
         y: &StateColumn<S>,
-        has_new_rates: bool,
+        settling: Settling,
     ) -> Result<Changed<S>, MotionError> {
         if S::Contacts::COUNT == 0 {
             return Ok((*y, Column::repeat(None)));
@@ -125,7 +141,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
         let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
-        let rates = if has_new_rates { contacts.resume(t, &rates, at) } else { contacts.settle(t, &rates, at) };
+        let rates = match settling {
+            Settling::AtEvent => contacts.settle(t, &rates, at),
+            Settling::NewRates => contacts.resume(t, &rates, at),
+            Settling::Together => contacts.settle_together(t, &rates, at),
+        };
         let rates = rates.map_err(|error| error.at(t))?;
         let after = Self::pack(&q, &rates);
         let done = changes((&self.contacts, &self.equations(t, before)?), (&contacts, &self.equations(t, &after)?));
