@@ -27,7 +27,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             let advanced = self.integration.advance();
             let corners = &self.integration.system().corners;
             let Some(step) = advanced.map_err(|error| corners.explained(S::NAME, error))? else { return Ok(None) };
-            if start.is_some() && !self.follows_laws() {
+            if start.is_some() && !self.follows_laws()? {
                 self.is_prepared = true;
                 continue;
             }

@@ -24,6 +24,28 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.rate_of(t, &self.equations_by(independent, factors, (t, y))?)
     }
 
+    /// y' in the current coordinates.
+    #[inline]
+    fn rate_at(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
+        else {
+            if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) {
+                return self.scene.derivative(t, y);
+            }
+            return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
+        };
+        let (q, _) = Self::unpack(y);
+        let factors = self.factors(independent, &q);
+        // An error near a singularity of the choice: the integrator then tries a shorter step.
+        let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
+        let signed = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
+        let pivots = factors.pivots().zip_map(&independent.pivots, signed);
+        if !pivots.iter().all(|&pivot| pivot >= least) {
+            return Err(self.singular_error(&q));
+        }
+        self.rate_by(independent, &factors, (t, y))
+    }
+
     /// y' from the equations and q'.
     fn rate_of(
         &self,
@@ -103,23 +125,11 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
     #[inline]
     fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let t = self.beside(t);
-        let (Parametrisation::Others(independent) | Parametrisation::Over(independent, _)) = &self.parametrisation
-        else {
-            if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) {
-                return self.scene.derivative(t, y);
-            }
-            return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
-        };
-        let (q, _) = Self::unpack(y);
-        let factors = self.factors(independent, &q);
-        // An error near a singularity of the choice: the integrator then tries a shorter step.
-        let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
-        let signed = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
-        let pivots = factors.pivots().zip_map(&independent.pivots, signed);
-        if !pivots.iter().all(|&pivot| pivot >= least) {
-            return Err(self.singular_error(&q));
+        let rate = self.rate_at(t, y);
+        match rate {
+            Err(_) => self.off_kinks(t, y).map_or(rate, |near| self.rate_at(t, &near)),
+            rate => rate,
         }
-        self.rate_by(independent, &factors, (t, y))
     }
 
     fn events(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Column<S::Scalar, W::Events>, MotionError> {

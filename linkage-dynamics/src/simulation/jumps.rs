@@ -113,6 +113,16 @@ impl<S: Scene, W> Motion<'_, S, W> {
         (value > most || rate > most).then_some(Corner { before: a.0, after: b.0, effect })
     }
 
+    /// True if the prescribed rates before and after a corner differ.
+    fn has_jump(&self, corner: &Corner<S::Scalar>) -> bool {
+        let [before, after] = [corner.before, corner.after].map(|t| self.scene.prescribed(t));
+        let most = S::Scalar::default_epsilon().sqrt();
+        (0..S::V::COUNT).any(|input| match (before[input], after[input]) {
+            (Some(a), Some(b)) => (b.rate - a.rate).abs() > most * (a.rate.abs() + b.rate.abs()),
+            _ => false,
+        })
+    }
+
     /// Returns the rates after jumps of prescribed rates, by which the momenta of the other coordinates do not change.
     fn kicked(
         &self,
@@ -180,7 +190,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let has_jump = jumps.iter().any(|jump| !jump.is_zero());
         let rates = if has_jump { self.kicked(before, y, &jumps)? } else { Self::unpack(y).1 };
         let q = Self::moved(&Self::unpack(y).0, &(velocity * (after - before)));
-        self.begin_step(after);
+        self.corners.from = after;
         let kicked = self.projected(after, &Self::pack(&q, &rates))?;
         if !has_jump {
             return Ok((kicked, Column::repeat(None)));
@@ -212,18 +222,28 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Returns false if a drive deviates from its law at the end of a new step: the step is then repeated, to the jump.
-    pub(super) fn follows_laws(&mut self) -> bool {
+    ///
+    /// # Errors
+    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) for a jump in a step over one.
+    pub(super) fn follows_laws(&mut self) -> Result<bool, MotionError> {
         let [(from, y), (to, next)] = self.integration.last_step();
         self.integration.system_mut().note_step(from, to);
         let motion = self.integration.system();
         let is_driven = motion.prescribed_inputs(from).iter().any(|&held| held);
-        if !is_driven || matches!(motion.parametrisation, Parametrisation::Over(..)) {
-            return true;
+        if !is_driven {
+            return Ok(true);
+        }
+        if let Parametrisation::Over(..) = motion.parametrisation {
+            // The step over a change point is not shortened.
+            return match motion.corner_within(from, to) {
+                Some(corner) if motion.has_jump(&corner) => Err(motion.change_point_error(&S::parts(&next).q)),
+                _ => Ok(true),
+            };
         }
         let limit = (self.largest_deviation(), self.frequency);
         let Some(input) = motion.deviation(to, &next, limit) else {
             self.integration.system_mut().corners.shortened = 0;
-            return true;
+            return Ok(true);
         };
         if let Some(corner) = motion.jump(input, [from, to], limit) {
             self.integration.system_mut().corners.found = Some(corner);
@@ -231,10 +251,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             self.integration.system_mut().corners.shortened += 1;
             self.integration.limit_next(0.25 * to_f64(to - from).abs());
         } else {
-            return true;
+            return Ok(true);
         }
         self.integration.go_back(from, y);
-        false
+        Ok(false)
     }
 
     /// Repeats the last step with a quarter of its length, if it is not as short as the rounding error of the time.
