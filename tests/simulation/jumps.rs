@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use linkage::integrate::Crossing;
 use linkage::simulation::{RealTime, Simulation, Start, State, Then, simulate};
-use linkage::{MotionError, Real, Scene, linkage, real};
+use linkage::{Mode, MotionError, Real, Scene, linkage, real};
 
 /// |x - 1|, as a user function.
 fn corner<T: Real>(x: T) -> (T, T, T) {
@@ -29,6 +29,7 @@ linkage! {
         scene Bent { inertia; drive x = bend(t); }
         scene Lifted { inertia; drive x = level(t); }
         scene Held { inertia; drive x = t; force (-1, 0) at (y, 0); stop y - level(x) in 0..9, restitution 0; }
+        scene Rested { inertia; drive x = sin(t) / 2; force (-9, 0) at (y, 0); stop y - x in 0..9, restitution 0; }
         scene Seen { inertia; drive x = abs(t - 1); }
     }
 }
@@ -85,6 +86,20 @@ fn a_stop_that_jumps() {
     };
     assert!((gap + 0.25).abs() < 1e-12 && (t - 1.0).abs() < 1e-12);
     assert!(states.iter().all(|state| state.q.x < 1.0 && state.q.y.abs() < 1e-14));
+}
+
+/// The error of each step moves y away from the stop on which it rests: it is moved back.
+#[test]
+fn a_rest_without_drift() {
+    let scene = Rested::default();
+    let (states, error) = run(simulate(&scene, pair(0.0, [0.0, 0.0], [0.5, 0.5]), 500.0, 1e-4).unwrap());
+    assert_eq!(error, None);
+    let last = states.last().unwrap();
+    assert_eq!(last.contacts[0].mode, Mode::AtLower);
+    let gap = states.iter().map(|state| (state.q.y - state.q.x).abs()).fold(0.0, f64::max);
+    println!("{gap:e} {}", states.len());
+    // 16 ulps of the terms of y - x, up to 1/2 each, and of their scales.
+    assert!(gap <= 64.0 * f64::EPSILON, "{gap:e}");
 }
 
 /// A user's event at the time of the kink, and one on each side of it.

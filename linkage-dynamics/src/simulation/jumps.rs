@@ -61,19 +61,27 @@ fn place_of<S: Scene>(parametrisation: &ParametrisationOf<S>, input: usize) -> O
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// The first input whose position or rate deviates from its law by more than `most` times its scale.
-    fn deviation(&self, t: S::Scalar, y: &StateColumn<S>, (most, frequency): (S::Scalar, S::Scalar)) -> Option<usize> {
-        let (q, rates) = Self::unpack(y);
+    /// The first input whose position or rate deviates from its law at the end of a step by more than `most` times its
+    /// scale or its size at the start and the end.
+    fn deviation(
+        &self,
+        before: &StateColumn<S>,
+        (t, y): (S::Scalar, &StateColumn<S>),
+        (most, frequency): (S::Scalar, S::Scalar),
+    ) -> Option<usize> {
+        let ((q, rates), (q_before, rates_before)) = (Self::unpack(y), Self::unpack(before));
+        let inputs_before = S::Mechanism::inputs(&q_before);
         let inputs = S::Mechanism::inputs(&q);
         let laws = self.prescribed(t);
         (0..S::V::COUNT).find(|&input| {
             let Some(law) = laws[input] else { return false };
             let scale = self.scales.coordinates.inputs[input];
             let place = place_of::<S>(&self.parametrisation, input);
-            let rate = place.map_or(law.rate, |place| rates[place]);
+            let [rate, rate_before] = [rates, rates_before].map(|rates| place.map_or(law.rate, |place| rates[place]));
+            let size = law.value.abs() + inputs_before[input].abs() + scale;
+            let speed = law.rate.abs() + rate_before.abs() + scale * frequency;
             // Not true for NaN: a law that is not finite is reported elsewhere.
-            (law.value - inputs[input]).abs() > most * (law.value.abs() + scale)
-                || (law.rate - rate).abs() > most * (law.rate.abs() + rate.abs() + scale * frequency)
+            (law.value - inputs[input]).abs() > most * size || (law.rate - rate).abs() > most * speed
         })
     }
 
@@ -241,7 +249,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             };
         }
         let limit = (self.largest_deviation(), self.frequency);
-        let Some(input) = motion.deviation(to, &next, limit) else {
+        let Some(input) = motion.deviation(&y, (to, &next), limit) else {
             self.integration.system_mut().corners.shortened = 0;
             return Ok(true);
         };
