@@ -183,7 +183,7 @@ fn a_crank_that_turns_round() {
     assert_eq!(kinks, (15.0 / PI) as usize);
 }
 
-/// The same with the turn at the dead point of the piston, phi = 0, where s' = 0 on both sides.
+/// The crank turns at the dead point of the piston, phi = 0, where s' = 0 on both sides.
 #[test]
 fn a_kink_at_a_dead_point() {
     let scene = Sawing::default();
@@ -215,8 +215,8 @@ linkage! {
     }
 }
 
-/// The same jump in the coordinates of the crank and in those of the piston, 0.05 rad before its dead point, where the
-/// simulation uses others.
+/// A jump 0.05 rad before the dead point of the piston is the same with the crank and with the piston as input, where the
+/// simulation uses other coordinates.
 #[test]
 fn a_jump_in_other_coordinates() {
     let crank = Cranked::default();

@@ -2,7 +2,7 @@
 
 use linkage::contact::Change;
 use linkage::simulation::{Simulation, Start, State, simulate};
-use linkage::{InputError, Mode, MotionError, Scene, linkage};
+use linkage::{InputError, Kink, Mode, MotionError, Scene, linkage};
 
 linkage! {
     /// Two masses on one line: x moves the first, and y both.
@@ -28,6 +28,23 @@ fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>,
         })
         .err();
     (states, error)
+}
+
+/// Each kink has its effect and the expression that changes its sign there; smooth laws have none.
+#[test]
+fn the_kinks_of_a_scene() {
+    let kink = |effect, is_timed| Kink { effect, is_timed };
+    assert_eq!(<Turned as Scene>::KINKS, [kink("drive x", true)]);
+    assert_eq!(<Rooted as Scene>::KINKS, [kink("drive x", true)]);
+    // One expression, in both drives.
+    assert_eq!(<Both as Scene>::KINKS, [kink("drive x", true)]);
+    assert_eq!(<Leaping as Scene>::KINKS, [kink("drive x", true)]);
+    assert_eq!(<Bouncing as Scene>::KINKS, [kink("potential k*abs(y)", false)]);
+    assert_eq!(<Damped as Scene>::KINKS, [kink("force at a point", false)]);
+    assert_eq!(<Taut as Scene>::KINKS.len(), 1);
+    assert!(<Smooth as Scene>::KINKS.is_empty());
+    let (q, rates) = (BallCoordinates { y: 0.5, z: 0.25 }, BallRates { y: -3.0, z: 7.0 });
+    assert_eq!([Bouncing::default().kink(0, 1.0, &q, &rates), Damped::default().kink(0, 1.0, &q, &rates)], [0.5, -3.0]);
 }
 
 /// The drive turns round, and no force acts on y: m (x' + y') stays.
@@ -153,25 +170,15 @@ fn table(t: f64, [b, y]: [f64; 2], [b_rate, y_rate]: [f64; 2]) -> Start<f64, Tab
 fn a_ball_is_thrown() {
     for e in [0.0, 0.5, 1.0] {
         let scene = Thrown { e, ..Thrown::default() };
-        // Without gravity the ball would leave the table; the table accelerates by -sin(t), less than g.
-        let mut motion = simulate(&scene, table(1.0, [1f64.sin(); 2], [1f64.cos(); 2]), 4.0, 1e-11).unwrap();
-        let (at, state) = {
-            let mut kink = None;
-            let mut after = None;
-            while let Some(state) = motion.advance().unwrap() {
-                if kink.is_none() && state.kink.is_some() {
-                    kink = Some(state);
-                    after = Some(*motion.loads().map(|_| motion.state()).unwrap());
-                }
-            }
-            (kink.unwrap(), after.unwrap())
-        };
-        let _ = state;
-        println!("{e} {at:?}");
+        let start = table(1.0, [1f64.sin(); 2], [1f64.cos(); 2]);
+        // The table accelerates by -sin(t), less than g: the ball stays on it.
+        let (states, error) = run(simulate(&scene, start, 4.0, 1e-11).unwrap());
+        assert_eq!(error, None);
+        let at = states.iter().find(|state| state.kink.is_some()).unwrap();
         assert_eq!(at.kink, Some("drive b"));
         assert!((at.t - std::f64::consts::PI).abs() < 1e-15 && (at.rates.y + 1.0).abs() < 1e-9);
         let change = at.changes().next();
-        let mut motion = simulate(&scene, table(1.0, [1f64.sin(); 2], [1f64.cos(); 2]), 3.2, 1e-11).unwrap();
+        let mut motion = simulate(&scene, start, 3.2, 1e-11).unwrap();
         let last = motion.at([3.2]).next().unwrap().unwrap();
         let (dt, rise) = (3.2 - std::f64::consts::PI, 1.0 + 2.0 * e);
         if e == 0.0 {
@@ -316,6 +323,7 @@ linkage! {
             stop y in 0..9, restitution e; }
         scene Taut { inertia; spring 8, r between (0, 0) and (0, y); }
         scene Early { inertia; potential k * abs(y); }
+        scene Smooth { inertia; gravity (0, -g); drive z = sin(t); spring k, r between (0, 0) and (z, y); }
     }
 }
 

@@ -24,7 +24,7 @@ use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, Mechanism, PerInput, Real, real};
 
 /// The deviation of a drive from its law at the end of a step, relative to the tolerance, that counts as a jump. The
-/// error of a step is below 1; at a tenth and at ten times this value the tests pass.
+/// error of a step is below 1 by its estimate.
 const LARGEST_DEVIATION: f64 = 100.0;
 
 /// The most times in a row that a step is shortened to a quarter because a drive deviates from a law without a jump.

@@ -43,8 +43,9 @@ const NEAR: f64 = 1e-6;
 /// -x'/|x'|, has them without end.
 const MAX_IN_A_ROW: u32 = 16;
 
-/// A limit on the number of steps that is reached counts as kinks without end if there was one in this many steps.
-const STEPS_OF_A_KINK: usize = 16;
+/// Kinks gather at a time if the last two are nearer to each other than two others by this factor. Those of a periodic
+/// law are not.
+const GATHERED: f64 = 1e-3;
 
 /// The change of a law between two neighbouring times.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,12 +80,13 @@ pub(super) struct Corners<T> {
     crossing: Option<&'static str>,
     /// The number of times in a row that a step was shortened for a drive.
     pub(super) shortened: u32,
-    /// The number of kinks so far, and of those in a row without a longer step.
-    count: usize,
+    /// The number of kinks in a row without a longer step, and the time of the first of these.
     in_a_row: u32,
-    /// The time of the first of these.
     first: T,
-    last: Option<&'static str>,
+    /// The last kink, the time since the one before it, and the longest such time.
+    last: Option<(&'static str, T)>,
+    gap: T,
+    longest: T,
 }
 
 impl<T: Real> Corners<T> {
@@ -100,10 +102,11 @@ impl<T: Real> Corners<T> {
             approached: None,
             crossing: None,
             shortened: 0,
-            count: 0,
             in_a_row: 0,
             first: start,
             last: None,
+            gap: T::zero(),
+            longest: T::zero(),
         }
     }
 
@@ -112,25 +115,28 @@ impl<T: Real> Corners<T> {
     /// # Errors
     /// [`MotionError::KinksWithoutEnd`] after too many in a row.
     pub(super) fn note(&mut self, scene: &'static str, effect: &'static str, t: T) -> Result<(), MotionError> {
-        self.count += 1;
         if self.in_a_row == 0 {
             self.first = t;
         }
         self.in_a_row += 1;
-        self.last = Some(effect);
+        if let Some((_, last)) = self.last {
+            self.gap = (t - last).abs();
+            self.longest = self.longest.max(self.gap);
+        }
+        self.last = Some((effect, t));
         if self.in_a_row > MAX_IN_A_ROW {
             return Err(MotionError::KinksWithoutEnd { scene, effect, t: to_f64(self.first) });
         }
         Ok(())
     }
 
-    /// The error of an integration, which names the effect if the limit on the steps is reached by kinks.
+    /// The error of an integration, which names the effect if kinks that gather at a time have ended it.
     pub(super) fn explained(&self, scene: &'static str, error: MotionError) -> MotionError {
+        let gather = self.gap < self.longest * real(GATHERED);
         match (error, self.last) {
-            (MotionError::TooManySteps { t, steps }, Some(effect)) if steps < self.count * STEPS_OF_A_KINK => {
-                MotionError::KinksWithoutEnd { scene, effect, t }
-            }
-            (MotionError::StepTooSmall { t, .. }, Some(effect)) if self.in_a_row > 0 => {
+            (MotionError::TooManySteps { t, .. } | MotionError::StepTooSmall { t, .. }, Some((effect, _)))
+                if gather || self.in_a_row > 1 =>
+            {
                 MotionError::KinksWithoutEnd { scene, effect, t }
             }
             _ => error,
