@@ -27,17 +27,9 @@ const PARTS_OF_STATE: usize = 8;
 /// A kink of the state is located to this many ulps of the time: half of it is more than ten ulps, the shortest step.
 const AT_KINK_ULPS: f64 = 24.0;
 
-/// A step towards a kink of the state first ends before it by this fraction of its length: the states of its stages are
-/// less accurate than that at its end, and must be before the kink too. Without it the error of the step shows a stage
-/// beyond the kink, and more steps are rejected.
-const ROOM: f64 = 1.0 / 1024.0;
-
 /// The error of an expression of the state, in ulps of the coordinates and rates: below it a change of sign is none, as
 /// of the rate of a body at rest.
 const NOISE_ULPS: f64 = 16.0;
-
-/// Nearer to a kink than this fraction of the time a step goes to it.
-const NEAR: f64 = 1e-6;
 
 /// The most kinks in a row without a longer step between them. A force that always points towards its kink, such as
 /// -x'/|x'|, has them without end.
@@ -482,9 +474,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         };
         if at > at_kink {
             self.corners.approached = Some((place, sign));
-            let is_near = at * length <= NEAR * to_f64(from.abs().max(to.abs()));
-            let room = if is_near { 0.0 } else { ROOM * at };
-            return Ok(Some((at - room.max(0.5 * at_kink)).max(0.5 * at_kink)));
+            return Ok(Some((at - 0.5 * at_kink).max(0.5 * at_kink)));
         }
         let effect = S::KINKS[place].effect;
         self.corners.note(S::NAME, effect, from)?;
