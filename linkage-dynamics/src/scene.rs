@@ -28,7 +28,9 @@ pub struct Kinematics<P, R, T, const U: usize, const V: usize> {
 /// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then the rates
 /// of the inputs. Its derivative (W v', v'') requires no position solution, follows angles beyond a turn, and stays on
 /// its branch, because W is infinite at a dead point. [`Scene::project`] removes the residual of the constraints that
-/// the errors of the steps accumulate: call it after each step or after several. For an integrator of plain functions,
+/// the errors of the steps accumulate: call it after each step or after several. At a [kink](Scene::KINKS) of a law the
+/// derivative may be undefined, and a jump of the rate of a drive does not reach the other coordinates: simulations end
+/// their steps there and apply the impulse. For an integrator of plain functions,
 /// pass
 ///
 /// ```text
@@ -137,7 +139,7 @@ pub trait Scene {
         accelerations: &Accelerations<Self>,
         contact_forces: &Column<Self::Scalar, Self::Contacts>,
     ) -> Result<Self::Reactions, MotionError>;
-    /// The kinks of its laws.
+    /// The kinks of its laws, without those of user functions.
     const KINKS: &'static [Kink] = &[];
 
     /// The expression at whose zeros the law of `KINKS[place]` has a kink or a jump, where it changes its sign.

@@ -2,7 +2,7 @@
 
 use linkage::contact::Change;
 use linkage::simulation::{Simulation, Start, State, simulate};
-use linkage::{InputError, Mode, MotionError, Scene, linkage};
+use linkage::{InputError, Kink, Mode, MotionError, Scene, linkage};
 
 linkage! {
     /// Two masses on one line: x moves the first, and y both.
@@ -28,6 +28,23 @@ fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>,
         })
         .err();
     (states, error)
+}
+
+/// Each kink has its effect and the expression that changes its sign there; smooth laws have none.
+#[test]
+fn the_kinks_of_a_scene() {
+    let kink = |effect, is_timed| Kink { effect, is_timed };
+    assert_eq!(<Turned as Scene>::KINKS, [kink("drive x", true)]);
+    assert_eq!(<Rooted as Scene>::KINKS, [kink("drive x", true)]);
+    // One expression, in both drives.
+    assert_eq!(<Both as Scene>::KINKS, [kink("drive x", true)]);
+    assert_eq!(<Leaping as Scene>::KINKS, [kink("drive x", true)]);
+    assert_eq!(<Bouncing as Scene>::KINKS, [kink("potential k*abs(y)", false)]);
+    assert_eq!(<Damped as Scene>::KINKS, [kink("force at a point", false)]);
+    assert_eq!(<Taut as Scene>::KINKS.len(), 1);
+    assert!(<Smooth as Scene>::KINKS.is_empty());
+    let (q, rates) = (BallCoordinates { y: 0.5, z: 0.25 }, BallRates { y: -3.0, z: 7.0 });
+    assert_eq!([Bouncing::default().kink(0, 1.0, &q, &rates), Damped::default().kink(0, 1.0, &q, &rates)], [0.5, -3.0]);
 }
 
 /// The drive turns round, and no force acts on y: m (x' + y') stays.
@@ -153,25 +170,15 @@ fn table(t: f64, [b, y]: [f64; 2], [b_rate, y_rate]: [f64; 2]) -> Start<f64, Tab
 fn a_ball_is_thrown() {
     for e in [0.0, 0.5, 1.0] {
         let scene = Thrown { e, ..Thrown::default() };
-        // Without gravity the ball would leave the table; the table accelerates by -sin(t), less than g.
-        let mut motion = simulate(&scene, table(1.0, [1f64.sin(); 2], [1f64.cos(); 2]), 4.0, 1e-11).unwrap();
-        let (at, state) = {
-            let mut kink = None;
-            let mut after = None;
-            while let Some(state) = motion.advance().unwrap() {
-                if kink.is_none() && state.kink.is_some() {
-                    kink = Some(state);
-                    after = Some(*motion.loads().map(|_| motion.state()).unwrap());
-                }
-            }
-            (kink.unwrap(), after.unwrap())
-        };
-        let _ = state;
-        println!("{e} {at:?}");
+        let start = table(1.0, [1f64.sin(); 2], [1f64.cos(); 2]);
+        // The table accelerates by -sin(t), less than g: the ball stays on it.
+        let (states, error) = run(simulate(&scene, start, 4.0, 1e-11).unwrap());
+        assert_eq!(error, None);
+        let at = states.iter().find(|state| state.kink.is_some()).unwrap();
         assert_eq!(at.kink, Some("drive b"));
         assert!((at.t - std::f64::consts::PI).abs() < 1e-15 && (at.rates.y + 1.0).abs() < 1e-9);
         let change = at.changes().next();
-        let mut motion = simulate(&scene, table(1.0, [1f64.sin(); 2], [1f64.cos(); 2]), 3.2, 1e-11).unwrap();
+        let mut motion = simulate(&scene, start, 3.2, 1e-11).unwrap();
         let last = motion.at([3.2]).next().unwrap().unwrap();
         let (dt, rise) = (3.2 - std::f64::consts::PI, 1.0 + 2.0 * e);
         if e == 0.0 {
@@ -301,4 +308,97 @@ fn a_kink_backward_in_time() {
     let last = states.last().unwrap();
     let errors = [last.q.x - 1.0, last.q.y, last.rates.x + 1.0, last.rates.y - 1.0];
     assert!(errors.iter().all(|error| error.abs() <= 8.0 * f64::EPSILON), "{errors:?}");
+}
+
+linkage! {
+    /// A ball on a line with laws of its state.
+    mechanism Ball {
+        param m = 1, k = 2, g = 10, e = 0.5, c = 3, mu = 0.3, r = 0.2;
+        input y, z;
+        body ball { mass m; center (0, y); }
+        body other { mass m; center (z, 0); }
+        scene Bouncing { inertia; gravity (0, -g); potential k * abs(y); stop y in 0..9, restitution e; }
+        scene Damped { inertia; force (0, -c * abs(rate(y)) * rate(y)) at (0, y); potential 0 * z; }
+        scene Rubbed { inertia; gravity (0, -g); friction mu * m * g on z; force (-c * abs(rate(y)) * rate(z), 0) at (z, 0);
+            stop y in 0..9, restitution e; }
+        scene Taut { inertia; spring 8, r between (0, 0) and (0, y); }
+        scene Early { inertia; potential k * abs(y); }
+        scene Smooth { inertia; gravity (0, -g); drive z = sin(t); spring k, r between (0, 0) and (z, y); }
+    }
+}
+
+fn ball([y, z]: [f64; 2], [y_rate, z_rate]: [f64; 2]) -> Start<f64, BallCoordinates<f64>, BallInputs<f64>> {
+    Start { t: 0.0, q: BallCoordinates { y, z }, input_rates: BallInputs { y: y_rate, z: z_rate } }
+}
+
+/// The kink is at the stop: each impact is one too, and the ball comes to rest where the law has none.
+#[test]
+fn impacts_at_a_kink() {
+    let scene = Bouncing::default();
+    let (states, error) = run(simulate(&scene, ball([1.5, 0.0], [0.0, 0.0]), 1.6, 1e-10).unwrap());
+    println!("{error:?} {:?} {}", states.last(), states.len());
+    assert_eq!(error, None);
+    // y'' = -12: hits at 1/2 with -6, then at 1/2 + 1/2, + 1/4, ... with half of the rate each.
+    let hits: Vec<f64> = states
+        .iter()
+        .filter(|state| state.changes().any(|(_, change)| change == Change::Impact))
+        .map(|s| s.t)
+        .collect();
+    println!("{hits:?}");
+    for (hit, expected) in hits.iter().zip([0.5, 1.0, 1.25, 1.375, 1.4375]) {
+        assert!((hit - expected).abs() < 1e-13, "{hit} {expected}");
+    }
+    let last = states.last().unwrap();
+    assert!(last.q.y.abs() < 1e-14 && last.rates.y == 0.0 && last.contacts[0].mode == Mode::AtLower, "{last:?}");
+}
+
+/// |y'| y' is smooth enough, and so is a body at rest whose rate is rounding error.
+#[test]
+fn a_damper_at_rest() {
+    let scene = Damped::default();
+    let (states, error) = run(simulate(&scene, ball([0.0, 0.0], [2.0, 1.0]), 10.0, 1e-11).unwrap());
+    assert_eq!(error, None);
+    let last = states.last().unwrap();
+    // y' = 1 / (1/2 + 3 t), y = ln(1 + 6 t) / 3.
+    assert!((last.rates.y - 1.0 / 30.5).abs() < 1e-10 && (last.q.y - 61f64.ln() / 3.0).abs() < 1e-9, "{last:?}");
+    assert!(states.iter().all(|state| state.kink.is_none()));
+    let scene = Rubbed::default();
+    let (states, error) = run(simulate(&scene, ball([0.3, 0.0], [0.0, 1.0]), 5.0, 1e-9).unwrap());
+    println!("{error:?} {} {:?}", states.len(), states.last());
+    assert_eq!(error, None);
+    let last = states.last().unwrap();
+    assert!(last.rates.y == 0.0 && last.rates.z == 0.0);
+}
+
+/// A spring on a line whose ends pass each other: its force jumps from -8 (y - r) to -8 (y + r).
+#[test]
+fn a_spring_whose_ends_pass() {
+    let scene = Taut::default();
+    let (states, error) = run(simulate(&scene, ball([1.0, 0.0], [0.0, 0.0]), 3.0, 1e-11).unwrap());
+    println!("{error:?} {:?}", states.last());
+    assert_eq!(error, None);
+    let w = 8f64.sqrt();
+    // y = r + 0.8 cos(w t) until it is 0, at w t = acos(-1/4); then -r + R cos(w (t - t0) + a), symmetric.
+    let first = (-0.25f64).acos() / w;
+    let kinks: Vec<f64> = states.iter().filter(|state| state.kink.is_some()).map(|state| state.t).collect();
+    for (kink, t) in kinks.iter().zip([first, 3.0 * first]) {
+        assert!((kink - t).abs() < 1e-9, "{kinks:?} {first}");
+    }
+    assert_eq!(kinks.len(), 2);
+    let last = states.last().unwrap();
+    // After 4 quarters the motion repeats: y(t) = r + 0.8 cos(w (t - 4 t1)).
+    let y = 0.2 + 0.8 * (w * (3.0 - 4.0 * first)).cos();
+    assert!((last.q.y - y).abs() < 1e-8, "{last:?} {y}");
+}
+
+/// A start on the kink of a law of the state, with a rate.
+#[test]
+fn a_start_on_a_kink_of_the_state() {
+    let scene = Early::default();
+    for sign in [1.0, -1.0] {
+        let (states, error) = run(simulate(&scene, ball([0.0, 0.0], [sign, 0.0]), 0.25, 1e-10).unwrap());
+        assert_eq!(error, None);
+        let last = states.last().unwrap();
+        assert!((last.q.y - sign * (0.25 - 0.0625)).abs() < 1e-14 && (last.rates.y - 0.5 * sign).abs() < 1e-14);
+    }
 }

@@ -37,7 +37,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 Ok(None) => return Ok(None),
                 Err(error) => return self.settle_together(error),
             };
-            if is_new && !self.follows_laws() {
+            if is_new && !self.follows_laws()? {
                 self.is_prepared = true;
                 continue;
             }

@@ -16,6 +16,38 @@ use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Column, Dim, Mechanism, PerInput, real};
 
 impl<S: Scene, W> Motion<'_, S, W> {
+    /// y' in the current coordinates.
+    #[inline]
+    fn rate_at(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+        let (q, free_rates) = Self::unpack(y);
+        let (independent, frame) = match &self.parametrisation {
+            Parametrisation::Inputs if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) => {
+                return self.scene.derivative(t, y);
+            }
+            Parametrisation::Inputs => {
+                return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
+            }
+            Parametrisation::Others(independent) => {
+                let factors = self.factors(independent, &q);
+                // An error near a singularity of the choice: the integrator then tries a shorter step.
+                let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
+                let signed = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
+                let pivots = factors.pivots().zip_map(&independent.pivots, signed);
+                if !pivots.iter().all(|&pivot| pivot >= least) {
+                    return Err(self.singular_error(&q));
+                }
+                (independent, self.exact_frame(&factors, &q, &free_rates))
+            }
+            Parametrisation::Over(sheet) => (&sheet.independent, self.frame_on(sheet, &q, &free_rates)?),
+        };
+        let rate = self.rate_of(t, &self.equations_by(independent, &frame, (t, y))?)?;
+        if let (true, Parametrisation::Over(sheet)) = (frame.is_interpolated, &self.parametrisation) {
+            let errors = self.errors_of_rate(&sheet.errors, &frame, (&free_rates, &Self::unpack(&rate).1));
+            self.uncertainty = Some(self.uncertainty.map_or(errors, |known| known.zip_map(&errors, S::Scalar::max)));
+        }
+        Ok(rate)
+    }
+
     /// y' from the equations and q'.
     fn rate_of(
         &self,
@@ -112,33 +144,11 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
     #[inline]
     fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
         let t = self.beside(t);
-        let (q, free_rates) = Self::unpack(y);
-        let (independent, frame) = match &self.parametrisation {
-            Parametrisation::Inputs if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) => {
-                return self.scene.derivative(t, y);
-            }
-            Parametrisation::Inputs => {
-                return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
-            }
-            Parametrisation::Others(independent) => {
-                let factors = self.factors(independent, &q);
-                // An error near a singularity of the choice: the integrator then tries a shorter step.
-                let least = independent.regularity() * real(LEAST_PIVOT_RATIO);
-                let signed = |pivot: S::Scalar, start| if start < S::Scalar::zero() { -pivot } else { pivot };
-                let pivots = factors.pivots().zip_map(&independent.pivots, signed);
-                if !pivots.iter().all(|&pivot| pivot >= least) {
-                    return Err(self.singular_error(&q));
-                }
-                (independent, self.exact_frame(&factors, &q, &free_rates))
-            }
-            Parametrisation::Over(sheet) => (&sheet.independent, self.frame_on(sheet, &q, &free_rates)?),
-        };
-        let rate = self.rate_of(t, &self.equations_by(independent, &frame, (t, y))?)?;
-        if let (true, Parametrisation::Over(sheet)) = (frame.is_interpolated, &self.parametrisation) {
-            let errors = self.errors_of_rate(&sheet.errors, &frame, (&free_rates, &Self::unpack(&rate).1));
-            self.uncertainty = Some(self.uncertainty.map_or(errors, |known| known.zip_map(&errors, S::Scalar::max)));
+        let rate = self.rate_at(t, y);
+        match rate {
+            Err(_) => self.off_kinks(t, y).map_or(rate, |near| self.rate_at(t, &near)),
+            rate => rate,
         }
-        Ok(rate)
     }
 
     fn uncertainty(&mut self) -> Option<StateColumn<S>> {

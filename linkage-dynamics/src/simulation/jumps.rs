@@ -24,7 +24,7 @@ use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, Mechanism, PerInput, Real, real};
 
 /// The deviation of a drive from its law at the end of a step, relative to the tolerance, that counts as a jump. The
-/// error of a step is below 1; at a tenth and at ten times this value the tests pass.
+/// error of a step is below 1 by its estimate.
 const LARGEST_DEVIATION: f64 = 100.0;
 
 /// The most times in a row that a step is shortened to a quarter because a drive deviates from a law without a jump.
@@ -57,19 +57,27 @@ fn place_of<S: Scene>(parametrisation: &ParametrisationOf<S>, input: usize) -> O
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// The first input whose position or rate deviates from its law by more than `most` times its scale.
-    fn deviation(&self, t: S::Scalar, y: &StateColumn<S>, (most, frequency): (S::Scalar, S::Scalar)) -> Option<usize> {
-        let (q, rates) = Self::unpack(y);
+    /// The first input whose position or rate deviates from its law at the end of a step by more than `most` times its
+    /// scale or its size at the start and the end.
+    fn deviation(
+        &self,
+        before: &StateColumn<S>,
+        (t, y): (S::Scalar, &StateColumn<S>),
+        (most, frequency): (S::Scalar, S::Scalar),
+    ) -> Option<usize> {
+        let ((q, rates), (q_before, rates_before)) = (Self::unpack(y), Self::unpack(before));
+        let inputs_before = S::Mechanism::inputs(&q_before);
         let inputs = S::Mechanism::inputs(&q);
         let laws = self.prescribed(t);
         (0..S::V::COUNT).find(|&input| {
             let Some(law) = laws[input] else { return false };
             let scale = self.scales.coordinates.inputs[input];
             let place = place_of::<S>(&self.parametrisation, input);
-            let rate = place.map_or(law.rate, |place| rates[place]);
+            let [rate, rate_before] = [rates, rates_before].map(|rates| place.map_or(law.rate, |place| rates[place]));
+            let size = law.value.abs() + inputs_before[input].abs() + scale;
+            let speed = law.rate.abs() + rate_before.abs() + scale * frequency;
             // Not true for NaN: a law that is not finite is reported elsewhere.
-            (law.value - inputs[input]).abs() > most * (law.value.abs() + scale)
-                || (law.rate - rate).abs() > most * (law.rate.abs() + rate.abs() + scale * frequency)
+            (law.value - inputs[input]).abs() > most * size || (law.rate - rate).abs() > most * speed
         })
     }
 
@@ -107,6 +115,16 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let [value, rate] = defects(b.0 - a.0, &a.1.0, &b.1);
         let effect = coordinate_name::<S::Mechanism>(S::U::COUNT + input);
         (value > most || rate > most).then_some(Corner { before: a.0, after: b.0, effect })
+    }
+
+    /// True if the prescribed rates before and after a corner differ.
+    fn has_jump(&self, corner: &Corner<S::Scalar>) -> bool {
+        let [before, after] = [corner.before, corner.after].map(|t| self.scene.prescribed(t));
+        let most = S::Scalar::default_epsilon().sqrt();
+        (0..S::V::COUNT).any(|input| match (before[input], after[input]) {
+            (Some(a), Some(b)) => (b.rate - a.rate).abs() > most * (a.rate.abs() + b.rate.abs()),
+            _ => false,
+        })
     }
 
     /// Returns the rates after jumps of prescribed rates, by which the momenta of the other coordinates do not change.
@@ -173,7 +191,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let has_jump = jumps.iter().any(|jump| !jump.is_zero());
         let rates = if has_jump { self.kicked(before, y, &jumps)? } else { Self::unpack(y).1 };
         let q = Self::moved(&Self::unpack(y).0, &(velocity * (after - before)));
-        self.begin_step(after);
+        self.corners.from = after;
         let kicked = self.projected(after, &Self::pack(&q, &rates))?;
         if !has_jump {
             return Ok((kicked, Column::repeat(None)));
@@ -205,18 +223,21 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Returns false if a drive deviates from its law at the end of a new step: the step is then repeated, to the jump.
-    pub(super) fn follows_laws(&mut self) -> bool {
+    ///
+    /// # Errors
+    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) for a jump in a step over one.
+    pub(super) fn follows_laws(&mut self) -> Result<bool, MotionError> {
         let [(from, y), (to, next)] = self.integration.last_step();
         self.integration.system_mut().note_step(from, to);
         let motion = self.integration.system();
         let is_driven = motion.prescribed_inputs(from).iter().any(|&held| held);
         if !is_driven {
-            return true;
+            return Ok(true);
         }
         let limit = (self.largest_deviation(), self.frequency);
-        let Some(input) = motion.deviation(to, &next, limit) else {
+        let Some(input) = motion.deviation(&y, (to, &next), limit) else {
             self.integration.system_mut().corners.shortened = 0;
-            return true;
+            return Ok(true);
         };
         if let Some(corner) = motion.jump(input, [from, to], limit) {
             self.integration.system_mut().corners.found = Some(corner);
@@ -224,10 +245,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             self.integration.system_mut().corners.shortened += 1;
             self.integration.limit_next(0.25 * to_f64(to - from).abs());
         } else {
-            return true;
+            return Ok(true);
         }
         self.integration.go_back(from, y);
-        false
+        Ok(false)
     }
 
     /// Repeats the last step with a quarter of its length, if it is not as short as the rounding error of the time.

@@ -9,13 +9,13 @@
 //!
 //! An expression that touches zero without a change of sign is no kink.
 
-use super::motion::{Motion, Polynomial};
+use super::motion::{Change, Motion, Polynomial};
 use crate::scene::Kink;
-use crate::{MotionError, Prescribed, Scene, StateColumn};
+use crate::{Coordinates, MotionError, Prescribed, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::first_not_positive;
-use linkage_runtime::{Column, Mechanism, Real, real};
+use linkage_runtime::{Column, Dim, Mechanism, Real, real};
 
 /// The number of equal parts of a step at whose ends expressions of time are sampled: two kinks within one part are
 /// missed. A drive is checked against its integral too, which shows them.
@@ -27,20 +27,17 @@ const PARTS_OF_STATE: usize = 8;
 /// A kink of the state is located to this many ulps of the time: half of it is more than ten ulps, the shortest step.
 const AT_KINK_ULPS: f64 = 24.0;
 
-/// A step towards a kink of the state first ends before it by this fraction of its length: the states of its stages are
-/// less accurate than that at its end, and must be before the kink too. Without it the error of the step shows a stage
-/// beyond the kink, and more steps are rejected.
-const ROOM: f64 = 1.0 / 1024.0;
-
-/// Nearer to a kink than this fraction of the time a step goes to it.
-const NEAR: f64 = 1e-6;
+/// The error of an expression of the state, in ulps of the coordinates and rates: below it a change of sign is none, as
+/// of the rate of a body at rest.
+const NOISE_ULPS: f64 = 16.0;
 
 /// The most kinks in a row without a longer step between them. A force that always points towards its kink, such as
 /// -x'/|x'|, has them without end.
 const MAX_IN_A_ROW: u32 = 16;
 
-/// A limit on the number of steps that is reached counts as kinks without end if there was one in this many steps.
-const STEPS_OF_A_KINK: usize = 16;
+/// Kinks gather at a time if the last two are nearer to each other than two others by this factor. Those of a periodic
+/// law are not.
+const GATHERED: f64 = 1e-3;
 
 /// The change of a law between two neighbouring times.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +54,7 @@ pub(super) struct Corner<T> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corners<T> {
     /// The start of the step.
-    from: T,
+    pub(super) from: T,
     is_forward: bool,
     /// The end of the simulation.
     end: T,
@@ -67,14 +64,21 @@ pub(super) struct Corners<T> {
     pub(super) found: Option<Corner<T>>,
     /// The effect whose kink is at the end of the last step, for a kink of the state.
     pub(super) passed: Option<&'static str>,
+    /// The kink of the state before which the last step has ended, and the sign of its expression; that before which
+    /// this step is to end.
+    towards: Option<(usize, i8)>,
+    approached: Option<(usize, i8)>,
+    /// The effect whose kink this step is to go over.
+    crossing: Option<&'static str>,
     /// The number of times in a row that a step was shortened for a drive.
     pub(super) shortened: u32,
-    /// The number of kinks so far, and of those in a row without a longer step.
-    count: usize,
+    /// The number of kinks in a row without a longer step, and the time of the first of these.
     in_a_row: u32,
-    /// The time of the first of these.
     first: T,
-    last: Option<&'static str>,
+    /// The last kink, the time since the one before it, and the longest such time.
+    last: Option<(&'static str, T)>,
+    gap: T,
+    longest: T,
 }
 
 impl<T: Real> Corners<T> {
@@ -86,11 +90,15 @@ impl<T: Real> Corners<T> {
             ahead: None,
             found: None,
             passed: None,
+            towards: None,
+            approached: None,
+            crossing: None,
             shortened: 0,
-            count: 0,
             in_a_row: 0,
             first: start,
             last: None,
+            gap: T::zero(),
+            longest: T::zero(),
         }
     }
 
@@ -99,27 +107,42 @@ impl<T: Real> Corners<T> {
     /// # Errors
     /// [`MotionError::KinksWithoutEnd`] after too many in a row.
     pub(super) fn note(&mut self, scene: &'static str, effect: &'static str, t: T) -> Result<(), MotionError> {
-        self.count += 1;
         if self.in_a_row == 0 {
             self.first = t;
         }
         self.in_a_row += 1;
-        self.last = Some(effect);
+        if let Some((_, last)) = self.last {
+            self.gap = (t - last).abs();
+            self.longest = self.longest.max(self.gap);
+        }
+        self.last = Some((effect, t));
         if self.in_a_row > MAX_IN_A_ROW {
             return Err(MotionError::KinksWithoutEnd { scene, effect, t: to_f64(self.first) });
         }
         Ok(())
     }
 
-    /// The error of an integration, which names the effect if the limit on the steps is reached by kinks.
+    /// The error of an integration, which names the effect if kinks that gather at a time have ended it.
     pub(super) fn explained(&self, scene: &'static str, error: MotionError) -> MotionError {
+        let gather = self.gap < self.longest * real(GATHERED);
         match (error, self.last) {
-            (MotionError::TooManySteps { t, steps }, Some(effect)) if steps < self.count * STEPS_OF_A_KINK => {
+            (MotionError::TooManySteps { t, .. } | MotionError::StepTooSmall { t, .. }, Some((effect, _)))
+                if gather || self.in_a_row > 1 =>
+            {
                 MotionError::KinksWithoutEnd { scene, effect, t }
             }
             _ => error,
         }
     }
+}
+
+/// The first kink of the state in a step.
+struct FirstKink {
+    /// The fraction of the step.
+    at: f64,
+    place: usize,
+    /// The sign of its expression before it.
+    sign: i8,
 }
 
 /// The sign of a number; zero for NaN.
@@ -206,11 +229,41 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if has_timed::<S>() { one_sided(self.scene, t, self.is_after(t)) } else { self.scene.prescribed(t) }
     }
 
+    /// Returns y a little later if an expression of the state is zero there and moves away from it: the law is then that
+    /// after its kink.
+    pub(super) fn off_kinks(&self, t: S::Scalar, y: &StateColumn<S>) -> Option<StateColumn<S>> {
+        let is_smooth = |y: &StateColumn<S>| {
+            let mut kinks = S::KINKS.iter().enumerate();
+            kinks.all(|(place, kink)| {
+                kink.is_timed || self.kink_value(place, t, y).is_some_and(|value| !value.is_zero())
+            })
+        };
+        if !has_moving::<S>() || is_smooth(y) {
+            return None;
+        }
+        let ((q, rates), velocity) = (Self::unpack(y), self.velocity(y).ok()?);
+        // From four ulps of the scales of the coordinates.
+        let mut little = S::Scalar::default_epsilon() * real(4.0) / self.scaled_norm(&velocity);
+        if !self.corners.is_forward {
+            little = -little;
+        }
+        for _ in 0..8 {
+            let near = Self::pack(&Self::moved(&q, &(velocity * little)), &rates);
+            if is_smooth(&near) {
+                return Some(near);
+            }
+            little *= real(2.0);
+        }
+        None
+    }
+
     /// Begins a step here.
     pub(super) fn begin_step(&mut self, t: S::Scalar) {
         self.corners.from = t;
         self.corners.ahead = None;
         self.corners.passed = None;
+        self.corners.crossing = None;
+        self.corners.towards = self.corners.approached.take();
     }
 
     /// Counts a step of this length: a long one ends a row of kinks.
@@ -237,6 +290,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The change of a law at the time t itself: the motion continues after it.
     pub(super) fn corner_at(&self, t: S::Scalar) -> Option<Corner<S::Scalar>> {
         self.next_corner(t, t).filter(|corner| corner.before == t)
+    }
+
+    /// The first change of a law of time in a step that did not end there.
+    pub(super) fn corner_within(&self, t: S::Scalar, end: S::Scalar) -> Option<Corner<S::Scalar>> {
+        self.next_corner(t, end).filter(|corner| corner.before != end)
     }
 
     /// The first change of a law of time between two times, or just after the second.
@@ -306,58 +364,121 @@ impl<S: Scene, W> Motion<'_, S, W> {
         value.is_finite().then_some(value)
     }
 
+    /// The rounding error of an expression of the state: the sum of its changes by the errors of each coordinate and of
+    /// each rate, in a few ulps of their scales and of the speed of the motion.
+    fn kink_noise(&self, place: usize, t: S::Scalar, y: &StateColumn<S>) -> Option<f64> {
+        let (q, _) = Self::unpack(y);
+        let velocity = self.velocity(y).ok()?;
+        let speed = self.scaled_norm(&velocity);
+        let scales = &self.scales.coordinates;
+        let value = |q: &Coordinates<S>, rates: &Change<S>| {
+            self.scene.kink(place, t, q, &S::Mechanism::rates(rates.unknowns, rates.inputs))
+        };
+        let here = value(&q, &velocity);
+        let ulps = S::Scalar::default_epsilon() * real(NOISE_ULPS);
+        let mut sum = S::Scalar::zero();
+        for column in 0..S::U::COUNT + S::V::COUNT {
+            let mut error = Change::<S> { unknowns: Column::zeros(), inputs: Column::zeros() };
+            let of = |error: &mut Change<S>, size: S::Scalar| {
+                if column < S::U::COUNT {
+                    error.unknowns[column] = size * ulps;
+                } else {
+                    error.inputs[column - S::U::COUNT] = size * ulps;
+                }
+            };
+            let scale = scales.get(column);
+            of(&mut error, Self::column(&q).get(column).abs().max(scale));
+            sum += (value(&Self::moved(&q, &error), &velocity) - here).abs();
+            of(&mut error, velocity.get(column).abs().max(scale * speed));
+            sum += (value(&q, &(velocity + error)) - here).abs();
+        }
+        let noise = to_f64(sum);
+        noise.is_finite().then_some(noise)
+    }
+
+    /// The first kink of the state in a step, located to `enough`.
+    fn first_kink(&self, step: &Polynomial<S>, enough: f64) -> Result<Option<FirstKink>, MotionError> {
+        let (from, to) = step.interval();
+        let mut first: Option<FirstKink> = None;
+        for place in (0..S::KINKS.len()).filter(|&place| !S::KINKS[place].is_timed) {
+            let value = |part: f64| {
+                let value = self.kink_value(place, from + (to - from) * real(part), &step.at_fraction(real(part)));
+                value.map_or(0.0, to_f64)
+            };
+            let part_at = |part: usize| part as f64 / PARTS_OF_STATE as f64;
+            let mut values = [0.0; PARTS_OF_STATE + 1];
+            for (part, entry) in values.iter_mut().enumerate() {
+                *entry = value(part_at(part));
+            }
+            let has_both = values.iter().any(|&value| value > 0.0) && values.iter().any(|&value| value < 0.0);
+            let known = self.corners.approached.or(self.corners.towards);
+            let towards = known.filter(|(other, _)| *other == place).map_or(0, |(_, sign)| sign);
+            if !has_both && towards == 0 {
+                continue;
+            }
+            // A step to or from the kink itself must not end beyond it, not even by a rounding error.
+            let noise = match towards {
+                0 => self.kink_noise(place, from, &step.at_fraction(S::Scalar::zero())).unwrap_or(0.0),
+                _ => 0.0,
+            };
+            // A value within its rounding error has no sign.
+            let sign_beyond = |value: f64| if value.abs() > noise { sign(value) } else { 0 };
+            let (mut own, mut last) = (if towards == 0 { sign_beyond(values[0]) } else { towards }, 0);
+            for part in 1..=PARTS_OF_STATE {
+                let now = sign_beyond(values[part]);
+                if now == 0 || now == own {
+                    last = if now == own { part } else { last };
+                    continue;
+                }
+                if own == 0 {
+                    // At the start the value is a rounding error; it may have to pass zero yet.
+                    own = if sign(values[0]) == -now { -now } else { now };
+                    if own == now {
+                        last = part;
+                        continue;
+                    }
+                }
+                let along = |value: f64| value * f64::from(own);
+                let ends = [along(values[last]), along(values[part])];
+                let parts = [part_at(last), part_at(part)];
+                let at = first_not_positive::<f64, MotionError>(parts, ends, enough, |at| Ok(Some(along(value(at)))))?;
+                let found = FirstKink { at, place, sign: own };
+                if first.as_ref().is_none_or(|first| found.at < first.at) {
+                    first = Some(found);
+                }
+                break;
+            }
+        }
+        Ok(first)
+    }
+
     /// The fraction of a step at which it must end because a kink of the state is within it.
     ///
     /// # Errors
     /// [`MotionError::KinksWithoutEnd`].
     pub(super) fn kink_within(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionError> {
-        self.corners.passed = None;
         if !has_moving::<S>() {
             return Ok(None);
         }
         let (from, to) = step.interval();
         let length = to_f64(to - from).abs();
         let at_kink = to_f64(self.resolution_of_time(from, to)) / length;
-        let mut first: Option<(f64, &'static str)> = None;
-        for (place, kink) in S::KINKS.iter().enumerate().filter(|(_, kink)| !kink.is_timed) {
-            let value = |part: f64| {
-                let value = self.kink_value(place, from + (to - from) * real(part), &step.at_fraction(real(part)));
-                value.map_or(0.0, to_f64)
-            };
-            let (mut last, mut own) = ((0.0, value(0.0)), 0);
-            for part in 1..=PARTS_OF_STATE {
-                own = if own == 0 { sign(last.1) } else { own };
-                let at = part as f64 / PARTS_OF_STATE as f64;
-                let here = (at, value(at));
-                if own != 0 && sign(here.1) == -own {
-                    let along = |value: f64| value * f64::from(own);
-                    let ends = [along(last.1), along(here.1)];
-                    let enough = 0.25 * at_kink;
-                    let at = first_not_positive::<f64, MotionError>([last.0, at], ends, enough, |at| {
-                        Ok(Some(along(value(at))))
-                    })?;
-                    if first.is_none_or(|(first, _)| at < first) {
-                        first = Some((at, kink.effect));
-                    }
-                    break;
-                }
-                if here.1 != 0.0 {
-                    last = here;
-                }
-            }
+        let crossing = self.corners.crossing.take();
+        if at_kink >= 0.5 {
+            // Too short for an error: a step over a kink, or to it.
+            self.corners.passed = crossing;
+            return Ok(None);
         }
-        let Some((at, effect)) = first else { return Ok(None) };
+        let Some(FirstKink { at, place, sign }) = self.first_kink(step, 0.25 * at_kink)? else {
+            return Ok(None);
+        };
         if at > at_kink {
-            let is_near = at * length <= NEAR * to_f64(from.abs().max(to.abs()));
-            let room = if is_near { 0.0 } else { ROOM * at };
-            return Ok(Some((at - room.max(0.5 * at_kink)).max(0.5 * at_kink)));
+            self.corners.approached = Some((place, sign));
+            return Ok(Some((at - 0.5 * at_kink).max(0.5 * at_kink)));
         }
-        if at_kink < 0.5 {
-            return Ok(Some(1.5 * at_kink));
-        }
-        // A step over the kink, too short for an error.
-        self.corners.passed = Some(effect);
-        self.corners.note(S::NAME, effect, to)?;
-        Ok(None)
+        let effect = S::KINKS[place].effect;
+        self.corners.note(S::NAME, effect, from)?;
+        self.corners.crossing = Some(effect);
+        Ok(Some(1.5 * at_kink))
     }
 }

@@ -20,6 +20,8 @@
 //! of a stop is known, so that even a brief touch within a step is found. Frictions and stops are simulated forward in
 //! time only: [`MotionError::Irreversible`](crate::MotionError::Irreversible).
 //!
+//! Steps end at the kinks of laws; where the rate of a drive jumps, an impulse acts on the other coordinates.
+//!
 //! The assembly branch changes only at these dead points and change points. A motion that cannot be followed ends with
 //! a [`MotionError`](crate::MotionError), and earlier states remain valid.
 //!

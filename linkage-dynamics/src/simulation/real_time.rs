@@ -11,7 +11,8 @@ use linkage_runtime::jacobian::Scales;
 use linkage_runtime::{Column, D, Mechanism};
 
 /// A simulation with steps of fixed length, each with four evaluations of the equations in the inputs and one
-/// projection onto the constraints: [`FixedStep`]. No step is repeated, and none passes a singularity of the inputs.
+/// projection onto the constraints: [`FixedStep`]. No step is repeated, and none passes a singularity of the inputs. None
+/// ends at a kink of a law: where the rate of a drive jumps, its impulse acts at the end of the step.
 pub struct RealTime<'a, S: Scene<Contacts = D<0>>> {
     steps: FixedStep<Projected<'a, S>>,
 }

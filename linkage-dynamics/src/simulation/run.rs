@@ -87,6 +87,7 @@ fn started<'a, S: Scene>(
     let q = S::parts(&y).q;
     let scales = Scales::of(mechanism, &mechanism.pose_at(&q));
     let mut motion = Motion::new(scene, scales, [t, end]);
+    let y = motion.off_kinks(t, &y).filter(|_| scene.derivative(motion.beside(t), &y).is_err()).unwrap_or(y);
     if S::Contacts::COUNT > 0 && end < t {
         let contacts = motion.contacts_alone(t, &y)?.contacts;
         let contact = contacts.iter().next().map(|contact| contact.name).unwrap_or_default();

@@ -9,6 +9,7 @@ use linkage::nalgebra::{SMatrix, SVector};
 use linkage::position::{newton, newton_any_branch, newton_step};
 use linkage::simulation::{Start, simulate};
 use linkage::singularity::{accuracy, report, sigma_min};
+use linkage::Kink;
 use linkage::{
     Bearing, Column, Contact, D, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
     PositionError, Prescribed, Scene, StateParts, Unreduced,
@@ -162,6 +163,11 @@ impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
     }
     fn unreduced(&self, t: f64, q: &Q<S>, rates: &Rates<S>) -> Result<Unreduced<f64, S::U, S::V>, MotionError> {
         self.scene.unreduced(t, q, rates)
+    }
+    const KINKS: &'static [Kink] = S::KINKS;
+
+    fn kink(&self, place: usize, t: f64, q: &Q<S>, rates: &Rates<S>) -> f64 {
+        self.scene.kink(place, t, q, rates)
     }
     fn prescribed(&self, t: f64) -> Column<Option<Prescribed<f64>>, S::V> {
         self.scene.prescribed(t)

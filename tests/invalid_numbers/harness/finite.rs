@@ -151,7 +151,7 @@ parts! {
     }
     [N: Dim] integrate::Step<f64, N> { integrate::Step { t, state, event } => t state event }
     [S: Scene<Scalar = f64, Mechanism: Mechanism<Coordinates: Finite, Rates: Finite>>] State<S> {
-        State { t, q, rates, event, contacts } => t q rates event contacts
+        State { t, q, rates, event, kink: _, contacts } => t q rates event contacts
     }
     [S: Scene<Scalar = f64, Mechanism: Mechanism<Inputs: Finite>, Reactions: Finite>] Loads<S> {
         Loads { contacts, are_unique: _, drives, drive_power, joints } => contacts drives drive_power joints
