@@ -82,7 +82,8 @@ pub enum MotionError {
         /// The number of steps taken, rejected ones included.
         steps: usize,
     },
-    /// The equations have become stiff: stability, not accuracy, limits the step of an explicit method.
+    /// The equations have become stiff: a motion that decays within a step limits it, so that stability and not accuracy
+    /// determines the step of an explicit method.
     Stiff {
         /// The time that was reached.
         t: f64,
@@ -95,6 +96,15 @@ pub enum MotionError {
         t: f64,
         /// The index of the last event.
         event: usize,
+    },
+    /// A friction or a stop changes again and again at the same time.
+    ContactsWithoutEnd {
+        /// The scene.
+        scene: &'static str,
+        /// The friction or stop that changed last.
+        contact: &'static str,
+        /// The time that was reached.
+        t: f64,
     },
     /// A position during the motion could not be computed.
     Position(PositionError),
@@ -173,11 +183,17 @@ impl fmt::Display for MotionError {
             }
             Self::Stiff { t, product } => write!(
                 f,
-                "the equations are stiff at t = {t}, h |lambda| = {product:.1}: an explicit method does not suit them"
+                "the equations are stiff at t = {t}: a motion that decays within a step limits it, h |lambda| = \
+                 {product:.1}; give it less damping, or leave it out"
             ),
             Self::EventsWithoutEnd { t, event } => write!(
                 f,
-                "event {event} repeats without end at t = {t}: let its action stop, or restart with another law"
+                "event {event} repeats without end at t = {t}: let its action stop, or restart where it does not occur"
+            ),
+            Self::ContactsWithoutEnd { scene, contact, t } => write!(
+                f,
+                "{contact} of {scene} changes without end at t = {t}: let the actions of events leave its rate, or make \
+                 its limits smooth"
             ),
             Self::Position(error) => error.fmt(f),
             Self::Path(error) => error.fmt(f),

@@ -68,7 +68,7 @@ impl<T: Real, N: Dim> Tolerance<T, N> {
     }
 
     /// Returns the allowed error of a component with magnitude `size`.
-    fn allowed(&self, component: usize, size: f64) -> f64 {
+    pub(super) fn allowed(&self, component: usize, size: f64) -> f64 {
         self.relative * (to_f64(self.scale[component]) + size)
     }
 

@@ -68,6 +68,7 @@ mod outputs;
 mod run;
 mod samples;
 mod step;
+mod stiffness;
 mod system;
 mod tableau;
 

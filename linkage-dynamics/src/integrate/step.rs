@@ -1,4 +1,4 @@
-//! One step: stages, error, length, and the stiffness test.
+//! One step: stages, error and length.
 
 use nalgebra::ComplexField;
 
@@ -112,35 +112,6 @@ impl<S: System, M: Method> Integration<S, M> {
     fn length(&self) -> f64 {
         let whole = to_f64(self.end - self.start).abs();
         self.controller.length.unwrap_or(whole).min(self.largest).min(whole)
-    }
-
-    /// Tests for stiffness: estimates h |lambda| from the last stage and the end of the step, which are at the same
-    /// time (Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.2): the equations count as
-    /// stiff if stability limits 15 tested steps, without 6 others in a row among them.
-    fn test_stiffness(&mut self) -> Result<(), MotionError> {
-        let every = self.stiffness_every;
-        if every == 0 || (self.stiff == 0 && !self.counts.accepted.is_multiple_of(every)) {
-            return Ok(());
-        }
-        let table = const { &M::TABLEAU };
-        let (last, stages) = (table.stages.len(), table.stages);
-        let h = self.to.0 - self.from.0;
-        let stage = self.from.1 + tableau::combination(&self.slopes, stages[last - 1].weights) * h;
-        let slopes = to_f64((self.slopes[table.end] - self.slopes[last]).norm());
-        let states = to_f64((self.to.1 - stage).norm());
-        if states > 0.0 && to_f64(h).abs() * slopes > table.control.stability * states {
-            (self.stiff, self.not_stiff) = (self.stiff + 1, 0);
-            if self.stiff == 15 {
-                let product = to_f64(h).abs() * slopes / states;
-                return Err(MotionError::Stiff { t: to_f64(self.from.0), product });
-            }
-        } else {
-            self.not_stiff += 1;
-            if self.not_stiff == 6 {
-                self.stiff = 0;
-            }
-        }
-        Ok(())
     }
 }
 

@@ -136,25 +136,6 @@ fn a_pole_needs_steps_too_small() {
 }
 
 #[test]
-fn stiff_equations_are_told_from_others() {
-    // y' = -10^4 (y - cos t).
-    let rate = |t: f64, y: &State<1>| Ok(vector![-1e4 * (y[0] - t.cos())]);
-    let new = || dop853(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap();
-    let error = new().find_map(Result::err).unwrap();
-    let MotionError::Stiff { t, product } = error else { panic!("{error}") };
-    assert!(t < 5.0 && product > 6.1 && product < 20.0, "{t} {product}");
-    let mut motion = new().stiffness_test(0);
-    motion.finish(|_, _| true).unwrap();
-    assert!((motion.state()[0] - 10f64.cos()).abs() < 1e-3);
-    let error = dopri5(rate, (0.0, vector![0.0]), 10.0, tolerance(1e-4)).unwrap().find_map(Result::err).unwrap();
-    assert!(matches!(error, MotionError::Stiff { .. }), "{error}");
-    // A long motion without stiffness.
-    let mut motion = dopri5(pendulum, (0.0, HORIZONTAL), 200.0, tolerance(1e-10)).unwrap().stiffness_test(1);
-    motion.finish(|_, _| true).unwrap();
-    assert!(motion.counts().accepted > 5000);
-}
-
-#[test]
 fn steps_have_an_end() {
     let mut motion = dop853(pendulum, (0.0, HORIZONTAL), 1e6, tolerance(1e-9)).unwrap().most_steps(50);
     let steps = motion.by_ref().take_while(Result::is_ok).count();

@@ -5,6 +5,7 @@ mod events;
 mod failure;
 mod order;
 mod shallow;
+mod stiffness;
 mod systems;
 mod tableau;
 
