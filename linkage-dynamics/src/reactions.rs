@@ -1,10 +1,11 @@
-//! The forces in the joints of a scene with frictions and stops.
+//! The forces of frictions, stops, drives and joints in the motion that starts at a state.
 
 use crate::contact::{ContactMotion, Contacts, ReducedEquations};
 use crate::scene::{Accelerations, Coordinates, Inputs};
+use crate::simulation::Loads;
 use crate::{ContactLaw, Equations, MotionError, Scene};
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Mechanism, PerInput};
+use linkage_runtime::{Column, Mechanism, PerInput};
 
 type MotionOf<S> = (
     ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>,
@@ -40,9 +41,57 @@ pub fn reactions<S: Scene>(
     input_rates: Inputs<S>,
 ) -> Result<S::Reactions, MotionError> {
     let (equations, motion) = motion(scene, t, q, input_rates)?;
-    let rates = equations.rates;
-    let Equations { ratios, bias, .. } = scene.equations(t, &S::state(q, &rates.into()))?;
-    let all = S::Mechanism::rates(ratios * rates, rates);
+    joints(scene, t, q, &equations.rates, &motion)
+}
+
+/// The forces of frictions, stops, drives and joints in the motion that starts at a state.
+///
+/// # Errors
+/// Those of [`reactions`], and [`MotionError::NotFinite`].
+pub(crate) fn loads<S: Scene>(
+    scene: &S,
+    t: S::Scalar,
+    q: &Coordinates<S>,
+    input_rates: Inputs<S>,
+) -> Result<Loads<S>, MotionError> {
+    let (ReducedEquations { rates, .. }, motion) = motion(scene, t, q, input_rates)?;
+    let (free, _) = ReducedEquations::unprescribed(scene, t, &S::state(q, &rates.into()))?;
+    let (residual, laws) = (motion.residual(&free), scene.prescribed(t));
+    let drives: PerInput<S::Mechanism> =
+        Column::from_fn(|input| laws[input].map_or_else(S::Scalar::zero, |_| residual[input]));
+    Loads {
+        contacts: motion.forces,
+        are_unique: motion.are_unique,
+        drives: drives.into(),
+        drive_power: drives.dot(&rates),
+        joints: joints(scene, t, q, &rates, &motion)?,
+    }
+    .finite(t)
+}
+
+/// The forces of the drives by input, zero without a drive, in the motion that starts at a state.
+///
+/// # Errors
+/// Those of [`loads`].
+pub fn drive_forces<S: Scene>(
+    scene: &S,
+    t: S::Scalar,
+    q: &Coordinates<S>,
+    input_rates: Inputs<S>,
+) -> Result<Inputs<S>, MotionError> {
+    loads(scene, t, q, input_rates).map(|loads| loads.drives)
+}
+
+/// The forces in the joints at these rates of the inputs and in this motion.
+fn joints<S: Scene>(
+    scene: &S,
+    t: S::Scalar,
+    q: &Coordinates<S>,
+    rates: &PerInput<S::Mechanism>,
+    motion: &ContactMotion<S::Scalar, S::V, S::Contacts>,
+) -> Result<S::Reactions, MotionError> {
+    let Equations { ratios, bias, .. } = scene.equations(t, &S::state(q, &(*rates).into()))?;
+    let all = S::Mechanism::rates(ratios * *rates, *rates);
     let accelerations =
         Accelerations::<S> { unknowns: ratios * motion.acceleration + bias, inputs: motion.acceleration };
     scene.reactions(t, q, &all, &accelerations, &motion.forces)

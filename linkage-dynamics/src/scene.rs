@@ -1,6 +1,7 @@
 //! The trait of mechanisms with inertia and forces, and functions that the code emitted for scenes calls.
 
 use crate::contact::within;
+use crate::simulation::Loads;
 use crate::simulation::scales::resolution_by_inputs;
 use crate::{Bearing, Contact, ContactLaw, Equations, MotionError};
 use linkage_runtime::__shared::arithmetic::*;
@@ -135,6 +136,25 @@ pub trait Scene {
         accelerations: &Accelerations<Self>,
         contact_forces: &Column<Self::Scalar, Self::Contacts>,
     ) -> Result<Self::Reactions, MotionError>;
+    /// The forces of frictions, stops, drives and joints in the motion that starts at a position with the rates v' of
+    /// the inputs: a friction slips by the sign of s', what is at rest is held if it can. At the states of a simulation
+    /// these are its [`loads`](crate::simulation::Simulation::loads), except where rounding error hides which contact is
+    /// at rest: the simulation remembers it.
+    ///
+    /// # Errors
+    /// Those of [`equations`](Self::equations), [`contacts`](Self::contacts) and [`reactions`](Self::reactions), those
+    /// of [`Contacts::begin`](crate::contact::Contacts::begin), and [`MotionError::NotFinite`].
+    fn loads(
+        &self,
+        t: Self::Scalar,
+        q: &Coordinates<Self>,
+        input_rates: impl Into<Inputs<Self>>,
+    ) -> Result<Loads<Self>, MotionError>
+    where
+        Self: Sized,
+    {
+        crate::reactions::loads(self, t, q, input_rates.into())
+    }
     /// The prescribed motion of each input, or None.
     fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;
 

@@ -53,6 +53,17 @@ pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
     pub are_unique: bool,
 }
 
+impl<T: Real, V: Dim, C: Dim> ContactMotion<T, V, C> {
+    /// M v'' - Q - S' f of equations in which no motion is prescribed: the forces of the drives.
+    pub(crate) fn residual(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
+        let mut residual = equations.mass * self.acceleration - equations.forces;
+        for (contact, &force) in equations.contacts.iter().zip(&self.forces) {
+            residual -= contact.row * force;
+        }
+        residual
+    }
+}
+
 /// The rates at a state and the validity of the modes there: see [`Contacts::review`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(

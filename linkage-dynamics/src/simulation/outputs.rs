@@ -1,7 +1,7 @@
 //! The states of a simulation at given times.
 
 use super::run::Simulation;
-use super::state::State;
+use super::state::{Loads, State};
 use super::watch::Watch;
 use crate::integrate::Method;
 use crate::{MotionError, Scene};
@@ -27,6 +27,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             }
         }
         if t == self.state.t {
+            self.output = None;
             return Ok(Some(self.state));
         }
         let y = self.integration.state_within(t)?;
@@ -37,6 +38,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         for (touch, mode) in state.contacts.iter_mut().zip(self.contacts.modes) {
             touch.mode = mode;
         }
+        self.output = Some((t, projected));
         Ok(Some(state))
     }
 }
@@ -49,6 +51,24 @@ pub struct States<'s, 'a, S: Scene, M, W: Watch<S>, I> {
     pub(super) simulation: &'s mut Simulation<'a, S, M, W>,
     pub(super) times: I,
     pub(super) failed: bool,
+}
+
+impl<S, M, W, I> States<'_, '_, S, M, W, I>
+where
+    S: Scene,
+    M: Method,
+    W: Watch<S>,
+    I: Iterator<Item = S::Scalar>,
+{
+    /// Returns each state with the forces there, as [`Simulation::loads`] does. Where these cannot be computed the item
+    /// is the error, and the next state follows.
+    pub fn with_loads(self) -> impl Iterator<Item = Result<(State<S>, Loads<S>), MotionError>> {
+        let mut states = self;
+        core::iter::from_fn(move || {
+            let state = states.next()?;
+            Some(state.and_then(|state| Ok((state, states.simulation.loads()?))))
+        })
+    }
 }
 
 impl<S, M, W, I> Iterator for States<'_, '_, S, M, W, I>

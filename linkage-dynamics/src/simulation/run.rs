@@ -12,7 +12,7 @@ use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, real};
+use linkage_runtime::{Column, Dim, InputError, Mechanism, real};
 
 /// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
 /// every third step is rejected.
@@ -32,6 +32,8 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) state: State<S>,
     /// The contacts during the step before the state.
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
+    /// The time and the projected y that [`at`](Self::at) returned within the last step, if that was the last call.
+    pub(super) output: Option<(S::Scalar, StateColumn<S>)>,
     /// The start of the step, projected, and the determinants there.
     pub(super) from: (S::Scalar, StateColumn<S>),
     pub(super) signs: Signs<S>,
@@ -95,6 +97,7 @@ pub fn simulate<S: Scene>(
         at_singularity: AtSingularity::Pass,
         state,
         contacts,
+        output: None,
         from: (t, y),
         signs: mechanism.block_determinants(&mechanism.pose_at(&q)),
         passages: Passages::default(),
@@ -143,6 +146,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
             at_singularity: self.at_singularity,
             state: self.state,
             contacts: self.contacts,
+            output: self.output,
             from: self.from,
             signs: self.signs,
             passages: self.passages,
@@ -197,20 +201,21 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         &self.state
     }
 
-    /// The forces of frictions, stops, drives and joints at the state reached; at an event, those after it.
+    /// The forces of frictions, stops, drives and joints at the state that [`advance`](Self::advance) or
+    /// [`at`](Self::at) returned last, before the first at the start; at an event, those after it.
+    /// [`States::with_loads`] has those of many times, and [`Scene::loads`] those of any state.
     ///
     /// # Errors
     /// Those of the equations of motion, and [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) very
     /// near to one.
     pub fn loads(&self) -> Result<Loads<S>, MotionError> {
-        let (t, motion) = (self.integration.t(), self.integration.system());
-        let y = motion.projected(t, self.integration.state())?;
-        let loads = motion.loads(t, &y)?;
-        let drives: PerInput<S::Mechanism> = loads.drives.into();
-        if !loads.contacts.iter().chain(drives.iter()).chain([&loads.drive_power]).all(S::Scalar::is_finite) {
-            return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
+        let motion = self.integration.system();
+        if let Some((t, y)) = self.output {
+            return motion.loads(&self.contacts, t, &y);
         }
-        Ok(loads)
+        let t = self.integration.t();
+        let y = motion.projected(t, self.integration.state())?;
+        motion.loads(&motion.contacts, t, &y)
     }
 
     /// The part of the interval that is done, from 0 to 1.
@@ -259,12 +264,23 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) where the motion cannot be followed, and
     /// those of [`Integration::advance`]. After an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
+        self.output = None;
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);
         }
-        let result = self.failure.take().map_or_else(|| self.proceed(), Err);
+        let result = self.failure.take().map_or_else(|| self.proceed(), Err).map_err(|error| self.in_own_words(error));
         self.is_over = result.is_err();
         result
+    }
+}
+
+impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
+    /// Names the friction or stop of an error that counts it among the events.
+    fn in_own_words(&self, error: MotionError) -> MotionError {
+        let MotionError::EventsWithoutEnd { t, event } = error else { return error };
+        let contact = event.checked_sub(W::Events::COUNT);
+        let contact = contact.and_then(|place| self.integration.system().names.as_slice().get(place));
+        contact.map_or(error, |contact| MotionError::ContactsWithoutEnd { scene: S::NAME, contact, t })
     }
 }
 

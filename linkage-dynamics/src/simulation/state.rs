@@ -1,8 +1,10 @@
 //! The results of a simulation.
 
 use crate::contact::Change;
-use crate::{Coordinates, Inputs, Mode, Rates, Scene};
-use linkage_runtime::Column;
+use crate::{Coordinates, Inputs, Mode, MotionError, Rates, Scene};
+use linkage_runtime::__shared::arithmetic::*;
+use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{Column, PerInput};
 
 /// The state of a simulation at one time.
 #[cfg_attr(
@@ -76,6 +78,17 @@ pub struct Loads<S: Scene> {
     pub drive_power: S::Scalar,
     /// The forces in the joints that `reaction` statements of the scene name.
     pub joints: S::Reactions,
+}
+
+impl<S: Scene> Loads<S> {
+    /// Checks that all forces are finite; those in the joints are already checked.
+    pub(crate) fn finite(self, t: S::Scalar) -> Result<Self, MotionError> {
+        let drives: PerInput<S::Mechanism> = self.drives.into();
+        if !self.contacts.iter().chain(drives.iter()).chain([&self.drive_power]).all(S::Scalar::is_finite) {
+            return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
+        }
+        Ok(self)
+    }
 }
 
 linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, are_unique, drives, drive_power, joints });

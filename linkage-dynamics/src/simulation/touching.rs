@@ -154,11 +154,17 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((Self::pack(&S::parts(y).q, &rates), modes_hold))
     }
 
-    /// The forces of the contacts, of the drives by input, zero without a drive, and in the joints.
+    /// The forces of the contacts in the modes of `contacts`, of the drives by input, zero without a drive, and in the
+    /// joints.
     ///
     /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
     /// the prescribed inputs.
-    pub(super) fn loads(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Loads<S>, MotionError> {
+    pub(super) fn loads(
+        &self,
+        contacts: &Contacts<S::Scalar, S::Contacts>,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+    ) -> Result<Loads<S>, MotionError> {
         let q = S::parts(y).q;
         let (free, places) = match &self.parametrisation {
             Parametrisation::Inputs => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
@@ -168,11 +174,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 (self.unprescribed_by(independent, &factors, (t, y))?.0, Column::from_fn(place))
             }
         };
-        let motion = self.contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
-        let mut residual = free.mass * motion.acceleration - free.forces;
-        for (contact, &force) in free.contacts.iter().zip(&motion.forces) {
-            residual -= contact.row * force;
-        }
+        let motion = contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
+        let residual = motion.residual(&free);
         let places: Column<Option<usize>, S::V> = places;
         let prescribed = self.prescribed_inputs(t);
         let drives: PerInput<S::Mechanism> = Column::from_fn(|input| match places[input] {
@@ -183,13 +186,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let accelerations = self.accelerations(t, y, &motion.acceleration)?;
         let joints = self.scene.reactions(t, &q, &rates, &accelerations, &motion.forces)?;
-        Ok(Loads {
+        Loads {
             contacts: motion.forces,
             are_unique: motion.are_unique,
             drives: drives.into(),
             drive_power: drives.dot(&velocity.inputs),
             joints,
-        })
+        }
+        .finite(t)
     }
 
     /// u'' and v'' from the accelerations of the independent coordinates.

@@ -7,6 +7,7 @@ use crate::ids::InputId;
 use crate::program::doc::{lines, without_result};
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
+use crate::program::names::Arguments;
 use crate::program::operations::Operations;
 use crate::program::plan::unnamed;
 
@@ -47,7 +48,20 @@ impl ScenePlan<'_, '_, '_> {
             "at this position and these rates of the inputs.".to_owned(),
         ];
         if !self.signatures.scene.contacts.is_empty() {
-            doc[1] = "at this position and these rates of the inputs, without frictions and stops.".to_owned();
+            doc.extend(lines([
+                "",
+                "Frictions and stops are those of a motion that starts here: what is at rest sticks if it can.",
+            ]));
+            doc.extend(lines(ERRORS));
+            let Arguments { time, q, input_rates, .. } = &self.signatures.arguments;
+            let at = |name: &String| Expression::name(name);
+            let state = [Expression::own(), at(time), at(q), at(input_rates).method("into", [])];
+            let mut body = Body::default();
+            let forces = body.bound("forces", Expression::runtime("drive_forces", state).tried());
+            let forces = self.signatures.driven.iter().map(|&at| forces.clone().field(&self.signatures.inputs[at]));
+            let value = self.each_drive(forces.collect::<Vec<_>>());
+            self.add(self.signatures.drive_forces(), doc, Body { value: Value::Plain(value), ..body });
+            return;
         }
         doc.extend(lines(ERRORS));
         let (mut body, forces) = self.driving(Vec::new());
