@@ -7,5 +7,6 @@ mod errors;
 mod forces_at_rest;
 mod integrators;
 mod machines;
+mod meeting_ends;
 mod motion;
 mod virtual_work;

@@ -245,6 +245,10 @@ impl Graph {
                 Some(number) => self.number(number.absolute()),
                 None => self.intern(Node::Call(function, vec![x])),
             },
+            // hypot(x, 0) = |x|
+            (Function::Hypot, &[x, y]) if self.is_zero(x) || self.is_zero(y) => {
+                self.call(Function::Abs, &[if self.is_zero(x) { y } else { x }])
+            }
             _ => self.intern(Node::Call(function, arguments.to_vec())),
         }
     }

@@ -1,6 +1,7 @@
 //! Normal form of sums and products: like terms collected, constants folded, signs inside sums.
 
 use super::arena::Graph;
+use super::function::Function;
 use super::node::{Condition, Fault, Node, NodeId};
 use super::number::Number;
 
@@ -122,6 +123,28 @@ impl Graph {
         factors
     }
 
+    /// |x|^2 = x^2, and x^2 / |x| = |x|: factors with fewer magnitudes, if there are any.
+    fn without_magnitudes(&self, factors: &[(NodeId, i32)]) -> Option<Vec<(NodeId, i32)>> {
+        factors.iter().enumerate().find_map(|(place, &(modulus, exponent))| {
+            let &Node::Call(Function::Abs, ref arguments) = self.node(modulus) else { return None };
+            let &[x] = arguments.as_slice() else { return None };
+            let square = factors.iter().position(|&(base, power)| base == x && power >= 2);
+            let mut items = factors.to_vec();
+            match square {
+                _ if exponent.unsigned_abs() >= 2 => {
+                    items[place].1 = exponent % 2;
+                    items.push((x, exponent - exponent % 2));
+                }
+                Some(square) if exponent == -1 => {
+                    items[place].1 = 1;
+                    items[square].1 -= 2;
+                }
+                _ => return None,
+            }
+            Some(items)
+        })
+    }
+
     fn monic(&mut self, factors: Vec<(NodeId, i32)>) -> NodeId {
         match factors.as_slice() {
             [] => self.one(),
@@ -188,6 +211,10 @@ impl Graph {
             }
         }
         factors.retain(|(_, exponent)| *exponent != 0);
+        if let Some(items) = self.without_magnitudes(&factors) {
+            let rest = self.product(&items);
+            return self.scale(coefficient, rest);
+        }
         let factors = self.grouped(factors);
         if coefficient.is_zero() || factors.is_empty() {
             return self.number(coefficient);
@@ -213,4 +240,35 @@ fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
         place
     });
     &mut list[place].1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Squares of magnitudes are smooth, and their derivatives have no quotient.
+    #[test]
+    fn squares_of_magnitudes() {
+        let mut g = Graph::default();
+        let symbols = [g.symbol("x"), g.symbol("y")];
+        let [x, y] = symbols.map(|symbol| g.variable(symbol));
+        let (zero, modulus) = (g.zero(), g.call(Function::Abs, &[x]));
+        assert_eq!(g.call(Function::Hypot, &[zero, x]), modulus);
+        let [square, fifth, inverse] = [2, 5, -3].map(|exponent| g.power(modulus, exponent));
+        assert_eq!(square, g.power(x, 2));
+        assert_eq!(fifth, g.product(&[(x, 4), (modulus, 1)]));
+        assert_eq!(inverse, g.product(&[(x, -2), (modulus, -1)]));
+        assert_eq!(g.product(&[(x, 3), (modulus, -1)]), g.multiply(x, modulus));
+        let negative = g.scale(Number::integer(-2), x);
+        let twice = g.call(Function::Abs, &[negative]);
+        let (square, expected) = (g.power(twice, 2), g.power(x, 2));
+        assert_eq!(square, g.scale(Number::integer(4), expected));
+        // d (x^2 + y^2) = 2 x dx, and d r^3 = 3 r x dx.
+        let r = g.call(Function::Hypot, &[x, y]);
+        let powers = [g.power(r, 2), g.power(r, 3)];
+        let [of_square, of_cube] = g.partial(&powers, symbols[0])[..] else { unreachable!() };
+        assert_eq!(of_square, g.scale(Number::integer(2), x));
+        let expected = g.multiply(r, x);
+        assert_eq!(of_cube, g.scale(Number::integer(3), expected));
+    }
 }

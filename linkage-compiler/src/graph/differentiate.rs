@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::arena::Graph;
+use super::function::Function;
 use super::node::{Node, NodeId, SymbolId};
 use super::number::Number;
 
@@ -31,7 +32,16 @@ impl Graph {
                     let mut terms = Vec::new();
                     for (index, &(base, exponent)) in factors.iter().enumerate() {
                         let inner = derivatives[base.index()];
-                        if inner != zero {
+                        // (hypot(x, y)^n)' = n hypot^(n-2) (x x' + y y'), without a quotient that is 0 / 0 at zero
+                        if let (2.., Node::Call(Function::Hypot, parts)) = (exponent, self.node(base).clone()) {
+                            let products = parts.iter().map(|&part| (part, derivatives[part.index()]));
+                            let products: Vec<_> =
+                                products.map(|(part, inner)| (Number::ONE, self.multiply(part, inner))).collect();
+                            let mut rest = factors.clone();
+                            rest[index].1 = exponent - 2;
+                            rest.push((self.sum(&products), 1));
+                            terms.push((coefficient.multiply(Number::integer(exponent.into())), self.product(&rest)));
+                        } else if inner != zero {
                             let mut rest = factors.clone();
                             rest[index].1 = exponent.saturating_sub(1);
                             rest.push((inner, 1));

@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 use syn::Attribute;
 
 use super::{Account, Draft, Law, Reading, SceneRequest, Wanted};
-use crate::graph::{Function, NodeId, Number, SymbolId};
+use crate::graph::{Function, Node, NodeId, Number, SymbolId};
 use crate::model::expression::Lowering;
 use crate::model::scope::Value;
 use crate::syntax::{self, EffectKind, Expression, ExpressionId, Place};
@@ -70,11 +70,18 @@ impl Lowering<'_> {
                     self.still(*free, node, "the free length of a spring");
                     stretch = self.graph.subtract(along, node);
                 }
+                let label = format!("spring{words}");
+                if let Some(along) = self.half_square(along).filter(|_| stretch == along) {
+                    // F = -k along s^2 / 2: a length s need not have a direction where it is zero
+                    let (law, energy) = (self.graph.negate(k), self.graph.multiply(k, along));
+                    scene.laws.push(Law { label, law, along, account: Account::Stored(energy) });
+                    return;
+                }
                 // F = -k (s - s0), V = k (s - s0)^2 / 2
                 let pull = self.graph.multiply(k, stretch);
                 let energy = self.graph.product(&[(k, 1), (stretch, 2)]);
                 let account = Account::Stored(self.graph.scale(Number::ratio(1, 2), energy));
-                scene.laws.push(Law { label: format!("spring{words}"), law: self.graph.negate(pull), along, account });
+                scene.laws.push(Law { label, law: self.graph.negate(pull), along, account });
             }
             EffectKind::Damper { constant, place } => {
                 let c = self.law(*constant);
@@ -180,6 +187,17 @@ impl Lowering<'_> {
                 Some((length, words.map_or_else(String::new, |(from, to)| format!(" between {from} and {to}"))))
             }
         }
+    }
+
+    /// s^2 / 2 of a length or another magnitude, also of a constant one: an opened joint may change it.
+    fn half_square(&mut self, scalar: NodeId) -> Option<NodeId> {
+        let parts = match self.graph.node(scalar).clone() {
+            Node::Call(Function::Hypot | Function::Abs, parts) => parts,
+            _ if self.graph.constant_value(scalar).is_some() => vec![scalar],
+            _ => return None,
+        };
+        let squares: Vec<_> = parts.into_iter().map(|part| (Number::ratio(1, 2), self.graph.power(part, 2))).collect();
+        Some(self.graph.sum(&squares))
     }
 
     /// The text of an expression for a label: its name, or its formula if that is short.

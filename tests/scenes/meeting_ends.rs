@@ -1,0 +1,139 @@
+//! Springs and potentials of lengths that pass through zero, where a length has no direction.
+
+use linkage::simulation::{Start, simulate};
+use linkage::{Error, MotionError, PositionError, linkage};
+use linkage_oracle::close;
+
+linkage! {
+    /// A ball on a line.
+    #[derive(Debug, Clone)]
+    pub mechanism Bead {
+        param m = 1, k = 100;
+        input y;
+        point A = (0, 0);
+        point B = (0, y);
+        body ball { mass m; center B; }
+        scene Joined { inertia; spring k between A and B; energy; equilibrium; }
+        scene Freed { inertia; spring k, 0 between A and B; energy; }
+    }
+}
+
+linkage! {
+    /// A ball in the plane.
+    #[derive(Debug, Clone)]
+    pub mechanism Ball {
+        param m = 1, k = 100, free = 0.2, x0 = 0.3, y0 = -0.1;
+        input x, y;
+        point P = (x0, y0);
+        let d = (x, y) - P;
+        body ball { mass m; center (x, y); }
+        scene Sprung { inertia; spring k between P and (x, y); equilibrium; energy; power; }
+        scene OnLength { inertia; spring k on norm(d); equilibrium; energy; }
+        scene Squared { inertia; potential k/2 * norm(d)^2; equilibrium; energy; }
+        scene Twice { inertia; potential k/2 * (norm(d) * norm(d)); equilibrium; energy; }
+        scene Rooted { inertia; potential k/2 * sqrt(dot(d, d))^2; equilibrium; energy; }
+        scene Dotted { inertia; potential k/2 * dot(d, d); equilibrium; energy; }
+        scene Cubed { inertia; potential k/3 * norm(d)^3; }
+        scene Magnitude { inertia; potential k/2 * (abs(x - x0)^2 + abs(y - y0)^2); equilibrium; energy; }
+        scene Long { inertia; spring k, free between P and (x, y); }
+    }
+}
+
+linkage! {
+    /// A slider-crank whose pin passes the fixed end of its spring.
+    #[derive(Debug, Clone)]
+    pub mechanism Crank {
+        param r = 0.1, l = 0.3, m = 1, j = 0.01, k = 500;
+        input phi;
+        unknown psi, s;
+        loop r@phi + l@psi = (s, 0);
+        point B = r@phi;
+        point F = r@(30deg);
+        body crank { mass m; inertia j; center (r/2)@phi; angle phi; }
+        body piston { mass m; center (s, 0); }
+        scene Pulled { inertia; spring k between F and B; reaction at (0, 0); reaction at B; }
+        scene Stored { inertia; potential k/2 * dot(B - F, B - F); reaction at (0, 0); reaction at B; }
+    }
+}
+
+/// y = sin(10 t) / 10 passes zero at the start and twice in each period.
+#[test]
+fn a_spring_passes_zero_length() {
+    macro_rules! follows {
+        ($scene:expr) => {
+            let (scene, q) = ($scene, BeadCoordinates { y: 0.0 });
+            let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 1.0 }, 3.0, 1e-12).unwrap();
+            for i in 0..=30 {
+                let t = f64::from(i) / 10.0;
+                let state = motion.at([t]).next().unwrap().unwrap();
+                close("y", state.q.y, 0.1 * (10.0 * t).sin(), 1e-11);
+            }
+        };
+    }
+    follows!(Joined::default());
+    follows!(Freed::default());
+    let joined = Joined::default();
+    assert_eq!(joined.acceleration(0.0, &BeadCoordinates { y: 0.0 }, 1.0).unwrap().y, 0.0);
+    assert_eq!(joined.equilibrium(0.0, &BeadCoordinates { y: 0.7 }).unwrap().y, 0.0);
+}
+
+/// Every spelling gives one force and one stiffness, also at the point where the length is zero.
+#[test]
+fn spellings_of_one_spring() {
+    let dotted = Dotted::default();
+    for [dx, dy] in [[0.0, 0.0], [1e-300, 0.0], [0.0, -1e-9], [0.3, 0.4]] {
+        let q = BallCoordinates { x: 0.3 + dx, y: -0.1 + dy };
+        let rates = BallInputs { x: 0.2, y: -0.7 };
+        let (force, balance) = (dotted.forces(0.0, &q, rates).unwrap(), dotted.balance(0.0, &q).unwrap());
+        let energy = dotted.energy(&q, rates).unwrap();
+        macro_rules! agrees {
+            ($($scene:ident),*) => { $(
+                let scene = $scene::default();
+                let found = scene.forces(0.0, &q, rates).unwrap();
+                for (found, expected) in found.iter().zip(&force) {
+                    close(stringify!($scene), *found, *expected, 1e-14 * expected.abs());
+                }
+                let found = scene.balance(0.0, &q).unwrap();
+                for place in 0..4 {
+                    let [column, row] = [place / 2, place % 2];
+                    close("slope", found.slopes[column][row], balance.slopes[column][row], 1e-12);
+                }
+                let found = scene.energy(&q, rates).unwrap();
+                close("energy", found.potential, energy.potential, 1e-14 * energy.potential);
+            )* };
+        }
+        agrees!(Sprung, OnLength, Squared, Twice, Rooted, Magnitude);
+    }
+    let q = BallCoordinates { x: 0.3, y: -0.1 };
+    assert_eq!(Cubed::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).unwrap().as_slice(), [0.0, 0.0]);
+    let power = Sprung::default().power(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).unwrap();
+    assert_eq!((power.applied, power.dissipated), (0.0, 0.0));
+}
+
+/// With a free length the force at zero length has no direction.
+#[test]
+fn a_free_length_leaves_the_direction_open() {
+    let q = BallCoordinates { x: 0.3, y: -0.1 };
+    let error = Long::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).unwrap_err();
+    let quantity = "spring between P and a point";
+    let expected = PositionError::NotFinite { mechanism: "Long", quantity };
+    assert_eq!(error, MotionError::Position(expected));
+    assert!(Error::from(error).to_string().contains("is not a finite number"));
+}
+
+#[test]
+fn forces_in_joints_where_the_ends_meet() {
+    let (pulled, stored) = (Pulled::default(), Stored::default());
+    for degrees in [0.0_f64, 30.0, 200.0] {
+        let q = pulled.mechanism.assemble(degrees.to_radians(), CrankBranch { psi_s: linkage::Slider::Far });
+        let q = q.unwrap().coordinates();
+        let (one, other) = (pulled.reactions(0.0, &q, 20.0).unwrap(), stored.reactions(0.0, &q, 20.0).unwrap());
+        close(
+            "origin",
+            (one.origin_on_crank - other.origin_on_crank).norm(),
+            0.0,
+            1e-12 * other.origin_on_crank.norm(),
+        );
+        close("B", (one.b_on_crank - other.b_on_crank).norm(), 0.0, 1e-12 * other.origin_on_crank.norm());
+    }
+}
