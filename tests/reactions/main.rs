@@ -22,6 +22,7 @@ mod excavator;
 mod five_bar;
 mod jansen;
 mod laws;
+mod left_out;
 mod members;
 mod redundant;
 mod several_ways;

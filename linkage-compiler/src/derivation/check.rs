@@ -75,6 +75,7 @@ pub fn check(
         }
     }
     without_inertia(mechanism, driver, derivation, diagnostics);
+    without_force(mechanism, derivation, diagnostics);
     if diagnostics.len() == before {
         check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
     }
@@ -112,6 +113,29 @@ fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivati
                     ),
                 );
             }
+        }
+    }
+}
+
+/// Reports frictions by a force in a joint that is zero in every motion.
+fn without_force(mechanism: &Mechanism, derivation: &Derivation, diagnostics: &mut Diagnostics) {
+    for derived in &derivation.scenes {
+        let scene = &mechanism.scenes[derived.place];
+        let bearings = derived.reactions.iter().flat_map(|reactions| &reactions.bearings).enumerate();
+        for (contact, bearing) in bearings {
+            let is_zero = bearing.as_ref().is_some_and(|rows| rows.iter().all(|row| row.is_zero(&derivation.graph)));
+            let load = scene.contacts[contact].bearing.map(|load| &mechanism.opened.loads[load]);
+            let (Some(load), Some(region)) = (load.filter(|_| is_zero), scene.friction_at(contact)) else { continue };
+            let reason = match load.left_out.is_empty() {
+                true => "nothing presses its parts together",
+                false => "the forces of an `equation` do not reach it",
+            };
+            let message = format!(
+                "{} is zero in every motion, and so is this friction: {reason}\nwrite its limit as an expression \
+                 instead of `reaction`",
+                load.description()
+            );
+            diagnostics.error(region, message);
         }
     }
 }

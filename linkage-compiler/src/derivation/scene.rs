@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::linear::{Row, System};
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{ColumnId, InputId, RowId, SceneId, Table, UnknownId};
 use crate::structure::Elimination;
 
@@ -117,6 +117,17 @@ pub struct BearingRow {
     pub accelerations: Row<ColumnId>,
     pub multipliers: Row<RowId>,
     pub contacts: Vec<NodeId>,
+}
+
+impl BearingRow {
+    /// True if the component is zero in every motion.
+    pub(super) fn is_zero(&self, graph: &Graph) -> bool {
+        let is_zero = |&node: &NodeId| graph.is_zero(node);
+        self.accelerations.is_empty()
+            && self.multipliers.is_empty()
+            && is_zero(&self.constant)
+            && self.contacts.iter().all(is_zero)
+    }
 }
 
 /// The formulas of the equilibrium of a scene, in terms of q, t, W and L.

@@ -200,15 +200,17 @@ impl Document<'_> {
     fn joints(&mut self, mechanism: &Mechanism, scene: &model::Scene, reactions: &Reactions) -> Vec<TokenStream> {
         let shown = scene.loads.iter().filter_map(|load| {
             let place = reactions.opened.iter().position(|other| other == load)?;
-            Some((&mechanism.opened.loads[*load].kind, reactions.forces[place]))
+            Some((&mechanism.opened.loads[*load], reactions.forces[place]))
         });
-        let forces = shown.map(|(kind, force)| {
-            let (name, parts) = match kind {
+        let forces = shown.map(|(load, force)| {
+            let (name, parts) = match &load.kind {
                 LoadKind::Pin { joint, link } => (format!("the pin at {joint} on {link}"), ["R_x", "R_y"]),
                 LoadKind::Guide { coordinate, guide, block, .. } => {
                     (format!("the guide of {coordinate}, {guide} on {block}"), ["N", "T"])
                 }
             };
+            let left_out = load.left_out(&mechanism.graph);
+            let name = left_out.map_or(name.clone(), |equations| format!("{name}, without the forces of {equations}"));
             let name = string(&name);
             let [first, second] = [0, 1].map(|axis| self.equation(Name::Plain(parts[axis]), force[axis]));
             quote!(JointForce { name: #name, components: [#first, #second] })

@@ -24,6 +24,10 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
         } else {
             " It is not determined: `implied` loops may carry a part of it. This is the force without them."
         };
+        let left_out = load
+            .left_out(&mechanism.graph)
+            .map(|equations| format!(" The forces of {equations} act along the scalars there; they are not included."));
+        let of_implied = format!("{of_implied}{}", left_out.unwrap_or_default());
         match &load.kind {
             LoadKind::Pin { joint, link } => {
                 let doc = comment(&format!(

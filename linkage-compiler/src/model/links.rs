@@ -291,6 +291,13 @@ impl Links {
         pins
     }
 
+    /// The coordinates with which a link turns.
+    pub(super) fn turns(&self, graph: &Graph, link: usize) -> Vec<SymbolId> {
+        let angle = self.links[link].direction.checked_sub(1).map(|place| self.directions[place]);
+        let symbols = angle.map(|angle| graph.symbols_of(&[angle])).unwrap_or_default();
+        symbols.into_iter().filter(|symbol| self.moving.contains(symbol)).collect()
+    }
+
     /// True if a link has a direction.
     pub(super) fn has_direction(&self, link: usize, direction: usize) -> bool {
         self.links[link].direction == direction

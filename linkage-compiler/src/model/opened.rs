@@ -1,6 +1,6 @@
 //! The forces of joints, and the formulas of a mechanism with opened joints.
 
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::{BodyId, SceneId, Table};
 
 /// The force of a joint on a link.
@@ -14,6 +14,27 @@ pub struct Load {
     pub displacement: [SymbolId; 2],
     /// False if an `implied` loop may carry a part of the force.
     pub is_determined: bool,
+    /// The residuals of equations in the coordinates of its links, if these equations name no points: their forces act
+    /// along their scalars and are no part of the force of the joint.
+    pub left_out: Vec<NodeId>,
+}
+
+impl Load {
+    /// Names the force.
+    #[must_use]
+    pub fn description(&self) -> String {
+        match &self.kind {
+            LoadKind::Pin { joint, link } => format!("the force on {link} in the pin at {joint}"),
+            LoadKind::Guide { coordinate, block, .. } => format!("the force on {block} in the guide of {coordinate}"),
+        }
+    }
+
+    /// The equations whose forces are left out, as a list of code; `None` if there are none.
+    #[must_use]
+    pub fn left_out(&self, graph: &Graph) -> Option<String> {
+        let all: Vec<String> = self.left_out.iter().map(|&row| format!("`{} = 0`", graph.text(row))).collect();
+        (!all.is_empty()).then(|| all.join(", "))
+    }
 }
 
 /// The kind of an opened joint, with the names of its parts.

@@ -13,7 +13,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::expression::Lowering;
 use super::mechanism::Mechanism;
-use super::opened::{Load, LoadKind};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{Id, RowId, Table, UnknownId};
 use crate::structure::{incidence, order};
@@ -22,10 +21,14 @@ use crate::structure::{incidence, order};
 const MOST_ROWS: usize = 64;
 
 impl Lowering<'_> {
-    /// Marks the joints whose forces are not determined; reports frictions by these forces.
+    /// Marks the joints whose forces are not determined; reports frictions by these forces. Equations that displacements
+    /// change do carry forces to the joints.
     pub(super) fn undetermined(&mut self, result: &mut Mechanism) {
         let moved = displacements(&mut self.graph, result);
+        let rows = result.constraints.iter().flat_map(|constraint| &constraint.rows).zip(&result.opened.rows);
+        let by_points: BTreeSet<NodeId> = rows.filter(|(row, opened)| row != opened).map(|(&row, _)| row).collect();
         for load in &mut result.opened.loads {
+            load.left_out.retain(|row| !by_points.contains(row));
             load.is_determined = !load.displacement.iter().any(|symbol| moved.contains(symbol));
         }
         for scene in result.scenes.iter() {
@@ -35,19 +38,12 @@ impl Lowering<'_> {
                     let message = format!(
                         "{} is not determined: an `implied` loop may carry a part of it; write the normal force instead \
                          of `reaction`, or remove the `implied` loop",
-                        force_of(load)
+                        load.description()
                     );
                     self.diagnostics.error(region, message);
                 }
             }
         }
-    }
-}
-
-fn force_of(load: &Load) -> String {
-    match &load.kind {
-        LoadKind::Pin { joint, link } => format!("the force on {link} in the pin at {joint}"),
-        LoadKind::Guide { coordinate, block, .. } => format!("the force on {block} in the guide of {coordinate}"),
     }
 }
 

@@ -1,8 +1,10 @@
 //! The joints whose forces scenes need: `reaction at B`, `reaction on s`, `reactions`, and frictions by reaction.
 
+use std::collections::BTreeSet;
+
 use super::Scene;
 use crate::diagnostics::Region;
-use crate::graph::NodeId;
+use crate::graph::{NodeId, SymbolId};
 use crate::ids::SceneId;
 use crate::model::expression::Lowering;
 use crate::model::links::{GROUND, Links};
@@ -211,7 +213,29 @@ impl Finder<'_, '_> {
         let graph = &mut self.lowering.graph;
         // No identifier has a blank.
         let displacement = [1, 2].map(|at| graph.symbol(format!("displacement {at} of {field}")));
-        Load { field, kind, displacement, is_determined: true }
+        let left_out = self.equations_of(site);
+        Load { field, kind, displacement, is_determined: true, left_out }
+    }
+
+    /// The equations in the angles of the links of a joint, and in the length of a guide.
+    fn equations_of(&self, site: Site) -> Vec<NodeId> {
+        let graph = &self.lowering.graph;
+        let mut moving: BTreeSet<SymbolId> = BTreeSet::new();
+        match site {
+            Site::Pin { place, .. } => {
+                moving.extend(self.links.at(place).flat_map(|link| self.links.turns(graph, link)))
+            }
+            Site::Guide { ends, .. } => {
+                for guide in self.links.guides.iter().filter(|guide| guide.ends == ends) {
+                    moving.insert(guide.coordinate);
+                    moving.extend(guide.links.iter().flat_map(|&link| self.links.turns(graph, link)));
+                }
+            }
+        }
+        let rows = self.result.constraints.iter().filter(|constraint| constraint.rows.len() == 1);
+        let rows = rows.flat_map(|constraint| &constraint.rows);
+        let touched = rows.filter(|&&row| graph.symbols_of(&[row]).iter().any(|symbol| moving.contains(symbol)));
+        touched.copied().collect()
     }
 
     /// The name of the declared point at a place, as written and as a field.
@@ -235,6 +259,12 @@ impl Finder<'_, '_> {
 }
 
 impl Scene {
+    /// The place of the friction by reaction that is this contact.
+    pub(crate) fn friction_at(&self, contact: usize) -> Option<Region> {
+        let mut frictions = self.wanted.iter().filter_map(Wanted::of_friction);
+        frictions.find(|(place, _)| *place == contact).map(|(_, region)| region)
+    }
+
     /// The loads that the scene shows or needs for its frictions, as indices of those of the mechanism.
     #[must_use]
     pub fn opened(&self) -> Vec<usize> {
