@@ -148,8 +148,9 @@ pub trait Scene {
         Self::Scalar::one()
     }
     /// The forces of frictions, stops, drives and joints in the motion that starts at a position with the rates v' of
-    /// the inputs: a friction slips by the sign of s', what is at rest is held if it can. At a state of a simulation
-    /// they are its [`loads`](crate::simulation::Simulation::loads).
+    /// the inputs: a friction slips by the sign of s', what is at rest is held if it can. At the states of a simulation
+    /// these are its [`loads`](crate::simulation::Simulation::loads), except where rounding error hides which contact is
+    /// at rest: the simulation remembers it.
     ///
     /// # Errors
     /// Those of [`equations`](Self::equations), [`contacts`](Self::contacts) and [`reactions`](Self::reactions), those

@@ -34,7 +34,7 @@ linkage! {
     /// A slider-crank in the coordinate of its slider or of its crank.
     #[derive(Debug, Clone)]
     pub mechanism Pump {
-        param r = 0.05, l = 0.15, j = 0.01, m = 0.9, mu = 0.1, w = 40;
+        param r = 0.05, l = 0.15, j = 0.01, m = 0.9, mu = 0.1, w = 40, lower = 0.15, least = 0.2;
         coordinate z, phi, psi;
         loop r@phi + l@psi = (z, 0);
         point A = r@phi;
@@ -45,6 +45,10 @@ linkage! {
         body piston { mass m; center (z, 0); }
         scene Pressed of ByPiston { inertia; force (-20, 0) at (z, 0); friction 4 on z; reaction at A; }
         scene Turned of ByCrank { inertia; force (-20, 0) at (z, 0); friction 4 on z; reaction at A; }
+        /// At rest on a stop of the piston, for a part of the time.
+        scene Stopped of ByCrank { inertia; torque 2 * cos(20 * t) - 1 on phi; stop z in lower..1, restitution 0; friction 1 on z; reaction at A; }
+        /// At rest on a stop of the crank near the dead point of the piston, which moves it.
+        scene Pinched of ByPiston { inertia; force (20, 0) at (z, 0); stop phi in least..3, restitution 0; reaction at A; }
         scene Driven of ByCrank { inertia; drive phi = w * t; friction mu, reaction on z; reaction at A; }
     }
 }
@@ -182,4 +186,35 @@ fn power_of_a_drive_against_friction_by_reaction() {
         assert!(friction <= 0.0);
         close("power", loads.drive_power, lossless - friction, 1e-11 * lossless.abs().max(1.0));
     }
+}
+
+/// `Scene::loads` finds what rests in a simulation, also near the dead point of the input that moves it.
+#[test]
+fn forces_at_rest_on_a_stop() {
+    let mut rests = 0;
+    for step in 0..20 {
+        let lower = 0.12 + 0.003 * f64::from(step);
+        let stopped = Stopped { lower, ..Stopped::default() };
+        let q = stopped.mechanism.assemble(0.3, ByCrankBranch { z_psi: Slider::Far }).unwrap().coordinates();
+        let mut motion = simulate(&stopped, Start { t: 0.0, q, input_rates: 10.0 }, 0.5, 1e-9).unwrap();
+        for item in motion.at(times(0.5)).with_loads() {
+            let (state, within) = item.unwrap();
+            let apart = stopped.loads(state.t, &state.q, state.rates.phi).unwrap();
+            let expected = listed(&within, within.joints.a_on_rod);
+            agree(state.t, &listed(&apart, apart.joints.a_on_rod), &expected, 1e-9);
+            rests += usize::from(state.contacts[0].mode == Mode::AtLower);
+        }
+        let least = 0.1 + 0.02 * f64::from(step);
+        let pinched = Pinched { least, ..Pinched::default() };
+        let q = stopped.mechanism.assemble(0.8, ByCrankBranch { z_psi: Slider::Far }).unwrap().coordinates();
+        let mut motion = simulate(&pinched, Start { t: 0.0, q, input_rates: 0.0 }, 0.5, 1e-9).unwrap();
+        for item in motion.at(times(0.5)).with_loads() {
+            let (state, within) = item.unwrap();
+            let apart = pinched.loads(state.t, &state.q, state.rates.z).unwrap();
+            let expected = listed(&within, within.joints.a_on_rod);
+            agree(state.t, &listed(&apart, apart.joints.a_on_rod), &expected, 1e-9);
+            rests += usize::from(state.contacts[0].mode == Mode::AtLower);
+        }
+    }
+    assert!(rests > 1000, "{rests}");
 }

@@ -241,3 +241,34 @@ fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
     });
     &mut list[place].1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Squares of magnitudes are smooth, and their derivatives have no quotient.
+    #[test]
+    fn squares_of_magnitudes() {
+        let mut g = Graph::default();
+        let symbols = [g.symbol("x"), g.symbol("y")];
+        let [x, y] = symbols.map(|symbol| g.variable(symbol));
+        let (zero, modulus) = (g.zero(), g.call(Function::Abs, &[x]));
+        assert_eq!(g.call(Function::Hypot, &[zero, x]), modulus);
+        let [square, fifth, inverse] = [2, 5, -3].map(|exponent| g.power(modulus, exponent));
+        assert_eq!(square, g.power(x, 2));
+        assert_eq!(fifth, g.product(&[(x, 4), (modulus, 1)]));
+        assert_eq!(inverse, g.product(&[(x, -2), (modulus, -1)]));
+        assert_eq!(g.product(&[(x, 3), (modulus, -1)]), g.multiply(x, modulus));
+        let negative = g.scale(Number::integer(-2), x);
+        let twice = g.call(Function::Abs, &[negative]);
+        let (square, expected) = (g.power(twice, 2), g.power(x, 2));
+        assert_eq!(square, g.scale(Number::integer(4), expected));
+        // d (x^2 + y^2) = 2 x dx, and d r^3 = 3 r x dx.
+        let r = g.call(Function::Hypot, &[x, y]);
+        let powers = [g.power(r, 2), g.power(r, 3)];
+        let [of_square, of_cube] = g.partial(&powers, symbols[0])[..] else { unreachable!() };
+        assert_eq!(of_square, g.scale(Number::integer(2), x));
+        let expected = g.multiply(r, x);
+        assert_eq!(of_cube, g.scale(Number::integer(3), expected));
+    }
+}

@@ -117,16 +117,6 @@ impl<S: Scene, W> Motion<'_, S, W> {
         (value > most || rate > most).then_some(Corner { before: a.0, after: b.0, effect })
     }
 
-    /// True if the prescribed rates before and after a corner differ.
-    fn has_jump(&self, corner: &Corner<S::Scalar>) -> bool {
-        let [before, after] = [corner.before, corner.after].map(|t| self.scene.prescribed(t));
-        let most = S::Scalar::default_epsilon().sqrt();
-        (0..S::V::COUNT).any(|input| match (before[input], after[input]) {
-            (Some(a), Some(b)) => (b.rate - a.rate).abs() > most * (a.rate.abs() + b.rate.abs()),
-            _ => false,
-        })
-    }
-
     /// Returns the rates after jumps of prescribed rates, by which the momenta of the other coordinates do not change.
     fn kicked(
         &self,

@@ -292,11 +292,6 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.next_corner(t, t).filter(|corner| corner.before == t)
     }
 
-    /// The first change of a law of time in a step that did not end there.
-    pub(super) fn corner_within(&self, t: S::Scalar, end: S::Scalar) -> Option<Corner<S::Scalar>> {
-        self.next_corner(t, end).filter(|corner| corner.before != end)
-    }
-
     /// The first change of a law of time between two times, or just after the second.
     fn next_corner(&self, t: S::Scalar, end: S::Scalar) -> Option<Corner<S::Scalar>> {
         let is_forward = self.corners.is_forward;

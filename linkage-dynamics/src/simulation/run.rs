@@ -279,7 +279,8 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     ///
     /// # Errors
     /// Those of the scene, if no shorter step avoids them, [`PositionError::Singular`] and
-    /// [`MotionError::ChangePoint`] where the motion cannot be followed, and those of [`Integration::advance`]. After an error the simulation has ended.
+    /// [`MotionError::ChangePoint`] where the motion cannot be followed, and those of [`Integration::advance`]. After
+    /// an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
         while let Some(has_changed) = self.advance_within()? {
             if has_changed {
