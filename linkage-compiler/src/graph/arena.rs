@@ -245,8 +245,8 @@ impl Graph {
                 Some(number) => self.number(number.absolute()),
                 None => self.intern(Node::Call(function, vec![x])),
             },
-            // hypot(x, 0) = |x|
-            (Function::Hypot, &[x, y]) if self.is_zero(x) || self.is_zero(y) => {
+            // hypot(x, 0) = |x|; of two zeros it is left to the arithmetic of the emitted code, since quotients by it are.
+            (Function::Hypot, &[x, y]) if self.is_zero(x) != self.is_zero(y) => {
                 self.call(Function::Abs, &[if self.is_zero(x) { y } else { x }])
             }
             _ => self.intern(Node::Call(function, arguments.to_vec())),

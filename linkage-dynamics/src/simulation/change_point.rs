@@ -90,12 +90,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let smallest = (1..S::U::COUNT).fold(0, smaller);
         let Some(line) = self.line_across(independent, &factors, &q, smallest) else { return Ahead::Clear };
         // The time until the pivot is zero, by linear extrapolation.
-        let scale = self.scaled_norm_of(independent, &line.along);
         let approach = self.across(independent, &line.along).dot(&rates);
         let length = line.distance / approach;
         let is_ahead = length * direction > S::Scalar::zero() && speed > S::Scalar::zero();
-        let turn = (length * speed).abs();
-        if !is_ahead || !(turn <= real(SEARCH_RANGE)) || !scale.is_finite() {
+        // The comparisons are false for NaN.
+        let is_near = (length * speed).abs() <= real(SEARCH_RANGE);
+        if !(is_ahead && is_near) {
             return Ahead::Clear;
         }
         if line.distance > real(REACH) {

@@ -28,6 +28,8 @@ pub(super) type Polynomial<S> = Interpolant<<S as Scene>::Scalar, <S as Scene>::
 pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>;
 /// The pose of a scene's mechanism.
 type PoseOf<S> = <<S as Scene>::Mechanism as Mechanism>::Pose;
+/// A choice of coordinates other than the inputs, and the frame at a position.
+pub(super) type ChosenFrame<'a, S> = Option<(&'a Choice<S>, Frame<S>)>;
 /// Changes, rates or accelerations of u and v.
 pub(super) type Change<S> = VectorOf<<S as Scene>::Mechanism>;
 
@@ -125,7 +127,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         &self,
         q: &Coordinates<S>,
         rates: &PerInput<S::Mechanism>,
-    ) -> Result<Option<(&Choice<S>, Frame<S>)>, MotionError> {
+    ) -> Result<ChosenFrame<'_, S>, MotionError> {
         match &self.parametrisation {
             Parametrisation::Inputs => Ok(None),
             Parametrisation::Others(independent) => {
@@ -187,7 +189,8 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
                 let (_, inputs) = self.frame_on(sheet, q, &Column::zeros())?.basis;
                 let jacobian = Jacobian::<S::Scalar, S::V, D<0>> { unknowns: inputs, inputs: Matrix::zeros() };
                 let elimination = Elimination::new(jacobian);
-                if !(elimination.regularity() > nearly_zero()) {
+                let is_regular = elimination.regularity() > nearly_zero();
+                if !is_regular {
                     return Err(self.singular_error(q));
                 }
                 Ok(Self::pack(q, &elimination.solve(rates).unknowns))
