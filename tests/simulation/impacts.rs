@@ -161,7 +161,7 @@ fn two_stops_of_one_body_let_go_together() {
     }
 }
 
-/// Where the walls meet, at t = 1/2, the ball passes from one to the other within the rounding error of the time.
+/// The walls meet at t = 1/2: the ball passes from one to the other within the rounding error of the time.
 #[test]
 fn walls_that_meet_are_an_error_with_the_name_of_one() {
     for (e, x, speed) in [(0.5, 0.37, 3.0), (0.9, 0.37, 3.0), (0.7, 0.5, 10.0), (0.3, 0.9, 2.0)] {

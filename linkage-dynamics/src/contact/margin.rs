@@ -110,7 +110,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// The rounding error of the force of each contact, from those of s'': A h = -b has the error |A^-1| |d b|. The terms
     /// of s'' include those of the held forces, as in the choice of the modes, whose tolerance is an eighth of this one:
     /// a contact that is released here is not held again.
-    fn force_tolerances(&self) -> Column<T, C> {
+    pub(super) fn force_tolerances(&self) -> Column<T, C> {
         let Factors { order, rank, count, .. } = &self.factors;
         let matrix = &self.response.matrix;
         let size = |row: usize| {

@@ -224,20 +224,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 solution.forces.iter().enumerate().map(|(other, &force)| response.matrix[(place, other)] * force);
             terms.fold(response.bias[place].1, |size, term| size + term.abs())
         });
-        self.hold_again(equations, at_rest, &sizes)?;
-        // Where ds/dv = 0 at a dead centre, no force of friction holds s: it slips as soon as the mechanism moves.
-        let moves = response.acceleration.iter().any(|acceleration| !acceleration.is_zero());
-        for (place, contact) in equations.contacts.iter().enumerate() {
-            if moves && self.modes[place] == Mode::Stick && contact.row.iter().all(T::is_zero) && contact.bias.is_zero()
-            {
-                self.modes[place] = Mode::SlipForward;
-            }
-        }
-        Ok(())
+        self.hold_again(equations, at_rest, &sizes)
     }
 
     /// Holds again the contacts that are released at their limit and do not accelerate away, to rounding error: those
-    /// whose margin is not negative if they are held. `sizes` are the sums of the magnitudes of the terms of s''. This is the test that ends the mode, so that a contact held here
+    /// whose margin is positive if they are held. `sizes` are the sums of the magnitudes of the terms of s''. This is the test that ends the mode, so that a contact held here
     /// is not released again at the same state.
     fn hold_again<V: Dim>(
         &mut self,
@@ -263,10 +254,12 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         if held == self.modes {
             return Ok(());
         }
-        let margins = Held::new(equations, &held)?.margins(equations, &held);
-        for ((mode, held), margin) in self.modes.iter_mut().zip(held).zip(margins) {
-            if margin >= T::zero() {
-                *mode = held;
+        let forces = Held::new(equations, &held)?;
+        let (margins, tolerances) = (forces.margins(equations, &held), forces.force_tolerances());
+        for (place, mode) in self.modes.iter_mut().enumerate() {
+            // Half of the tolerance in the margin: an event is not undone by rounding errors.
+            if margins[place] > tolerances[place] * real(0.5) {
+                *mode = held[place];
             }
         }
         Ok(())
