@@ -120,7 +120,6 @@ fn events_at_a_kink() {
         .unwrap();
     motion.finish(|_, _| true).unwrap();
     let last = *motion.state();
-    drop(motion);
     println!("{seen:?}");
     let times: Vec<_> = seen.iter().filter(|(event, ..)| *event == 1).map(|(_, t, rate)| (*t, *rate)).collect();
     assert!((times[0].0 - 0.75).abs() < 1e-15 && (times[1].0 - 1.25).abs() < 1e-15 && times.len() == 2, "{times:?}");
