@@ -85,6 +85,9 @@ impl Derivation {
         if !graph.symbols_of(&[function]).contains(&input) {
             return Some(None);
         }
+        if has_kink(graph, function, input) {
+            return None;
+        }
         let slope = graph.partial(&[function], input)[0];
         let curvature = graph.partial(&[slope], input)[0];
         let third = graph.partial(&[curvature], input)[0];
@@ -131,6 +134,18 @@ impl Derivation {
             function = self.graph.replace(&[function], &by)[0];
         }
     }
+}
+
+/// True if an expression has a kink or a jump where something that depends on a symbol is zero, as |w| at w = 0: on each
+/// side of it the derivatives may be those of a line.
+fn has_kink(graph: &Graph, function: NodeId, symbol: SymbolId) -> bool {
+    graph.reachable(&[function]).into_iter().any(|node| match graph.node(node) {
+        Node::Call(function, arguments) => {
+            let kinks = (function.operation().kinks)(graph, arguments);
+            kinks.into_iter().any(|argument| graph.depends_on(argument, symbol))
+        }
+        _ => false,
+    })
 }
 
 /// True if the identities simplify an expression to zero.
