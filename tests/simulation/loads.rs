@@ -66,7 +66,7 @@ fn agree(t: f64, found: &[f64], expected: &[f64], tolerance: f64) {
     assert_eq!(found.len(), expected.len());
     let scale = expected.iter().fold(0.0_f64, |scale, force| scale.max(force.abs()));
     for (&found, &expected) in found.iter().zip(expected) {
-        close(&format!("t = {t}"), found, expected, tolerance * scale);
+        close(format!("t = {t}"), found, expected, tolerance * scale);
     }
 }
 
