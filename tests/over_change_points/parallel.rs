@@ -63,7 +63,7 @@ fn stopped_motions_are_those_of_a_rotor() {
     compare("stopped", 24, 0, |random| {
         let near = random.random_bool(0.5);
         let hi =
-            if near { 3.141_592_653_589_793 + random.random_range(-0.2..0.2) } else { random.random_range(2.0..8.0) };
+            if near { std::f64::consts::PI + random.random_range(-0.2..0.2) } else { random.random_range(2.0..8.0) };
         let th = hi - random.random_range(0.05..3.0);
         let (v, p, e) = (
             random.random_range(-0.6..0.6_f64),
