@@ -30,7 +30,7 @@ fn ratio(k: f64, theta: f64) -> (f64, f64) {
 
 #[test]
 fn a_crossed_parallelogram_stays_crossed() {
-    compare("crossed", 16, 0, |random| {
+    compare("crossed", 16, 5, |random| {
         let b = random.random_range(1.2..4.0);
         let k = (b + 1.0) / (b - 1.0);
         let (theta, rate) = (random.random_range(-3.0..3.0_f64), random.random_range(-6.0..6.0_f64));

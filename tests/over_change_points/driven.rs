@@ -31,7 +31,7 @@ linkage! {
 
 #[test]
 fn a_pendulum_on_a_driven_bar() {
-    compare("driven", 8, 0, |random| {
+    compare("driven", 8, 5, |random| {
         let from = random.random_range(-3.0..3.0_f64);
         let (omega, sway) = (random.random_range(-4.0..4.0), random.random_range(-0.5..0.5));
         let (alpha, rate) = (random.random_range(-3.0..0.0_f64), random.random_range(-3.0..3.0_f64));

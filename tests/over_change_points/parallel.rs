@@ -36,7 +36,7 @@ linkage! {
 /// theta'' = t0 sin(w t + p) / M, integrated twice.
 #[test]
 fn smooth_motions_are_those_of_a_rotor() {
-    compare("smooth", 40, 0, |random| {
+    compare("smooth", 40, 5, |random| {
         let (th, v, p) =
             (random.random_range(0.0..6.3_f64), random.random_range(-0.6..0.6_f64), random.random_range(0.0..6.3));
         let scene = Smooth { p, ..Smooth::default() };
@@ -60,7 +60,7 @@ fn smooth_motions_are_those_of_a_rotor() {
 
 #[test]
 fn stopped_motions_are_those_of_a_rotor() {
-    compare("stopped", 24, 0, |random| {
+    compare("stopped", 24, 5, |random| {
         let near = random.random_bool(0.5);
         let hi =
             if near { std::f64::consts::PI + random.random_range(-0.2..0.2) } else { random.random_range(2.0..8.0) };

@@ -34,7 +34,7 @@ linkage! {
 
 #[test]
 fn a_block_on_a_level_tray() {
-    compare("tray", 8, 0, |random| {
+    compare("tray", 8, 5, |random| {
         let (theta, s) = (random.random_range(-3.0..3.0_f64), random.random_range(0.7..1.1_f64));
         let rates = [random.random_range(-5.0..5.0_f64), random.random_range(-1.0..1.0_f64)];
         let (end, e) = (random.random_range(1.1..2.0), f64::from(random.random_range(0..=4)) / 4.0);
