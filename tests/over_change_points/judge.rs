@@ -7,7 +7,8 @@ use rand::rngs::SmallRng;
 /// The tolerances.
 pub const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 
-/// The largest error, divided by the change of the reference when its start is moved by the tolerance.
+/// The largest error, divided by the change of the reference when its start is moved by the tolerance, or by a thirtieth
+/// of the change when it is moved by thirty tolerances.
 const MOST: f64 = 1000.0;
 
 /// The number of random starts: `STARTS`, or as many as unoptimised code runs in seconds.
