@@ -1,8 +1,8 @@
 //! Contacts that are held: they are released once, where their force exceeds its limit.
 
 use linkage::contact::Change;
-use linkage::linkage;
 use linkage::simulation::{Start, simulate};
+use linkage::{Mode, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -231,5 +231,37 @@ fn bouncing_ends_where_friction_alone_presses() {
         let start = Start { t: 1.0766302807710302, q, input_rates };
         let mut motion = simulate(&scene, start, 2.3253427474656205, tolerance).unwrap().most_steps(1000);
         motion.finish(|_, _| true).unwrap();
+    }
+}
+
+linkage! {
+    /// A slider-crank with friction on its slider and a torque on its crank.
+    mechanism SliderCrank {
+        param r = 0.38, l = 1, j = 0.26, m = 1, turn = 5, f = 4;
+        input phi;
+        unknown psi, s;
+        loop r@phi + l@psi = (s, 0);
+        body crank { inertia j; angle phi; }
+        body slider { mass m; center (s, 0); }
+        scene Pushed { inertia; torque turn on phi; friction f, 1 on s; }
+    }
+}
+
+/// At rest at its dead centre no friction on the slider holds the crank, and the slider moves with s'' = 0 first. It was
+/// held there, in steps that shrank to nothing. The energy is the work of the torque less that of friction.
+#[test]
+fn a_crank_starts_at_its_dead_centre() {
+    for turn in [5.0, -5.0] {
+        for tolerance in [1e-6, 1e-9, 1e-11] {
+            let scene = Pushed { turn, ..Pushed::default() };
+            let start = Start { t: 0.0, q: SliderCrankCoordinates { phi: 0.0, psi: 0.0, s: 1.38 }, input_rates: 0.0 };
+            let mut motion = simulate(&scene, start, 0.3, tolerance).unwrap();
+            assert_eq!(motion.state().contacts[0].mode, Mode::SlipBackward);
+            motion.finish(|_, _| true).unwrap();
+            let (q, rates) = (motion.state().q, motion.state().rates);
+            let kinetic = 0.5 * (scene.j * rates.phi * rates.phi + scene.m * rates.s * rates.s);
+            close("energy", kinetic, turn * q.phi - scene.f * (1.38 - q.s), 1e3 * tolerance);
+            assert!(q.phi * turn > 0.5, "{q:?}");
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::bounded::bounded;
 use super::held::{Held, Response, held_tolerance, slipping};
 use super::impact::{After, Struck, impact};
-use super::reduced::ReducedEquations;
+use super::reduced::{ReducedContact, ReducedEquations};
 use super::state::{Contacts, ZERO_ULPS, is_negligible, slip_or_stick};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
@@ -61,6 +61,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             resting = Column::repeat(Mode::Open);
         }
         self.choose(&equations, &at_rest)?;
+        self.leave_dead_centres(&equations, &mut evaluate)?;
         for (resting, mode) in resting.iter_mut().zip(self.modes).filter(|(_, mode)| mode.is_held()) {
             *resting = mode;
         }
@@ -68,6 +69,30 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             return Ok(Held::new(&equations, &resting)?.rates(&equations));
         }
         Ok(equations.rates)
+    }
+
+    /// Lets a friction slip that no force along s can hold, since ds/dv = 0: at rest at a dead centre s moves with
+    /// s'' = 0 first, then by its quadratic term, s = b(v'') t^4 / 8.
+    fn leave_dead_centres<V: Dim>(
+        &mut self,
+        equations: &ReducedEquations<T, V, C>,
+        evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<(), MotionError> {
+        let is_dead = |(mode, contact): (&Mode, &ReducedContact<T, V>)| {
+            *mode == Mode::Stick && contact.row.iter().all(T::is_zero)
+        };
+        if equations.has_bearings() || !self.modes.iter().zip(&equations.contacts).any(is_dead) {
+            return Ok(());
+        }
+        let later = evaluate(&self.acceleration(equations)?)?;
+        for (place, mode) in self.modes.iter_mut().enumerate() {
+            let contact = &equations.contacts[place];
+            let bend = later.contacts[place].bias - contact.bias;
+            if is_dead((mode, contact)) && !bend.is_zero() {
+                *mode = if bend > T::zero() { Mode::SlipForward } else { Mode::SlipBackward };
+            }
+        }
+        Ok(())
     }
 
     /// Returns the mode in which a contact would be held, if s' is zero or has just changed its sign; None if it moves.
