@@ -155,7 +155,7 @@ pub enum MotionError {
     },
     /// A position during the motion could not be computed.
     Position(PositionError),
-    /// An error of path following, in a function of the user's.
+    /// An error of path following, from the user's own functions.
     Path(PathError),
     /// An argument is invalid.
     Input(InputError),

@@ -6,7 +6,7 @@ use linkage::simulation::{Start, simulate};
 use nalgebra::{SVector, vector};
 use rand::Rng;
 
-use crate::judge::{Case, compare};
+use crate::comparison::{Case, compare};
 
 linkage! {
     #[derive(Debug, Clone)]

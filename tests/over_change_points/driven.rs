@@ -4,7 +4,7 @@ use linkage::linkage;
 use linkage::simulation::{Start, simulate};
 use rand::Rng;
 
-use crate::judge::{Case, compare};
+use crate::comparison::{Case, compare};
 
 linkage! {
     #[derive(Debug, Clone)]
@@ -19,7 +19,7 @@ linkage! {
 }
 
 linkage! {
-    /// The same with a bar that is level.
+    /// A level bar that carries the same pendulum.
     #[derive(Debug, Clone)]
     mechanism Level {
         param a = 1, d = 2, l = 0.5, m = 1.2, g = 9.81, from = 0, omega = 2, sway = 0.5, w = 3;

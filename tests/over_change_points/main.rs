@@ -8,9 +8,9 @@
 //! STARTS=10000 cargo test --release --all-features --test over_change_points -- --nocapture
 //! ```
 
+mod comparison;
 mod crossed;
 mod driven;
-mod judge;
 mod parallel;
 mod slider;
 mod tray;

@@ -4,7 +4,7 @@ use linkage::linkage;
 use linkage::simulation::{Start, simulate};
 use rand::Rng;
 
-use crate::judge::{Case, compare};
+use crate::comparison::{Case, compare};
 
 linkage! {
     /// Two cranks, a bar that stays level, and a torque that swings.
@@ -23,7 +23,7 @@ linkage! {
 }
 
 linkage! {
-    /// The same inertia on one axis.
+    /// One axis with the same inertia.
     #[derive(Debug, Clone)]
     mechanism Rotor {
         param j = 0.03, t0 = 0.1, w = 3, p = 0, lo = -100, hi = 3.3, e = 0.5;

@@ -4,7 +4,7 @@ use linkage::linkage;
 use linkage::simulation::{Start, simulate};
 use rand::Rng;
 
-use crate::judge::{Case, compare};
+use crate::comparison::{Case, compare};
 
 linkage! {
     #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ linkage! {
 }
 
 linkage! {
-    /// The same with phi alone.
+    /// One angle instead of the loop.
     #[derive(Debug, Clone)]
     mechanism Angle {
         param r = 0.1, j = 0.01, m = 1, k = 500, l0 = 0.03, at = 0.05, least = -1, e = 0.5;

@@ -4,7 +4,7 @@ use linkage::linkage;
 use linkage::simulation::{Start, simulate};
 use rand::Rng;
 
-use crate::judge::{Case, compare};
+use crate::comparison::{Case, compare};
 
 linkage! {
     #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ linkage! {
 }
 
 linkage! {
-    /// The same with a tray that is level.
+    /// A tray that is level.
     #[derive(Debug, Clone)]
     mechanism Level {
         param a = 1, m = 1.2, j = 4, k = 20, g = 9.81, end = 1.2, e = 0.5;

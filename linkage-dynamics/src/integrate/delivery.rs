@@ -79,6 +79,7 @@ impl<S: System, M: Method> Integration<S, M> {
         self.state = state;
         self.has_rate = false;
         self.instant.has_restarted = true;
+        self.signs.forget_largest();
         if self.place != Place::Over {
             self.place = Place::Boundary;
         }

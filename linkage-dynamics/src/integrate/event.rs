@@ -52,6 +52,8 @@ pub(super) struct EventSign {
     count: u32,
     /// |value| at the time reached if the function has its event there, else -1.
     pub(super) residual: f64,
+    /// The largest |value| at the start of a step since the last restart.
+    pub(super) largest: f64,
     /// The direction of its events; None for a guard, whose event is where it falls below zero, not at zero.
     crossing: Option<Crossing>,
 }
@@ -69,7 +71,7 @@ fn sign(value: f64) -> i8 {
 
 impl EventSign {
     fn new(crossing: Option<Crossing>) -> Self {
-        Self { sign: 0, is_pending: false, count: 0, residual: -1.0, crossing }
+        Self { sign: 0, is_pending: false, count: 0, residual: -1.0, largest: 0.0, crossing }
     }
 
     pub(super) fn is_guard(&self) -> bool {
@@ -158,6 +160,19 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
     /// Returns true if an event is not delivered yet.
     pub(super) fn has_pending(&self) -> bool {
         self.each().any(|function| function.is_pending)
+    }
+
+    /// Updates the largest values from the sample at the start of a step.
+    pub(super) fn grow(&mut self, start: &Sample<K, C>) -> Column<f64, C> {
+        for (function, sample) in self.each_mut().zip(start.each()) {
+            function.largest = function.largest.max(sample.value.abs());
+        }
+        self.guards.map(|guard| guard.largest)
+    }
+
+    /// Forgets the largest values: after a restart the guards are other functions.
+    pub(super) fn forget_largest(&mut self) {
+        self.each_mut().for_each(|function| function.largest = 0.0);
     }
 
     /// Drops undelivered events.

@@ -78,8 +78,8 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         course: &mut SampledStep<'_, S>,
         parts: usize,
     ) -> Result<Found<S>, MotionError> {
-        let mut samples = Samples::new();
         let mut before = course.sample(0.0)?;
+        let mut samples = Samples::new(self.grow(&before));
         samples.push(before.unknown());
         let mut older = None;
         let start = self.guards;
@@ -163,8 +163,8 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         course: &mut SampledStep<'_, S>,
         (from, parts): (f64, usize),
     ) -> Result<Found<S>, MotionError> {
-        let mut samples = Samples::new();
         let mut before = course.sample_with_rates(from)?;
+        let mut samples = Samples::new(self.grow(&before));
         if from == 0.0 {
             samples.push(before.unknown());
         }
