@@ -262,6 +262,10 @@ fn a_crank_starts_at_its_dead_centre() {
             let kinetic = 0.5 * (scene.j * rates.phi * rates.phi + scene.m * rates.s * rates.s);
             close("energy", kinetic, turn * q.phi - scene.f * (1.38 - q.s), 1e3 * tolerance);
             assert!(q.phi * turn > 0.5, "{q:?}");
+        }
+    }
+}
+
 /// The first of three blocks slips while the others rest without load: their margins are rounding errors relative to
 /// the load, push sin(w t) - f1, and have a corner where it passes zero. m x'' = push sin(w t) - f1 throughout.
 #[test]

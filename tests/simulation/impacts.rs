@@ -92,7 +92,7 @@ fn no_bounce_on_a_shaken_table_is_missed() {
             })
             .unwrap();
         assert_eq!(impacts, 15, "{tolerance:e}");
-        close("place", motion.state().q.y, 0.061692, 5e-7 + tolerance);
+        close("place", motion.state().q.y, 0.061_692, 5e-7 + tolerance);
     }
 }
 
