@@ -1,7 +1,8 @@
 //! A parallelogram with a torque, and with a stop: one rotor.
 
+use linkage::integrate::Crossing;
 use linkage::linkage;
-use linkage::simulation::{Start, simulate};
+use linkage::simulation::{Start, Then, simulate};
 use rand::Rng;
 
 use crate::comparison::{Case, compare};
@@ -47,9 +48,19 @@ fn smooth_motions_are_those_of_a_rotor() {
                 - t0 / (inertia * w * w) * ((w * end + p).sin() - p.sin());
             vec![angle, angle, 0.0]
         };
+        // An event of the user at each half turn from a random angle: it is located, and changes nothing.
+        let mark = random.random_range(0.0..3.0_f64);
         let motion = move |tolerance| {
             let q = CranksCoordinates { th, ph: 0.0, ps: th };
-            let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: v }, end, tolerance)?;
+            let motion = simulate(&scene, Start { t: 0.0, q, input_rates: v }, end, tolerance)?;
+            let mut motion = motion.events(
+                [Crossing::Either],
+                |state| Ok([f64::sin(state.q.ps - mark)]),
+                |_, state| {
+                    assert!(f64::sin(state.q.ps - mark).abs() < 1e-12, "{state:?}");
+                    Ok(Then::GoOn)
+                },
+            )?;
             motion.finish(|_, _| true)?;
             let q = motion.state().q;
             Ok((vec![q.th, q.ps, q.ph], motion.passages().change_points))
