@@ -65,10 +65,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             let motion = self.integration.system();
             let mut state =
                 State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
-            let result = match step.event {
-                Some(event) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
-                None if holds && let Some(corner) = self.corner(step.t) => self.cross(&corner, &mut state, &kept),
-                None if holds => {
+            let corner = if holds { self.corner(step.t) } else { None };
+            let result = match (step.event, corner) {
+                (Some(event), _) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
+                (None, Some(corner)) => self.cross(&corner, &mut state, &kept),
+                (None, None) if holds => {
                     state.kink = self.integration.system().corners.passed;
                     if kept != step.state {
                         self.integration.correct(kept);
