@@ -141,8 +141,8 @@ fn judge(folder: &Path, level: &str, count: usize) {
     // within their arrays.
     let (searching, ways): (Vec<_>, Vec<_>) =
         ways.into_iter().partition(|way| way.contains("-> linkage_dynamics::reactions::"));
-    let is_known =
-        |way: &String| way.lines().next().is_some_and(|name| name.ends_with("_reactions") || name.ends_with("_power"));
+    let search = ["_reactions", "_power", "_drive_forces"];
+    let is_known = |way: &String| way.lines().next().is_some_and(|name| search.iter().any(|end| name.ends_with(end)));
     assert!(searching.iter().all(is_known), "{level}: {searching:#?}");
     // So are the positions of groups of two and three loops.
     let (listing, ways): (Vec<_>, Vec<_>) =

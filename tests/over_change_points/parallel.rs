@@ -48,7 +48,8 @@ fn smooth_motions_are_those_of_a_rotor() {
                 - t0 / (inertia * w * w) * ((w * end + p).sin() - p.sin());
             vec![angle, angle, 0.0]
         };
-        // An event of the user at each half turn from a random angle: it is located, and changes nothing.
+        // An event of the user at each half turn from a random angle: it is located, and changes nothing. Its functions
+        // have the error of the step, and the state is projected.
         let mark = random.random_range(0.0..3.0_f64);
         let motion = move |tolerance| {
             let q = CranksCoordinates { th, ph: 0.0, ps: th };
@@ -57,7 +58,7 @@ fn smooth_motions_are_those_of_a_rotor() {
                 [Crossing::Either],
                 |state| Ok([f64::sin(state.q.ps - mark)]),
                 |_, state| {
-                    assert!(f64::sin(state.q.ps - mark).abs() < 1e-12, "{state:?}");
+                    assert!(f64::sin(state.q.ps - mark).abs() < 1e-12 + 100.0 * tolerance, "{state:?}");
                     Ok(Then::GoOn)
                 },
             )?;

@@ -47,11 +47,16 @@ fn the_slider_passes_the_axis() {
         let alone = Alone { k, least, e, ..Alone::default() };
         let end = 1.5;
         let reference = move |position: f64, by: f64| {
-            let (phi, rate) = (phi + position * (1.0 + phi.abs()), rate + by * (10.0 + rate.abs()));
-            let start = Start { t: 0.0, q: AngleCoordinates { phi }, input_rates: rate };
-            let mut motion = simulate(&alone, start, end, 1e-13).unwrap();
-            motion.finish(|_, _| true).unwrap();
-            let phi = motion.state().q.phi;
+            // Moved at each third: at the start, near the top of the potential, a move changes the energy by its square.
+            let (mut t, mut phi, mut rate) = (0.0, phi, rate);
+            for part in [1.0, 2.0, 3.0] {
+                (phi, rate) = (phi + position * (1.0 + phi.abs()), rate + by * (10.0 + rate.abs()));
+                let start = Start { t, q: AngleCoordinates { phi }, input_rates: rate };
+                t = end * part / 3.0;
+                let mut motion = simulate(&alone, start, t, 1e-13).unwrap();
+                motion.finish(|_, _| true).unwrap();
+                (phi, rate) = (motion.state().q.phi, motion.state().rates.phi);
+            }
             vec![phi, -phi, 2.0 * phi.cos()]
         };
         let motion = move |tolerance| {

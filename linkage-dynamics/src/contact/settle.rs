@@ -253,8 +253,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Holds again the contacts that are released at their limit and do not accelerate away, to rounding error: those
-    /// whose margin is positive if they are held. `sizes` are the sums of the magnitudes of the terms of s''. This is the test that ends the mode, so that a contact held here
-    /// is not released again at the same state.
+    /// whose margin is positive if they are held. `sizes` are the sums of the magnitudes of the terms of s''. This is the
+    /// test that ends the mode, so that a contact held here is not released again at the same state.
     fn hold_again<V: Dim>(
         &mut self,
         equations: &ReducedEquations<T, V, C>,
