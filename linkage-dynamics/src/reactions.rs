@@ -72,7 +72,7 @@ pub(crate) fn loads<S: Scene>(
 /// The forces of the drives by input, zero without a drive, in the motion that starts at a state.
 ///
 /// # Errors
-/// Those of [`loads`].
+/// Those of [`Scene::loads`].
 pub fn drive_forces<S: Scene>(
     scene: &S,
     t: S::Scalar,
