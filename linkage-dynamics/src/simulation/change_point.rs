@@ -46,8 +46,7 @@ const SEARCH_RANGE: f64 = 3.0;
 const MAX_ERROR: f64 = 1e-3;
 
 /// The result of the search for a change point ahead.
-// One such value exists at a time.
-#[allow(clippy::large_enum_variant)]
+#[allow(clippy::large_enum_variant, reason = "nothing is allocated, and one such value exists at a time")]
 pub(super) enum Ahead<S: Scene> {
     /// No change point.
     Clear,

@@ -34,8 +34,7 @@ pub(super) type ChosenFrame<'a, S> = Option<(&'a Choice<S>, Frame<S>)>;
 pub(super) type Change<S> = VectorOf<<S as Scene>::Mechanism>;
 
 /// The choice of coordinates in which the motion is integrated.
-// Nothing is allocated, and one such value exists at a time.
-#[allow(clippy::large_enum_variant)]
+#[allow(clippy::large_enum_variant, reason = "nothing is allocated, and one such value exists at a time")]
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Parametrisation<T: Real, U: Dim, V: Dim> {
     /// The inputs, by the emitted equations.
