@@ -47,12 +47,13 @@ fn the_slider_passes_the_axis() {
         let alone = Alone { k, least, e, ..Alone::default() };
         let end = 1.5;
         let reference = move |position: f64, by: f64| {
-            // Moved at each third: at the start, near the top of the potential, a move changes the energy by its square.
+            // Moved again at each twelfth, as each step of a simulation is: at the start, near the top of the potential, a
+            // move changes the energy by its square.
             let (mut t, mut phi, mut rate) = (0.0, phi, rate);
-            for part in [1.0, 2.0, 3.0] {
+            for part in 1..=12 {
                 let at = |phi, input_rates| Start { t, q: AngleCoordinates { phi }, input_rates };
                 let moved = at(phi + position * (1.0 + phi.abs()), rate + by * (10.0 + rate.abs()));
-                let until = end * part / 3.0;
+                let until = end * f64::from(part) / 12.0;
                 // Next to the stop a move may be beyond it.
                 let motion = simulate(&alone, moved, until, 1e-13);
                 let mut motion = motion.or_else(|_| simulate(&alone, at(phi, rate), until, 1e-13)).unwrap();

@@ -8,13 +8,14 @@ linkage! {
     /// A ball on a line.
     #[derive(Debug, Clone)]
     pub mechanism Bead {
-        param m = 1, k = 100;
+        param m = 1, k = 100, c = 0.8;
         input y;
         point A = (0, 0);
         point B = (0, y);
         body ball { mass m; center B; }
         scene Joined { inertia; spring k between A and B; energy; equilibrium; }
         scene Freed { inertia; spring k, 0 between A and B; energy; }
+        scene Damped { inertia; damper c between A and B; power; }
     }
 }
 
@@ -36,6 +37,8 @@ linkage! {
         scene Cubed { inertia; potential k/3 * norm(d)^3; }
         scene Magnitude { inertia; potential k/2 * (abs(x - x0)^2 + abs(y - y0)^2); equilibrium; energy; }
         scene Long { inertia; spring k, free between P and (x, y); }
+        scene Slowed { inertia; damper k between P and (x, y); }
+        scene Wound { inertia; force (k * norm(d)^2, k * norm(d)^4) at (x, y); }
     }
 }
 
@@ -75,6 +78,35 @@ fn a_spring_passes_zero_length() {
     let joined = Joined::default();
     assert_eq!(joined.acceleration(0.0, &BeadCoordinates { y: 0.0 }, 1.0).unwrap().y, 0.0);
     assert_eq!(joined.equilibrium(0.0, &BeadCoordinates { y: 0.7 }).unwrap().y, 0.0);
+}
+
+/// |y|' = (y / |y|) y' has no direction at zero, but the force along y has: -c y'. In the plane it depends on the way there.
+#[test]
+fn a_damper_passes_zero_length() {
+    let scene = Damped::default();
+    let still = BeadCoordinates { y: 0.0 };
+    assert_eq!(scene.forces(0.0, &still, 0.5).unwrap().y, -0.4);
+    assert_eq!(scene.power(0.0, &still, 0.5).unwrap().dissipated, 0.2);
+    // y'' = -c y' from -1/2 with y' = 1: y = -1/2 + (1 - exp(-c t)) / c passes zero at t = 0.639.
+    let start = Start { t: 0.0, q: BeadCoordinates { y: -0.5 }, input_rates: 1.0 };
+    let mut motion = simulate(&scene, start, 3.0, 1e-12).unwrap();
+    motion.finish(|_, _| true).unwrap();
+    close("y", motion.state().q.y, -0.5 + (1.0 - (-2.4_f64).exp()) / 0.8, 1e-11);
+
+    let q = BallCoordinates { x: 0.3, y: -0.1 };
+    let error = Slowed::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).unwrap_err();
+    let quantity = "damper between P and a point";
+    assert_eq!(error, MotionError::Position(PositionError::NotFinite { mechanism: "Slowed", quantity }));
+}
+
+/// Forces and torques by even powers of a length.
+#[test]
+fn laws_of_a_length_that_is_zero() {
+    let q = BallCoordinates { x: 0.3, y: -0.1 };
+    let wound = Wound::default();
+    assert_eq!(wound.forces(0.0, &q, BallInputs { x: 1.0, y: 2.0 }).unwrap().as_slice(), [0.0, 0.0]);
+    let motion = simulate(&wound, Start { t: 0.0, q, input_rates: BallInputs { x: 1.0, y: 2.0 } }, 0.3, 1e-9);
+    motion.unwrap().finish(|_, _| true).unwrap();
 }
 
 /// Every spelling gives one force and one stiffness, also at the point where the length is zero.

@@ -158,6 +158,26 @@ fn stops_next_to_a_change_point_act() {
     }
 }
 
+/// At a loose tolerance a step over one change point would end at the next one, half a turn away, where its polynomial
+/// is too far from the constraints for the stop to be known there.
+#[test]
+fn a_step_over_a_change_point_ends_before_the_next_one() {
+    for (hi, th, v, p, e) in [
+        (3.6834421248532228, 1.5420752709789811, 0.546829611687, 5.742587479077122, 0.8),
+        (3.319510712788595, 1.2163902087114136, 0.45392872867747236, 0.036409654568733726, 1.0),
+    ] {
+        let scene = Stopped { hi, p, e, ..Stopped::default() };
+        let [loose, exact] = [1e-4, 1e-12].map(|tolerance| {
+            let start = Start { t: 0.0, q: CranksCoordinates { th, ph: 0.0, ps: th }, input_rates: v };
+            let mut motion = simulate(&scene, start, 6.0, tolerance).unwrap();
+            motion.finish(|_, _| true).unwrap();
+            motion.state().q.th
+        });
+        println!("{:e}", loose - exact);
+        assert!((loose - exact).abs() < 0.01, "{loose} {exact}");
+    }
+}
+
 /// The largest step and events hold over a change point as everywhere.
 #[test]
 fn the_largest_step_and_events_hold_over_a_change_point() {

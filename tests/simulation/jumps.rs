@@ -4,8 +4,10 @@
 use std::f64::consts::PI;
 
 use linkage::integrate::Crossing;
-use linkage::simulation::{RealTime, Simulation, Start, State, Then, simulate};
-use linkage::{Mode, MotionError, Real, Scene, linkage, real};
+use linkage::simulation::{RealTime, Start, Then, simulate};
+use linkage::{Mode, MotionError, Real, linkage, real};
+
+use super::run;
 
 /// |x - 1|, as a user function.
 fn corner<T: Real>(x: T) -> (T, T, T) {
@@ -32,17 +34,6 @@ linkage! {
         scene Rested { inertia; drive x = sin(t) / 2; force (-9, 0) at (y, 0); stop y - x in 0..9, restitution 0; }
         scene Seen { inertia; drive x = abs(t - 1); }
     }
-}
-
-fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>, Option<MotionError>) {
-    let mut states = Vec::new();
-    let error = motion
-        .finish(|state, _| {
-            states.push(*state);
-            true
-        })
-        .err();
-    (states, error)
 }
 
 fn pair(t: f64, [x, y]: [f64; 2], [x_rate, y_rate]: [f64; 2]) -> Start<f64, PairCoordinates<f64>, PairInputs<f64>> {

@@ -1,8 +1,10 @@
 //! Kinks of laws: the motion on both sides, the impulse of a drive whose rate jumps, and laws that have no motion.
 
 use linkage::contact::Change;
-use linkage::simulation::{Simulation, Start, State, simulate};
+use linkage::simulation::{Start, simulate};
 use linkage::{InputError, Kink, Mode, MotionError, Scene, linkage};
+
+use super::run;
 
 linkage! {
     /// Two masses on one line: x moves the first, and y both.
@@ -16,18 +18,6 @@ linkage! {
         scene Leaping { inertia; drive x = atan2(sin(t), cos(t)); }
         scene Gathering { inertia; drive x = t^2 * abs(sin(1 / t)); }
     }
-}
-
-/// All states to the end, and the last.
-fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>, Option<MotionError>) {
-    let mut states = Vec::new();
-    let error = motion
-        .finish(|state, _| {
-            states.push(*state);
-            true
-        })
-        .err();
-    (states, error)
 }
 
 /// Each kink has its effect and the expression that changes its sign there; smooth laws have none.

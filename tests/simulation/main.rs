@@ -21,3 +21,18 @@ mod rig;
 mod shallow_contacts;
 mod stiffness;
 mod windows;
+
+use linkage::simulation::{Simulation, State};
+use linkage::{MotionError, Scene};
+
+/// All states to the end, and the error that ended the motion.
+fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>, Option<MotionError>) {
+    let mut states = Vec::new();
+    let error = motion
+        .finish(|state, _| {
+            states.push(*state);
+            true
+        })
+        .err();
+    (states, error)
+}

@@ -306,31 +306,39 @@ impl<S: System, M: Method> Integration<S, M> {
         if self.signs.has_pending() {
             return self.deliver();
         }
+        let mut undefined = None;
         loop {
             let (from, is_new) = match self.place {
                 Place::Within(part) => (part, false),
                 _ => {
-                    self.step()?;
+                    self.step().map_err(|error| match error {
+                        MotionError::StepTooSmall { .. } => undefined.unwrap_or(error),
+                        error => error,
+                    })?;
                     (0.0, true)
                 }
             };
-            let found = if S::Events::COUNT + S::Guards::COUNT > 0 { self.search(from)? } else { Found::Nothing };
+            let found = if S::Events::COUNT + S::Guards::COUNT > 0 { self.search(from) } else { Ok(Found::Nothing) };
             let length = to_f64(self.to.0 - self.from.0).abs();
-            match found {
+            // An event function may be undefined between the ends of a long step.
+            undefined = found.as_ref().err().copied();
+            let is_too_long = matches!(found, Err(_) | Ok(Found::TooCoarse));
+            if is_too_long && is_new && self.shortened < MAX_SHORTENED {
+                self.shortened += 1;
+                self.go_back(self.from.0, self.from.1);
+                self.counts.accepted -= 1;
+                self.counts.rejected += 1;
+                self.limit_next(length / 16.0);
+                continue;
+            }
+            match found? {
                 Found::Hit(hit) => {
                     self.shortened = 0;
                     (self.t, self.state) = (hit.t, hit.state);
                     self.place = Place::Within(hit.at);
                     return self.deliver();
                 }
-                Found::TooCoarse if is_new && self.shortened < MAX_SHORTENED => {
-                    self.shortened += 1;
-                    self.go_back(self.from.0, self.from.1);
-                    self.counts.accepted -= 1;
-                    self.counts.rejected += 1;
-                    self.limit_next(length / 16.0);
-                }
-                _ => {
+                found => {
                     // Where a guard jumps, no step is short enough: do not shorten the following steps again.
                     if !matches!(found, Found::TooCoarse) {
                         self.shortened = 0;

@@ -5,8 +5,8 @@ use super::parametrisation::{AtSingularity, STEPS_BEFORE_RETURN};
 use super::run::Simulation;
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
-use crate::contact::Change;
-use crate::integrate::Method;
+use crate::contact::{Change, Contacts};
+use crate::integrate::{Method, Step};
 use crate::{Coordinates, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{same_signs, to_f64};
@@ -18,6 +18,17 @@ const LONGEST_UNCHECKED: f64 = 0.5;
 
 /// The most checks in one step.
 const MOST_CHECKS: f64 = 64.0;
+
+/// The end of a step.
+struct End<S: Scene> {
+    /// y on the constraints.
+    projected: StateColumn<S>,
+    /// The same with the rates that the contacts keep.
+    kept: StateColumn<S>,
+    /// True if the modes of the contacts hold.
+    holds: bool,
+    state: State<S>,
+}
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     /// Advances to the next event or to the end of the step; None at the end. False for an event of the contacts that
@@ -37,7 +48,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 Ok(None) => return Ok(None),
                 Err(error) => return self.settle_together(error),
             };
-            if is_new && !self.follows_laws()? {
+            if is_new && !self.follows_laws() {
                 self.is_prepared = true;
                 continue;
             }
@@ -52,19 +63,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 continue;
             }
             let contacts = motion.contacts;
-            let mut projected = motion.projected(step.t, &step.state)?;
-            if step.event.is_none() {
-                projected = match motion.on_stops(step.t, &projected, self.largest_deviation()) {
-                    Ok(projected) => projected,
-                    Err(MotionError::LeftStop { .. }) if self.is_repeated_shorter(is_new) => continue,
-                    Err(error) => return Err(error),
-                };
-            }
-            let (kept, holds) = motion.reviewed(&contacts, step.t, &projected)?;
+            let end = match self.end_of(&step, &contacts) {
+                Ok(end) => end,
+                // It may be too far from the constraints, from a held stop or from a change point.
+                Err(_) if self.is_repeated_shorter(is_new) => continue,
+                Err(error) => return Err(error),
+            };
+            let End { projected, kept, holds, mut state } = end;
             self.count_passage(&projected);
-            let motion = self.integration.system();
-            let mut state =
-                State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
             let corner = if holds { self.corner(step.t) } else { None };
             let result = match (step.event, corner) {
                 (Some(event), _) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
@@ -89,6 +95,23 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             (self.state, self.contacts) = (state, contacts);
             return Ok(Some(has_changed));
         }
+    }
+
+    /// The end of a step, or the event within it, on the constraints and on the stops that were held in the step.
+    fn end_of(
+        &self,
+        step: &Step<S::Scalar, S::State>,
+        contacts: &Contacts<S::Scalar, S::Contacts>,
+    ) -> Result<End<S>, MotionError> {
+        let motion = self.integration.system();
+        let mut projected = motion.projected(step.t, &step.state)?;
+        if step.event.is_none() {
+            projected = motion.on_stops(step.t, &projected, self.largest_deviation())?;
+        }
+        let (kept, holds) = motion.reviewed(contacts, step.t, &projected)?;
+        let event = step.event.filter(|&event| event < W::Events::COUNT);
+        let state = State { event, ..motion.state(step.t, &kept)? };
+        Ok(End { projected, kept, holds, state })
     }
 
     /// Continues after contact events without end: a body that strikes stops in turn, at intervals that shrink to the

@@ -15,6 +15,10 @@ use linkage_runtime::__shared::all_finite;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Column, Dim, Mechanism, PerInput, real};
 
+/// The largest distance of a motion from the crossing on its sheet, in half lengths of its line; it begins within 2.5 of
+/// them.
+const LONGEST_WAY: f64 = 3.0;
+
 impl<S: Scene, W> Motion<'_, S, W> {
     /// y' in the current coordinates.
     #[inline]
@@ -38,7 +42,13 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 }
                 (independent, self.exact_frame(&factors, &q, &free_rates))
             }
-            Parametrisation::Over(sheet) => (&sheet.independent, self.frame_on(sheet, &q, &free_rates)?),
+            Parametrisation::Over(sheet) => {
+                // A longer step may end next to another change point.
+                if sheet.x(&sheet.independent.of(&Self::column(&q))).abs() > real(LONGEST_WAY) {
+                    return Err(self.singular_error(&q));
+                }
+                (&sheet.independent, self.frame_on(sheet, &q, &free_rates)?)
+            }
         };
         let rate = self.rate_of(t, &self.equations_by(independent, &frame, (t, y))?)?;
         if let (true, Parametrisation::Over(sheet)) = (frame.is_interpolated, &self.parametrisation) {

@@ -213,21 +213,18 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Returns false if a drive deviates from its law at the end of a new step: the step is then repeated, to the jump.
-    ///
-    /// # Errors
-    /// [`PathError::ChangePoint`](linkage_runtime::PathError::ChangePoint) for a jump in a step over one.
-    pub(super) fn follows_laws(&mut self) -> Result<bool, MotionError> {
+    pub(super) fn follows_laws(&mut self) -> bool {
         let [(from, y), (to, next)] = self.integration.last_step();
         self.integration.system_mut().note_step(from, to);
         let motion = self.integration.system();
         let is_driven = motion.prescribed_inputs(from).iter().any(|&held| held);
         if !is_driven {
-            return Ok(true);
+            return true;
         }
         let limit = (self.largest_deviation(), self.frequency);
         let Some(input) = motion.deviation(&y, (to, &next), limit) else {
             self.integration.system_mut().corners.shortened = 0;
-            return Ok(true);
+            return true;
         };
         if let Some(corner) = motion.jump(input, [from, to], limit) {
             self.integration.system_mut().corners.found = Some(corner);
@@ -235,10 +232,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             self.integration.system_mut().corners.shortened += 1;
             self.integration.limit_next(0.25 * to_f64(to - from).abs());
         } else {
-            return Ok(true);
+            return true;
         }
         self.integration.go_back(from, y);
-        Ok(false)
+        false
     }
 
     /// Repeats the last step with a quarter of its length, if it is not as short as the rounding error of the time.
@@ -249,6 +246,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         if is_long {
             self.integration.go_back(from, y);
             self.integration.limit_next(0.25 * to_f64(to - from).abs());
+            self.integration.system_mut().corners.forget_approach();
             self.is_prepared = true;
         }
         is_long

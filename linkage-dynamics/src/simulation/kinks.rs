@@ -122,6 +122,11 @@ impl<T: Real> Corners<T> {
         Ok(())
     }
 
+    /// The last step is repeated: it does not end before a kink.
+    pub(super) fn forget_approach(&mut self) {
+        self.approached = None;
+    }
+
     /// The error of an integration, which names the effect if kinks that gather at a time have ended it.
     pub(super) fn explained(&self, scene: &'static str, error: MotionError) -> MotionError {
         let gather = self.gap < self.longest * real(GATHERED);

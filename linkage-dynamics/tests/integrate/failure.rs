@@ -8,7 +8,7 @@ use linkage_runtime::nalgebra::vector;
 use linkage_runtime::{Column, D, InputError, PositionError};
 
 use super::systems::{HORIZONTAL, pendulum};
-use super::{Entries, State, tolerance};
+use super::{Entries, Rate, State, tolerance};
 
 #[test]
 fn tolerances_that_cannot_be_met_are_refused() {
@@ -246,4 +246,29 @@ fn a_new_state_has_a_new_rate() {
     (0..10_000).for_each(|_| motion.step().unwrap());
     let y = motion.state()[0] * 4f64.powi(motion.system().0);
     assert!((y / 10f64.exp() - 1.0).abs() < 1e-11 && motion.system().0 > 5, "{:e}", y / 10f64.exp() - 1.0);
+}
+
+/// On the unit circle the radius is 1 to the tolerance at the ends of steps; the polynomial of a long step is farther
+/// off between them, where this event function has no value.
+#[test]
+fn an_event_function_without_value_within_a_long_step_shortens_it() {
+    let undefined = MotionError::NotFinite { quantity: "the event", t: 0.0 };
+    let turning = |_: f64, y: &State<2>| -> Rate<2> { Ok(vector![-y[1], y[0]]) };
+    let event = move |_: f64, y: &State<2>| if (y.norm() - 1.0).abs() < 1e-4 { Ok([y[1]]) } else { Err(undefined) };
+    let system = watched(turning, [Crossing::Either], event, |_, _, _: &State<2>| Ok(Action::Record));
+    let mut motion = dop853(system, (0.0, vector![1.0, 0.0]), 20.0, tolerance(1e-5)).unwrap();
+    let mut found = Vec::new();
+    while let Some(step) = motion.advance().unwrap() {
+        found.extend(step.event.map(|_| step.t / std::f64::consts::PI));
+    }
+    println!("{found:?} {:?}", motion.counts());
+    assert_eq!(found.len(), 6);
+    assert!(found.iter().zip(1..).all(|(turns, expected)| (turns - f64::from(expected)).abs() < 1e-3));
+
+    // One that is undefined from a time on ends the motion before it.
+    let event = move |t: f64, y: &State<2>| if t < 5.0 { Ok([y[1]]) } else { Err(undefined) };
+    let system = watched(turning, [Crossing::Either], event, |_, _, _: &State<2>| Ok(Action::Record));
+    let mut motion = dop853(system, (0.0, vector![1.0, 0.0]), 20.0, tolerance(1e-5)).unwrap();
+    assert_eq!(motion.finish(|_, _| true).unwrap_err(), undefined);
+    assert!(motion.t() < 5.0 && motion.t() > 4.0, "{}", motion.t());
 }
