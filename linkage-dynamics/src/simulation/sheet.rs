@@ -162,11 +162,17 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
 
     /// True if [J A] with these pivots is regular enough to be used itself.
     pub(super) fn is_regular(&self, pivots: &Column<T, U>) -> bool {
-        let pairs = pivots.iter().zip(&self.independent.pivots).zip(&self.vanishes);
-        pairs.fold(true, |all, ((pivot, edge), &vanishes)| {
-            let least = if vanishes { edge.abs() } else { edge.abs() * real(LEAST_PIVOT_RATIO) };
-            all & (pivot.abs() >= least)
-        })
+        self.is_as_regular(T::one(), pivots)
+    }
+
+    /// True if the product of the pivots that vanish is this fraction of that at the edges, and no other pivot too small.
+    /// Each of them alone may be smaller: where one is zero because of the order of elimination, another is infinite.
+    fn is_as_regular(&self, least: T, pivots: &Column<T, U>) -> bool {
+        let pairs = || pivots.iter().zip(&self.independent.pivots).zip(&self.vanishes);
+        let vanishing = pairs().filter(|(_, vanishes)| **vanishes);
+        let product = vanishing.fold(T::one(), |product, ((&pivot, &edge), _)| product * (pivot / edge).abs());
+        let mut others = pairs().filter(|(_, vanishes)| !**vanishes);
+        product >= least && others.all(|((pivot, edge), _)| pivot.abs() >= edge.abs() * real(LEAST_PIVOT_RATIO))
     }
 
     /// True if a position with these pivots is on the other side of the crossing than the first node.
@@ -292,7 +298,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         change.component_div(&independent.of(&self.scales.coordinates)).largest()
     }
 
-    /// The frame at the coordinates z of `q`: exact where [J A] is regular, else interpolated.
+    /// The frame at the coordinates z of `q`: exact where [J A] is regular and beyond the ends of the line, else
+    /// interpolated.
     ///
     /// # Errors
     /// The change-point error where the sheet is not known, that of a singular J beyond a dead point of z.
@@ -304,38 +311,45 @@ impl<S: Scene, W> Motion<'_, S, W> {
     ) -> Result<Frame<S>, MotionError> {
         let factors = self.factors(&sheet.independent, q);
         let pivots = factors.pivots();
+        let has_signs = sheet.has_signs(&pivots);
+        let exact = || self.exact_frame(&factors, q, rates);
         if sheet.is_regular(&pivots) {
-            if !sheet.has_signs(&pivots) {
-                return Err(self.singular_error(q));
-            }
-            return Ok(self.exact_frame(&factors, q, rates));
+            return if has_signs { Ok(exact()) } else { Err(self.singular_error(q)) };
         }
         let z = sheet.independent.of(&Self::column(q));
-        if S::V::COUNT == 1 {
+        let on = |line: &SheetOf<S>, factor: S::Scalar| {
+            let x = line.x(&z);
+            if x.abs() <= S::Scalar::one() {
+                return Some(Self::interpolated(line, x, factor));
+            }
+            // A motion begins on its sheet before the line, where another change point may be near.
+            (has_signs && line.is_as_regular(real(LEAST_PIVOT_RATIO), &pivots)).then(exact)
+        };
+        let frame = if S::V::COUNT == 1 {
             // There is one line.
             let speed = sheet.across.dot(rates);
-            return self.interpolated(sheet, &z, speed * speed).ok_or_else(|| self.change_point_error(q));
-        }
-        self.sheet_through(sheet, &z, rates)
-            .and_then(|moved| self.interpolated(&moved, &z, S::Scalar::one()))
-            .ok_or_else(|| self.change_point_error(q))
+            on(sheet, speed * speed)
+        } else {
+            self.sheet_through(sheet, &z, rates).and_then(|moved| on(&moved, S::Scalar::one()))
+        };
+        frame.ok_or_else(|| self.change_point_error(q))
     }
 
-    /// The frame at z on the line of a sheet, with its biases times a factor; `None` beyond the ends of the line.
-    fn interpolated(&self, sheet: &SheetOf<S>, z: &PerInput<S::Mechanism>, factor: S::Scalar) -> Option<Frame<S>> {
-        let x = sheet.x(z);
-        let is_known = x.abs() <= S::Scalar::one();
+    /// The frame at x on the line of a sheet, with its bias times a factor.
+    fn interpolated(sheet: &SheetOf<S>, x: S::Scalar, factor: S::Scalar) -> Frame<S> {
         let Node { q, basis, bias, .. } = sheet.at(x);
         let q = S::Mechanism::coordinates(q.unknowns, q.inputs);
-        is_known.then(|| Frame { q, basis, bias: bias * factor, is_interpolated: true })
+        Frame { q, basis, bias: bias * factor, is_interpolated: true }
     }
 
     /// True if the motion is beyond the interpolated part and moves away from the crossing.
     pub(super) fn leaves(&self, sheet: &SheetOf<S>, y: &StateColumn<S>) -> bool {
         let (q, rates) = Self::unpack(y);
         let z = sheet.independent.of(&Self::column(&q));
-        let is_leaving = sheet.x(&z) * sheet.across.dot(&rates) >= S::Scalar::zero();
-        is_leaving && sheet.is_regular(&self.factors(&sheet.independent, &q).pivots())
+        let x = sheet.x(&z);
+        let is_leaving = x * sheet.across.dot(&rates) >= S::Scalar::zero();
+        let is_beyond = || sheet.is_regular(&self.factors(&sheet.independent, &q).pivots());
+        is_leaving && (x.abs() > S::Scalar::one() || is_beyond())
     }
 
     /// The errors of interpolated values, from exact ones between the nodes and the crossing.
