@@ -23,7 +23,7 @@ const MOST_CHECKS: f64 = 64.0;
 struct End<S: Scene> {
     /// y on the constraints.
     projected: StateColumn<S>,
-    /// The same with the rates that the contacts keep.
+    /// y with the rates that the contacts keep.
     kept: StateColumn<S>,
     /// True if the modes of the contacts hold.
     holds: bool,
