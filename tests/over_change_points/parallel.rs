@@ -41,19 +41,22 @@ fn smooth_motions_are_those_of_a_rotor() {
         let (th, v, p) =
             (random.random_range(0.0..6.3_f64), random.random_range(-0.6..0.6_f64), random.random_range(0.0..6.3));
         let scene = Smooth { p, ..Smooth::default() };
-        let (inertia, w, t0, end) = (0.03, scene.w, scene.t0, 10.0);
+        let (inertia, w, t0) = (0.03, scene.w, scene.t0);
+        let times = [1.7, 3.1, 4.9, 6.4, 8.3, 10.0];
         let reference = move |position: f64, rate: f64| {
             let (th, v) = (th + position * (1.0 + th.abs()), v + rate * (2.0 + v.abs()));
-            let angle = th + (v + t0 * p.cos() / (inertia * w)) * end
-                - t0 / (inertia * w * w) * ((w * end + p).sin() - p.sin());
-            vec![angle, angle, 0.0]
+            let angle = |t: f64| {
+                let turned = t0 / (inertia * w * w) * ((w * t + p).sin() - p.sin());
+                th + (v + t0 * p.cos() / (inertia * w)) * t - turned
+            };
+            times.map(angle).into_iter().flat_map(|angle| [angle, angle, 0.0]).collect()
         };
         // An event of the user at each half turn from a random angle: it is located, and changes nothing. Its functions
         // have the error of the step, and the state is projected.
         let mark = random.random_range(0.0..3.0_f64);
         let motion = move |tolerance| {
             let q = CranksCoordinates { th, ph: 0.0, ps: th };
-            let motion = simulate(&scene, Start { t: 0.0, q, input_rates: v }, end, tolerance)?;
+            let motion = simulate(&scene, Start { t: 0.0, q, input_rates: v }, times[5], tolerance)?;
             let mut motion = motion.events(
                 [Crossing::Either],
                 |state| Ok([f64::sin(state.q.ps - mark)]),
@@ -62,9 +65,12 @@ fn smooth_motions_are_those_of_a_rotor() {
                     Ok(Then::GoOn)
                 },
             )?;
-            motion.finish(|_, _| true)?;
-            let q = motion.state().q;
-            Ok((vec![q.th, q.ps, q.ph], motion.passages().change_points))
+            let mut found = Vec::new();
+            for state in motion.at(times) {
+                let q = state?.q;
+                found.extend([q.th, q.ps, q.ph]);
+            }
+            Ok((found, motion.passages().change_points))
         };
         Case { motion: Box::new(motion), reference: Box::new(reference) }
     });

@@ -34,7 +34,6 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
         self.output = None;
         if t == self.state.t {
-            self.output = None;
             return Ok(Some(self.state));
         }
         let y = self.integration.state_within(t)?;

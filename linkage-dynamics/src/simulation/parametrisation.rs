@@ -60,7 +60,7 @@ pub enum AtSingularity {
 pub struct Passages {
     /// Changes of the independent coordinates, returns to the inputs included.
     pub exchanges: usize,
-    /// Change points passed.
+    /// Change points passed between the ends of steps: not those that one step passes there and back.
     pub change_points: usize,
 }
 
