@@ -85,7 +85,7 @@ fn a_spring_passes_zero_length() {
 fn a_damper_passes_zero_length() {
     let scene = Damped::default();
     let still = BeadCoordinates { y: 0.0 };
-    assert_eq!(scene.forces(0.0, &still, 0.5).unwrap().y, -0.4);
+    assert_eq!(scene.forces(0.0, &still, 0.5).unwrap().x, -0.4);
     assert_eq!(scene.power(0.0, &still, 0.5).unwrap().dissipated, 0.2);
     // y'' = -c y' from -1/2 with y' = 1: y = -1/2 + (1 - exp(-c t)) / c passes zero at t = 0.639.
     let start = Start { t: 0.0, q: BeadCoordinates { y: -0.5 }, input_rates: 1.0 };
