@@ -272,3 +272,56 @@ fn an_event_function_without_value_within_a_long_step_shortens_it() {
     assert_eq!(motion.finish(|_, _| true).unwrap_err(), undefined);
     assert!(motion.t() < 5.0 && motion.t() > 4.0, "{}", motion.t());
 }
+
+/// y' = 1, uncertain by a share of it up to t = 1/2.
+struct Uncertain {
+    share: f64,
+    largest: Option<f64>,
+}
+
+impl System for Uncertain {
+    type Scalar = f64;
+    type N = D<1>;
+    type Events = D<0>;
+    type Guards = D<0>;
+
+    fn rate(&mut self, t: f64, _: &Entries<1>) -> Result<Entries<1>, MotionError> {
+        if t < 0.5 {
+            self.largest = Some(self.share);
+        }
+        Ok([1.0].into())
+    }
+
+    fn events(&mut self, _: f64, _: &Entries<1>) -> Result<Entries<0>, MotionError> {
+        Ok([].into())
+    }
+
+    fn uncertainty(&mut self) -> Option<Entries<1>> {
+        self.largest.take().map(|error| [error].into())
+    }
+}
+
+/// The error that a system estimates is part of that of each step: its length times the error is at most the tolerance.
+#[test]
+fn the_uncertainty_of_a_rate_shortens_steps() {
+    let lengths = |share: f64| {
+        let system = Uncertain { share, largest: None };
+        let mut motion = dop853(system, (0.0, vector![0.0]), 1.0, tolerance(1e-6)).unwrap();
+        let (mut before, mut within, mut after) = (0.0, 0.0_f64, 0.0_f64);
+        motion
+            .finish(|step, _| {
+                let length = step.t - before;
+                let longest = if before < 0.5 { &mut within } else { &mut after };
+                *longest = longest.max(length);
+                before = step.t;
+                true
+            })
+            .unwrap();
+        (within, after)
+    };
+    let (within, after) = lengths(1e-4);
+    println!("{within:e} {after:e}");
+    // At most 1e-6 (1 + |y|) / 1e-4.
+    assert!(within < 0.015 && within > 0.002 && after > 0.1, "{within} {after}");
+    assert!(lengths(0.0).0 > 0.1);
+}
