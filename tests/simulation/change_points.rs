@@ -46,6 +46,23 @@ fn crossed_stays_crossed() {
     assert!(motion.state().q.theta > 40.0 && motion.state().q.psi < -40.0);
 }
 
+/// The estimated error of interpolated positions, about 1e-13, is part of the error of each step.
+#[test]
+fn at_the_finest_tolerance_steps_over_change_points_are_short() {
+    let scene = Rolling::default();
+    let q = FrameCoordinates { theta: 0.9, phi: -1.03, psi: -1.93 };
+    let q = scene.mechanism.solve(&q).unwrap().coordinates;
+    let [coarse, fine] = [1e-13, 3e-15].map(|tolerance| {
+        let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 6.0 }, 1.5, tolerance).unwrap();
+        motion.finish(|_, _| true).unwrap();
+        assert_eq!(motion.passages().change_points, 3);
+        motion.counts().accepted
+    });
+    println!("{coarse} {fine}");
+    // By the errors of the steps alone (1 / 0.03)^(1/8) = 1.5 times as many.
+    assert!(fine > 3 * coarse, "{coarse} {fine}");
+}
+
 #[test]
 fn parallel_stays_parallel_also_when_driven() {
     let (rolling, driven) = (Rolling::default(), Driven::default());
