@@ -122,6 +122,17 @@ fn change_points_near_each_other() {
                 torque: 1.583183644332486,
             },
         ),
+        // A step in the inputs passes a change point, and is repeated in other coordinates.
+        (
+            1e-4,
+            Spin {
+                b: 3.660738583817084,
+                theta: -2.649682629663485,
+                rate: -5.117652276160556,
+                j2: 2.737513295994984,
+                torque: 1.9034572104121246,
+            },
+        ),
     ];
     for (tolerance, spin) in spins {
         let Case { motion, reference } = spin.case();
