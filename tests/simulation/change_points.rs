@@ -3,8 +3,8 @@
 
 use linkage::integrate::{Crossing, Tolerance, dop853};
 use linkage::linkage;
-use linkage::simulation::{Start, Then, simulate};
-use linkage::{MotionError, Scene};
+use linkage::simulation::{AtSingularity, Start, Then, simulate};
+use linkage::{MotionError, PositionError, Scene};
 
 linkage! {
     /// A four-bar with a heavy crank, a parallelogram by default.
@@ -86,6 +86,24 @@ fn parallel_stays_parallel_also_when_driven() {
     println!("{:?} {:?}", motion.passages(), given.passages());
     assert!(motion.passages().change_points > 10);
     assert_eq!(given.passages().change_points, 9);
+}
+
+/// A driven parallelogram has no error of its steps, which become as long as the interval, over two change points.
+#[test]
+fn a_long_step_ends_at_the_first_change_point() {
+    let driven = Driven::default();
+    let q = FrameCoordinates { theta: 0.3, phi: 0.0, psi: 0.3 };
+    for end in [1.5, 2.0, 2.2, 4.1] {
+        let start = Start { t: 0.0, q, input_rates: 3.0 };
+        let mut motion = simulate(&driven, start, end, 1e-4).unwrap().at_singularity(AtSingularity::Stop);
+        let error = motion.finish(|_, _| true).unwrap_err();
+        let MotionError::Position(PositionError::Singular { regularity, .. }) = error else { panic!("{error}") };
+        assert!(regularity < 1e-10, "{error}");
+        assert!(motion.state().q.theta < 3.15);
+        let mut motion = simulate(&driven, start, end, 1e-4).unwrap();
+        motion.finish(|_, _| true).unwrap();
+        assert_eq!(motion.passages().change_points, ((3.0 * end + 0.3) / std::f64::consts::PI) as usize);
+    }
 }
 
 /// The crank is a little too short to take the rocker along: it swings, the more suddenly the nearer the frame is to a

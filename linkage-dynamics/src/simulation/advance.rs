@@ -19,6 +19,9 @@ const LONGEST_UNCHECKED: f64 = 0.5;
 /// The most checks in one step.
 const MOST_CHECKS: f64 = 64.0;
 
+/// Bisections to a singularity: to the rounding error of the time.
+const MOST_BISECTIONS: usize = 52;
+
 /// The end of a step.
 struct End<S: Scene> {
     /// y on the constraints.
@@ -54,9 +57,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             }
             let motion = self.integration.system();
             let q = S::parts(&step.state).q;
-            if matches!(motion.parametrisation, Parametrisation::Inputs) && !self.keeps_signs(step.t, &q) {
+            if matches!(motion.parametrisation, Parametrisation::Inputs)
+                && let Some(times) = self.sign_change(step.t, &q)
+            {
                 if self.at_singularity == AtSingularity::Stop {
-                    return Err(motion.singular_error(&q));
+                    return Err(motion.singular_error(&self.singularity(times)));
                 }
                 // The step passed a singularity: repeat it from its start in regular coordinates.
                 self.go_back()?;
@@ -143,33 +148,47 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         Ok(Some(state.changes().next().is_some()))
     }
 
-    /// True if the determinants of the groups have the signs of the start at the end `q` of a step in the inputs, and
-    /// between on a long one: a step that passes two change points has the same signs at both ends.
-    fn keeps_signs(&self, t: S::Scalar, q: &Coordinates<S>) -> bool {
-        let motion = self.integration.system();
-        let mechanism = motion.scene.mechanism();
-        let keeps = |q: &Coordinates<S>| {
-            let signs = mechanism.block_determinants(&mechanism.pose_at(q));
-            same_signs(self.signs.as_slice(), signs.as_slice())
-        };
-        if !keeps(q) {
-            return false;
-        }
+    /// The times around the first change of sign of the determinants of the groups in a step in the inputs, which ends at
+    /// `q`. They are compared between its ends too: a step that passes two change points has the same signs at both.
+    fn sign_change(&self, t: S::Scalar, q: &Coordinates<S>) -> Option<[S::Scalar; 2]> {
         let step = self.integration.cubic();
+        let (start, end) = step.interval();
+        let motion = self.integration.system();
         let way = motion.scaled_norm(&Motion::<S, W>::column(&S::parts(&step.way()).q));
         // NaN and infinity are errors of the step itself.
         let parts = (to_f64(way) / LONGEST_UNCHECKED).clamp(0.0, MOST_CHECKS);
-        let (start, end) = step.interval();
-        let mut part = 1.0;
+        let (mut part, mut last) = (1.0, start);
         while part < parts {
             let between = start + (end - start) * real(part / parts);
             let is_before = (t - between) * (end - start) > S::Scalar::zero();
-            if is_before && !keeps(&S::parts(&step.at(between)).q) {
-                return false;
+            if is_before && !self.has_signs(&S::parts(&step.at(between)).q) {
+                return Some([last, between]);
             }
+            last = between;
             part += 1.0;
         }
-        true
+        (!self.has_signs(q)).then_some([last, t])
+    }
+
+    /// True if the determinants of the groups have the signs of the start of the step.
+    fn has_signs(&self, q: &Coordinates<S>) -> bool {
+        let mechanism = self.integration.system().scene.mechanism();
+        let signs = mechanism.block_determinants(&mechanism.pose_at(q));
+        same_signs(self.signs.as_slice(), signs.as_slice())
+    }
+
+    /// The position between two times of the last step at which the signs of the determinants change.
+    fn singularity(&self, [mut before, mut after]: [S::Scalar; 2]) -> Coordinates<S> {
+        let step = self.integration.cubic();
+        for _ in 0..MOST_BISECTIONS {
+            let middle = before + (after - before) * real(0.5);
+            if self.has_signs(&S::parts(&step.at(middle)).q) {
+                before = middle;
+            } else {
+                after = middle;
+            }
+        }
+        S::parts(&step.at(before)).q
     }
 
     /// Repeats the last step in other coordinates than the inputs.
