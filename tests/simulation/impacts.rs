@@ -52,6 +52,22 @@ linkage! {
 }
 
 linkage! {
+    /// Two blocks in a row at a wall, on a slope.
+    mechanism Blocks {
+        param m1 = 1, m2 = 1, slope = 0, wide = 0.15, e = 1, wall = 1;
+        input x, u;
+        body first { mass m1; center (x, 0); }
+        body second { mass m2; center (x + u, 0); }
+        scene AtWall {
+            inertia;
+            gravity (slope, 0);
+            stop x in 0..9, restitution wall;
+            stop u in wide..9, restitution e;
+        }
+    }
+}
+
+linkage! {
     /// A double pendulum above a floor.
     mechanism Arm {
         param l1 = 1.4, l2 = 1.5, c1 = 0.5, c2 = 0.2, m1 = 0.6, j1 = 0.08, m2 = 0.4, j2 = 0.19, g = 9.81,
@@ -227,4 +243,99 @@ fn outputs_between_events_and_impacts() {
             assert_eq!(state.q.y, *y);
         }
     }
+}
+
+/// Block 1 strikes the wall, without rebound, while block 2 touches it and moves towards it: it is struck at the same
+/// time, before the slope pulls it from the wall. Block 2 leaves with e times its rate, and the gap grows at 0.05 m/s.
+#[test]
+fn an_impact_causes_another_one_at_the_same_time() {
+    let scene = AtWall { m1: 1.1, m2: 2.8, slope: 3.0, e: 0.5, wall: 0.0, ..AtWall::default() };
+    let q = BlocksCoordinates { x: 0.0, u: 0.15 };
+    let start = Start { t: 2.7, q, input_rates: BlocksInputs { x: -1.0, u: 0.9 } };
+    let mut motion = simulate(&scene, start, 3.7, 1e-9).unwrap();
+    assert_eq!(motion.state().rates.x, 0.0);
+    close("rate", motion.state().rates.u, 0.05, 1e-15);
+    motion.finish(|state, _| state.changes().count() == 0).unwrap();
+    let state = motion.state();
+    assert_eq!(state.t, 3.7, "{state:?}");
+    close("x", state.q.x, 1.5, 1e-9);
+    close("u", state.q.u, 0.2, 1e-9);
+}
+
+/// Without losses a block that comes strikes a lighter one against the wall again and again, here all at one time. The
+/// rates are those of the impacts one after the other. If it is a million times as heavy, these are
+/// 3141.
+#[test]
+fn impacts_at_one_time_between_a_wall_and_a_block() {
+    let start = || {
+        let q = BlocksCoordinates { x: 0.0, u: 0.15 };
+        Start { t: 0.0, q, input_rates: BlocksInputs { x: 0.1, u: -1.1 } }
+    };
+    for m2 in [1.0, 3.0, 100.0, 1e4] {
+        let scene = AtWall { m2, ..AtWall::default() };
+        let (mut ball, mut block, mut count) = (0.1_f64, -1.0_f64, 0);
+        while block < ball || ball < 0.0 {
+            count += 1;
+            if block < ball {
+                let mean = (ball + m2 * block) / (1.0 + m2);
+                (ball, block) = (2.0 * mean - ball, 2.0 * mean - block);
+            } else {
+                ball = -ball;
+            }
+        }
+        let motion = simulate(&scene, start(), 1.0, 1e-9).unwrap();
+        let rates = motion.state().rates;
+        println!("{m2}: {count} impacts, {ball} {block}");
+        // A rounding error of the block's rate is 2 m2 times as large in the ball's.
+        let allowed = 1e-15 * m2 * f64::from(count);
+        close("ball", rates.x, ball, allowed);
+        close("block", rates.x + rates.u, block, allowed);
+    }
+    let heavy = AtWall { m2: 1e6, ..AtWall::default() };
+    let error = simulate(&heavy, start(), 1.0, 1e-9).err().unwrap();
+    let MotionError::ContactWithoutEnd { scene: "AtWall", t: 0.0, .. } = error else { panic!("{error}") };
+}
+
+/// A ball bounces to rest on a table that is still or shaken, and leaves it where it falls faster than the ball. Times
+/// between a state and the one before it are never refused, and the ball is neither in the table nor above it at rest.
+#[test]
+fn a_ball_at_rest_is_on_its_table_at_all_times() {
+    // 64 ulps of the scale, 1 m.
+    const RESOLUTION: f64 = 64.0 * f64::EPSILON;
+    let mut rests = 0;
+    for (a, w, p) in
+        [(0.0, 1.0, 0.0), (0.02, 9.0, 0.3), (0.12, 10.0, 1.0), (0.08344340442466998, 13.770068880951563, 3.9)]
+    {
+        for (e, height) in [(0.0, 0.3), (0.05, 0.2), (0.5, 0.29), (0.3, 0.0)] {
+            let scene = Shaken { m: 1.7, e, a, w, p, ..Shaken::default() };
+            for tolerance in [1e-4, 1e-6, 1e-9, 1e-11] {
+                let start = || above(&scene, -0.7, height, 0.0);
+                let mut motion = simulate(&scene, start(), 2.2, tolerance).unwrap();
+                let mut last = *motion.state();
+                while let Some(state) = motion.advance().unwrap() {
+                    let gap = state.q.y - state.q.b;
+                    let let_go = state.changes().any(|(_, change)| change == Change::LetsGo);
+                    if let_go {
+                        rests += 1;
+                        assert!(gap.abs() < RESOLUTION, "{e} {a} at {tolerance:e}, t = {}: {gap:e}", state.t);
+                    }
+                    for part in 0..=8 {
+                        let t = last.t + (state.t - last.t) * f64::from(part) / 8.0;
+                        // The last state has been passed: the time before it is that of the step.
+                        let t = if part == 0 && t < state.t { t.next_up() } else { t };
+                        let there = motion.at([t.min(state.t)]).next().unwrap();
+                        let there = there.unwrap_or_else(|error| panic!("{e} {a} at {tolerance:e}, t = {t}: {error}"));
+                        let gap = there.q.y - there.q.b;
+                        assert!(gap > -tolerance, "{e} {a} at {tolerance:e}, t = {t}: {gap:e}");
+                        if there.mode("stop on y - b") == Some(Mode::AtLower) {
+                            assert!(gap.abs() < RESOLUTION, "{e} {a} at {tolerance:e}, t = {t}: {gap:e}");
+                        }
+                    }
+                    last = state;
+                }
+            }
+        }
+    }
+    println!("{rests} times let go");
+    assert!(rests > 20);
 }

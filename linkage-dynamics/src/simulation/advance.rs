@@ -53,13 +53,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             }
             let contacts = motion.contacts;
             let mut projected = motion.projected(step.t, &step.state)?;
-            if step.event.is_none() {
-                projected = match motion.on_stops(step.t, &projected, self.largest_deviation()) {
-                    Ok(projected) => projected,
-                    Err(MotionError::LeftStop { .. }) if self.is_repeated_shorter(is_new) => continue,
-                    Err(error) => return Err(error),
-                };
-            }
+            projected = match motion.on_stops(&contacts, step.t, &projected, self.largest_deviation()) {
+                Ok(projected) => projected,
+                Err(MotionError::LeftStop { .. }) if self.is_repeated_shorter(is_new) => continue,
+                // Later in a step, where an event may be that of the stop.
+                Err(MotionError::LeftStop { .. }) if step.event.is_some() => projected,
+                Err(error) => return Err(error),
+            };
+            let motion = self.integration.system();
             let (kept, holds) = motion.reviewed(&contacts, step.t, &projected)?;
             self.count_passage(&projected);
             let motion = self.integration.system();
@@ -67,7 +68,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 State { event: step.event.filter(|&event| event < W::Events::COUNT), ..motion.state(step.t, &kept)? };
             let corner = if holds { self.corner(step.t) } else { None };
             let result = match (step.event, corner) {
-                (Some(event), _) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
+                (Some(event), _) if event < W::Events::COUNT => self.happens(event, &mut state),
                 (None, Some(corner)) => self.cross(&corner, &mut state, &kept),
                 (None, None) if holds => {
                     state.kink = self.integration.system().corners.passed;
@@ -160,14 +161,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Applies the user's action at an event.
-    fn happens(&mut self, event: usize, state: &mut State<S>, projected: &StateColumn<S>) -> Result<(), MotionError> {
+    fn happens(&mut self, event: usize, state: &mut State<S>) -> Result<(), MotionError> {
         let motion = self.integration.system_mut();
         match motion.watch.at_event(event, state)? {
             Then::GoOn => {}
             Then::Stop => self.integration.stop(),
             Then::Restart(input_rates) => {
                 let y = motion.with_input_rates(&state.q, &input_rates.into())?;
-                let (after, changes) = motion.resumed(state.t, projected, &y)?;
+                let (after, changes) = motion.resumed(state.t, &y)?;
                 self.integration.restart(after)?;
                 self.note(state, changes);
             }

@@ -186,8 +186,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if !has_jump {
             return Ok((kicked, Column::repeat(None)));
         }
-        let unkicked = Self::pack(&Self::unpack(&kicked).0, &Self::unpack(y).1);
-        self.resumed(after, &unkicked, &kicked)
+        self.resumed(after, &kicked)
     }
 
     /// Projects y, and changes the free rates where a drive has jumped since: for steps that do not end at kinks.
@@ -282,7 +281,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     pub(super) fn cross_here(&mut self, corner: &Corner<S::Scalar>) -> Result<(), MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;
-        let y = motion.on_stops(t, &y, self.largest_deviation())?;
+        let y = motion.on_stops(&motion.contacts, t, &y, self.largest_deviation())?;
         let mut state = motion.state(t, &y)?;
         self.contacts = motion.contacts;
         self.failure = self.cross(corner, &mut state, &y).err();
