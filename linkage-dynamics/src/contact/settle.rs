@@ -67,7 +67,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // An impact may move another s towards a stop that it touches.
         while let Some(struck) = self.struck(&equations, &at_rest, is_together) {
             if impacts == MOST_IMPACTS {
-                let place = self.is_hit.iter().position(|&is_hit| is_hit).unwrap_or(0);
+                let place = struck.iter().position(|of| of.is_some()).unwrap_or(0);
                 let (scene, contact) = (equations.scene, equations.contacts[place].name);
                 return Err(MotionError::ContactWithoutEnd { scene, contact, t: to_f64(t) });
             }
@@ -176,7 +176,6 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             let Some(of) = &mut struck[place] else { continue };
             let rate = equations.contacts[place].rate(&equations.rates).0.abs();
             self.hardest[place] = self.hardest[place].max(rate);
-            self.is_hit[place] = true;
             if !of.restitution.is_zero() && of.restitution * rate <= least * self.hardest[place] {
                 of.restitution = T::zero();
                 has_ended = true;
@@ -236,8 +235,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                     let side = if of.inward > T::zero() { Mode::AtLower } else { Mode::AtUpper };
                     // A rate towards the stop, which no impulse has ended, is a rounding error. A flight from rest may be
                     // too short as well: a body rocks between two stops until it rests on both.
-                    let rests = of.restitution.is_zero()
-                        && (none || rate * of.inward < T::zero() || pushed[place] > T::zero() || too_short[place]);
+                    let away = rate * of.inward;
+                    let rests = away < T::zero()
+                        || (of.restitution.is_zero() && (none || pushed[place] > T::zero() || too_short[place]));
+                    let towards = equations.contacts[place].rate(&equations.rates).0 * of.inward;
+                    self.is_hit[place] |= at_rest[place].is_none() && towards < T::zero() && away > towards;
                     at_rest[place] = rests.then_some(side);
                     self.modes[place] = if rests { side } else { Mode::Open };
                 }
