@@ -296,8 +296,8 @@ fn impacts_at_one_time_between_a_wall_and_a_block() {
 }
 
 /// A ball bounces to rest on a table that is still or shaken, and leaves it where it falls faster than the ball, or just
-/// as fast: the largest acceleration of some tables is g, so that the load of the ball falls to a rounding error. Times
-/// after the last state are never refused, and the ball is neither in the table nor, at rest, above it.
+/// as fast: the largest acceleration of some tables is g, so that the load of the ball falls to a rounding error. Each time
+/// after the last state has a state, and the ball is neither in the table nor, at rest, above it.
 #[test]
 fn a_ball_at_rest_is_on_its_table_at_all_times() {
     // 64 ulps of 4 m, which no coordinate exceeds.
