@@ -32,9 +32,6 @@ const LENIENT: f64 = 0.1;
 /// The most steps of a simulation.
 const MOST_STEPS: usize = 10_000;
 
-/// The mark of errors at the time of a collapse.
-pub const AT_A_COLLAPSE: &str = " at a collapse";
-
 /// The coordinates and rates of a scene at one time.
 pub type Observed = (Vec<f64>, Vec<f64>);
 
@@ -63,7 +60,6 @@ pub struct Counts {
     pub lenient: usize,
     pub lenient_runs: usize,
     pub collapsed: usize,
-    pub ordered: usize,
     pub beyond: usize,
     pub errors: BTreeMap<String, usize>,
     pub not_followed: BTreeMap<String, usize>,
@@ -108,7 +104,7 @@ fn compare<F: Family>(family: &F, number: u64, random: &mut SmallRng, counts: &m
     if std::env::var("ONLY").is_ok() {
         println!("oracle: {:?}", exact.events);
     }
-    let [collapse, second] = [exact.collapse, exact.second].map(|time| time.unwrap_or(f64::INFINITY));
+    let collapse = exact.collapse.unwrap_or(f64::INFINITY);
     let exact = observed(&model, &times, &exact);
     let sizes = sizes::<F>(&model, &start, &exact);
     let kicks: Vec<Kick> = (0..DIRECTIONS)
@@ -140,8 +136,7 @@ fn compare<F: Family>(family: &F, number: u64, random: &mut SmallRng, counts: &m
             Ok(found) => found,
             Err(error) => {
                 println!("{} {number} at {tolerance:e}: {error} (collapse {collapse}) {family:?}", F::NAME);
-                let at = if is_at(&error, collapse) { AT_A_COLLAPSE } else { "" };
-                *counts.errors.entry(kind(&error) + at).or_default() += 1;
+                *counts.errors.entry(kind(&error)).or_default() += 1;
                 continue;
             }
         };
@@ -171,10 +166,6 @@ fn compare<F: Family>(family: &F, number: u64, random: &mut SmallRng, counts: &m
                     }
                     if error > bound && times[at] >= collapse {
                         counts.collapsed += 1;
-                        continue;
-                    }
-                    if error > bound && times[at] >= second {
-                        counts.ordered += 1;
                         continue;
                     }
                     counts.largest = counts.largest.max(error / bound);
@@ -221,13 +212,6 @@ pub fn states<'a, S: Scene<Scalar = f64> + 'a>(
         .at(times.iter().copied())
         .map(|state| state.map(|state| observed(&state)))
         .collect()
-}
-
-/// True for an error at the time of a collapse, which its message says: contacts change within the rounding error of the time.
-fn is_at(error: &MotionError, collapse: f64) -> bool {
-    let text = format!("{error:?}");
-    let time = text.split("t: ").nth(1).and_then(|rest| rest.split([',', ' ', '}']).next()?.parse::<f64>().ok());
-    text.starts_with("ContactWithoutEnd") && time.is_some_and(|time| (time - collapse).abs() < 1e-3)
 }
 
 fn kind(error: &MotionError) -> String {

@@ -7,28 +7,30 @@
 //!
 //! The oracle has other coordinates than the scene, and finds accelerations and impacts by trying all combinations
 //! of modes. The allowed error is a thousand tolerances of the size, or of what a start that is moved by a
-//! tolerance changes in the oracle: see `compare`. Three cases are counted, not asserted:
+//! tolerance changes in the oracle: see `compare`. Two cases are counted, not asserted:
 //! - *lenient*: a start moved by a thousand tolerances changes the result by more than a tenth of its size;
 //! - *collapsed*: a body has rattled between two others, so that infinitely many impacts end at one time, within
-//!   the rounding error of which the last impacts have any order;
-//! - *ordered*: an impact has caused another one at the same time, and a stop between them may be let go before it
-//!   or not.
+//!   the rounding error of which the last impacts have any order.
 //!
 //! 10 002 scenes, 30 006 simulations:
 //!
-//! | family | runs | events in the oracle | numbers compared | by sensitivity | lenient | collapsed | ordered | beyond | largest ratio | typed errors |
-//! |---|---|---|---|---|---|---|---|---|---|---|
-//! | table | 5001 | 21240 | 260052 | 52 | 31 | 0 | 0 | 0 | 0.89 | none |
-//! | belt | 5001 | 9003 | 260052 | 186 | 5 | 0 | 0 | 0 | 0.99 | none |
-//! | carts | 5001 | 33606 | 390000 | 266 | 1 | 188 | 0 | 0 | 0.94 | ContactWithoutEnd: 1 |
-//! | sliders | 5001 | 32962 | 390078 | 682 | 70 | 335 | 140 | 0 | 1.00 | none |
-//! | crank | 5001 | 12519 | 388206 | 20 | 0 | 0 | 0 | 0 | 0.99 | StepTooSmall: 24 |
-//! | pendulum | 5001 | 16565 | 260052 | 36 | 0 | 0 | 0 | 0 | 0.98 | none |
+//! | family | runs | events in the oracle | numbers compared | by sensitivity | lenient | collapsed | beyond | largest ratio | typed errors |
+//! |---|---|---|---|---|---|---|---|---|---|
+//! | table | 5001 | 21240 | 260052 | 13 | 0 | 0 | 0 | 0.40 | none |
+//! | belt | 5001 | 9003 | 260052 | 186 | 5 | 0 | 0 | 0.99 | none |
+//! | carts | 5001 | 33606 | 390078 | 215 | 1 | 152 | 0 | 0.99 | none |
+//! | sliders | 5001 | 32962 | 390078 | 92 | 26 | 19 | 0 | 1.00 | none |
+//! | crank | 5001 | 12519 | 390078 | 20 | 0 | 0 | 0 | 0.99 | none |
+//! | pendulum | 5001 | 16565 | 260052 | 35 | 0 | 0 | 0 | 1.00 | none |
 //!
 //! *By sensitivity* are the numbers whose error exceeds a thousand tolerances of their size; the ratio is that of an error to
-//! its bound. The typed errors, 25 in all, are faults, so that slider-cranks exceed one in a thousand at this size:
-//! `StepTooSmall` of cranks at rest at a dead point with friction on the slider; `ContactWithoutEnd` just before a
-//! collapse.
+//! its bound. These motions can all go on, so that each typed error is a fault.
+//!
+//! The lenient numbers are of belts 128, 186, carts 1562 and sliders 18, 288, 932: their errors are at most ten times what a
+//! start changes that is moved by one tolerance. The collapsed ones are of five scenes. In carts 254 the last impacts of
+//! the series are 2e-13 s apart, at a gap of 9e-15 m, which is below the resolution of the places, so that they are one
+//! event. Carts 749 and sliders 513, 1121, 1189 differ at 1e-11 only, by 3e-7 m/s or less: there the series ends where its
+//! rates are sqrt(epsilon) of the greatest.
 //!
 //! ```text
 //! SCENES=10000 cargo test --release --all-features --test event_loop -- --nocapture
@@ -43,19 +45,14 @@ mod pendulum;
 mod sliders;
 mod table;
 
-use compare::{AT_A_COLLAPSE, Family, compared};
+use compare::{Family, compared};
 
 /// The number of scenes of each family, without `SCENES`.
-const SCENES: usize = 18;
-
-/// The largest share of typed errors, other than of collapses.
-const MOST_ERRORS: f64 = 1e-3;
+const SCENES: usize = 30;
 
 fn check<F: Family>() {
     let counts = compared::<F>(SCENES);
-    assert_eq!((counts.beyond, counts.not_followed.len()), (0, 0), "{counts:?}");
-    let errors = counts.errors.iter().filter(|(kind, _)| !kind.ends_with(AT_A_COLLAPSE)).map(|(_, &count)| count);
-    assert!(errors.sum::<usize>() as f64 <= MOST_ERRORS * counts.runs as f64, "{counts:?}");
+    assert_eq!((counts.beyond, counts.errors.len(), counts.not_followed.len()), (0, 0, 0), "{counts:?}");
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! The change of a contact at an event.
 
-use super::reduced::ReducedEquations;
+use super::Mode;
 use super::state::Contacts;
-use super::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real};
 
 /// The change of a contact at an event.
@@ -21,23 +20,11 @@ pub enum Change {
     LetsGo,
 }
 
-/// Returns the change of each contact between two states at the same time, in the order of the scene.
-pub(crate) fn changes<T: Real, V: Dim, C: Dim>(
-    (before, of_before): (&Contacts<T, C>, &ReducedEquations<T, V, C>),
-    (after, of_after): (&Contacts<T, C>, &ReducedEquations<T, V, C>),
-) -> Column<Option<Change>, C> {
-    Column::from_fn(|place| match (before.modes[place], after.modes[place]) {
-        // A hit with a rebound does not change the mode, only the sign of the rate.
-        (Mode::Open, Mode::Open) => {
-            let contact = &of_before.contacts[place];
-            let ContactLaw::Stop { lower, upper, .. } = contact.law else { return None };
-            let (side, gap, tolerance) = before.nearest(place, contact, [lower, upper]);
-            let inward = side.inward::<T>();
-            let (towards, away) =
-                (contact.rate(&of_before.rates).0 * inward, of_after.contacts[place].rate(&of_after.rates).0 * inward);
-            let is_hit = gap <= tolerance && towards < T::zero() && away > towards;
-            is_hit.then_some(Change::Impact)
-        }
+/// Returns the change of each contact from modes before an event to its state after it, in the order of the scene.
+pub(crate) fn changes<T: Real, C: Dim>(before: &Column<Mode, C>, after: &Contacts<T, C>) -> Column<Option<Change>, C> {
+    Column::from_fn(|place| match (before[place], after.modes[place]) {
+        // A hit with a rebound does not change the mode.
+        (Mode::Open, Mode::Open) => after.is_hit[place].then_some(Change::Impact),
         (before, after) if before == after => None,
         (_, Mode::Stick) => Some(Change::Sticks),
         (_, Mode::SlipForward | Mode::SlipBackward) => Some(Change::Slips),

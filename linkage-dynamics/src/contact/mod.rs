@@ -6,7 +6,8 @@
 //! - friction slips with f = -sign(s') limit, or sticks: s'' = 0 with |f| <= limit;
 //! - a stop is open with f = 0, or s rests on it: s'' = 0 with f directed away from the stop;
 //! - at an impact with a stop s'+ = -e s'-; stops that are closed at that time transmit impulses too, so that none is
-//!   penetrated. **Impulses of friction at an impact are neglected.**
+//!   penetrated. If s then moves towards another stop that it touches, this one is hit at the same time. **Impulses of
+//!   friction at an impact are neglected.**
 //!
 //! [`Contacts`] stores the [`Mode`] of each. At an event the modes of all contacts with s' = 0 follow from one
 //! complementarity problem: its bounded forces minimise a convex function, so that v'' is unique, however many joints

@@ -7,19 +7,25 @@ use super::reduced::{ReducedContact, ReducedEquations};
 use super::state::{Contacts, ZERO_ULPS, is_negligible, slip_or_stick};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
+use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Column, Dim, Real, real};
 
 /// A rebound that takes less than this many ulps of the time is treated as rest.
 const SHORTEST_FLIGHT_ULPS: f64 = 64.0;
+
+/// The most impacts that cause each other at one time. A body of mass m between a wall and one of mass M, which comes
+/// nearer, is in pi sqrt(M / m) impacts without losses: in this many if M is 100 000 m. With losses the rates fall until
+/// all rest.
+const MOST_IMPACTS: usize = 1000;
 
 impl<T: Real, C: Dim> Contacts<T, C> {
     /// Applies impacts and finds the new modes at a state where an event function has just fallen through zero. Returns
     /// the rates v' after the event. `evaluate` computes the equations of this state with other rates v'.
     ///
     /// # Errors
-    /// [`MotionError::NoContactForces`] if no contact forces satisfy a prescribed motion, and those of `evaluate`. With a
-    /// [`Bearing`](ContactLaw::Bearing) [`MotionError::NoMotion`], [`MotionError::SeveralMotions`] or
-    /// [`MotionError::UndecidedMotion`].
+    /// [`MotionError::NoContactForces`] if no contact forces satisfy a prescribed motion, those of `evaluate`, and
+    /// [`MotionError::ContactWithoutEnd`] after 1000 impacts. With a [`Bearing`](ContactLaw::Bearing)
+    /// [`MotionError::NoMotion`], [`MotionError::SeveralMotions`] or [`MotionError::UndecidedMotion`].
     pub fn settle<V: Dim>(
         &mut self,
         t: T,
@@ -56,9 +62,22 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // A contact that is released from rest begins with s' = 0, without the error of the step. One that goes on
         // slipping keeps its rate, however small: s' passes zero at a dead centre while the mechanism moves.
         let mut resting = self.modes;
-        if let Some(struck) = self.struck(&equations, &at_rest, is_together) {
+        self.is_hit = Column::repeat(false);
+        let mut impacts = 0;
+        // An impact may move another s towards a stop that it touches.
+        while let Some(struck) = self.struck(&equations, &at_rest, is_together) {
+            if impacts == MOST_IMPACTS {
+                let place = struck.iter().position(|of| of.is_some()).unwrap_or(0);
+                let (scene, contact) = (equations.scene, equations.contacts[place].name);
+                return Err(MotionError::ContactWithoutEnd { scene, contact, t: to_f64(t) });
+            }
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
             resting = Column::repeat(Mode::Open);
+            impacts += 1;
+            // Without rebound nothing is approached after one impact.
+            if is_together {
+                break;
+            }
         }
         self.choose(&equations, &at_rest)?;
         self.leave_dead_centres(&equations, &mut evaluate)?;
@@ -71,16 +90,15 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(equations.rates)
     }
 
-    /// Lets a friction slip that no force along s can hold, since ds/dv = 0: at rest at a dead centre s moves with
-    /// s'' = 0 first, then by its quadratic term, s = b(v'') t^4 / 8.
+    /// Lets a friction slip, or s leave its stop, where no force along s can hold it, since ds/dv = 0: at rest at a dead
+    /// centre s moves with s'' = 0 first, then by its quadratic term, s = b(v'') t^4 / 8.
     fn leave_dead_centres<V: Dim>(
         &mut self,
         equations: &ReducedEquations<T, V, C>,
         evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
     ) -> Result<(), MotionError> {
-        let is_dead = |(mode, contact): (&Mode, &ReducedContact<T, V>)| {
-            *mode == Mode::Stick && contact.row.iter().all(T::is_zero)
-        };
+        let is_dead =
+            |(mode, contact): (&Mode, &ReducedContact<T, V>)| mode.is_held() && contact.row.iter().all(T::is_zero);
         if equations.has_bearings() || !self.modes.iter().zip(&equations.contacts).any(is_dead) {
             return Ok(());
         }
@@ -88,9 +106,15 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         for (place, mode) in self.modes.iter_mut().enumerate() {
             let contact = &equations.contacts[place];
             let bend = later.contacts[place].bias - contact.bias;
-            if is_dead((mode, contact)) && !bend.is_zero() {
-                *mode = if bend > T::zero() { Mode::SlipForward } else { Mode::SlipBackward };
+            if bend.is_zero() || !is_dead((mode, contact)) {
+                continue;
             }
+            *mode = match *mode {
+                Mode::Stick if bend > T::zero() => Mode::SlipForward,
+                Mode::Stick => Mode::SlipBackward,
+                stop if bend * stop.inward() > T::zero() => Mode::Open,
+                stop => stop,
+            };
         }
         Ok(())
     }
@@ -137,7 +161,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         hit.then_some(struck)
     }
 
-    /// Applies an impact: returns the equations at the rates after it, and updates the contacts at rest.
+    /// Applies an impact: returns the equations at the rates after it, and updates the contacts at rest and those hit.
     fn strike<V: Dim>(
         &mut self,
         t: T,
@@ -147,13 +171,18 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
     ) -> Result<ReducedEquations<T, V, C>, MotionError> {
         let least = T::default_epsilon().sqrt();
+        let mut has_ended = false;
         for place in (0..C::COUNT).filter(|&place| at_rest[place].is_none()) {
             let Some(of) = &mut struck[place] else { continue };
             let rate = equations.contacts[place].rate(&equations.rates).0.abs();
             self.hardest[place] = self.hardest[place].max(rate);
-            if of.restitution * rate <= least * self.hardest[place] {
+            if !of.restitution.is_zero() && of.restitution * rate <= least * self.hardest[place] {
                 of.restitution = T::zero();
+                has_ended = true;
             }
+        }
+        if has_ended {
+            self.join_touched(equations, &mut struck);
         }
         let After { rates, .. } = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
@@ -178,6 +207,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 has_ended = true;
             }
         }
+        if has_ended {
+            self.join_touched(equations, &mut struck);
+        }
         let mut pushed = Column::zeros();
         if has_ended || struck.iter().flatten().any(|of| of.restitution.is_zero()) {
             let After { rates, impulses } = impact(equations, &struck)?;
@@ -193,11 +225,21 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                     at_rest[place] = none.then_some(Mode::Stick);
                     self.modes[place] = slip_or_stick((rate, size));
                 }
-                ContactLaw::Stop { .. } => {
-                    let Some(of) = struck[place] else { continue };
+                ContactLaw::Stop { lower, upper, .. } => {
+                    let Some(of) = struck[place] else {
+                        // It was being left before the impact.
+                        let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
+                        at_rest[place] = (none && gap <= tolerance).then_some(side);
+                        continue;
+                    };
                     let side = if of.inward > T::zero() { Mode::AtLower } else { Mode::AtUpper };
-                    // A flight from rest may be too short as well: a body rocks between two stops until it rests on both.
-                    let rests = of.restitution.is_zero() && (none || pushed[place] > T::zero() || too_short[place]);
+                    // A rate towards the stop, which no impulse has ended, is a rounding error. A flight from rest may be
+                    // too short as well: a body rocks between two stops until it rests on both.
+                    let away = rate * of.inward;
+                    let rests = away < T::zero()
+                        || (of.restitution.is_zero() && (none || pushed[place] > T::zero() || too_short[place]));
+                    let towards = equations.contacts[place].rate(&equations.rates).0 * of.inward;
+                    self.is_hit[place] |= at_rest[place].is_none() && towards < T::zero() && away > towards;
                     at_rest[place] = rests.then_some(side);
                     self.modes[place] = if rests { side } else { Mode::Open };
                 }
@@ -208,6 +250,17 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             after.rates = Held::new(&after, &resting)?.rates(&after);
         }
         Ok(after)
+    }
+
+    /// Lets all stops that s touches take part in an impact, those that were not hit without rebound: where a series of
+    /// impacts ends, a body that struck two stops in turn is pressed to both.
+    fn join_touched<V: Dim>(&self, equations: &ReducedEquations<T, V, C>, struck: &mut Column<Option<Struck<T>>, C>) {
+        for (place, of) in struck.iter_mut().enumerate().filter(|(_, of)| of.is_none()) {
+            let contact = &equations.contacts[place];
+            let ContactLaw::Stop { lower, upper, .. } = contact.law else { continue };
+            let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
+            *of = (gap <= tolerance).then(|| Struck { inward: side.inward(), restitution: T::zero() });
+        }
     }
 
     /// Chooses the modes of the contacts at rest: held by a force within its bounds, or released.

@@ -35,6 +35,8 @@ pub struct Contacts<T: Real, C: Dim> {
     pub(super) hardest: Column<T, C>,
     /// The error of each s where it exceeds the rounding error of its value, else zero.
     pub(super) resolution: Column<T, C>,
+    /// True for each stop that was hit when the contacts settled last.
+    pub(super) is_hit: Column<bool, C>,
 }
 
 /// The accelerations, and the forces of the contacts.
@@ -149,7 +151,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// Contacts in given modes, for [`motion`](Self::motion) at one state.
     #[must_use]
     pub fn in_modes(modes: Column<Mode, C>) -> Self {
-        Self { modes, hardest: Column::zeros(), resolution: Column::zeros() }
+        Self { modes, hardest: Column::zeros(), resolution: Column::zeros(), is_hit: Column::repeat(false) }
     }
 
     /// All contacts open.
@@ -269,8 +271,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(values)
     }
 
-    /// The event functions as guards; the rate is known for open stops. A contact that slips does so until s' is
-    /// negative beyond its rounding error: where slip begins, s' is zero within rounding error for some time.
+    /// The event functions as guards; the rate is known for open stops. Where slip begins, or where s leaves a stop without
+    /// load, s' and the gap are zero within rounding error for some time: a contact slips until s' is negative beyond its
+    /// rounding error, and a stop that is touched is hit where s' is negative beyond it.
     pub(crate) fn guards<V: Dim>(
         &self,
         equations: &ReducedEquations<T, V, C>,
@@ -281,8 +284,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             let (rate, size) = contact.rate(&equations.rates);
             match (self.modes[place], contact.law) {
                 (Mode::Open, ContactLaw::Stop { lower, upper, .. }) => {
-                    let (side, _) = nearer(contact, lower, upper);
-                    Guard { value: values[place], rate: Some(rate * side.inward()) }
+                    let (side, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
+                    let rate = if is_negligible((rate, size)) { T::zero() } else { rate * side.inward() };
+                    let is_touched = rate >= T::zero() && gap.abs() <= tolerance;
+                    Guard { value: if is_touched { gap.max(T::zero()) } else { gap }, rate: Some(rate) }
                 }
                 (Mode::SlipForward | Mode::SlipBackward, _) => {
                     Guard { value: values[place] + sum_tolerance(size), rate: None }

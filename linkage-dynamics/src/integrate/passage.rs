@@ -204,3 +204,19 @@ pub(super) fn may_pass(samples: [[f64; 2]; 5]) -> bool {
         minimum.is_none_or(|x| is_accurate(course.at(x))) && course.is_positive(more)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Course;
+
+    /// The function 1 - 16 E x^2 (1 - x)^2 has its minimum 1 - E at the middle; its cubic is 1.
+    #[test]
+    fn a_function_below_its_cubic_by_the_error_is_not_positive() {
+        for error in [0.1, 0.9, 0.99] {
+            assert!(Course::new([1.0, 0.0], [1.0, 0.0], error).is_positive([0.0; 5]), "{error}");
+        }
+        for error in [1.01, 1.1, 1.9] {
+            assert!(!Course::new([1.0, 0.0], [1.0, 0.0], error).is_positive([0.0; 5]), "{error}");
+        }
+    }
+}

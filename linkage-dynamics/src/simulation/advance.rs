@@ -68,17 +68,21 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 continue;
             }
             let contacts = motion.contacts;
-            let end = match self.end_of(&step, &contacts) {
+            let is_long = is_new && self.is_long();
+            let end = match self.end_of(&step, &contacts, is_long) {
                 Ok(end) => end,
                 // It may be too far from the constraints, from a held stop or from a change point.
-                Err(_) if self.is_repeated_shorter(is_new) => continue,
+                Err(_) if is_long => {
+                    self.repeat_shorter();
+                    continue;
+                }
                 Err(error) => return Err(error),
             };
             let End { projected, kept, holds, mut state } = end;
             self.count_passage(&projected);
             let corner = if holds { self.corner(step.t) } else { None };
             let result = match (step.event, corner) {
-                (Some(event), _) if event < W::Events::COUNT => self.happens(event, &mut state, &kept),
+                (Some(event), _) if event < W::Events::COUNT => self.happens(event, &mut state),
                 (None, Some(corner)) => self.cross(&corner, &mut state, &kept),
                 (None, None) if holds => {
                     state.kink = self.integration.system().corners.passed;
@@ -102,17 +106,21 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
     }
 
-    /// The end of a step, or the event within it, on the constraints and on the stops that were held in the step.
+    /// The end of a step, or the event within it, on the constraints and on the stops that were held in the step; `is_long`
+    /// if it can be repeated with a shorter length.
     fn end_of(
         &self,
         step: &Step<S::Scalar, S::State>,
         contacts: &Contacts<S::Scalar, S::Contacts>,
+        is_long: bool,
     ) -> Result<End<S>, MotionError> {
         let motion = self.integration.system();
-        let mut projected = motion.projected(step.t, &step.state)?;
-        if step.event.is_none() {
-            projected = motion.on_stops(step.t, &projected, self.largest_deviation())?;
-        }
+        let projected = motion.projected(step.t, &step.state)?;
+        let projected = match motion.on_stops(contacts, step.t, &projected, self.largest_deviation()) {
+            // The event may be that of the stop.
+            Err(MotionError::LeftStop { .. }) if step.event.is_some() && !is_long => projected,
+            on_stops => on_stops?,
+        };
         let (kept, holds) = motion.reviewed(contacts, step.t, &projected)?;
         let event = step.event.filter(|&event| event < W::Events::COUNT);
         let state = State { event, ..motion.state(step.t, &kept)? };
@@ -202,14 +210,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Applies the user's action at an event.
-    fn happens(&mut self, event: usize, state: &mut State<S>, projected: &StateColumn<S>) -> Result<(), MotionError> {
+    fn happens(&mut self, event: usize, state: &mut State<S>) -> Result<(), MotionError> {
         let motion = self.integration.system_mut();
         match motion.watch.at_event(event, state)? {
             Then::GoOn => {}
             Then::Stop => self.integration.stop(),
             Then::Restart(input_rates) => {
                 let y = motion.with_input_rates(&state.q, &input_rates.into())?;
-                let (after, changes) = motion.resumed(state.t, projected, &y)?;
+                let (after, changes) = motion.resumed(state.t, &y)?;
                 self.integration.restart(after)?;
                 self.note(state, changes);
             }

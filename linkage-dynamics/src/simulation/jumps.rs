@@ -186,8 +186,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if !has_jump {
             return Ok((kicked, Column::repeat(None)));
         }
-        let unkicked = Self::pack(&Self::unpack(&kicked).0, &Self::unpack(y).1);
-        self.resumed(after, &unkicked, &kicked)
+        self.resumed(after, &kicked)
     }
 
     /// Projects y, and changes the free rates where a drive has jumped since: for steps that do not end at kinks.
@@ -238,18 +237,20 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         false
     }
 
-    /// Repeats the last step with a quarter of its length, if it is not as short as the rounding error of the time.
-    pub(super) fn is_repeated_shorter(&mut self, is_new: bool) -> bool {
-        let [(from, y), (to, _)] = self.integration.last_step();
+    /// True if the last step is longer than the rounding error of the time.
+    pub(super) fn is_long(&self) -> bool {
+        let [(from, _), (to, _)] = self.integration.last_step();
         let least = from.abs().max(to.abs()) * S::Scalar::default_epsilon() * real(4.0 * LEAST_JUMP_ULPS);
-        let is_long = is_new && (to - from).abs() > least;
-        if is_long {
-            self.integration.go_back(from, y);
-            self.integration.limit_next(0.25 * to_f64(to - from).abs());
-            self.integration.system_mut().corners.forget_approach();
-            self.is_prepared = true;
-        }
-        is_long
+        (to - from).abs() > least
+    }
+
+    /// Repeats the last step with a quarter of its length.
+    pub(super) fn repeat_shorter(&mut self) {
+        let [(from, y), (to, _)] = self.integration.last_step();
+        self.integration.go_back(from, y);
+        self.integration.limit_next(0.25 * to_f64(to - from).abs());
+        self.integration.system_mut().corners.forget_approach();
+        self.is_prepared = true;
     }
 
     /// The change of a law at this time, if a step has ended there.
@@ -280,7 +281,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     pub(super) fn cross_here(&mut self, corner: &Corner<S::Scalar>) -> Result<(), MotionError> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;
-        let y = motion.on_stops(t, &y, self.largest_deviation())?;
+        let y = motion.on_stops(&motion.contacts, t, &y, self.largest_deviation())?;
         let mut state = motion.state(t, &y)?;
         self.contacts = motion.contacts;
         self.failure = self.cross(corner, &mut state, &y).err();

@@ -6,7 +6,7 @@ use super::watch::Watch;
 use crate::integrate::Method;
 use crate::{MotionError, Scene};
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::InputError;
+use linkage_runtime::{InputError, real};
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     pub(super) fn output(&mut self, t: S::Scalar) -> Result<Option<State<S>>, MotionError> {
@@ -39,6 +39,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let y = self.integration.state_within(t)?;
         let motion = self.integration.system();
         let projected = motion.projected(t, &y)?;
+        // Without a limit: it holds at the ends of the step.
+        let projected = motion.on_stops(&self.contacts, t, &projected, real(f64::INFINITY))?;
         let (projected, _) = motion.reviewed(&self.contacts, t, &projected)?;
         let mut state = motion.state(t, &projected)?;
         for (touch, mode) in state.contacts.iter_mut().zip(self.contacts.modes) {

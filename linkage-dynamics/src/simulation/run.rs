@@ -282,8 +282,10 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// [`MotionError::ChangePoint`] where the motion cannot be followed, and those of [`Integration::advance`]. After
     /// an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
+        let before = self.state.t;
         while let Some(has_changed) = self.advance_within()? {
-            if has_changed {
+            // Also at an event that changes nothing: the motion restarts there, and no state before it remains.
+            if has_changed || self.state.t != before {
                 return Ok(Some(self.state));
             }
         }

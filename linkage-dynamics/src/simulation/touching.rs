@@ -40,23 +40,24 @@ impl<S: Scene, W> Motion<'_, S, W> {
         }
     }
 
-    /// The contacts with s and s' only, without derivatives by the coordinates: no equations of motion are needed.
+    /// The contacts with s and s' only, in the rates of all inputs, those of u as drift: no equations of motion are
+    /// needed.
     pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
         let t = self.beside(t);
-        let (q, rates) = Self::unpack(y);
+        let (q, _) = Self::unpack(y);
         let velocity = self.velocity(y)?;
         let rates_of_all = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let contacts = self.scene.contacts(t, &q, &rates_of_all)?.map(|contact| ReducedContact {
             name: contact.name,
             value: contact.along.value,
-            row: Column::zeros(),
-            drift: contact.along.unknowns.dot(&velocity.unknowns) + contact.along.inputs.dot(&velocity.inputs),
+            row: contact.along.inputs,
+            drift: contact.along.unknowns.dot(&velocity.unknowns),
             bias: S::Scalar::zero(),
             law: contact.law,
         });
         let coordinates = Column::from_fn(|input| coordinate_name::<S::Mechanism>(S::U::COUNT + input));
         let (mass, forces) = (Matrix::identity(), Column::zeros());
-        let bearings = Column::repeat(None);
+        let (rates, bearings) = (velocity.inputs, Column::repeat(None));
         Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts, bearings })
     }
 
@@ -104,32 +105,21 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Applies a contact event at this state; returns y after it and the change of each contact.
     pub(super) fn settled(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
-        self.changed(t, y, y, Settling::AtEvent)
+        self.changed(t, y, Settling::AtEvent)
     }
 
     /// Applies one impact without rebound to all stops that are touched.
     pub(super) fn settled_together(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
-        self.changed(t, y, y, Settling::Together)
+        self.changed(t, y, Settling::Together)
     }
 
-    /// Updates the modes after the user has changed the rates from `before` to `y`.
-    pub(super) fn resumed(
-        &mut self,
-        t: S::Scalar,
-        before: &StateColumn<S>,
-        y: &StateColumn<S>,
-    ) -> Result<Changed<S>, MotionError> {
-        self.changed(t, before, y, Settling::NewRates)
+    /// Updates the modes after the rates have changed to those of y.
+    pub(super) fn resumed(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
+        self.changed(t, y, Settling::NewRates)
     }
 
     /// Settles the contacts at y.
-    fn changed(
-        &mut self,
-        t: S::Scalar,
-        before: &StateColumn<S>,
-        y: &StateColumn<S>,
-        settling: Settling,
-    ) -> Result<Changed<S>, MotionError> {
+    fn changed(&mut self, t: S::Scalar, y: &StateColumn<S>, settling: Settling) -> Result<Changed<S>, MotionError> {
         if S::Contacts::COUNT == 0 {
             return Ok((*y, Column::repeat(None)));
         }
@@ -148,7 +138,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         };
         let rates = rates.map_err(|error| error.at(t))?;
         let after = Self::pack(&q, &rates);
-        let done = changes((&self.contacts, &self.equations(t, before)?), (&contacts, &self.equations(t, &after)?));
+        let done = changes(&self.contacts.modes, &contacts);
         self.contacts = contacts;
         Ok((after, done))
     }
@@ -173,17 +163,18 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Ok((Self::pack(&S::parts(y).q, &rates), modes_hold))
     }
 
-    /// Returns y with each s on the stop on which it rests; `most` is the largest distance from it.
+    /// Returns y with each s on the stop on which it rests by these contacts; `most` is the largest distance from it.
     pub(super) fn on_stops(
         &self,
+        contacts: &Contacts<S::Scalar, S::Contacts>,
         t: S::Scalar,
         y: &StateColumn<S>,
         most: S::Scalar,
     ) -> Result<StateColumn<S>, MotionError> {
-        if !self.contacts.has_stops() {
+        if !contacts.has_stops() {
             return Ok(*y);
         }
-        let Some(change) = self.contacts.return_to_stops(t, &self.equations(t, y)?, most)? else { return Ok(*y) };
+        let Some(change) = contacts.return_to_stops(t, &self.equations(t, y)?, most)? else { return Ok(*y) };
         let (q, rates) = Self::unpack(y);
         let there = Self::moved(&q, &self.velocity(&Self::pack(&q, &change))?);
         self.projected(t, &Self::pack(&there, &rates))

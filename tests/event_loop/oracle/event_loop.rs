@@ -35,8 +35,6 @@ pub struct Track {
     pub events: Vec<(f64, usize)>,
     /// The first time at which the impacts of two stops crowd: see [`Settling::collapse`].
     pub collapse: Option<f64>,
-    /// The first time at which an impact caused another one: see [`Settling::second`].
-    pub second: Option<f64>,
 }
 
 /// The nearer stop, and the distance to it.
@@ -143,7 +141,7 @@ impl<M: Model> Run<'_, M> {
     }
 
     fn follow(&mut self, times: &[f64], kick: Option<&Kick>) -> Result<Track, String> {
-        let mut track = Track { points: Vec::new(), events: Vec::new(), collapse: None, second: None };
+        let mut track = Track { points: Vec::new(), events: Vec::new(), collapse: None };
         let mut values = self.guards(&self.point);
         let end = *times.last().expect("there are times");
         let mut steps = 0;
@@ -203,7 +201,7 @@ impl<M: Model> Run<'_, M> {
                 values = after;
             }
         }
-        (track.collapse, track.second) = (self.settling.collapse, self.settling.second);
+        track.collapse = self.settling.collapse;
         Ok(track)
     }
 

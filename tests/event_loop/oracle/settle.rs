@@ -25,9 +25,6 @@ pub struct Settling<'a, M> {
     /// The first time at which a body rattles between two others until the flights are shorter than the rounding error of the
     /// time: infinitely many impacts in a finite time, of which the last are decided by rounding errors.
     pub collapse: Option<f64>,
-    /// The first time at which an impact caused another one. One event has both here; where the stops of the first are let go
-    /// before the second, the result is another.
-    pub second: Option<f64>,
     time: f64,
     length: f64,
     speed: f64,
@@ -44,7 +41,6 @@ impl<'a, M: Model> Settling<'a, M> {
             last: (f64::NEG_INFINITY, 0),
             impacts: [(f64::NEG_INFINITY, R); 3],
             collapse: None,
-            second: None,
             time: scales.time,
             length: scales.length,
             speed,
@@ -109,9 +105,6 @@ impl<'a, M: Model> Settling<'a, M> {
             }
             if !hits {
                 break;
-            }
-            if round > 0 {
-                self.second = self.second.or(Some(t));
             }
             v = self.strike((t, x, &v), struck, &mut at_rest)?;
         }
