@@ -48,6 +48,8 @@ pub fn reactions<S: Scene>(
 ///
 /// # Errors
 /// Those of [`reactions`], and [`MotionError::NotFinite`].
+// The search for modes is long: it is not copied into each emitted function that calls it.
+#[inline(never)]
 pub(crate) fn loads<S: Scene>(
     scene: &S,
     t: S::Scalar,
@@ -98,6 +100,7 @@ fn joints<S: Scene>(
 }
 
 /// The equations at a state after any impact there, with the accelerations and the forces of contacts.
+#[inline(never)]
 fn motion<S: Scene>(
     scene: &S,
     t: S::Scalar,
