@@ -7,6 +7,7 @@ mod chart;
 mod dead_points;
 mod four_bars;
 mod listed;
+mod pairs;
 mod several_turns;
 mod six_bars;
 

@@ -6,8 +6,8 @@ use super::groups::Groups;
 use super::options::Options;
 use super::place::Place;
 use super::tangents::Tangents;
-use crate::jacobian::VectorOf as Vector;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
+use crate::jacobian::{Sample, VectorOf as Vector, first_zero, root};
 use crate::scalar::arithmetic::*;
 use crate::{D, Dim, Mechanism, PathError, PositionError, real};
 
@@ -83,9 +83,11 @@ where
         wanted: &Wanted<'_, M>,
         options: &Options<M::Scalar>,
     ) -> Result<Option<End<M>>, PathError> {
+        let is_known = [false, matches!(end.event, Some(Event::ChangePoint { .. }))];
         for (index, group) in M::GROUPS.iter().map(|group| group.name).enumerate() {
-            let determinant = |place: &Place<M>| place.determinants[index];
-            match self.find_zero(from, &end.place, determinant)? {
+            match self
+                .find_zero(from, &end.place, is_known, |place| [place.determinants[index], place.slopes[index]])?
+            {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(mut place) => {
@@ -113,7 +115,8 @@ where
                 end = End { event, is_target, ..end };
                 continue;
             }
-            match self.find_zero(from, &end.place, gap)? {
+            let along = |place: &Place<M>| [self.input_distance(gap(place)), place.tangent.inputs[0]];
+            match self.find_zero(from, &end.place, [false; 2], along)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(place) => {
@@ -129,37 +132,68 @@ where
                 let quantity = "the watched function";
                 return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
             }
-            if !wanted.is_at_zero {
-                match self.find_zero(from, &end.place, value)? {
-                    SignChange::None => {}
-                    SignChange::Lost => return Ok(None),
-                    SignChange::At(place) => {
-                        end = End { place, event: Some(Event::Zero), is_target: false, resume: Resume::AtZero }
-                    }
+            let way = self.difference(&end.place.q, &from.q).norm();
+            let bend = (end.place.tangent - from.tangent) * way.recip();
+            let along = |place: &Place<M>| {
+                let little = self.little(&place.q);
+                let near = self.moved(&place.q, &(place.tangent * little));
+                let here = value(place);
+                [here, (watch(&near, &self.rates(&(place.tangent + bend * little))) - here) / little]
+            };
+            match self.find_zero(from, &end.place, [wanted.is_at_zero, false], along)? {
+                SignChange::None => {}
+                SignChange::Lost => return Ok(None),
+                SignChange::At(place) => {
+                    end = End { place, event: Some(Event::Zero), is_target: false, resume: Resume::AtZero }
                 }
             }
         }
         Ok(Some(end))
     }
 
-    /// Finds the place between two at which a value changes its sign.
+    /// Finds the first place between two at which a value changes its sign, from the values and their derivatives along
+    /// the curve. A zero at an end where it is known is none.
     fn find_zero(
         &self,
         from: &Place<M>,
         end: &Place<M>,
-        value: impl Fn(&Place<M>) -> M::Scalar,
+        is_known: [bool; 2],
+        value: impl Fn(&Place<M>) -> [M::Scalar; 2],
     ) -> Result<SignChange<M>, PathError> {
-        let values = [value(from), value(end)];
-        let changes = |[low, high]: [M::Scalar; 2]| {
-            (low < M::Scalar::zero() && high > M::Scalar::zero())
-                || (low > M::Scalar::zero() && high < M::Scalar::zero())
+        let sample = |at: M::Scalar, place: &Place<M>| {
+            let [value, slope] = value(place);
+            Sample { at, value, slope: slope / place.tangent.dot(&from.tangent) }
         };
-        if !changes(values) {
-            return Ok(SignChange::None);
+        let at = |distance: M::Scalar| self.at(from, distance)?.map_err(|_| Missed::Place);
+        let mut start = sample(M::Scalar::zero(), from);
+        if is_known[0] {
+            start.value = M::Scalar::zero();
         }
         let distance = self.difference(&end.q, &from.q).dot(&from.tangent);
-        let Some(root) = self.sign_change(from, [M::Scalar::zero(), distance], values, value)? else {
-            return Ok(SignChange::Lost);
+        let mut finish = sample(distance, end);
+        if is_known[1] && finish.value.is_zero() {
+            // The tangent there may be that of another motion.
+            finish.slope = real(f64::NAN);
+        }
+        let ends = [start, finish];
+        let smallest = self.rounding_error(&from.q);
+        let found = first_zero(ends, smallest, |place| Ok(sample(place, &at(place)?)));
+        let [low, high] = match found {
+            // At the end itself it is known.
+            Ok(Some([_, high])) if high.value.is_zero() && is_known[1] => return Ok(SignChange::None),
+            Ok(Some(around)) => around,
+            Ok(None) => return Ok(SignChange::None),
+            Err(Missed::Place) => return Ok(SignChange::Lost),
+            Err(Missed::Error(error)) => return Err(error),
+        };
+        let values = [low.value, high.value];
+        let root = root([low.at, high.at], values, smallest * real(0.25), |distance| {
+            Ok::<_, Missed>(Some(value(&at(distance)?)[0]))
+        });
+        let root = match root {
+            Ok(root) => root.unwrap_or(high.at),
+            Err(Missed::Place) => return Ok(SignChange::Lost),
+            Err(Missed::Error(error)) => return Err(error),
         };
         Ok(if root <= M::Scalar::zero() {
             SignChange::At(from.clone())
@@ -178,6 +212,19 @@ where
             return Ok(self.place(q, &elimination, &place.tangent));
         }
         Ok(Place { q, ..place })
+    }
+}
+
+/// The reason why a place is not known.
+enum Missed {
+    /// It is not found: a shorter step is needed.
+    Place,
+    Error(PathError),
+}
+
+impl From<PathError> for Missed {
+    fn from(error: PathError) -> Self {
+        Self::Error(error)
     }
 }
 

@@ -138,6 +138,7 @@ where
     /// Reverses the path.
     pub fn turn_back(&mut self) {
         self.place.tangent = -self.place.tangent;
+        self.place.slopes = -self.place.slopes;
         // At a change point the orientation changes its sign twice: with the tangent, and since the path leaves on the
         // side from which it came.
         if !matches!(self.resume, Resume::AtChangePoint) {
@@ -156,9 +157,9 @@ where
         let Resume::Undecided(crossing) = self.resume else {
             return Err(PathError::NoDirection { mechanism: M::NAME });
         };
-        self.place.tangent = self.curve.choose(crossing.tangents(), rates)?;
+        let tangent = self.curve.choose(crossing.tangents(), rates)?;
         // The orientation beyond the change point depends on the motion chosen: it is unknown until the next step.
-        self.place.orientation = M::Scalar::zero();
+        self.place = self.curve.turned(&self.place, tangent, M::Scalar::zero());
         self.resume = Resume::AtChangePoint;
         self.is_ended = false;
         Ok(())

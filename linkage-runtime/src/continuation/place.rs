@@ -5,7 +5,7 @@ use super::curve::{Curve, Rejection, Tried};
 use super::groups::Groups;
 use super::options::Options;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
-use crate::jacobian::{Blocks, EliminationOf as Elimination, VectorOf as Vector, root};
+use crate::jacobian::{Blocks, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::{Column, D, Dim, Mechanism, PathError, PositionError, real};
 
@@ -18,6 +18,8 @@ pub(super) struct Place<M: Mechanism> {
     pub(super) orientation: M::Scalar,
     /// The determinants of the blocks of J; zero where the sign is unknown.
     pub(super) determinants: Column<M::Scalar, M::G>,
+    /// The derivatives of the determinants along the tangent.
+    pub(super) slopes: Column<M::Scalar, M::G>,
     /// The last pivot of [J A] divided by the first.
     pub(super) regularity: M::Scalar,
     /// The last but one pivot of [J A] divided by the first.
@@ -66,6 +68,25 @@ where
         self.mechanism.block_determinants(&self.mechanism.pose_at(q))
     }
 
+    /// The determinants at a position of the curve, and their derivatives along a tangent: the curve deviates from it by a
+    /// square.
+    fn determinants_along(&self, q: &M::Coordinates, tangent: &Vector<M>) -> [Column<M::Scalar, M::G>; 2] {
+        let (here, little) = (self.determinants(q), self.little(q));
+        let near = self.determinants(&self.moved(q, &(*tangent * little)));
+        [here, (near - here) / little]
+    }
+
+    /// The length of the way by which derivatives along the curve are computed.
+    pub(super) fn little(&self, q: &M::Coordinates) -> M::Scalar {
+        self.rounding_error(q).sqrt()
+    }
+
+    /// Changes the tangent of a place.
+    pub(super) fn turned(&self, place: &Place<M>, tangent: Vector<M>, orientation: M::Scalar) -> Place<M> {
+        let [_, slopes] = self.determinants_along(&place.q, &tangent);
+        Place { q: place.q, tangent, orientation, slopes, ..*place }
+    }
+
     /// The place at a position of the curve, with the tangent in the direction of `forward`.
     pub(super) fn place(&self, q: M::Coordinates, elimination: &Elimination<M>, forward: &Vector<M>) -> Place<M> {
         let regularity = elimination.regularity();
@@ -78,14 +99,8 @@ where
             // The tangent is unreliable here; the previous one is kept.
             (tangent, orientation) = (*forward, M::Scalar::zero());
         }
-        Place {
-            q,
-            tangent,
-            orientation,
-            determinants: self.determinants(&q),
-            regularity,
-            last_but_one: elimination.last_but_one(),
-        }
+        let [determinants, slopes] = self.determinants_along(&q, &tangent);
+        Place { q, tangent, orientation, determinants, slopes, regularity, last_but_one: elimination.last_but_one() }
     }
 
     /// Predicts and corrects the place at `distance` along the tangent of another; the curve between them is not
@@ -115,18 +130,6 @@ where
             && turn <= options.largest_turn
             && step.across(&from.tangent) <= most
             && step.across(tangent) <= most
-    }
-
-    /// Finds the distance along the tangent of `from` at which a value changes its sign.
-    pub(super) fn sign_change(
-        &self,
-        from: &Place<M>,
-        [low, high]: [M::Scalar; 2],
-        values: [M::Scalar; 2],
-        value: impl Fn(&Place<M>) -> M::Scalar,
-    ) -> Result<Option<M::Scalar>, PathError> {
-        let smallest = self.rounding_error(&from.q) * real(0.25);
-        root([low, high], values, smallest, |distance| Ok(self.at(from, distance)?.ok().map(|place| value(&place))))
     }
 
     /// Estimates the distance from one place towards another at which two pivots may be zero at once; `None` if they do
@@ -178,7 +181,7 @@ where
     /// The place at a crossing; the determinants of singular groups, whose signs are those of rounding errors, are set
     /// to zero.
     pub(super) fn at_crossing(&self, crossing: &Crossing<M>, tangent: Vector<M>, orientation: M::Scalar) -> Place<M> {
-        let mut determinants = self.determinants(&crossing.q);
+        let [mut determinants, slopes] = self.determinants_along(&crossing.q, &tangent);
         for (place, determinant) in determinants.iter_mut().enumerate() {
             if crossing.groups.contains(place) {
                 *determinant = M::Scalar::zero();
@@ -189,6 +192,7 @@ where
             tangent,
             orientation,
             determinants,
+            slopes,
             regularity: M::Scalar::zero(),
             last_but_one: M::Scalar::zero(),
         }

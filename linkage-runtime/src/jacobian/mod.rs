@@ -5,12 +5,14 @@
 //! - [`Blocks`]: the distance of each group from a singularity;
 //! - [`contract()`]: undamped Newton's method from near a solution;
 //! - [`root()`], [`first_not_positive`]: the point at which a function changes its sign;
+//! - [`first_zero()`]: an interval around the first zero of a function with slopes, also of two zeros next to each other;
 //! - [`ulp`]: tolerances in ulps.
 
 mod blocks;
 mod cholesky;
 mod contract;
 mod elimination;
+mod first_zero;
 mod root;
 mod scales;
 pub mod ulp;
@@ -20,6 +22,7 @@ pub use blocks::Blocks;
 pub use cholesky::Cholesky;
 pub use contract::{Iteration, contract, correction};
 pub use elimination::{Elimination, Order};
+pub use first_zero::{Sample, first_zero};
 pub use root::{first_not_positive, root};
 pub use scales::{Jacobian, Scales, largest_entries, scale_or_one};
 pub use vector::Vector;

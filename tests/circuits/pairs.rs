@@ -1,0 +1,75 @@
+//! Dead points in pairs within one step: a sign at two places says nothing of what lies between them.
+
+use linkage::continuation::{Direction, Path};
+use linkage::{PathError, linkage};
+
+use crate::{circuits, counts, dead_inputs};
+
+linkage! {
+    /// x' is infinite where v has its maximum 2 e^3 and its minimum.
+    #[derive(Debug, Clone)]
+    mechanism Cubic {
+        param e = 0.05;
+        input v;
+        unknown x;
+        equation x^3 - 3*e^2*x = v;
+    }
+}
+
+linkage! {
+    /// A four-bar, and a dyad between its coupler and a second crank, the input.
+    #[derive(Debug, Clone)]
+    mechanism Steph3 {
+        param a = 3, b = 1.5, c = 4.5, d = 4, px = -1, py = 3, e = 3, f = 5, x = -3.5, y = 3;
+        input v;
+        unknown t, p, r, u;
+        loop a@t + b@p = d@0 + c@r;
+        loop a@t + (px, py)@p + e@u = (x, y) + f@v;
+    }
+}
+
+#[test]
+fn both_dead_points_of_a_cubic() {
+    for e in [1e-4, 1e-3, 0.005, 0.02, 0.05, 0.08, 0.3] {
+        let mechanism = Cubic { e };
+        let start = CubicCoordinates { v: -0.729 + 2.7 * e * e, x: -0.9 };
+        let path = Path::new(&mechanism, &start, Direction::Increasing).unwrap();
+        let steps = path.map(Result::unwrap).take_while(|step| step.position.x < 1.0);
+        let found: Vec<f64> = steps.filter(|step| step.event.is_some()).map(|step| step.position.x).collect();
+        let [first, second] = found[..] else { panic!("{e}: {found:?}") };
+        println!("{e}: {:e} {:e}", first + e, second - e);
+        assert!((first + e).abs() < 1e-14 + 1e-16 / e && (second - e).abs() < 1e-14 + 1e-16 / e, "{e}: {found:?}");
+    }
+}
+
+/// A pair at v = 0.5355963731911816 and 0.5343823626306666, computed independently.
+#[test]
+fn a_pair_between_other_dead_points() {
+    let mechanism = Steph3::default();
+    let found = circuits(&mechanism, 1.5566473247917747);
+    println!("{:?}", counts(&found));
+    for motion in &found.motions {
+        println!("{:?}", dead_inputs(motion));
+    }
+    let inputs: Vec<f64> = found.motions.iter().flat_map(dead_inputs).collect();
+    for expected in [0.5355963731911816, 0.5343823626306666] {
+        assert!(inputs.iter().any(|input| (input - expected).abs() < 1e-13), "{inputs:?}");
+    }
+    assert_eq!(circuits(&mechanism, 0.5355).circuits.len(), 1);
+}
+
+#[test]
+fn a_path_does_not_pass_two_dead_points() {
+    let mechanism = Steph3::default();
+    let guess = mechanism
+        .branches(0.6)
+        .unwrap()
+        .map(|mode| mode.pose.coordinates())
+        .find(|q| (q.t - 1.3479485).abs() < 1e-6)
+        .unwrap();
+    let mut path = Path::new(&mechanism, &guess, Direction::Decreasing).unwrap();
+    let Err(error) = path.advance_to(0.5) else { panic!("it is between two folds") };
+    println!("{error}");
+    assert!(matches!(error, PathError::DeadPoint { .. }), "{error}");
+    assert!((path.position().v - 0.5343823626306666).abs() < 1e-13, "{}", path.position().v);
+}
