@@ -73,3 +73,27 @@ fn a_path_does_not_pass_two_dead_points() {
     assert!(matches!(error, PathError::DeadPoint { .. }), "{error}");
     assert!((path.position().v - 0.5343823626306666).abs() < 1e-13, "{}", path.position().v);
 }
+
+linkage! {
+    /// A Watt six-bar: its second dyad hangs on the coupler and the rocker of a four-bar.
+    #[derive(Debug, Clone)]
+    mechanism Watt1 {
+        param a = 4, b = 2.5, c = 3, d = 2.5, px = 3, py = -0.5, qx = 0.5, qy = 2, e = 4.5, f = 2;
+        input v;
+        unknown p, r, u, w;
+        loop a@v + b@p = d@0 + c@r;
+        loop a@v + (px, py)@p + e@u = d@0 + (qx, qy)@r + f@w;
+    }
+}
+
+/// Two dead points of different groups at one position, 1.9823131728623845, are one reversal: there the first dyad is
+/// singular without a change of sign.
+#[test]
+fn dead_points_that_coincide_are_one() {
+    let found = circuits(&Watt1::default(), 1.9);
+    assert_eq!(counts(&found), [4, 2, 0]);
+    let motion = found.motions.iter().find(|motion| dead_inputs(motion)[1] > 1.97).unwrap();
+    let [low, high] = dead_inputs(motion)[..] else { panic!("{:?}", dead_inputs(motion)) };
+    assert!((low + 1.9823131728623845).abs() < 1e-15 && (high - 1.9823131728623845).abs() < 1e-15, "{low} {high}");
+    assert!(circuits(&Watt1::default(), 2.1).motions.is_empty());
+}

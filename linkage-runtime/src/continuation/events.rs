@@ -83,11 +83,12 @@ where
         wanted: &Wanted<'_, M>,
         options: &Options<M::Scalar>,
     ) -> Result<Option<End<M>>, PathError> {
+        self.keep_unresolved_signs(from, &mut end.place);
         let is_known = [false, matches!(end.event, Some(Event::ChangePoint { .. }))];
         for (index, group) in M::GROUPS.iter().map(|group| group.name).enumerate() {
-            match self
-                .find_zero(from, &end.place, is_known, |place| [place.determinants[index], place.slopes[index]])?
-            {
+            let along = |place: &Place<M>| [place.determinants[index], place.slopes[index]];
+            let is_resolved = |place: &Place<M>| self.is_resolved(place, index);
+            match self.find_zero(from, &end.place, is_known, along, is_resolved)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(mut place) => {
@@ -116,7 +117,7 @@ where
                 continue;
             }
             let along = |place: &Place<M>| [self.input_distance(gap(place)), place.tangent.inputs[0]];
-            match self.find_zero(from, &end.place, [false; 2], along)? {
+            match self.find_zero(from, &end.place, [false; 2], along, |_| true)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(place) => {
@@ -140,7 +141,7 @@ where
                 let here = value(place);
                 [here, (watch(&near, &self.rates(&(place.tangent + bend * little))) - here) / little]
             };
-            match self.find_zero(from, &end.place, [wanted.is_at_zero, false], along)? {
+            match self.find_zero(from, &end.place, [wanted.is_at_zero, false], along, |_| true)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(place) => {
@@ -148,6 +149,7 @@ where
                 }
             }
         }
+        self.keep_unresolved_signs(from, &mut end.place);
         Ok(Some(end))
     }
 
@@ -159,6 +161,7 @@ where
         end: &Place<M>,
         is_known: [bool; 2],
         value: impl Fn(&Place<M>) -> [M::Scalar; 2],
+        is_resolved: impl Fn(&Place<M>) -> bool,
     ) -> Result<SignChange<M>, PathError> {
         let sample = |at: M::Scalar, place: &Place<M>| {
             let [value, slope] = value(place);
@@ -177,7 +180,14 @@ where
         }
         let ends = [start, finish];
         let smallest = self.rounding_error(&from.q);
-        let found = first_zero(ends, smallest, |place| Ok(sample(place, &at(place)?)));
+        let found = first_zero(ends, smallest, |distance| {
+            let place = at(distance)?;
+            let mut between = sample(distance, &place);
+            if !is_resolved(&place) {
+                between.value = M::Scalar::zero();
+            }
+            Ok(between)
+        });
         let [low, high] = match found {
             // At the end itself it is known.
             Ok(Some([_, high])) if high.value.is_zero() && is_known[1] => return Ok(SignChange::None),

@@ -132,6 +132,24 @@ where
             && step.across(tangent) <= most
     }
 
+    /// True if the sign of the determinant of a group is not that of the error of the position, which is that of its
+    /// coordinates divided by the regularity of [J A].
+    pub(super) fn is_resolved(&self, place: &Place<M>, group: usize) -> bool {
+        let error = self.rounding_error(&place.q) * real(EQUAL_ULPS);
+        Blocks::of(self.mechanism, &self.mechanism.pose_at(&place.q)).regularity(group) * place.regularity > error
+    }
+
+    /// Gives each determinant whose sign is not resolved the sign that it had at the place before.
+    pub(super) fn keep_unresolved_signs(&self, from: &Place<M>, place: &mut Place<M>) {
+        for group in 0..M::GROUPS.len() {
+            let before = if from.determinants[group].is_zero() { from.slopes[group] } else { from.determinants[group] };
+            let now = place.determinants[group];
+            if now * before < M::Scalar::zero() && !self.is_resolved(place, group) {
+                place.determinants[group] = -now;
+            }
+        }
+    }
+
     /// Estimates the distance from one place towards another at which two pivots may be zero at once; `None` if they do
     /// not approach zero. At such a change point neither the orientation nor a determinant need change its sign.
     pub(super) fn double_zero(
