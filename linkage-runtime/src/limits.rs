@@ -87,6 +87,9 @@ pub enum Search<T> {
 /// twice the time.
 const STEPS: u32 = 360;
 
+/// The distances, in steps, of a sample behind the start or before the end: the first at which the mechanism is assembled.
+const NEIGHBOURS: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
+
 /// The most steps that narrow an interval to rounding error: about 55 by bisection, about 77 by golden section.
 const NARROWINGS: usize = 80;
 
@@ -157,11 +160,20 @@ fn nearer<T: Copy>(
 
 impl<T: Real> Bound<T> {
     /// The nearest zeros on either side of `start`, where the function is not negative up to rounding error; none if a
-    /// number is not finite.
+    /// number is not finite. With one negative length of two both functions of a group have the other sign.
     fn about(&self, start: T) -> Option<[Option<(T, Block)>; 2]> {
+        let with_sign = |coefficients: [T; 3], terms: [T; 3]| {
+            let least = terms.iter().fold(T::zero(), |sum, term| sum + term.abs()) * T::default_epsilon().sqrt();
+            if terms[0] + terms[1] + terms[2] < -least { coefficients.map(|part| -part) } else { coefficients }
+        };
         let (block, [lower, upper]) = match *self {
-            Self::Angle(block, coefficients, rate) => (block, of_angle(coefficients, rate, start)?),
-            Self::Length(block, coefficients) => (block, of_length(coefficients, start)?),
+            Self::Angle(block, [a, b, c], rate) => {
+                let (sine, cosine) = (rate * start).sine_cosine();
+                (block, of_angle(with_sign([a, b, c], [a, b * cosine, c * sine]), rate, start)?)
+            }
+            Self::Length(block, [a, b, c]) => {
+                (block, of_length(with_sign([a, b, c], [a, b * start, c * start * start]), start)?)
+            }
         };
         let is_finite = lower.into_iter().chain(upper).all(|input| input.is_finite());
         // At a limit a rounding error may put the zero on the other side of `start`.
@@ -362,16 +374,26 @@ impl<A, D> Searched<A, D> {
     {
         let end = known.input().unwrap_or(beyond);
         let step = (end - start) / real::<T>(f64::from(STEPS));
-        let mut last: [Option<Sample<T, P, N>>; 2] = [None, None];
+        let sample = |from: &P, input: T| -> Result<Option<Sample<T, P, N>>, PositionError> {
+            Ok(if let Found::Assembled(sample) = self.at(from, input)? { Some(sample) } else { None })
+        };
+        // One behind the start shows a minimum just after it.
+        let mut behind = None;
+        for distance in NEIGHBOURS {
+            if behind.is_none() {
+                behind = sample(position, start - step * real::<T>(distance))?;
+            }
+        }
+        let mut last = [behind, sample(position, start)?];
         for index in 1..=STEPS {
-            let input = if index == STEPS { end } else { start + step * real::<T>(f64::from(index)) };
-            let [before, here] = &last;
-            let (from, at) = here.as_ref().map_or((position, start), |here| (&here.position, here.input));
+            let is_last = index == STEPS;
+            let input = if is_last { end } else { start + step * real::<T>(f64::from(index)) };
+            let (from, at) = last[1].as_ref().map_or((position, start), |here| (&here.position, here.input));
             let there = match self.at(from, input)? {
                 Found::Assembled(there) => there,
-                Found::Undetermined if index < STEPS => continue,
+                Found::Undetermined if !is_last => continue,
                 Found::Stopped(group)
-                    if index < STEPS || !matches!(known, Limit::Exact { group: other, .. } if other == group) =>
+                    if !is_last || !matches!(known, Limit::Exact { group: other, .. } if other == group) =>
                 {
                     return self.between(from, at, input, group);
                 }
@@ -380,27 +402,57 @@ impl<A, D> Searched<A, D> {
                     // group may be undetermined; an input just inside shows whether another group stops the mechanism
                     // before.
                     let inside = end + (start - end) * real::<T>(INSET);
-                    return match self.at(from, inside)? {
-                        Found::Stopped(group) => self.between(from, at, inside, group),
-                        _ => Ok(known),
-                    };
-                }
-            };
-            if let (Some(before), Some(here)) = (before, here) {
-                let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
-                for (block, ((a, b), c)) in determinants.enumerate() {
-                    if b < a
-                        && b <= c
-                        && let Some(limit) = self.limit_at_minimum(before, there.input, block)?
-                    {
-                        return Ok(limit);
+                    match self.at(from, inside)? {
+                        Found::Stopped(group) => return self.between(from, at, inside, group),
+                        Found::Undetermined => return Ok(known),
+                        Found::Assembled(inside) => inside,
                     }
                 }
+            };
+            let [before, here] = &last;
+            if let (Some(before), Some(here)) = (before, here)
+                && let Some(limit) = self.limit_among([before, here, &there])?
+            {
+                return Ok(limit);
             }
             let [_, here] = last;
             last = [here, Some(there)];
         }
+        // One beyond the end, or just before it, shows a minimum in the last step.
+        if let [Some(here), Some(there)] = &last {
+            let found = match sample(&there.position, end + step)? {
+                Some(beyond) => self.limit_among([here, there, &beyond])?,
+                None => match sample(&there.position, there.input - step * real::<T>(NEIGHBOURS[3]))? {
+                    Some(near) => self.limit_among([here, &near, there])?,
+                    None => None,
+                },
+            };
+            let is_before = |limit: &Limit<T>| limit.input().is_some_and(|at| (at - start).abs() < (end - start).abs());
+            return Ok(found.filter(is_before).unwrap_or(known));
+        }
         Ok(known)
+    }
+
+    /// The limit at a minimum of a determinant about the middle one of three samples, if the mechanism cannot be assembled
+    /// there.
+    fn limit_among<T: Real, P, const N: usize>(
+        &self,
+        [before, here, there]: [&Sample<T, P, N>; 3],
+    ) -> Result<Option<Limit<T>>, PositionError>
+    where
+        A: Fn(&P, T) -> Result<P, PositionError>,
+        D: Fn(&P) -> [T; N],
+    {
+        let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
+        for (block, ((a, b), c)) in determinants.enumerate() {
+            if b < a
+                && b <= c
+                && let Some(limit) = self.limit_at_minimum(before, there.input, block)?
+            {
+                return Ok(Some(limit));
+            }
+        }
+        Ok(None)
     }
 
     /// Computes the position at an input, or finds the group that stops it.

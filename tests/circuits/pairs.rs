@@ -1,6 +1,6 @@
 //! Dead points in pairs within one step: a sign at two places says nothing of what lies between them.
 
-use linkage::continuation::{Direction, Path};
+use linkage::continuation::{Direction, Event, Path};
 use linkage::{PathError, linkage};
 
 use crate::{circuits, counts, dead_inputs};
@@ -96,4 +96,45 @@ fn dead_points_that_coincide_are_one() {
     let [low, high] = dead_inputs(motion)[..] else { panic!("{:?}", dead_inputs(motion)) };
     assert!((low + 1.9823131728623845).abs() < 1e-15 && (high - 1.9823131728623845).abs() < 1e-15, "{low} {high}");
     assert!(circuits(&Watt1::default(), 2.1).motions.is_empty());
+}
+
+linkage! {
+    /// A four-bar whose crank turns.
+    #[derive(Debug, Clone)]
+    mechanism FourBar {
+        param a = 1, b = 3, c = 3, d = 3;
+        input v;
+        unknown p, r;
+        loop a@v + b@p = d@0 + c@r;
+    }
+}
+
+/// The rocker passes an angle a little below its largest twice within a step.
+#[test]
+fn both_zeros_of_a_watched_function() {
+    let m = FourBar::default();
+    let path = || {
+        let start = m.branches(0.1).unwrap().next().unwrap().pose.coordinates();
+        Path::new(&m, &start, Direction::Increasing).unwrap()
+    };
+    let turn = |mut path: Path<'_, FourBar>, watched: &dyn Fn(&FourBarCoordinates, &FourBarRates) -> f64| {
+        let mut found = Vec::new();
+        while path.position().v < 0.1 + std::f64::consts::TAU {
+            let step = path.advance_watching(watched).unwrap();
+            found.extend(matches!(step.event, Some(Event::Zero)).then_some(step.position));
+        }
+        found
+    };
+    let reversals = turn(path(), &|_, rates| rates.r);
+    let most = reversals.iter().map(|q| q.r).fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!(reversals.len(), 2);
+    for below in [0.1, 1e-3, 1e-5, 1e-8, 1e-11] {
+        let found = turn(path(), &|q, _| q.r - (most - below));
+        let [one, other] = found[..] else { panic!("{below:e}: {found:?}") };
+        assert!((one.r - other.r).abs() < 1e-14 && one.v < other.v, "{below:e}: {found:?}");
+    }
+    assert!(turn(path(), &|q, _| q.r - (most + 1e-9)).is_empty());
+    // A zero right after another: within a step of the first.
+    let found = turn(path(), &|q, _| (q.v - 1.0) * (q.v - 1.0 - 1e-4) * (q.v - 1.0 - 3e-4));
+    assert_eq!(found.len(), 3, "{found:?}");
 }

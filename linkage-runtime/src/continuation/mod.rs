@@ -11,7 +11,11 @@
 //!    turn explains, and the orientation det [J A; tangent'] keeps its sign. Otherwise it is halved. Without these
 //!    checks a parallelogram may become an antiparallelogram unnoticed.
 //! 3. *Events*: the step ends, to rounding error, where the determinant of a group changes its sign (a dead point),
-//!    where the input reaches the end of its range or its target, and where a watched function is zero.
+//!    where the input reaches the end of its range or its target, and where a watched function is zero. The first of
+//!    several zeros in a step is found, also of two next to each other, from the values and slopes at both ends of the
+//!    step ([`first_zero`](crate::jacobian::first_zero())): none is missed of a function that deviates from its cubic
+//!    by less than a few times what the cubic deviates from its chord. A determinant that touches zero within the error
+//!    of the position does not change its sign.
 //! 4. *Change points*, where [J A] loses rank and motions cross: all tangents follow from the second derivatives, all
 //!    singular groups are found, and [`AtChangePoint`] selects the motion. Where motions only come close to each other,
 //!    Psi is not zero at the point between them; they are followed round their bend, however sharp it is.

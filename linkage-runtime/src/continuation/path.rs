@@ -176,7 +176,8 @@ where
 
     /// Takes one step, which ends early at an event; the zeros of `watched` are events, too. `watched` is a function of
     /// the position and of the derivatives of the coordinates by the arc length: an output, or one of the derivatives,
-    /// which is zero where that coordinate reverses.
+    /// which is zero where that coordinate reverses. Its slope is computed by a small displacement along the path: two
+    /// zeros in one step are found, but a kink or a jump of the function may hide some.
     ///
     /// # Errors
     /// Those of [`advance`](Self::advance).
