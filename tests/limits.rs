@@ -609,3 +609,34 @@ fn a_negative_length_points_the_other_way() {
         }
     }
 }
+
+/// Gaps of 1e-4 to 0.03 rad, as near as that to the start on one side, and at the end of the turn on the other.
+/// `GAPS=1000000` for a larger number.
+#[test]
+fn random_gaps_next_to_the_start_and_at_the_end_of_a_turn() {
+    let count = std::env::var("GAPS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000);
+    let random = &mut SmallRng::seed_from_u64(44);
+    for _ in 0..count {
+        let mut size = || 10_f64.powf(random.random_range(-4.0..-1.52));
+        let (half, away) = (0.5 * size(), size());
+        let (r, l, e) = (1.0, random.random_range(2.0..5.0), random.random_range(1.0..3.0));
+        let slide = |v: f64| r * v.cos() + (l * l - r * r * v.sin() * v.sin()).sqrt();
+        let m = Toggle { r, l, e, f: slide(half) - e };
+        let sign = if random.random_bool(0.5) { 1.0 } else { -1.0 };
+        let start = sign * (half + away);
+        // The slider must not come too near on the other side of the turn.
+        if slide(PI) < (m.e - m.f).abs() {
+            continue;
+        }
+        for mode in m.branches(start).unwrap().filter(|mode| mode.pose.coordinates().s > 0.0) {
+            let found = m.limits(start, mode.branch).unwrap();
+            let (near, far) = if sign > 0.0 { (found.lower, found.upper) } else { (found.upper, found.lower) };
+            // The error of the edge is that of e + f divided by the slope of s there.
+            let error = 1e-14 / half;
+            for (limit, edge) in [(near, sign * half), (far, sign * (TAU - half))] {
+                let Limit::Bracketed { assembled, .. } = limit else { panic!("{m:?} {start}: {found:?}") };
+                assert!((assembled - edge).abs() < error, "{m:?} {start}: {found:?}, {edge}");
+            }
+        }
+    }
+}

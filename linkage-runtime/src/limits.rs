@@ -87,8 +87,8 @@ pub enum Search<T> {
 /// twice the time.
 const STEPS: u32 = 360;
 
-/// The distances, in steps, of a sample behind the start or before the end: the first at which the mechanism is assembled.
-const NEIGHBOURS: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
+/// The parts of the first step and of the last one.
+const PARTS: u32 = 8;
 
 /// The most steps that narrow an interval to rounding error: about 55 by bisection, about 77 by golden section.
 const NARROWINGS: usize = 80;
@@ -373,21 +373,17 @@ impl<A, D> Searched<A, D> {
         D: Fn(&P) -> [T; N],
     {
         let end = known.input().unwrap_or(beyond);
-        let step = (end - start) / real::<T>(f64::from(STEPS));
-        let sample = |from: &P, input: T| -> Result<Option<Sample<T, P, N>>, PositionError> {
-            Ok(if let Found::Assembled(sample) = self.at(from, input)? { Some(sample) } else { None })
-        };
-        // One behind the start shows a minimum just after it.
-        let mut behind = None;
-        for distance in NEIGHBOURS {
-            if behind.is_none() {
-                behind = sample(position, start - step * real::<T>(distance))?;
-            }
+        // The first step and the last one are divided: the minima next to their ends have no neighbours beyond.
+        let whole = f64::from(STEPS);
+        let parts = |step: f64| (1..=PARTS).map(move |part| step + f64::from(part) / f64::from(PARTS));
+        let places = parts(0.0).chain((2..STEPS).map(f64::from)).chain(parts(whole - 1.0));
+        let mut last: [Option<Sample<T, P, N>>; 2] = [None, None];
+        if let Found::Assembled(sample) = self.at(position, start)? {
+            last[1] = Some(sample);
         }
-        let mut last = [behind, sample(position, start)?];
-        for index in 1..=STEPS {
-            let is_last = index == STEPS;
-            let input = if is_last { end } else { start + step * real::<T>(f64::from(index)) };
+        for place in places {
+            let is_last = place >= whole;
+            let input = if is_last { end } else { start + (end - start) * real::<T>(place / whole) };
             let (from, at) = last[1].as_ref().map_or((position, start), |here| (&here.position, here.input));
             let there = match self.at(from, input)? {
                 Found::Assembled(there) => there,
@@ -409,28 +405,41 @@ impl<A, D> Searched<A, D> {
                     }
                 }
             };
-            let [before, here] = &last;
-            if let (Some(before), Some(here)) = (before, here)
-                && let Some(limit) = self.limit_among([before, here, &there])?
+            let found = match &last {
+                [Some(before), Some(here)] => self.limit_among([before, here, &there])?,
+                [None, Some(here)] => self.limit_within(here, &there)?,
+                _ => None,
+            };
+            if let Some(limit) = found {
+                return Ok(limit);
+            }
+            if let ([_, Some(here)], true) = (&last, is_last)
+                && let Some(limit) = self.limit_within(here, &there)?
             {
                 return Ok(limit);
             }
             let [_, here] = last;
             last = [here, Some(there)];
         }
-        // One beyond the end, or just before it, shows a minimum in the last step.
-        if let [Some(here), Some(there)] = &last {
-            let found = match sample(&there.position, end + step)? {
-                Some(beyond) => self.limit_among([here, there, &beyond])?,
-                None => match sample(&there.position, there.input - step * real::<T>(NEIGHBOURS[3]))? {
-                    Some(near) => self.limit_among([here, &near, there])?,
-                    None => None,
-                },
-            };
-            let is_before = |limit: &Limit<T>| limit.input().is_some_and(|at| (at - start).abs() < (end - start).abs());
-            return Ok(found.filter(is_before).unwrap_or(known));
-        }
         Ok(known)
+    }
+
+    /// The limit at a minimum of a determinant between two samples.
+    fn limit_within<T: Real, P, const N: usize>(
+        &self,
+        here: &Sample<T, P, N>,
+        there: &Sample<T, P, N>,
+    ) -> Result<Option<Limit<T>>, PositionError>
+    where
+        A: Fn(&P, T) -> Result<P, PositionError>,
+        D: Fn(&P) -> [T; N],
+    {
+        for block in 0..N {
+            if let Some(limit) = self.limit_at_minimum(here, there.input, block)? {
+                return Ok(Some(limit));
+            }
+        }
+        Ok(None)
     }
 
     /// The limit at a minimum of a determinant about the middle one of three samples, if the mechanism cannot be assembled
