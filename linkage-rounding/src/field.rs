@@ -16,10 +16,8 @@ impl Rounded {
     fn constant(value: f64) -> Self {
         /// 2^53: below it all whole numbers are doubles.
         const WHOLE: f64 = 9_007_199_254_740_992.0;
-        /// The lowest 20 of the 53 bits are zero: for a rounded constant a chance of one in a million.
-        const SHORT: u32 = 20;
         let is_whole = value.abs() <= WHOLE && value == ComplexField::trunc(value);
-        let is_exact = is_whole || value.to_bits().trailing_zeros() >= SHORT;
+        let is_exact = is_whole || is_dyadic(value);
         // Infinity and NaN have no rounding error.
         if is_exact || !value.is_finite() { Self::from(value) } else { Self::nearest(value) }
     }
@@ -28,6 +26,27 @@ impl Rounded {
     fn nearest(value: f64) -> Self {
         Self::with_error(value, half_ulp(value))
     }
+}
+
+/// True if the lowest 20 of the 53 bits are zero, for a rounded constant a chance of one in a million, and no shorter decimal
+/// number has this double: a fraction m / 2^k, where m is odd, has the k decimals of m 5^k, here at most 17 digits. Also
+/// if the lowest 40 bits are, as of powers of two: a chance of one in 1e12.
+fn is_dyadic(value: f64) -> bool {
+    const SHORT: u32 = 20;
+    const VERY_SHORT: u32 = 40;
+    /// 2^52, the bit of a normal double that is not stored.
+    const LEADING: u64 = 1 << 52;
+    /// 5^25 has 18 digits.
+    const MOST_FIVES: u32 = 24;
+    const DIGITS_17: u64 = 100_000_000_000_000_000;
+    let bits = value.to_bits();
+    let exponent = (bits >> 52 & 0x7ff) as i32 - 1075;
+    let mantissa = bits & (LEADING - 1) | LEADING;
+    let zeros = mantissa.trailing_zeros();
+    let decimals = u32::try_from(-(exponent + zeros as i32)).unwrap_or(0);
+    let digits = || (mantissa >> zeros).checked_mul(5_u64.pow(decimals));
+    let has_few_digits = || decimals <= MOST_FIVES && digits().is_some_and(|digits| digits < DIGITS_17);
+    zeros >= VERY_SHORT || (zeros >= SHORT && has_few_digits())
 }
 
 impl Zero for Rounded {

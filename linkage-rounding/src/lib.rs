@@ -52,7 +52,8 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAss
 ///   bound of an angle by `atan2` holds up to whole turns.
 /// - A constant in the text of a mechanism, such as the 0.1 of `0.1 * l2`, is rounded to a double. Each double that is
 ///   converted by `nalgebra::convert` counts as such a constant, with an error of half an ulp, but for whole numbers up
-///   to 2^53 and for fractions of at most 33 bits, such as 0.375, which are exact.
+///   to 2^53 and for fractions of at most 33 bits and 17 decimal digits, such as 0.375, or of at most 13 bits, such as
+///   powers of two, which are exact.
 /// - Where an algorithm compensates its rounding errors, the bound does not see that they cancel and is far too large:
 ///   the positions of triangles that are flat to within 1e-4, refinement by residuals.
 /// - A bound that is not finite means that nothing is known, for instance after a division by a number that may be

@@ -249,6 +249,12 @@ fn constants() {
     for exact in [0.0, 1.0, -3.0, 0.375, 1e15, 1e22, 2_f64.powi(-1000)] {
         assert_eq!(of(exact).error() == 0.0, exact != 1e22, "{exact}");
     }
+    // The double of ten digits ends in zeros by chance; it is 4e-18 off.
+    let by_chance = of(0.297_514_004_4);
+    assert!(0.297_514_004_4_f64.to_bits().trailing_zeros() >= 20 && by_chance.error() > 0.0);
+    for exact in [0.5_f64.powi(24), 1.0 + 2_f64.powi(-10), 3.051_757_812_5e-5, 4095.0 * 2_f64.powi(-300)] {
+        assert_eq!(of(exact).error(), 0.0, "{exact}");
+    }
     let tenth = of(0.1);
     assert!(double(&(big(1.0) / big(10.0) - big(0.1))).abs() <= tenth.error() && tenth.ulps() < 1.0);
     assert_eq!(Rounded::from(0.1).error(), 0.0);
