@@ -89,6 +89,43 @@ fn two_extremes_within_a_step() {
     assert_eq!((found.largest.input, found.largest.value), (c, 1.0));
 }
 
+/// Zeros of the derivative at an end and at a sample hide no other in the same step.
+#[test]
+fn extremes_next_to_a_zero_at_a_sample() {
+    for w in [0.002, 1e-3, 1e-5] {
+        for centre in [0.0, 0.5, 1.0] {
+            // ((x - c)^2 - w^2)^2 / w^4 - 1 is 0 at c and -1 at c +- w.
+            let well = |x: f64| {
+                let u = (x - centre) / w;
+                let [value, first, second] = [u * u * (u * u - 2.0), 4.0 * u * (u * u - 1.0), 12.0 * u * u - 4.0];
+                Ok(OutputMotion { value, velocity: first / w, acceleration: second / (w * w) })
+            };
+            let found = over_range([0.0, 1.0], well).unwrap();
+            assert_relative_eq!(found.least.value, -1.0, max_relative = 1e-9);
+            assert_relative_eq!((found.least.input - centre).abs(), w, max_relative = 1e-9);
+        }
+    }
+}
+
+/// A polynomial with five extremes within a step.
+#[test]
+fn several_extremes_within_a_step() {
+    // The Chebyshev polynomial T6 on an interval of half a step, and outside of it a steep rise.
+    let (c, a) = (0.501_3, 0.5 / 360.0 * 0.45);
+    let wave = |x: f64| {
+        let u: f64 = (x - c) / a;
+        let square = u * u;
+        let value = ((32.0 * square - 48.0) * square + 18.0) * square - 1.0;
+        let velocity = ((192.0 * square - 192.0) * square + 36.0) * u / a;
+        let acceleration = ((960.0 * square - 576.0) * square + 36.0) / (a * a);
+        Ok(OutputMotion { value, velocity, acceleration })
+    };
+    let found = over_range([c - 1.001 * a, c + 0.999 * a], wave).unwrap();
+    assert_relative_eq!(found.least.value, -1.0, max_relative = 1e-12);
+    let found = over_range([0.0, 1.0], wave).unwrap();
+    assert_relative_eq!(found.least.value, -1.0, max_relative = 1e-9);
+}
+
 #[test]
 fn errors_are_those_of_the_quantity() {
     let m = FourBar { l2: 300.0, ..FourBar::default() };
