@@ -144,9 +144,13 @@ impl<N: Number> Number for Series<N> {
         let (sine, cosine) = self.value.sine_cosine();
         (self.chain(sine, cosine, -sine), self.chain(cosine, -sine, -cosine))
     }
+    /// Over a pole nothing is known of its derivatives, not even that the first is positive.
     fn tan(self) -> Self {
+        let (_, cosine) = self.value.sine_cosine();
         let value = self.value.tan();
-        let by = N::one() + value.square();
+        // Zero, or unknown.
+        let pole = N::zero() / cosine;
+        let by = N::one() + value.square() + pole;
         self.chain(value, by, double(value * by))
     }
     fn asin(self) -> Self {
@@ -161,14 +165,18 @@ impl<N: Number> Number for Series<N> {
         let by = N::one() / (N::one() + self.value.square());
         self.chain(self.value.atan(), by, -double(self.value * by.square()))
     }
-    /// theta' = (x y' - y x') / r^2, and its derivative.
+    /// theta' = (x y' - y x') / r^2, and its derivative. Over the negative x axis, where theta jumps, nothing is known of them:
+    /// there the value reaches pi.
     fn arctangent2(self, x: Self) -> Self {
         let y = self;
+        let value = y.value.arctangent2(x.value);
+        // Zero, or unknown. A double on the axis itself has the derivative of its side.
+        let cut = N::zero() / (N::pi() - value.abs() + N::exactly(f64::MIN_POSITIVE));
         let squared = x.value.square() + y.value.square();
         let first = (x.value * y.first - y.value * x.first) / squared;
         let along = x.value * x.first + y.value * y.first;
         let second = (x.value * y.second - y.value * x.second - double(first * along)) / squared;
-        Self { value: y.value.arctangent2(x.value), first, second }
+        Self { value, first: first + cut, second: second + cut }
     }
     /// r' = (x x' + y y') / r, and its derivative.
     fn hypotenuse(self, y: Self) -> Self {

@@ -4,6 +4,7 @@
 //! INTERVALS=3000 cargo test --release --all-features --test intervals -- --nocapture    poses of each mechanism
 //! ```
 
+mod cuts;
 mod doubles;
 mod duals;
 mod enclosures;

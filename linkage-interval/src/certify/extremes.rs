@@ -33,7 +33,8 @@ pub struct Enclosure {
     /// It contains the largest value; with tolerances, that of each mechanism.
     pub largest: Interval,
     /// True if both are as narrow as asked for: 1e-9 of the largest magnitude of the quantity over the motion, beyond
-    /// the effect of the tolerances. If not, they are enclosures all the same, as narrow as the bounded work made them.
+    /// the effect of the tolerances. If not, they are enclosures all the same, as narrow as the bounded work made them; also
+    /// next to a jump, as of an angle by `atan2` at pi, whose values on both sides they contain.
     pub is_sharp: bool,
     /// The number of boxes and points at which the quantity was evaluated.
     pub evaluations: usize,
@@ -105,7 +106,9 @@ impl<M: Certifiable> Search<'_, M> {
     fn push(&mut self, tube: usize, c: Interval) {
         let jet = self.evaluate(tube, c);
         let bound = jet.map_or(f64::INFINITY, |jet| jet.value.most());
-        if let Some(jet) = jet.filter(|jet| !jet.first.contains(0.0)) {
+        // Not over a pole, where a function may rise everywhere and jump.
+        let is_monotone = |jet: &Jet| !jet.first.contains(0.0) && jet.value.magnitude().is_finite();
+        if let Some(jet) = jet.filter(is_monotone) {
             // Monotone: the largest value is at an end.
             let end = if jet.first.least() > 0.0 { c.most() } else { c.least() };
             if !self.is_worth(bound) || self.evaluate(tube, end.into()).is_some() {
@@ -152,18 +155,19 @@ impl<M: Certifiable> Search<'_, M> {
         for (place, tube) in self.tubes.iter().enumerate() {
             self.push(place, tube.range);
         }
-        let mut bound = f64::NEG_INFINITY;
+        let (mut bound, mut is_known) = (f64::NEG_INFINITY, true);
         while let Some(next) = self.open.pop() {
             let most = self.attained.map_or(f64::NEG_INFINITY, Interval::most);
             if next.bound <= most + self.accuracy() || self.evaluations >= MOST_BOXES || !self.divide(&next) {
                 bound = next.bound;
+                is_known = next.jet.is_some_and(|jet| jet.first.magnitude().is_finite());
                 break;
             }
         }
         let attained = self.attained.unwrap_or(Interval::ENTIRE);
         let largest = Interval::new(attained.least(), attained.most().max(bound)).unwrap_or(Interval::ENTIRE);
-        let is_sharp =
-            largest.width() <= (1.0 + OF_TOLERANCES) * attained.width() + 2.0 * RELATIVE_WIDTH * self.magnitude;
+        let is_sharp = is_known
+            && largest.width() <= (1.0 + OF_TOLERANCES) * attained.width() + 2.0 * RELATIVE_WIDTH * self.magnitude;
         (largest, is_sharp, self.evaluations, self.magnitude)
     }
 }
