@@ -90,6 +90,9 @@ const STEPS: u32 = 360;
 /// The parts of the first step and of the last one.
 const PARTS: u32 = 8;
 
+/// The distance from an end of a step at which a determinant falls or rises, divided by the step.
+const BESIDE: f64 = 1e-3;
+
 /// The most steps that narrow an interval to rounding error: about 55 by bisection, about 77 by golden section.
 const NARROWINGS: usize = 80;
 
@@ -424,7 +427,7 @@ impl<A, D> Searched<A, D> {
         Ok(known)
     }
 
-    /// The limit at a minimum of a determinant between two samples.
+    /// The limit at a minimum of a determinant between two samples: it falls at the first and rises at the second.
     fn limit_within<T: Real, P, const N: usize>(
         &self,
         here: &Sample<T, P, N>,
@@ -434,8 +437,22 @@ impl<A, D> Searched<A, D> {
         A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
     {
+        let little = (there.input - here.input) * real::<T>(BESIDE);
+        let inside = [here.input + little, there.input - little];
+        let [after, before] = [self.at(&here.position, inside[0])?, self.at(&here.position, inside[1])?];
+        let (after, before) = match (after, before) {
+            (Found::Assembled(after), Found::Assembled(before)) => (after, before),
+            (Found::Stopped(group), _) => return self.between(&here.position, here.input, inside[0], group).map(Some),
+            (_, Found::Stopped(group)) => return self.between(&here.position, here.input, inside[1], group).map(Some),
+            _ => return Ok(None),
+        };
         for block in 0..N {
-            if let Some(limit) = self.limit_at_minimum(here, there.input, block)? {
+            let falls = after.determinant(block) < here.determinant(block);
+            let rises = before.determinant(block) < there.determinant(block);
+            if falls
+                && rises
+                && let Some(limit) = self.limit_at_minimum(here, there.input, block)?
+            {
                 return Ok(Some(limit));
             }
         }
