@@ -1,0 +1,230 @@
+//! Limits of an input: the interval about a position in which a mechanism can be assembled.
+//!
+//! A group has a position where one or two functions are not negative, such as (p + q)^2 - D^2 for two links p and q
+//! whose outer joints are D apart. If the group depends on the input v alone, or through linear equations solved before
+//! it, they are of the form a + b cos(k v) + c sin(k v) or a + b v + c v^2, whose zeros have a closed form. Groups that
+//! depend on other groups are searched in steps, refined wherever the determinant of a group has a minimum. A search
+//! skips inputs at which a group is undetermined ([`PositionError::Undetermined`]).
+
+mod search;
+
+use self::search::Searched;
+use crate::linear::power_of_two_below;
+use crate::{PositionError, Real, real};
+
+/// The inputs between which a mechanism can be assembled on one branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Limits<T> {
+    /// The end towards smaller inputs.
+    pub lower: Limit<T>,
+    /// The end towards larger inputs.
+    pub upper: Limit<T>,
+}
+
+/// An end of an interval of inputs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Limit<T> {
+    /// No limit: an angle can turn fully, a length can have any value. If groups were searched, no limit was found
+    /// within a turn, or within four times the sum of the lengths of all links.
+    Unlimited,
+    /// A limit v in closed form, accurate to two ulp times its condition number, 1 + the sum of |(l / v) dv/dl| over
+    /// the lengths l. The links are in line there; a later group may be undetermined
+    /// ([`PositionError::Undetermined`]).
+    Exact {
+        /// The last input at which the mechanism can be assembled.
+        input: T,
+        /// The unknowns of the group whose links are in line there.
+        group: &'static str,
+    },
+    /// A limit found by search, between two neighbouring inputs, or between two inputs where a group is undetermined.
+    /// Links that miss each other by a rounding error count as in line, so the true limit lies between the two inputs,
+    /// widened by three ulp times its condition number.
+    Bracketed {
+        /// The last input found at which the mechanism can be assembled.
+        assembled: T,
+        /// An input beyond the limit at which it cannot.
+        unbuildable: T,
+        /// The unknowns of the group that cannot be assembled beyond the limit.
+        group: &'static str,
+    },
+}
+
+impl<T: Copy> Limit<T> {
+    /// Returns the last input at which the mechanism is known to assemble; none if there is no limit.
+    pub fn input(&self) -> Option<T> {
+        match *self {
+            Self::Unlimited => None,
+            Self::Exact { input, .. } => Some(input),
+            Self::Bracketed { assembled, .. } => Some(assembled),
+        }
+    }
+}
+
+/// A function of an input that is not negative where a group can be assembled.
+#[derive(Debug, Clone, Copy)]
+pub enum Bound<T> {
+    /// a + b cos(k v) + c sin(k v) of an input v: a, b and c, then k.
+    Angle(Block, [T; 3], T),
+    /// a + b v + c v^2 of an input v.
+    Length(Block, [T; 3]),
+}
+
+/// A group: its index among the determinants, and its unknowns.
+pub type Block = (usize, &'static str);
+
+/// The range in which groups that have no [`Bound`] are searched for limits.
+#[derive(Debug, Clone, Copy)]
+pub enum Search<T> {
+    /// No group is searched: all have bounds.
+    ClosedFormOnly,
+    /// One turn to either side.
+    Turn,
+    /// This distance to either side.
+    Length(T),
+}
+
+/// Computes the limits about the input `start` of `position`. `assemble` computes the position at an input from one
+/// nearby, `determinants` the determinants of the blocks of a position.
+///
+/// # Errors
+/// [`PositionError::NotFinite`] if a number is not finite.
+pub fn limits<T: Real, P, const B: usize, const N: usize>(
+    mechanism: &'static str,
+    start: T,
+    position: P,
+    bounds: [Bound<T>; B],
+    search: Search<T>,
+    assemble: impl Fn(&P, T) -> Result<P, PositionError>,
+    determinants: impl Fn(&P) -> [T; N],
+) -> Result<Limits<T>, PositionError> {
+    let [mut lower, mut upper] = [None; 2];
+    for bound in &bounds {
+        let [below, above] = bound.about(start).ok_or(PositionError::NotFinite { mechanism, quantity: "a limit" })?;
+        lower = nearer(lower, below, |new, old| new > old);
+        upper = nearer(upper, above, |new, old| new < old);
+    }
+    let searched = Searched { assemble, determinants };
+    let exact = |end: Option<(T, Block)>| -> Result<Limit<T>, PositionError> {
+        let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
+        let input = searched.corrected(start, &position, end, place)?;
+        Ok(Limit::Exact { input: searched.last(start, &position, input)?, group })
+    };
+    let (lower, upper) = (exact(lower)?, exact(upper)?);
+    let reach = match search {
+        Search::ClosedFormOnly => return Ok(Limits { lower, upper }),
+        Search::Turn => T::two_pi(),
+        Search::Length(reach) => reach,
+    };
+    Ok(Limits {
+        lower: searched.toward(start, &position, lower, start - reach)?,
+        upper: searched.toward(start, &position, upper, start + reach)?,
+    })
+}
+
+/// The end nearer to the start, of two that may not exist.
+fn nearer<T: Copy>(
+    known: Option<(T, Block)>,
+    new: Option<(T, Block)>,
+    is_nearer: fn(&T, &T) -> bool,
+) -> Option<(T, Block)> {
+    match (known, new) {
+        (Some((old, _)), Some((input, _))) if !is_nearer(&input, &old) => known,
+        (_, Some(_)) => new,
+        _ => known,
+    }
+}
+
+impl<T: Real> Bound<T> {
+    /// The nearest zeros on either side of `start`, where the function is not negative up to rounding error; none if a
+    /// number is not finite. With one negative length of two both functions of a group have the other sign.
+    fn about(&self, start: T) -> Option<[Option<(T, Block)>; 2]> {
+        let with_sign = |coefficients: [T; 3], terms: [T; 3]| {
+            let least = terms.iter().fold(T::zero(), |sum, term| sum + term.abs()) * T::default_epsilon().sqrt();
+            if terms[0] + terms[1] + terms[2] < -least { coefficients.map(|part| -part) } else { coefficients }
+        };
+        let (block, [lower, upper]) = match *self {
+            Self::Angle(block, [a, b, c], rate) => {
+                let (sine, cosine) = (rate * start).sine_cosine();
+                (block, of_angle(with_sign([a, b, c], [a, b * cosine, c * sine]), rate, start)?)
+            }
+            Self::Length(block, [a, b, c]) => {
+                (block, of_length(with_sign([a, b, c], [a, b * start, c * start * start]), start)?)
+            }
+        };
+        let is_finite = lower.into_iter().chain(upper).all(|input| input.is_finite());
+        // At a limit a rounding error may put the zero on the other side of `start`.
+        let lower = lower.map(|input| if input < start { input } else { start });
+        let upper = upper.map(|input| if input > start { input } else { start });
+        is_finite.then(|| [lower, upper].map(|input| Some((input?, block))))
+    }
+}
+
+/// The ends of an interval, where they exist.
+type Ends<T> = [Option<T>; 2];
+
+/// The interval about `start` in which a + b cos(k v) + c sin(k v) is not negative.
+fn of_angle<T: Real>(coefficients: [T; 3], rate: T, start: T) -> Option<Ends<T>> {
+    if rate.is_zero() {
+        return Some([None; 2]);
+    }
+    let [a, b, c] = normalised(coefficients)?;
+    let r = b.hypot(c);
+    if a >= r || r.is_zero() {
+        return Some([None; 2]);
+    }
+    // atan2 gives the half width: acos loses digits near 0 and pi. Where links just touch, a may be less than -r.
+    let sine = ((r - a) / r * ((r + a) / r)).max(T::zero()).sqrt();
+    let (width, middle) = (sine.atan2(-a / r), c.atan2(b));
+    let turns = ((rate * start - middle) / T::two_pi()).round() * T::two_pi();
+    let ends = [middle - width + turns, middle + width + turns].map(|angle| Some(angle / rate));
+    let [first, second] = ends;
+    Some(if rate < T::zero() { [second, first] } else { [first, second] })
+}
+
+/// The interval about `start` in which a + b v + c v^2 is not negative.
+fn of_length<T: Real>([a, b, c]: [T; 3], start: T) -> Option<Ends<T>> {
+    // In a unit in which a and c are of similar magnitude, v^2 does not overflow.
+    let root = |value: T| if value.is_zero() { T::one() } else { power_of_two_below(value.abs().sqrt()) };
+    let unit = if a.is_zero() || c.is_zero() { T::one() } else { root(a) / root(c) };
+    let [a, b, c] = normalised([a, b * unit, c * unit * unit])?;
+    let half = b / real::<T>(2.0);
+    if c.is_zero() {
+        let end = (!b.is_zero()).then(|| -a / b * unit);
+        return Some(if b > T::zero() { [end, None] } else { [None, end] });
+    }
+    let radicand = half * half - a * c;
+    let [low, high] = if radicand > T::zero() {
+        // Neither root is a difference of nearly equal numbers.
+        let q = -(half + radicand.sqrt().copysign(half));
+        let [one, other] = [q / c, a / q];
+        if one < other { [one, other] } else { [other, one] }
+    } else if c < T::zero() {
+        // Links that just touch, at one input: a rounding error may make the radicand negative.
+        [-half / c; 2]
+    } else {
+        return Some([None; 2]);
+    };
+    let [low, high] = [low * unit, high * unit];
+    Some(if c < T::zero() {
+        [Some(low), Some(high)]
+    } else if start - low > high - start {
+        [Some(high), None]
+    } else {
+        [None, Some(low)]
+    })
+}
+
+/// Divides coefficients by a power of two near the largest; none if one is not finite.
+fn normalised<T: Real>(coefficients: [T; 3]) -> Option<[T; 3]> {
+    let largest = coefficients.iter().fold(T::zero(), |most, part| if part.abs() > most { part.abs() } else { most });
+    if !coefficients.iter().all(T::is_finite) {
+        None
+    } else if largest.is_zero() {
+        Some(coefficients)
+    } else {
+        let unit = power_of_two_below(largest);
+        Some(coefficients.map(|part| part / unit))
+    }
+}
