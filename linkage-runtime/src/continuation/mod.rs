@@ -14,8 +14,7 @@
 //!    where the input reaches the end of its range or its target, and where a watched function is zero. The first of
 //!    several zeros in a step is found, also of two next to each other, from the values and slopes at both ends of the
 //!    step: none is missed of a function that deviates from its cubic by less than a few times what the cubic deviates
-//!    from its chord. A determinant that touches zero within the error
-//!    of the position does not change its sign.
+//!    from its chord. A determinant that touches zero within the error of the position does not change its sign.
 //! 4. *Change points*, where [J A] loses rank and motions cross: all tangents follow from the second derivatives, all
 //!    singular groups are found, and [`AtChangePoint`] selects the motion. Where motions only come close to each other,
 //!    Psi is not zero at the point between them; they are followed round their bend, however sharp it is.
