@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use linkage_compiler::diagnostics::Diagnostics;
-use linkage_compiler::graph::OPERATIONS;
+use linkage_compiler::graph::written;
 use linkage_compiler::model::{Request, VECTOR_FUNCTIONS};
 use linkage_compiler::syntax::{
     self, EFFECTS, EffectKind, Expression, Expressions, Joint, KEYWORDS, Mechanism, Operator, PROPERTIES, Place,
@@ -319,7 +319,7 @@ fn each_construct_is_in_a_tested_block_of_the_manual() {
             }
         }
     }
-    let functions = OPERATIONS.iter().map(|row| row.name).chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name));
+    let functions = written().map(|row| row.name).chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name));
     let constructs = (KEYWORDS.iter().map(|word| format!("statement `{word}`")))
         .chain(EFFECTS.iter().map(|word| format!("effect `{word}`")))
         .chain(PROPERTIES.iter().map(|word| format!("property `{word}`")))

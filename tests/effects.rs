@@ -127,8 +127,8 @@ fn an_effect_costs_what_it_takes_by_hand() {
     let limits = [
         // m3 g inside the coupler's product, and m4 g a4 cos theta4 theta4'.
         ("Weighed", [0, 0, 4, 2]),
-        // The length, which is a function, k (s - s0) / s, and d . C'.
-        ("Sprung", [1, 1, 6, 9]),
+        // The length, which is a function, k (s - s0) / s, k s0, which is compared with zero, and d . C'.
+        ("Sprung", [1, 1, 7, 9]),
         ("Twisted", [0, 0, 2, 2]),
         ("Damped", [0, 0, 2, 1]),
         // f t C'_y.

@@ -64,6 +64,13 @@ pub trait Real: RealField + Copy {
     fn hypotenuse(self, y: Self) -> Self {
         if lane::has_hypotenuse(self, y) { lane::hypotenuse(self, y) } else { extreme_length(self, y) }
     }
+
+    /// `value`, or its limit where `self` is zero and the value may not be a number.
+    #[inline(always)]
+    #[must_use]
+    fn if_nonzero(self, value: Self, limit: Self) -> Self {
+        if self == Self::zero() { limit } else { value }
+    }
 }
 
 impl<T: RealField + Copy> Real for T {}

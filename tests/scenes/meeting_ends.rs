@@ -8,7 +8,7 @@ linkage! {
     /// A ball on a line.
     #[derive(Debug, Clone)]
     pub mechanism Bead {
-        param m = 1, k = 100, c = 0.8;
+        param m = 1, k = 100, c = 0.8, free = 0;
         input y;
         point A = (0, 0);
         point B = (0, y);
@@ -16,6 +16,7 @@ linkage! {
         scene Joined { inertia; spring k between A and B; energy; equilibrium; }
         scene Freed { inertia; spring k, 0 between A and B; energy; }
         scene Damped { inertia; damper c between A and B; power; }
+        scene Loose { inertia; spring k, free between A and B; energy; equilibrium; }
     }
 }
 
@@ -36,8 +37,12 @@ linkage! {
         scene Dotted { inertia; potential k/2 * dot(d, d); equilibrium; energy; }
         scene Cubed { inertia; potential k/3 * norm(d)^3; }
         scene Magnitude { inertia; potential k/2 * (abs(x - x0)^2 + abs(y - y0)^2); equilibrium; energy; }
-        scene Long { inertia; spring k, free between P and (x, y); }
-        scene Slowed { inertia; damper k between P and (x, y); }
+        scene Long { inertia; spring k, free between P and (x, y); equilibrium; energy; power; }
+        scene LongOnLength { inertia; spring k, free on sqrt(dot(d, d)); equilibrium; energy; }
+        scene LongStored { inertia; potential k/2 * (norm(d) - free)^2 + free*x; equilibrium; energy; }
+        scene Quartic { inertia; potential k * (norm(d) - free)^4; equilibrium; energy; }
+        scene Slowed { inertia; damper k between P and (x, y); power; }
+        scene Drawn { inertia; torque k on norm(d); }
         scene Wound { inertia; force (k * norm(d)^2, k * norm(d)^4) at (x, y); }
     }
 }
@@ -151,6 +156,69 @@ fn a_free_length_leaves_the_direction_open() {
     let expected = PositionError::NotFinite { mechanism: "Long", quantity };
     assert_eq!(error, MotionError::Position(expected));
     assert!(Error::from(error).to_string().contains("is not a finite number"));
+    assert!(Long::default().balance(0.0, &q).is_err());
+    assert!(LongOnLength::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).is_err());
+    assert!(LongStored::default().balance(0.0, &q).is_err());
+    assert!(Quartic::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).is_err());
+    let mut loose = Loose::default();
+    loose.free = 0.1;
+    assert!(loose.forces(0.0, &BeadCoordinates { y: 0.0 }, 1.0).is_err());
+}
+
+/// A parameter may be zero at run time: a spring of that free length is one without, at every length.
+#[test]
+fn a_free_length_of_the_value_zero() {
+    let plain = Sprung::default();
+    for [dx, dy] in [[0.0, 0.0], [1e-300, 0.0], [0.0, -1e-9], [0.3, 0.4]] {
+        let q = BallCoordinates { x: 0.3 + dx, y: -0.1 + dy };
+        let rates = BallInputs { x: 0.2, y: -0.7 };
+        let (force, balance) = (plain.forces(0.0, &q, rates).unwrap(), plain.balance(0.0, &q).unwrap());
+        let energy = plain.energy(&q, rates).unwrap();
+        macro_rules! agrees {
+            ($($scene:ident),*) => { $(
+                let scene = $scene { free: 0.0, ..$scene::default() };
+                let found = scene.forces(0.0, &q, rates).unwrap();
+                for (found, expected) in found.iter().zip(&force) {
+                    close(stringify!($scene), *found, *expected, 1e-14 * expected.abs());
+                }
+                let found = scene.balance(0.0, &q).unwrap();
+                for place in 0..4 {
+                    let [column, row] = [place / 2, place % 2];
+                    close("slope", found.slopes[column][row], balance.slopes[column][row], 1e-12);
+                }
+                let found = scene.energy(&q, rates).unwrap();
+                close("energy", found.potential, energy.potential, 1e-14 * energy.potential);
+            )* };
+        }
+        agrees!(Long, LongOnLength, LongStored);
+    }
+    let q = BallCoordinates { x: 0.3, y: -0.1 };
+    let still = Quartic { free: 0.0, ..Quartic::default() };
+    assert_eq!(still.forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).unwrap().as_slice(), [0.0, 0.0]);
+
+    let (scene, q) = (Loose::default(), BeadCoordinates { y: 0.0 });
+    let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 1.0 }, 3.0, 1e-12).unwrap();
+    for i in 0..=30 {
+        let t = f64::from(i) / 10.0;
+        close("y", motion.at([t]).next().unwrap().unwrap().q.y, 0.1 * (10.0 * t).sin(), 1e-11);
+    }
+    assert_eq!(scene.equilibrium(0.0, &BeadCoordinates { y: 0.7 }).unwrap().y, 0.0);
+}
+
+/// Without stiffness, damping or torque there is no force either.
+#[test]
+fn a_law_of_the_value_zero_needs_no_direction() {
+    let (q, rates) = (BallCoordinates { x: 0.3, y: -0.1 }, BallInputs { x: 1.0, y: 2.0 });
+    macro_rules! none {
+        ($($scene:ident),*) => { $(
+            assert!($scene::default().forces(0.0, &q, rates).is_err());
+            let scene = $scene { k: 0.0, ..$scene::default() };
+            assert_eq!(scene.forces(0.0, &q, rates).unwrap().as_slice(), [0.0, 0.0], stringify!($scene));
+        )* };
+    }
+    none!(Long, LongOnLength, Slowed, Drawn);
+    let power = Slowed { k: 0.0, ..Slowed::default() }.power(0.0, &q, rates).unwrap();
+    assert_eq!(power.dissipated, 0.0);
 }
 
 #[test]

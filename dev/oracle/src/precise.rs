@@ -176,6 +176,7 @@ impl Scalar for Big {
             Function::Exp => x.exp(),
             Function::Ln => x.ln(),
             Function::Hypot => (x * x + &arguments[1] * &arguments[1]).sqrt(),
+            Function::IfNonzero => arguments[if x.double() == 0.0 { 2 } else { 1 }].clone(),
         }
     }
     fn double(&self) -> f64 {

@@ -249,6 +249,14 @@ impl Graph {
             (Function::Hypot, &[x, y]) if self.is_zero(x) != self.is_zero(y) => {
                 self.call(Function::Abs, &[if self.is_zero(x) { y } else { x }])
             }
+            (Function::IfNonzero, &[_, value, limit]) if value == limit => value,
+            (Function::IfNonzero, &[a, value, limit]) if self.constant_value(a).is_some() => {
+                if self.is_zero(a) {
+                    limit
+                } else {
+                    value
+                }
+            }
             _ => self.intern(Node::Call(function, arguments.to_vec())),
         }
     }

@@ -50,6 +50,11 @@ impl Graph {
                     }
                     self.sum(&terms)
                 }
+                // if_nonzero(a, v, w)' = if_nonzero(a, v', w') if a does not move
+                Node::Call(Function::IfNonzero, arguments) if derivatives[arguments[0].index()] == zero => {
+                    let [value, limit] = [1, 2].map(|place| derivatives[arguments[place].index()]);
+                    self.call(Function::IfNonzero, &[arguments[0], value, limit])
+                }
                 // f(a, b)' = f_a a' + f_b b'
                 Node::Call(function, arguments) => {
                     let inner: Vec<_> = arguments.iter().map(|argument| derivatives[argument.index()]).collect();

@@ -1,6 +1,6 @@
 //! The elementary functions that a node can call.
 
-/// An elementary function of one or two scalars.
+/// An elementary function of scalars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
     Sin,
@@ -15,4 +15,6 @@ pub enum Function {
     Exp,
     Ln,
     Hypot,
+    /// `if_nonzero(a, v, w)`: v, or its limit w where a is zero and v may be 0 / 0. Not in the language.
+    IfNonzero,
 }

@@ -26,7 +26,7 @@ pub struct Operation {
 }
 
 /// The table, in the order of [`Function`].
-pub const OPERATIONS: [Operation; 12] = [
+pub const OPERATIONS: [Operation; 13] = [
     Operation {
         function: Function::Sin,
         name: "sin",
@@ -176,7 +176,22 @@ pub const OPERATIONS: [Operation; 12] = [
             _ => Vec::new(),
         },
     },
+    Operation {
+        function: Function::IfNonzero,
+        name: "if_nonzero",
+        arity: 3,
+        value: |x| if x[0] == 0.0 { x[2] } else { x[1] },
+        // d if_nonzero(a, v, w) = dv if a moves; `differentiate` has the other case.
+        partials: |g, _, _| vec![g.zero(), g.one(), g.zero()],
+        may_be_undefined: false,
+        kinks: none,
+    },
 ];
+
+/// The rows of the functions of the language.
+pub fn written() -> impl Iterator<Item = &'static Operation> {
+    OPERATIONS.iter().filter(|row| row.function != Function::IfNonzero)
+}
 
 impl Function {
     #[must_use]
@@ -187,7 +202,7 @@ impl Function {
     /// The function of this name in the language.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        OPERATIONS.iter().find(|row| row.name == name).map(|row| row.function)
+        written().find(|row| row.name == name).map(|row| row.function)
     }
 }
 

@@ -16,7 +16,7 @@ impl Schedule {
                 Value::Product(factors) => total.multiplications += factors.len() - 1,
                 Value::Quotient(..) => total.divisions += 1,
                 Value::Square(_) => total.multiplications += 1,
-                Value::Call(Function::Abs, _) => {}
+                Value::Call(Function::Abs | Function::IfNonzero, _) => {}
                 Value::Call(..) | Value::External(..) => total.functions += 1,
                 Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {}
             }

@@ -150,7 +150,9 @@ impl Works {
             Value::Call(function, arguments) => {
                 let operands: Vec<_> = arguments.iter().map(signed).collect();
                 match function {
-                    Function::Abs => self.numbered(Operator::Call(*function), operands, none, work),
+                    Function::Abs | Function::IfNonzero => {
+                        self.numbered(Operator::Call(*function), operands, none, work)
+                    }
                     // Sine and cosine of an angle are one function.
                     Function::Cos => {
                         self.numbered(Operator::Call(Function::Sin), operands.clone(), call, work);

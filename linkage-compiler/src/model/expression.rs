@@ -357,7 +357,7 @@ impl Lowering<'_> {
             if text == "rate" {
                 self.diagnostics.error(region, "`rate(…)` can be used only in the laws of a scene");
             } else {
-                let known = crate::graph::OPERATIONS.iter().map(|row| row.name);
+                let known = crate::graph::written().map(|row| row.name);
                 let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());
                 let hint = match (self.value_of(&text), advice::for_function(&text)) {
                     (Some(hint), _) => hint,

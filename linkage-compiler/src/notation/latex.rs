@@ -98,6 +98,7 @@ impl Style for Latex {
         let name = function_name(function);
         match function {
             Function::Atan2 | Function::Hypot => out.extend(["\\operatorname{", name, "}"]),
+            Function::IfNonzero => out.push_str("\\operatorname{if\\_nonzero}"),
             _ => out.extend(["\\", name]),
         }
         if exponent != 1 && is_circular(function) {

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
+use rustc_hash::FxHashMap;
 use syn::Attribute;
 
 use super::{Account, Draft, Law, Reading, SceneRequest, Wanted};
@@ -65,23 +66,30 @@ impl Lowering<'_> {
                 let Some((along, words)) = self.place(place) else { return };
                 let (Some(k), false) = (k, free_length == Some(None)) else { return };
                 self.still(*stiffness, k, "the stiffness of a spring");
-                let mut stretch = along;
+                let mut free_node = self.graph.zero();
                 if let (Some(free), Some(Some(node))) = (free, free_length) {
                     self.still(*free, node, "the free length of a spring");
-                    stretch = self.graph.subtract(along, node);
-                }
-                let label = format!("spring{words}");
-                if let Some(along) = self.half_square(along).filter(|_| stretch == along) {
-                    // F = -k along s^2 / 2: a length s need not have a direction where it is zero
-                    let (law, energy) = (self.graph.negate(k), self.graph.multiply(k, along));
-                    scene.laws.push(Law { label, law, along, account: Account::Stored(energy) });
-                    return;
+                    free_node = node;
                 }
                 // F = -k (s - s0), V = k (s - s0)^2 / 2
+                let stretch = self.graph.subtract(along, free_node);
                 let pull = self.graph.multiply(k, stretch);
-                let energy = self.graph.product(&[(k, 1), (stretch, 2)]);
-                let account = Account::Stored(self.graph.scale(Number::ratio(1, 2), energy));
-                scene.laws.push(Law { label, law: self.graph.negate(pull), along, account });
+                let double = self.graph.multiply(pull, stretch);
+                let mut energy = self.graph.scale(Number::ratio(1, 2), double);
+                let (pull, along) = match self.half_square(along) {
+                    Some(half_square) if stretch == along => {
+                        energy = self.graph.multiply(k, half_square);
+                        (k, half_square)
+                    }
+                    // F = -k (s - s0) / s along s^2 / 2
+                    Some(half_square) => {
+                        let push = self.graph.multiply(k, free_node);
+                        (self.by_length(pull, along, push, k), half_square)
+                    }
+                    None => (pull, along),
+                };
+                let (law, account) = (self.graph.negate(pull), Account::Stored(energy));
+                scene.laws.push(Law { label: format!("spring{words}"), law, along, account });
             }
             EffectKind::Damper { constant, place } => {
                 let c = self.law(*constant);
@@ -91,14 +99,34 @@ impl Lowering<'_> {
                     let message = "the constant of a damper is negative: it would drive the mechanism";
                     self.diagnostics.error(self.expressions.region(*constant), message);
                 }
+                // |x|' along |x| is x' along x
+                let along = match self.graph.node(along) {
+                    Node::Call(Function::Abs, x) => x[0],
+                    _ => along,
+                };
+                let (along, per_rate) = match self.half_square(along) {
+                    // F = -c s' / s = -(c / s^2) (s^2 / 2)' along s^2 / 2
+                    Some(half_square) => {
+                        let (square, zero) = (self.graph.power(along, 2), self.graph.zero());
+                        (half_square, self.by_length(c, square, c, zero))
+                    }
+                    None => (along, c),
+                };
                 let rate = self.rate_of(along);
-                let force = self.graph.multiply(c, rate);
+                let force = self.graph.multiply(per_rate, rate);
                 let law = self.graph.negate(force);
                 scene.laws.push(Law { label: format!("damper{words}"), law, along, account: Account::Dissipated });
             }
             EffectKind::Torque { law, on } => {
                 let (law, along) = (self.law(*law), self.scalar(*on));
                 let (Some(law), Some(along), Some(words)) = (law, along, self.text(*on)) else { return };
+                let (law, along) = match self.half_square(along) {
+                    Some(half_square) => {
+                        let zero = self.graph.zero();
+                        (self.by_length(law, along, law, zero), half_square)
+                    }
+                    None => (law, along),
+                };
                 scene.laws.push(Law { label: format!("torque on {words}"), law, along, account: Account::Applied });
             }
             EffectKind::Force { law, at } => {
@@ -114,10 +142,8 @@ impl Lowering<'_> {
             }
             EffectKind::Potential(value) => {
                 if let Some(node) = self.scalar(*value) {
-                    // F = -dV: the law -1 along V
                     let label = format!("potential {}", self.text(*value).unwrap_or_default());
-                    let law = self.graph.number(Number::MINUS_ONE);
-                    scene.laws.push(Law { label, law, along: node, account: Account::Stored(node) });
+                    scene.laws.extend(self.potential(node, &label));
                 }
             }
             EffectKind::Friction { .. } | EffectKind::Stop { .. } => {
@@ -189,10 +215,79 @@ impl Lowering<'_> {
         }
     }
 
-    /// s^2 / 2 of a length or another magnitude, also of a constant one: an opened joint may change it.
+    /// F = -dV: -dV/ds / s along s^2 / 2 for the terms of V that are functions of one length s, and -1 along the others.
+    fn potential(&mut self, value: NodeId, label: &str) -> Vec<Law> {
+        let mut laws = Vec::new();
+        let mut others = Vec::new();
+        for (coefficient, term) in self.graph.terms(value) {
+            let energy = self.graph.scale(coefficient, term);
+            match self.along_one_length(energy) {
+                Some((law, along)) => {
+                    laws.push(Law { label: label.to_owned(), law, along, account: Account::Stored(energy) });
+                }
+                None => others.push((Number::ONE, energy)),
+            }
+        }
+        if laws.is_empty() || !others.is_empty() {
+            let (law, along) = (self.graph.number(Number::MINUS_ONE), self.graph.sum(&others));
+            laws.push(Law { label: label.to_owned(), law, along, account: Account::Stored(along) });
+        }
+        laws
+    }
+
+    /// -dV/ds / s and s^2 / 2, if V moves with one length s only, and not only with powers from s^2 on, which need no
+    /// direction of it.
+    fn along_one_length(&mut self, potential: NodeId) -> Option<(NodeId, NodeId)> {
+        let moves = |node| self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol));
+        let is_length = |&node: &NodeId| {
+            let is_call =
+                matches!(self.graph.node(node), Node::Call(Function::Hypot | Function::Abs | Function::Sqrt, _));
+            is_call && moves(node)
+        };
+        let reachable = self.graph.reachable(&[potential]);
+        let length = reachable.iter().copied().rfind(is_length)?;
+        let needs_direction = reachable.iter().any(|&node| match self.graph.node(node) {
+            Node::Sum { terms, .. } => terms.iter().any(|(_, term)| *term == length),
+            Node::Product { factors, .. } => factors.iter().any(|&(base, exponent)| base == length && exponent < 2),
+            Node::Call(_, arguments) | Node::External(_, arguments) => arguments.contains(&length),
+            Node::Constant(_) | Node::Pi | Node::Symbol(_) => false,
+        });
+        let symbol = self.graph.symbol("length");
+        let variable = self.graph.variable(symbol);
+        let of_variable = self.graph.replace(&[potential], &FxHashMap::from_iter([(length, variable)]))[0];
+        let moves = |node| self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol));
+        if moves(of_variable) || !needs_direction && length != potential {
+            return None;
+        }
+        let slope = self.graph.partial(&[of_variable], symbol)[0];
+        let stiffness = self.graph.partial(&[slope], symbol)[0];
+        let half_square = self.half_square(length)?;
+        let at = |place| FxHashMap::from_iter([(variable, place)]);
+        let zero = self.graph.zero();
+        let here = self.graph.replace(&[slope], &at(length))[0];
+        let law = if self.graph.symbols_of(&[stiffness]).contains(&symbol) {
+            self.by_length(here, length, here, zero)
+        } else {
+            // dV/ds = c + k s
+            let c = self.graph.replace(&[slope], &at(zero))[0];
+            self.by_length(here, length, c, stiffness)
+        };
+        Some((self.graph.negate(law), half_square))
+    }
+
+    /// `force` / `length`, and its limit where `part`, the force at length zero, is zero: without a force its direction does
+    /// not matter.
+    fn by_length(&mut self, force: NodeId, length: NodeId, part: NodeId, limit: NodeId) -> NodeId {
+        let quotient = self.graph.divide(force, length);
+        self.graph.call(Function::IfNonzero, &[part, quotient, limit])
+    }
+
+    /// s^2 / 2 of a length or another magnitude, also of a constant one: an opened joint may change it. A force along it need
+    /// not have a direction where the length is zero.
     fn half_square(&mut self, scalar: NodeId) -> Option<NodeId> {
         let parts = match self.graph.node(scalar).clone() {
             Node::Call(Function::Hypot | Function::Abs, parts) => parts,
+            Node::Call(Function::Sqrt, square) => return Some(self.graph.scale(Number::ratio(1, 2), square[0])),
             _ if self.graph.constant_value(scalar).is_some() => vec![scalar],
             _ => return None,
         };
