@@ -1,7 +1,12 @@
 //! Dead points in pairs within one step: a sign at two places says nothing of what lies between them.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use linkage::circuits::CurveEnd;
 use linkage::continuation::{Direction, Event, Path};
 use linkage::{PathError, linkage};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
 
 use crate::{circuits, counts, dead_inputs};
 
@@ -137,4 +142,69 @@ fn both_zeros_of_a_watched_function() {
     // A zero right after another: within a step of the first.
     let found = turn(path(), &|q, _| (q.v - 1.0) * (q.v - 1.0 - 1e-4) * (q.v - 1.0 - 3e-4));
     assert_eq!(found.len(), 3, "{found:?}");
+}
+
+linkage! {
+    /// A four-bar whose rocker moves a slider.
+    #[derive(Debug, Clone)]
+    mechanism Watt2S {
+        param a = 1.5, b = 2.5, c = 2, d = 1, qx = 1, qy = -1, e = 4, h = -3;
+        input v;
+        unknown p, r, u, s;
+        loop a@v + b@p = d@0 + c@r;
+        loop d@0 + (qx, qy)@r + e@u = (s, h);
+    }
+}
+
+/// Where motions of the four-bar cross, the slider's link is perpendicular to its guide, so that the rocker reverses: both
+/// motions of the whole touch there, at v = 0. They reverse there and where the rocker is at pi / 2: then crank and coupler
+/// reach a point at a distance of sqrt 5.
+#[test]
+fn motions_that_touch_are_one_circuit() {
+    let found = circuits(&Watt2S::default(), 1.2392629992);
+    assert_eq!(counts(&found), [4, 1, 0]);
+    let (middle, half) = (2.0_f64.atan2(1.0), (1.0 / 45.0_f64.sqrt()).acos());
+    for (motion, reversal) in found.motions.iter().zip([middle + half, middle - half + TAU]) {
+        assert_eq!(motion.end, CurveEnd::Closed { turns: 0 });
+        let [dead] = dead_inputs(motion)[..] else { panic!("{:?}", dead_inputs(motion)) };
+        assert!((dead - reversal).abs() < 1e-14, "{dead} {reversal}");
+        let touches: Vec<_> = motion.change_points().map(|at| at.point.position).collect();
+        let [at] = touches[..] else { panic!("{touches:?}") };
+        for (found, expected) in [(at.v, 0.0), (at.p.abs(), PI), (at.r.abs(), PI), (at.u, -FRAC_PI_2), (at.s, 0.0)] {
+            assert!((found - expected).abs() < 1e-14, "{at:?}");
+        }
+    }
+}
+
+/// The reversal is found within a step, or the crossing; both are one change point.
+#[test]
+fn touches_of_random_sliders_are_found() {
+    let random = &mut SmallRng::seed_from_u64(45);
+    let mut count = 0;
+    for _ in 0..40 {
+        // The four-bar is in line at v = 0, where b = d + c - a, and the slider's link perpendicular to its guide.
+        let [a, c, d, e] = std::array::from_fn(|_| random.random_range(0.5..4.0));
+        let [qx, qy] = std::array::from_fn(|_| random.random_range(-2.0..2.0));
+        let b: f64 = d + c - a;
+        if b < 0.3 {
+            continue;
+        }
+        let m = Watt2S { a, b, c, d, qx, qy, e, h: qy + e };
+        let Some(input) = [0.02, -0.02].into_iter().find(|&input| m.branches(input).unwrap().next().is_some()) else {
+            continue;
+        };
+        let found = circuits(&m, input);
+        let mut touches = 0;
+        for motion in &found.motions {
+            let at = motion.change_points().map(|at| at.point.position).filter(|q| (q.u.sin() - 1.0).abs() < 1e-15);
+            let at: Vec<_> = at.collect();
+            assert!(at.iter().all(|q| [q.v, q.p, q.r].iter().all(|angle| angle.sin().abs() < 1e-14)), "{m:?} {at:?}");
+            // The motion reverses at each touch.
+            assert_eq!((motion.dead_points().count() + at.len()) % 2, 0, "{m:?} {at:?}");
+            touches += at.len();
+        }
+        count += usize::from(touches > 0);
+    }
+    println!("{count} linkages have motions that touch");
+    assert!(count > 10);
 }

@@ -17,10 +17,17 @@ use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{Cholesky, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::largest;
-use crate::{Column, D, Dim, Matrix, Mechanism, PathError, PerUnknown, real};
+use crate::{Column, D, Dim, Matrix, Mechanism, PathError, PerInput, PerUnknown, real};
 
 /// The most Newton steps; a search from the path takes three to five.
 const MOST_ITERATIONS: usize = 12;
+
+/// A row of [J A] belongs to the part of a mechanism whose motions cross if its weight in N is more than this fraction of the
+/// largest: near a touch the weights of the others are proportional to the distance from it.
+const LEAST_WEIGHT: f64 = 0.125;
+
+/// For each equation the coordinate that is held instead, if any.
+type Held<M> = Column<Option<usize>, <M as Mechanism>::U>;
 
 /// A change point and the unit tangents of the curves that cross there; their signs are arbitrary.
 pub(super) struct Crossing<M: Mechanism> {
@@ -33,7 +40,26 @@ pub(super) struct Crossing<M: Mechanism> {
     pub(super) defect: usize,
     /// The groups that are singular there.
     pub(super) groups: Groups,
+    /// Where the motions touch: they have one tangent.
+    pub(super) touch: Option<Touch<M>>,
 }
+
+/// Motions of a part of a mechanism that cross where the rest reverses this part: all motions of the whole have the tangent
+/// of the reversal.
+pub(super) struct Touch<M: Mechanism> {
+    /// The groups with equations of the part.
+    pub(super) groups: Groups,
+    /// The tangents of the motions of the part.
+    pub(super) tangents: [Vector<M>; 2],
+}
+
+impl<M: Mechanism> Clone for Touch<M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M: Mechanism> Copy for Touch<M> {}
 
 impl<M: Mechanism> Clone for Crossing<M> {
     fn clone(&self) -> Self {
@@ -74,16 +100,16 @@ where
         reach: M::Scalar,
         direction: &Vector<M>,
     ) -> Result<Option<Crossing<M>>, PathError> {
-        let at = self.linear(guess)?;
+        let (at, none) = (self.linear(guess)?, Held::<M>::repeat(None));
         // A simple crossing first; then one with the rank deficiency that the pivots suggest.
         let likely = Elimination::<M>::new(at.jacobian).count_after_largest_drop();
         for open in [1, likely].into_iter().take(if likely == 1 { 1 } else { 2 }) {
-            let Some(mut q) = self.stationary(guess, reach, open)? else { continue };
+            let Some(mut q) = self.stationary(guess, reach, open, &none)? else { continue };
             let at = self.linear(&q)?;
             let defect = Elimination::<M>::new(at.jacobian).defect(nearly_zero());
             if defect > open {
                 // The null space is larger than assumed: the search is repeated with more open rows.
-                let Some(better) = self.stationary(&q, nearly_zero(), defect)? else { continue };
+                let Some(better) = self.stationary(&q, nearly_zero(), defect, &none)? else { continue };
                 q = better;
             }
             if let Some(crossing) = self.tangents(q, defect.max(1), direction)? {
@@ -93,17 +119,137 @@ where
         Ok(None)
     }
 
-    /// Finds the position within `reach` of `guess` where Psi = 0 in the rows with a pivot and the slopes of the `open`
-    /// other rows vanish.
+    /// Finds the position within `reach` of `guess` where motions touch.
+    ///
+    /// The motions of a part of the mechanism cross there, and the rest reverses it, so that the form of the open row is a
+    /// square. The motions of the part alone cross at a saddle point, which is found with the other coordinates held: N
+    /// is zero in the other equations, and the part has one coordinate more than it has equations.
+    pub(super) fn touch(
+        &self,
+        guess: &M::Coordinates,
+        reach: M::Scalar,
+        direction: &Vector<M>,
+    ) -> Result<Option<Crossing<M>>, PathError> {
+        let at = self.linear(guess)?;
+        let Some(held) = self.held(guess, &Elimination::<M>::all_but(1, at.jacobian))? else { return Ok(None) };
+        let Some(q) = self.stationary(guess, reach, 1, &held)? else { return Ok(None) };
+        let Some(q) = self.reversal(&q, &held)? else { return Ok(None) };
+        if self.difference(&q, guess).norm() > reach {
+            return Ok(None);
+        }
+        let (at, part) = (self.linear(&q)?, self.part(&q, &held)?);
+        let (elimination, part) =
+            (Elimination::<M>::all_but(1, at.jacobian.clone()), Elimination::<M>::all_but(1, part.jacobian));
+        let mut free = elimination.free().map(|column| elimination.null_vector(column));
+        let cone = self.cone(&q, &part, direction);
+        let (&[one, other], Some(first), Some(second)) = (cone.lines(), free.next(), free.next()) else {
+            return Ok(None);
+        };
+        // The null vector without a part along the motions that cross.
+        let lines = [one, other].map(|line| part.in_null_space(line.iter().copied()));
+        let [along, across] = lines.map(|line| [first.dot(&line), second.dot(&line)]);
+        let size = |[a, b]: [M::Scalar; 2]| a.abs() + b.abs();
+        let [a, b] = if size(along) > size(across) { along } else { across };
+        let tangent = (first * b - second * a).normalized();
+        let has_tangent = tangent.is_finite() && at.jacobian.along(&tangent).largest() <= nearly_zero();
+        if !(has_tangent && at.is_on_curve() && self.is_crossing(&at, &elimination)) {
+            return Ok(None);
+        }
+        let mut groups = Groups::none(M::GROUPS);
+        for (place, group) in M::GROUPS.iter().enumerate() {
+            if group.equations.iter().any(|&row| held[row].is_none()) {
+                groups.insert(place);
+            }
+        }
+        let mut tangents = [Vector::<M>::zero(); MOST_TANGENTS];
+        tangents[0] = tangent;
+        let touch = Some(Touch { groups, tangents: lines });
+        let groups = self.singular_groups(&q);
+        Ok(Some(Crossing { q, tangents, count: 1, is_complete: true, defect: 1, groups, touch }))
+    }
+
+    /// The position at which the coordinates of a part are held where they are, and one equation of the rest has an extreme
+    /// along the motion that the others leave: its slope is zero there.
+    fn reversal(&self, q: &M::Coordinates, held: &Held<M>) -> Result<Option<M::Coordinates>, PathError> {
+        let mut inner = (0..M::U::COUNT + 1).filter(|column| !held.iter().any(|held| *held == Some(*column)));
+        let outside = Held::<M>::from_fn(|row| if held[row].is_none() { inner.next() } else { None });
+        let Some(last) = inner.next() else { return Ok(None) };
+        let mut q = *q;
+        for _ in 0..MOST_ITERATIONS {
+            let mut at = self.part(&q, &outside)?;
+            at.jacobian.fix(last);
+            let elimination = Elimination::<M>::all_but(1, at.jacobian);
+            let Some(column) = elimination.free().find(|&column| column != last) else { return Ok(None) };
+            let (part, along) = (elimination.solve(&-at.residual), elimination.null_vector(column));
+            let form = |x: &Vector<M>| self.mixed(&q, &elimination, x, &along).sum();
+            let slope = elimination.slope(column).sum() + form(&part);
+            let step = part - along * (slope / form(&along));
+            if !step.is_finite() {
+                return Ok(None);
+            }
+            q = self.moved(&q, &step);
+            if step.norm() <= self.rounding_error(&q) * real(EQUAL_ULPS) {
+                return Ok(Some(q));
+            }
+        }
+        Ok(None)
+    }
+
+    /// For each equation outside the part that N combines, a coordinate that this part does not contain; `None` if the part
+    /// is the whole, or its equations do not leave one coordinate free.
+    fn held(&self, q: &M::Coordinates, elimination: &Elimination<M>) -> Result<Option<Held<M>>, PathError> {
+        let unit =
+            |row| PerUnknown::<M>::from_fn(|other| if other == row { M::Scalar::one() } else { M::Scalar::zero() });
+        let weights = PerUnknown::<M>::from_fn(|row| elimination.left_null_product(&unit(row)).sum().abs());
+        let mut rows = weights.map(|weight| weight > weights.largest() * real(LEAST_WEIGHT));
+        // At an irregular position nearby no entry is zero by chance.
+        let apart = |place: usize| real::<M::Scalar>(f64::sin(1.0 + place as f64));
+        let aside = Vector::<M> {
+            unknowns: PerUnknown::<M>::from_fn(apart),
+            inputs: PerInput::<M>::from_fn(|_| apart(M::U::COUNT)),
+        };
+        let at = self.linear(&self.moved(q, &aside))?;
+        let contains = |row: usize, column: usize| !at.jacobian.entry(row, column).is_zero();
+        let columns = 0..M::U::COUNT + 1;
+        let in_part =
+            |rows: &Column<bool, M::U>, column: usize| (0..M::U::COUNT).any(|row| rows[row] && contains(row, column));
+        // Equations without other coordinates belong to it, too.
+        let found = rows;
+        for row in 0..M::U::COUNT {
+            rows[row] |= columns.clone().all(|column| !contains(row, column) || in_part(&found, column));
+        }
+        let count = rows.iter().filter(|&&is_part| is_part).count();
+        if count == M::U::COUNT || columns.clone().filter(|&column| in_part(&rows, column)).count() != count + 1 {
+            return Ok(None);
+        }
+        let mut others = columns.filter(|&column| !in_part(&rows, column));
+        Ok(Some(Held::<M>::from_fn(|row| if rows[row] { None } else { others.next() })))
+    }
+
+    /// Psi and [J A] of a part of the mechanism: the coordinates of the other equations are held.
+    fn part(&self, q: &M::Coordinates, held: &Held<M>) -> Result<Linear<M>, PathError> {
+        let mut at = self.linear(q)?;
+        for (row, column) in held.iter().enumerate() {
+            if let Some(column) = *column {
+                at.residual[row] = M::Scalar::zero();
+                at.jacobian.hold(row, column);
+            }
+        }
+        Ok(at)
+    }
+
+    /// Finds the position within `reach` of `guess` where, with the coordinates of some equations held, Psi = 0 in the rows
+    /// with a pivot and the slopes of the `open` other rows vanish.
     fn stationary(
         &self,
         guess: &M::Coordinates,
         reach: M::Scalar,
         open: usize,
+        held: &Held<M>,
     ) -> Result<Option<M::Coordinates>, PathError> {
         let mut q = *guess;
         for _ in 0..MOST_ITERATIONS {
-            let at = self.linear(&q)?;
+            let at = self.part(&q, held)?;
             let elimination = Elimination::<M>::all_but(open, at.jacobian);
             let part = elimination.solve(&-at.residual);
             let along = if open == 1 {
@@ -181,6 +327,14 @@ where
         Some(parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null_vector(column) * part))
     }
 
+    /// True if N Psi and its slopes are zero.
+    fn is_crossing(&self, at: &Linear<M>, elimination: &Elimination<M>) -> bool {
+        let (height, noise) = (elimination.left_null_product(&at.residual), elimination.left_null_error(&at.noise));
+        let is_on_curve =
+            height.iter().zip(noise.iter()).all(|(height, noise)| height.abs() <= *noise * real(EQUAL_ULPS));
+        is_on_curve && elimination.free().all(|column| elimination.slope(column).largest() <= nearly_zero())
+    }
+
     /// Computes the crossing at a position where the slopes vanish, if Psi = 0 there.
     fn tangents(
         &self,
@@ -190,11 +344,7 @@ where
     ) -> Result<Option<Crossing<M>>, PathError> {
         let at = self.linear(&q)?;
         let elimination = Elimination::<M>::all_but(defect, at.jacobian);
-        let (height, noise) = (elimination.left_null_product(&at.residual), elimination.left_null_error(&at.noise));
-        let is_on_curve =
-            height.iter().zip(noise.iter()).all(|(height, noise)| height.abs() <= *noise * real(EQUAL_ULPS));
-        let is_flat = elimination.free().all(|column| elimination.slope(column).largest() <= nearly_zero());
-        if !(is_on_curve && is_flat) {
+        if !self.is_crossing(&at, &elimination) {
             return Ok(None);
         }
         let mut tangents = [Vector::<M>::zero(); MOST_TANGENTS];
@@ -203,10 +353,7 @@ where
             let cone = self.cone(&q, &elimination, direction);
             is_complete = cone.is_complete();
             for (tangent, line) in tangents.iter_mut().zip(cone.lines()) {
-                let parts = elimination.free().zip(line.iter());
-                let sum = parts
-                    .fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null_vector(column) * part);
-                *tangent = sum.normalized();
+                *tangent = elimination.in_null_space(line.iter().copied());
                 count += 1;
             }
         }
@@ -222,7 +369,7 @@ where
             return Ok(None);
         }
         let groups = self.singular_groups(&q);
-        Ok(Some(Crossing { q, tangents, count, is_complete, defect, groups }))
+        Ok(Some(Crossing { q, tangents, count, is_complete, defect, groups, touch: None }))
     }
 
     /// The lines on which the quadratic forms of all open rows are zero, in coordinates of the null space.

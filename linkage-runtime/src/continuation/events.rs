@@ -36,6 +36,8 @@ pub enum Event<R> {
 /// The end of a step and its event.
 pub(super) struct End<M: Mechanism> {
     pub(super) place: Place<M>,
+    /// At a change point, the place on the motion of this step: the path may go on along another one.
+    pub(super) arrived: Option<Place<M>>,
     pub(super) event: Option<Event<M::Rates>>,
     pub(super) is_target: bool,
     pub(super) resume: Resume<M>,
@@ -85,16 +87,19 @@ where
     ) -> Result<Option<End<M>>, PathError> {
         self.keep_unresolved_signs(from, &mut end.place);
         let is_known = [false, matches!(end.event, Some(Event::ChangePoint { .. }))];
+        let mut arrived = end.arrived.take().unwrap_or_else(|| end.place.clone());
         for (index, group) in M::GROUPS.iter().map(|group| group.name).enumerate() {
             let along = |place: &Place<M>| [place.determinants[index], place.slopes[index]];
             let is_resolved = |place: &Place<M>| self.is_resolved(place, index);
-            match self.find_zero(from, &end.place, is_known, along, is_resolved)? {
+            match self.find_zero(from, &arrived, is_known, along, is_resolved)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(mut place) => {
                     place.forget_sign(group);
+                    arrived = place.clone();
                     end = End {
                         place,
+                        arrived: None,
                         event: Some(Event::DeadPoint { group }),
                         is_target: false,
                         resume: Resume::OnTheWay,
@@ -112,40 +117,48 @@ where
                 if is_crossing { self.rounding_error(&end.place.q) * real(EQUAL_ULPS) } else { M::Scalar::zero() };
             if self.input_distance(gap(&end.place)).abs() <= slack && !gap(from).is_zero() {
                 end.place.q = Self::with_input(&end.place.q, limit);
+                arrived.q = end.place.q;
                 let event = end.event.or((!is_target).then_some(Event::Limit));
                 end = End { event, is_target, ..end };
                 continue;
             }
             let along = |place: &Place<M>| [self.input_distance(gap(place)), place.tangent.inputs[0]];
-            match self.find_zero(from, &end.place, [false; 2], along, |_| true)? {
+            match self.find_zero(from, &arrived, [false; 2], along, |_| true)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(place) => {
                     let place = self.with_exact_input(place, limit)?;
-                    end =
-                        End { place, event: (!is_target).then_some(Event::Limit), is_target, resume: Resume::OnTheWay };
+                    arrived = place.clone();
+                    end = End {
+                        place,
+                        arrived: None,
+                        event: (!is_target).then_some(Event::Limit),
+                        is_target,
+                        resume: Resume::OnTheWay,
+                    };
                 }
             }
         }
         if let Some(watch) = wanted.watch {
             let value = |place: &Place<M>| watch(&place.q, &self.rates(&place.tangent));
-            if ![value(from), value(&end.place)].iter().all(M::Scalar::is_finite) {
+            if ![value(from), value(&arrived)].iter().all(M::Scalar::is_finite) {
                 let quantity = "the watched function";
                 return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
             }
-            let way = self.difference(&end.place.q, &from.q).norm();
-            let bend = (end.place.tangent - from.tangent) * way.recip();
+            let way = self.difference(&arrived.q, &from.q).norm();
+            let bend = (arrived.tangent - from.tangent) * way.recip();
             let along = |place: &Place<M>| {
                 let little = self.little(&place.q);
                 let near = self.moved(&place.q, &(place.tangent * little));
                 let here = value(place);
                 [here, (watch(&near, &self.rates(&(place.tangent + bend * little))) - here) / little]
             };
-            match self.find_zero(from, &end.place, [wanted.is_at_zero, false], along, |_| true)? {
+            match self.find_zero(from, &arrived, [wanted.is_at_zero, false], along, |_| true)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(place) => {
-                    end = End { place, event: Some(Event::Zero), is_target: false, resume: Resume::AtZero }
+                    end =
+                        End { place, arrived: None, event: Some(Event::Zero), is_target: false, resume: Resume::AtZero }
                 }
             }
         }
@@ -173,12 +186,7 @@ where
             start.value = M::Scalar::zero();
         }
         let distance = self.difference(&end.q, &from.q).dot(&from.tangent);
-        let mut finish = sample(distance, end);
-        if is_known[1] && finish.value.is_zero() {
-            // The tangent there may be that of another motion.
-            finish.slope = real(f64::NAN);
-        }
-        let ends = [start, finish];
+        let ends = [start, sample(distance, end)];
         let smallest = self.rounding_error(&from.q);
         let found = first_zero(ends, smallest, |distance| {
             let place = at(distance)?;

@@ -1,5 +1,6 @@
 //! The path follower and its steps.
 
+use super::change_point::{Crossing, Touch};
 use super::curve::{Curve, Rejection, Tried};
 use super::events::{End, Event, Resume, Wanted, Watch};
 use super::groups::Groups;
@@ -360,7 +361,18 @@ where
             let found = curve.first_event(from, end, wanted, &self.options)?;
             return Ok(found.ok_or(rejection).map(|end| (end, tried)));
         }
-        let Some(place) = arc.filter(|place| !flips(place)) else { return Ok(Err(rejection)) };
+        // Where motions touch, no shorter step comes any further.
+        let rejected = |guess: M::Scalar| -> Tried<(End<M>, M::Scalar)> {
+            let guess = curve.moved(&from.q, &(from.tangent * guess));
+            if from.regularity < real(DOUBTFUL)
+                && let Some(end) = self.touch_ahead(&guess, tried)?
+            {
+                let found = curve.first_event(from, end, wanted, &self.options)?;
+                return Ok(found.ok_or(rejection).map(|end| (end, tried)));
+            }
+            Ok(Err(rejection))
+        };
+        let Some(place) = arc.filter(|place| !flips(place)) else { return rejected(tried) };
         let mut place = place.clone();
         if place.orientation.is_zero() {
             place.orientation = from.orientation;
@@ -369,18 +381,25 @@ where
             let (_, group) = curve.least_regular_group(&place.q);
             place.forget_sign(group);
         }
-        let end = End { place, event: None, is_target: false, resume: Resume::OnTheWay };
+        let end = End { place, arrived: None, event: None, is_target: false, resume: Resume::OnTheWay };
         let mut found = curve.first_event(from, end, wanted, &self.options)?;
         // A dead point where [J A] is nearly singular is checked for a change point.
         let is_doubtful =
             |end: &End<M>| matches!(end.event, Some(Event::DeadPoint { .. })) && end.place.regularity < real(DOUBTFUL);
         if let Some(end) = found.as_ref().filter(|end| is_doubtful(end)) {
             let guess = curve.difference(&end.place.q, &from.q).dot(&from.tangent);
-            if let Some(crossing) = self.crossing_ahead(guess, tried)? {
+            let touch = match self.crossing_ahead(guess, tried)? {
+                None => self.touch_ahead(&end.place.q, tried)?,
+                found => found,
+            };
+            if let Some(crossing) = touch {
                 found = curve.first_event(from, crossing, wanted, &self.options)?;
             }
         }
-        Ok(found.ok_or(rejection).map(|end| (end, tried)))
+        match found {
+            Some(end) => Ok(Ok((end, tried))),
+            None => rejected(tried),
+        }
     }
 
     /// Finds the change point within [`AHEAD`] times the distance `tried`, from a guess of its distance.
@@ -388,11 +407,23 @@ where
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
         let reach = tried * real(AHEAD) + nearly_zero();
-        let Some(mut crossing) = curve.crossing(&guess, reach, &from.tangent)? else { return Ok(None) };
+        let crossing = curve.crossing(&guess, reach, &from.tangent)?;
+        Ok(crossing.and_then(|crossing| self.crossing_at(crossing, tried)))
+    }
+
+    /// Finds the change point near a dead point at which motions touch.
+    fn touch_ahead(&self, near: &M::Coordinates, tried: M::Scalar) -> Result<Option<End<M>>, PathError> {
+        let crossing = self.curve.touch(near, tried, &self.place.tangent)?;
+        Ok(crossing.and_then(|crossing| self.crossing_at(crossing, tried)))
+    }
+
+    /// The end of a step at a change point, if that lies within [`AHEAD`] times the distance `tried` on this motion.
+    fn crossing_at(&self, mut crossing: Crossing<M>, tried: M::Scalar) -> Option<End<M>> {
+        let (curve, from) = (&self.curve, &self.place);
         let at = crossing.q;
         let is_near = |q: &M::Coordinates| curve.difference(&at, q).norm() <= nearly_zero();
         if self.passed.as_ref().is_some_and(is_near) {
-            return Ok(None);
+            return None;
         }
         let ahead = curve.difference(&crossing.q, &from.q).dot(&from.tangent);
         crossing.put_first(&from.tangent);
@@ -402,10 +433,15 @@ where
             && ahead <= tried * real(AHEAD)
             && curve.is_arc(from, &crossing.q, &kept, from.regularity, &self.options);
         if !(is_on_the_way || is_near(&from.q)) {
-            return Ok(None);
+            return None;
         }
         // The orientation changes its sign once for each pivot that passes zero.
-        let orientation_if_kept = if crossing.defect % 2 == 1 { -from.orientation } else { from.orientation };
+        let orientation_if_kept = match crossing.defect % 2 {
+            // Unknown where the motions touch: the pivot vanishes without a change of sign.
+            _ if crossing.touch.is_some() => M::Scalar::zero(),
+            1 => -from.orientation,
+            _ => from.orientation,
+        };
         let orientation_if_switched = if crossing.defect == 1 { from.orientation } else { M::Scalar::zero() };
         let (tangent, orientation, is_decided) = match (self.options.at_change_point, crossing.tangents()) {
             (AtChangePoint::Switch, &[_, other]) if crossing.is_complete => {
@@ -413,12 +449,26 @@ where
             }
             (policy, _) => (kept, orientation_if_kept, policy == AtChangePoint::Keep),
         };
-        let place = curve.at_crossing(&crossing, tangent, orientation);
+        let mut place = curve.at_crossing(&crossing, tangent, orientation);
+        let mut arrived = curve.turned(&place, kept, orientation);
+        if let Some(Touch { groups, tangents: [one, other] }) = crossing.touch {
+            for slopes in [&mut place.slopes, &mut arrived.slopes] {
+                // Their determinants have double zeros.
+                let doubles = slopes.iter_mut().enumerate().filter(|(place, _)| groups.contains(*place));
+                doubles.for_each(|(_, slope)| *slope = M::Scalar::zero());
+            }
+            // This motion deviates from the tangent beyond as it did before, along the motion of the part that crosses.
+            let back = curve.difference(&from.q, &crossing.q);
+            let along = back.dot(&tangent);
+            let [away, otherwise] = [back.dot(&one), back.dot(&other)];
+            let bend = if away.abs() > otherwise.abs() { one * away } else { other * otherwise };
+            place.bend = bend * (along * along).recip();
+        }
         let tangents = crossing.tangents().iter().map(|tangent| curve.rates(tangent));
         let tangents = Tangents::new(tangents, crossing.is_complete);
         let event = Event::ChangePoint { groups: crossing.groups, tangents };
         let resume = if is_decided { Resume::AtChangePoint } else { Resume::Undecided(crossing) };
-        Ok(Some(End { place, event: Some(event), is_target: false, resume }))
+        Some(End { place, arrived: Some(arrived), event: Some(event), is_target: false, resume })
     }
 
     /// Moves to the end of a step that was tried with a length and whose chord is given; `was_rejected` if longer

@@ -14,6 +14,9 @@ pub(super) struct Place<M: Mechanism> {
     pub(super) q: M::Coordinates,
     /// The unit tangent, in the direction of the path.
     pub(super) tangent: Vector<M>,
+    /// The part of a step that grows with its square, where the motion cannot be told from another with the same tangent;
+    /// else zero.
+    pub(super) bend: Vector<M>,
     /// det [J A; tangent'], which changes its sign at a change point where one pivot vanishes; zero if unknown.
     pub(super) orientation: M::Scalar,
     /// The determinants of the blocks of J; zero where the sign is unknown.
@@ -100,13 +103,14 @@ where
             (tangent, orientation) = (*forward, M::Scalar::zero());
         }
         let [determinants, slopes] = self.determinants_along(&q, &tangent);
-        Place { q, tangent, orientation, determinants, slopes, regularity, last_but_one: elimination.last_but_one() }
+        let (bend, last_but_one) = (Vector::<M>::zero(), elimination.last_but_one());
+        Place { q, tangent, bend, orientation, determinants, slopes, regularity, last_but_one }
     }
 
     /// Predicts and corrects the place at `distance` along the tangent of another; the curve between them is not
     /// checked.
     pub(super) fn at(&self, from: &Place<M>, distance: M::Scalar) -> Tried<Place<M>> {
-        let guess = self.moved(&from.q, &(from.tangent * distance));
+        let guess = self.moved(&from.q, &(from.tangent * distance + from.bend * (distance * distance)));
         let found = self.correct(guess, &from.tangent)?;
         Ok(found.map(|(q, elimination)| self.place(q, &elimination, &from.tangent)))
     }
@@ -208,6 +212,7 @@ where
         Place {
             q: crossing.q,
             tangent,
+            bend: Vector::<M>::zero(),
             orientation,
             determinants,
             slopes,

@@ -170,6 +170,13 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         (0..U::COUNT).filter(|row| self.order.open_rows().contains(row))
     }
 
+    /// The unit vector with these parts along the null vectors of the free columns.
+    pub fn in_null_space(&self, parts: impl Iterator<Item = T>) -> Vector<T, U, V> {
+        let sum =
+            self.free().zip(parts).fold(Vector::zero(), |sum, (column, part)| sum + self.null_vector(column) * part);
+        sum.normalized()
+    }
+
     /// The vector x that is 1 at this free column and 0 at the others, with [J A] x = 0 in the rows with a pivot.
     pub fn null_vector(&self, free: usize) -> Vector<T, U, V> {
         self.back_substituted(Vector::unit(free), |row| -self.entry(row, free))

@@ -46,7 +46,7 @@ struct Search<F, T> {
 
 /// Finds an interval around the first zero between two points, at which the function changes its sign and near which it is
 /// monotonic; `Ok(None)` if there is none. A zero at the first point itself is none, a change of sign at the second is
-/// one. `value` evaluates the function between them, and is not divided below `smallest`.
+/// one, and at a first point with value and slope zero the sign is that of the second. `value` evaluates the function between them, and is not divided below `smallest`.
 ///
 /// # Errors
 /// Those of `value`.
@@ -56,7 +56,7 @@ pub fn first_zero<T: Real, E>(
     value: impl FnMut(T) -> Result<Sample<T>, E>,
 ) -> Result<Option<[Sample<T>; 2]>, E> {
     let [a, b] = ends;
-    let first = if a.value.is_zero() { a.slope } else { a.value };
+    let first = [a.value, a.slope, b.value].into_iter().find(|part| !part.is_zero()).unwrap_or(a.value);
     let sign = if first > T::zero() { T::one() } else { -T::one() };
     // The comparison is false for NaN.
     let has_sign = first * sign > T::zero();
@@ -109,10 +109,10 @@ impl<T: Real> Cubic<T> {
         if start.min(end) >= deviation || self.is_monotonic() || self.bends_to(-T::one()) {
             return true;
         }
-        // Above its tangents, which meet here.
+        // Not below its tangents, which meet here.
         let [fall, climb] = self.slopes;
         let place = (self.rise - climb) / (fall - climb);
-        self.bends_to(T::one()) && start + fall * place > T::zero()
+        self.bends_to(T::one()) && start + fall * place >= T::zero()
     }
 
     /// The place of the minimum of a cubic that bends upwards, else the middle.

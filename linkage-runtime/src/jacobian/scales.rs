@@ -68,6 +68,32 @@ impl<T: Real, U: Dim, V: Dim> Jacobian<T, U, V> {
         Self { unknowns: self.unknowns.abs(), inputs: self.inputs.abs() }
     }
 
+    /// An entry; columns from `U` on are inputs.
+    pub fn entry(&self, row: usize, column: usize) -> T {
+        if column < U::COUNT { self.unknowns[(row, column)] } else { self.inputs[(row, column - U::COUNT)] }
+    }
+
+    /// Fixes a coordinate: no equation depends on it.
+    pub fn fix(&mut self, column: usize) {
+        for row in 0..U::COUNT {
+            match column.checked_sub(U::COUNT) {
+                None => self.unknowns[(row, column)] = T::zero(),
+                Some(input) => self.inputs[(row, input)] = T::zero(),
+            }
+        }
+    }
+
+    /// Replaces an equation by one that holds a coordinate.
+    pub fn hold(&mut self, row: usize, held: usize) {
+        for column in 0..U::COUNT + V::COUNT {
+            let entry = if column == held { T::one() } else { T::zero() };
+            match column.checked_sub(U::COUNT) {
+                None => self.unknowns[(row, column)] = entry,
+                Some(input) => self.inputs[(row, input)] = entry,
+            }
+        }
+    }
+
     /// True if every entry is finite.
     pub fn is_finite(&self) -> bool {
         self.unknowns.is_finite() && self.inputs.is_finite()

@@ -35,10 +35,24 @@ const SECANTS: usize = 16;
 /// group stops the mechanism before, and the limit is not moved.
 const ULPS_INWARD: usize = 10;
 
+/// The most times that a step from one input to another is begun again, at the place where Newton's method had stopped it
+/// in the middle of a motion. One is usual.
+const BEGINNINGS: usize = 16;
+
 /// The functions of a mechanism that a search calls.
 pub(super) struct Searched<A, D> {
     pub(super) assemble: A,
     pub(super) determinants: D,
+}
+
+/// The outcome of a step from one input to another.
+enum Reached<S, T: Copy> {
+    /// The position at the input.
+    Assembled(S),
+    /// A group is undetermined there.
+    Undetermined,
+    /// The mechanism stops before.
+    Limit(Limit<T>),
 }
 
 /// The outcome at an input.
@@ -169,25 +183,25 @@ impl<A, D> Searched<A, D> {
             let is_last = place >= whole;
             let input = if is_last { end } else { start + (end - start) * real::<T>(place / whole) };
             let (from, at) = last[1].as_ref().map_or((position, start), |here| (&here.position, here.input));
-            let there = match self.at(from, input)? {
-                Found::Assembled(there) => there,
-                Found::Undetermined if !is_last => continue,
-                Found::Stopped(group)
-                    if !is_last || !matches!(known, Limit::Exact { group: other, .. } if other == group) =>
-                {
-                    return self.between(from, at, input, group);
-                }
-                _ => {
+            let is_known = |found: &Found<_>| match (found, known) {
+                (Found::Undetermined, _) => true,
+                (Found::Stopped(group), Limit::Exact { group: other, .. }) => *group == other,
+                _ => false,
+            };
+            let reached = match self.at(from, input)? {
+                found if is_last && is_known(&found) => {
                     // At a limit in closed form the mechanism may not assemble because of rounding errors, or a later
                     // group may be undetermined; an input just inside shows whether another group stops the mechanism
                     // before.
-                    let inside = end + (start - end) * real::<T>(INSET);
-                    match self.at(from, inside)? {
-                        Found::Stopped(group) => return self.between(from, at, inside, group),
-                        Found::Undetermined => return Ok(known),
-                        Found::Assembled(inside) => inside,
-                    }
+                    self.reach(from, at, end + (start - end) * real::<T>(INSET))?
                 }
+                found => self.follow(from, at, input, found)?,
+            };
+            let there = match reached {
+                Reached::Assembled(there) => there,
+                Reached::Undetermined if is_last => return Ok(known),
+                Reached::Undetermined => continue,
+                Reached::Limit(limit) => return Ok(limit),
             };
             let found = match &last {
                 [Some(before), Some(here)] => self.limit_among([before, here, &there])?,
@@ -220,13 +234,15 @@ impl<A, D> Searched<A, D> {
     {
         let little = (there.input - here.input) * real::<T>(BESIDE);
         let inside = [here.input + little, there.input - little];
-        let [after, before] = [self.at(&here.position, inside[0])?, self.at(&here.position, inside[1])?];
-        let (after, before) = match (after, before) {
-            (Found::Assembled(after), Found::Assembled(before)) => (after, before),
-            (Found::Stopped(group), _) => return self.between(&here.position, here.input, inside[0], group).map(Some),
-            (_, Found::Stopped(group)) => return self.between(&here.position, here.input, inside[1], group).map(Some),
-            _ => return Ok(None),
-        };
+        let [mut after, mut before] = [None, None];
+        for (beside, input) in [&mut after, &mut before].into_iter().zip(inside) {
+            *beside = match self.reach(&here.position, here.input, input)? {
+                Reached::Assembled(beside) => Some(beside),
+                Reached::Undetermined => None,
+                Reached::Limit(limit) => return Ok(Some(limit)),
+            };
+        }
+        let (Some(after), Some(before)) = (after, before) else { return Ok(None) };
         for block in 0..N {
             let falls = after.determinant(block) < here.determinant(block);
             let rises = before.determinant(block) < there.determinant(block);
@@ -284,14 +300,73 @@ impl<A, D> Searched<A, D> {
         }
     }
 
-    /// Bisects between an input at which the mechanism assembles and one at which a group does not.
+    /// Follows the motion from the position `from` at the input `at` to another input.
+    fn reach<T: Real, P, const N: usize>(
+        &self,
+        from: &P,
+        at: T,
+        input: T,
+    ) -> Result<Reached<Sample<T, P, N>, T>, PositionError>
+    where
+        A: Fn(&P, T) -> Result<P, PositionError>,
+        D: Fn(&P) -> [T; N],
+    {
+        let found = self.at(from, input)?;
+        self.follow(from, at, input, found)
+    }
+
+    /// Follows the motion from the position `from` at the input `at` to another input, where `found` is the outcome of one
+    /// step there.
+    ///
+    /// Newton's method may fail far from a position although the mechanism moves on: an input is unbuildable only if it
+    /// stops the mechanism from a position next to it, too.
+    fn follow<T: Real, P, const N: usize>(
+        &self,
+        from: &P,
+        mut at: T,
+        input: T,
+        found: Found<Sample<T, P, N>>,
+    ) -> Result<Reached<Sample<T, P, N>, T>, PositionError>
+    where
+        A: Fn(&P, T) -> Result<P, PositionError>,
+        D: Fn(&P) -> [T; N],
+    {
+        let mut group = match found {
+            Found::Assembled(there) => return Ok(Reached::Assembled(there)),
+            Found::Undetermined => return Ok(Reached::Undetermined),
+            Found::Stopped(group) => group,
+        };
+        let mut moved: Option<Sample<T, P, N>> = None;
+        for _ in 1..BEGINNINGS {
+            let from = moved.as_ref().map_or(from, |sample| &sample.position);
+            let (nearest, [assembled, unbuildable]) = self.between(from, at, input, &mut group)?;
+            let limit = Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group }));
+            let Some(nearest) = nearest else { return limit };
+            let Found::Assembled(beyond) = self.at(&nearest.position, unbuildable)? else { return limit };
+            if unbuildable == input {
+                return Ok(Reached::Assembled(beyond));
+            }
+            match self.at(&beyond.position, input)? {
+                Found::Assembled(there) => return Ok(Reached::Assembled(there)),
+                Found::Undetermined => return Ok(Reached::Undetermined),
+                Found::Stopped(other) => group = other,
+            }
+            (at, moved) = (unbuildable, Some(beyond));
+        }
+        let from = moved.as_ref().map_or(from, |sample| &sample.position);
+        let (_, [assembled, unbuildable]) = self.between(from, at, input, &mut group)?;
+        Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group }))
+    }
+
+    /// Bisects between an input at which the mechanism assembles and one at which a group does not, which it replaces by
+    /// the group that stops it last. Returns the last position found, and the two inputs.
     fn between<T: Real, P, const N: usize>(
         &self,
         from: &P,
         mut assembled: T,
         mut unbuildable: T,
-        mut group: &'static str,
-    ) -> Result<Limit<T>, PositionError>
+        group: &mut &'static str,
+    ) -> Result<(Option<Sample<T, P, N>>, [T; 2]), PositionError>
     where
         A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
@@ -311,11 +386,11 @@ impl<A, D> Searched<A, D> {
             }
             match found {
                 Found::Assembled(sample) => (assembled, nearest) = (middle, Some(sample)),
-                Found::Stopped(other) => (unbuildable, group) = (middle, other),
+                Found::Stopped(other) => (unbuildable, *group) = (middle, other),
                 Found::Undetermined => break,
             }
         }
-        Ok(Limit::Bracketed { assembled, unbuildable, group })
+        Ok((nearest, [assembled, unbuildable]))
     }
 
     /// Minimises the determinant of a block between two inputs, and returns the limit if the mechanism cannot be
@@ -333,10 +408,10 @@ impl<A, D> Searched<A, D> {
         let golden = real::<T>(0.618_033_988_749_894_9);
         let (mut a, mut b) = (from.input, to);
         let look = |input: T| -> Result<Result<T, Limit<T>>, PositionError> {
-            Ok(match self.at(&from.position, input)? {
-                Found::Assembled(sample) => Ok(sample.determinant(block)),
-                Found::Undetermined => Ok(T::zero()),
-                Found::Stopped(group) => Err(self.between(&from.position, from.input, input, group)?),
+            Ok(match self.reach(&from.position, from.input, input)? {
+                Reached::Assembled(sample) => Ok(sample.determinant(block)),
+                Reached::Undetermined => Ok(T::zero()),
+                Reached::Limit(limit) => Err(limit),
             })
         };
         for _ in 0..NARROWINGS {
