@@ -24,7 +24,7 @@ pub struct Equations {
     pub angles: [bool; 5],
 }
 
-/// What a curve passes.
+/// A place that a curve passes.
 #[derive(Debug, Clone, Copy)]
 pub enum Passed {
     /// The input is the start input, or differs by whole turns.

@@ -81,3 +81,16 @@ fn limits_of_random_linkages() {
         assert_eq!(found, [0; 2]);
     }
 }
+
+/// Newton's method fails a degree away, at v = -0.5958, in the middle of the motion; its limit was computed independently.
+#[test]
+fn a_motion_by_newton_goes_on() {
+    let [a, b, c, d] = [1.0566932436125949, 0.8910333918817807, 2.2085551982431575, 2.7034759670747053];
+    let [px, py, e, f]: [f64; 4] = [-2.4091713001660704, -2.3939305376697324, 3.011039616197003, 3.0998559765894207];
+    let m = Stephenson { a, b, c, d, px, py, e, f, x: -2.8697686637750834, y: 2.496530644839991 };
+    let modes = m.branches(-0.5342388007183341).unwrap().map(|mode| (mode.branch, mode.pose.coordinates()));
+    let (branch, q) = modes.into_iter().find(|(_, q)| f64::abs(q.t - 1.2170849726) < 1e-8).unwrap();
+    let lower = m.limits(&q, branch).unwrap().lower;
+    let input = lower.input().unwrap();
+    assert!(f64::abs(input + 2.5877263718) < 1e-9, "{lower:?}");
+}

@@ -156,7 +156,7 @@ linkage! {
     }
 }
 
-/// Where motions of the four-bar cross, the slider's link is perpendicular to its guide, so that the rocker reverses: both
+/// At the crossing of motions of the four-bar the slider's link is perpendicular to its guide, so that the rocker reverses: both
 /// motions of the whole touch there, at v = 0. They reverse there and where the rocker is at pi / 2: then crank and coupler
 /// reach a point at a distance of sqrt 5.
 #[test]

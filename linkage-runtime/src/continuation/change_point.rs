@@ -8,6 +8,10 @@
 //! there are more slopes than directions, and the Gauss-Newton method is used. At a change point N Psi is zero there;
 //! where curves only come close to each other it is not. The tangents are the common zeros of the quadratic forms
 //! x . (N Psi_qq) x in the null space.
+//!
+//! Motions can touch, too: where those of a part of a mechanism cross, as of a four-bar in line, while the rest reverses
+//! this part, as a slider's link that is perpendicular to its guide, the form is a square and its saddle point degenerate.
+//! The crossing of the part and the reversal of the rest are regular roots, and are found one after the other.
 
 use super::cone::{Cone, DIMENSIONS, Form};
 use super::curve::{Curve, Linear};
@@ -40,7 +44,7 @@ pub(super) struct Crossing<M: Mechanism> {
     pub(super) defect: usize,
     /// The groups that are singular there.
     pub(super) groups: Groups,
-    /// Where the motions touch: they have one tangent.
+    /// The touch, if the motions touch: they have one tangent.
     pub(super) touch: Option<Touch<M>>,
 }
 
