@@ -11,7 +11,7 @@ use linkage_runtime::{Real, lane};
 use nalgebra::{ComplexField, RealField};
 
 use crate::Rounded;
-use crate::residual::{TINY, UNIT, of_sum};
+use crate::residual::{TINY, UNIT, of_length, of_sum};
 use crate::rules::times;
 
 /// Relative error of the platform's functions, in u: 1 ulp. This is an assumption. For exp, ln, pow, tan, asin, acos, atan
@@ -109,9 +109,9 @@ pub(crate) fn atan(x: Rounded) -> Rounded {
 pub(crate) fn atan2(y: Rounded, x: Rounded) -> Rounded {
     let value = Real::arctangent2(y.value, x.value);
     let relative = if lane::has_arctangent2(y.value, x.value) { ARCTANGENT_ERROR } else { PLATFORM };
-    // The angle of the axis itself is pi, which a zero with a sign or a number below it does not have.
-    let is_above = y.value - y.error >= 0.0 && y.value.is_sign_positive();
-    if x.value - x.error < 0.0 && y.value.abs() <= y.error && !is_above {
+    // The angle of the axis itself is pi, which a zero with a sign does not have.
+    let is_on_axis = y.error == 0.0 && y.value.is_sign_positive();
+    if x.value - x.error < 0.0 && y.value.abs() <= y.error && !is_on_axis {
         return evaluated(value, relative, (PI + value.abs()) * SLOPE_MARGIN);
     }
     if y.error == 0.0 && x.error == 0.0 {
@@ -127,7 +127,7 @@ pub(crate) fn atan2(y: Rounded, x: Rounded) -> Rounded {
 }
 
 /// |P| - |p| = (P - p) (P + p) / (|P| + |p|) in magnitude at most (2 (|x| e_x + |y| e_y) + e_x^2 + e_y^2) / |p|, and at
-/// most |P - p| <= e_x + e_y.
+/// most |P - p| <= e_x + e_y. The value z is off by |x^2 + y^2 - z^2| / (|p| + z), and by a proved bound.
 pub(crate) fn hypot(x: Rounded, y: Rounded) -> Rounded {
     let value = Real::hypotenuse(x.value, y.value);
     if value == 0.0 && x.error == 0.0 && y.error == 0.0 {
@@ -139,7 +139,15 @@ pub(crate) fn hypot(x: Rounded, y: Rounded) -> Rounded {
     // |P| + |p| >= 2 |p| - d
     let near = (2.0 * across + squares) / (value + least) * SLOPE_MARGIN;
     let far = x.error + y.error;
-    evaluated(value, HYPOTENUSE_ERROR, if least > 0.0 && near < far { near } else { far })
+    let moved = if least > 0.0 && near < far { near } else { far };
+    let proved = HYPOTENUSE_ERROR * UNIT * value + TINY;
+    let rounding = match of_length(x.value, y.value, value) {
+        Some(residual) => RealField::min(residual / (2.0 * value) * SLOPE_MARGIN, proved),
+        // The magnitude of one side.
+        None if x.value == 0.0 || y.value == 0.0 => 0.0,
+        None => proved,
+    };
+    Rounded::bounded(value, moved + rounding)
 }
 
 macro_rules! platform_functions {

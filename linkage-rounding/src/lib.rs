@@ -10,7 +10,7 @@
 //! | sum, difference, product, quotient, square root | computed; they round to nearest, as IEEE 754 requires |
 //! | sine and cosine up to 1e5 | 1.29, proved for `linkage_runtime` |
 //! | `atan2` of numbers that are not extreme | 1.25, proved for `linkage_runtime` |
-//! | `hypot` | 2, proved |
+//! | `hypot` | computed, at most 2, proved |
 //! | exp, ln, powers, tan, asin, acos, atan; sine, cosine and `atan2` of other arguments | 2, one ulp: assumed of the platform |
 //! | hyperbolic functions, cbrt, log10 | unknown |
 

@@ -181,7 +181,9 @@ fn results_are_within_their_bounds() {
             // The last of the 400 bits.
             let slack = 1e-110 * found.value().abs();
             assert!(off <= found.error() + slack, "{} is off by {off:e}", context());
-            if x.error() == 0.0 && y.error() == 0.0 {
+            // A zero with a sign has the angle -pi, and the number zero pi.
+            let is_cut = name == "atan2" && x.value() == 0.0 && x.value().is_sign_negative() && y.value() < 0.0;
+            if x.error() == 0.0 && y.error() == 0.0 && !is_cut {
                 // Near underflow and overflow the rounding error is not computed.
                 let moderate = |number: Rounded| (1e-280..1e280).contains(&number.value().abs());
                 let is_moderate = moderate(found) && [x, y].iter().all(|x| x.value() == 0.0 || moderate(*x));
@@ -207,6 +209,7 @@ fn exact_operations() {
     }
     let [five, twelve] = [5.0, 12.0].map(Rounded::from);
     assert_eq!((five * five + twelve * twelve).sqrt().error(), 0.0);
+    assert!(five.hypot(twelve).ulps() < 1e-14 && zero.hypot(-x).error() == 0.0);
     assert_eq!(Rounded::from(2.0).powf(Rounded::from(-7.0)).error(), 0.0);
     assert_eq!(zero.sin_cos(), (zero, one));
     assert_eq!((zero.sin().error(), zero.cos().error()), (0.0, 0.0));
@@ -269,8 +272,6 @@ fn across_the_cut() {
     assert!(angle(Rounded::from(0.0), -1.0).error() < 1e-15);
     assert!((angle(Rounded::from(-0.0), -1.0).value() + PI).abs() < 1e-15);
     assert!(angle(Rounded::from(-0.0), -1.0).error() >= TAU - 1e-15);
-    // The interval ends at the axis.
-    assert!(angle(Rounded::with_error(1e-3, 1e-3), -1.0).error() < 3.2);
 }
 
 /// Nothing is known of a quotient whose divisor may be zero, and of what follows from it.
