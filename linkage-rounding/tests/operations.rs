@@ -296,6 +296,14 @@ fn unknown() {
     // Sines and angles are bounded.
     assert!(unknown.sin().error() < 2.1 && unknown.atan2(near).error() < 6.3);
     assert_eq!(Rounded::from(f64::MAX).powi(2).error(), f64::INFINITY);
+    // Poles and ends of domains within the bound.
+    let beside = |value: f64| Rounded::with_error(value, 1e-15);
+    let pole = beside(std::f64::consts::FRAC_PI_2);
+    for number in [beside(1.0).asin(), beside(-1.0).acos(), pole.tan(), beside(1e-16).ln(), beside(1e-16).recip()] {
+        assert_eq!(number.error(), f64::INFINITY, "{number}");
+    }
+    // The root of 1.1e-15, and of none below zero.
+    assert!((2.3e-8..6e-8).contains(&beside(1e-16).sqrt().error()));
     for error in [f64::NAN, -1.0] {
         assert_eq!(Rounded::with_error(1.0, error).error(), f64::INFINITY);
     }

@@ -57,3 +57,16 @@ pub(crate) fn exact<T: Real>(number: T) -> T {
 pub(crate) fn instead<T: Real>(value: T, of: T) -> T {
     if has_bound::<T>() { exact(value) - lost(exact(value) - of) } else { value }
 }
+
+/// The angle of (x, y) where whole turns do not matter: for a scalar with a bound that of the opposite vector, which is not
+/// near the cut, is taken.
+pub(crate) fn angle_but_for_turns<T: Real>(y: T, x: T) -> T {
+    let angle = y.arctangent2(x);
+    if !has_bound::<T>() || x >= T::zero() {
+        return angle;
+    }
+    let opposite = (-y).arctangent2(-x);
+    let angle = exact(angle);
+    // Both are rounded.
+    angle - (opposite - exact(opposite)) - lost(T::default_epsilon() * angle)
+}

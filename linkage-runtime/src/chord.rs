@@ -316,7 +316,7 @@ fn flat_chord<T: Real>(
     scale: T,
 ) -> Result<T, PositionError> {
     let (p, q, epsilon) = (p.abs(), q.abs(), T::default_epsilon());
-    let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypot(y));
+    let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypotenuse(y));
     if !(sum.is_finite() && distance.is_finite()) {
         return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
     }

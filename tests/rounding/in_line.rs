@@ -414,6 +414,21 @@ fn harmonic(draw: &mut Draw, found: &mut Found) {
     }
 }
 
+/// 0.1 + 0.4 is longer than 0.6 - 0.1 by less than an ulp: the doubles have a triangle of 3e-8 rad, and f64 computes none.
+#[test]
+fn tenths_in_line() {
+    let m = FourBar::<Rounded>::from([0.1, 0.1, 0.4, 0.6].map(Rounded::from));
+    for side in [Elbow::Left, Elbow::Right] {
+        let pose = m.assemble(Rounded::from(0.0), FourBarBranch::new(side)).unwrap();
+        let p = pose.coordinates().p;
+        assert!(p.value() == 0.0 && (2.98e-8..3.5e-8).contains(&p.error()), "{p:?}");
+        let outputs = m.outputs(&pose).unwrap();
+        // From -pi to pi, and known but for the side of the cut.
+        assert!((TAU - 1e-7..TAU + 1e-7).contains(&outputs.rocker.error()), "{:?}", outputs.rocker);
+        assert!(pose.r.im.error() < 1e-8, "{:?}", pose.r);
+    }
+}
+
 type Kind = (&'static str, fn(&mut Draw, &mut Found));
 
 #[test]

@@ -11,6 +11,7 @@ mod dead_points;
 mod every_function;
 mod figures;
 mod in_line;
+mod limits;
 mod results;
 mod user_functions;
 
