@@ -60,8 +60,8 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAss
 ///   converted by `nalgebra::convert` counts as such a constant, with an error of half an ulp, but for whole numbers up
 ///   to 2^53 and for fractions of at most 33 bits and 17 decimal digits, such as 0.375, or of at most 13 bits, such as
 ///   powers of two, which are exact.
-/// - Where an algorithm compensates its rounding errors, the bound does not see that they cancel and is far too large:
-///   refinement by residuals, results in twice the precision.
+/// - Where an algorithm compensates its rounding errors, the bound does not see that they cancel and is far too large, as
+///   that of results in twice the precision.
 /// - A bound that is not finite means that nothing is known, for instance after a division by a number that may be
 ///   zero. A user function that computes in `f64` returns [`unknown`](Self::unknown), or its own bound.
 #[derive(Debug, Clone, Copy, Default)]
