@@ -12,6 +12,7 @@ mod every_function;
 mod figures;
 mod in_line;
 mod limits;
+mod newton;
 mod results;
 mod user_functions;
 
