@@ -54,7 +54,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAss
 /// - A number is a member of the subset of doubles (`nalgebra::try_convert`) only if its bound is zero. By this the
 ///   functions of a mechanism see that a scalar carries bounds: the chord of links in line, zero by comparison, keeps the
 ///   error of the difference that was compared; a position by Newton's method has the bound of one more step; a result
-///   that `f64` computes in twice the precision has these bits, and is off by what it differs from the plain one besides
+///   that `f64` computes in twice the precision has these bits, and is off by its difference from the plain result and by
 ///   the bound of that.
 /// - A constant in the text of a mechanism, such as the 0.1 of `0.1 * l2`, is rounded to a double. Each double that is
 ///   converted by `nalgebra::convert` counts as such a constant, with an error of half an ulp, but for whole numbers up

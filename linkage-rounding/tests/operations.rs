@@ -264,7 +264,7 @@ fn across_the_cut() {
     for y in [1e-20, -1e-20, 0.0] {
         let found = angle(Rounded::with_error(y, 1e-18), -1.0);
         assert!((TAU - 1e-15..TAU + 1e-9).contains(&found.error()), "{found:?}");
-        // Not at zero, and not beside the axis.
+        // Not on the positive axis, and not away from the axis.
         assert!(angle(Rounded::with_error(y, 1e-18), 1.0).error() < 3e-18);
         assert!(angle(Rounded::with_error(y + 1e-10, 1e-18), -1.0).error() < 1e-15);
     }
@@ -297,13 +297,13 @@ fn unknown() {
     assert!(unknown.sin().error() < 2.1 && unknown.atan2(near).error() < 6.3);
     assert_eq!(Rounded::from(f64::MAX).powi(2).error(), f64::INFINITY);
     // Poles and ends of domains within the bound.
-    let beside = |value: f64| Rounded::with_error(value, 1e-15);
-    let pole = beside(std::f64::consts::FRAC_PI_2);
-    for number in [beside(1.0).asin(), beside(-1.0).acos(), pole.tan(), beside(1e-16).ln(), beside(1e-16).recip()] {
+    let near_to = |value: f64| Rounded::with_error(value, 1e-15);
+    let pole = near_to(std::f64::consts::FRAC_PI_2);
+    for number in [near_to(1.0).asin(), near_to(-1.0).acos(), pole.tan(), near_to(1e-16).ln(), near_to(1e-16).recip()] {
         assert_eq!(number.error(), f64::INFINITY, "{number}");
     }
     // The root of 1.1e-15, and of none below zero.
-    assert!((2.3e-8..6e-8).contains(&beside(1e-16).sqrt().error()));
+    assert!((2.3e-8..6e-8).contains(&near_to(1e-16).sqrt().error()));
     for error in [f64::NAN, -1.0] {
         assert_eq!(Rounded::with_error(1.0, error).error(), f64::INFINITY);
     }

@@ -42,7 +42,7 @@ pub(crate) fn exact<T: Real>(number: T) -> T {
     let leading = |value: f64| f64::from_bits(value.to_bits() & LEADING);
     let mut sum = real::<T>(leading(value));
     let mut rest = value - leading(value);
-    // 13 bits at a time; below the normal numbers what is left is one part.
+    // 13 bits at a time; a remainder below the normal numbers is one part.
     while rest.abs() > 0.0 && rest.is_finite() {
         let part = if rest.is_normal() { leading(rest) } else { rest };
         sum += real(part);
