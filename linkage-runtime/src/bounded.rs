@@ -22,10 +22,10 @@ pub(crate) fn has_bound<T: Real>() -> bool {
     !is_native::<T>() && !is_convertible::<T, f64>(&one_lost())
 }
 
-/// Zero with the bound |number|, for a scalar with a bound.
+/// Zero with the bound |number|, infinite if the number is not finite, for a scalar with a bound.
 pub(crate) fn lost<T: Real>(number: T) -> T {
     // The sign of the zero is positive.
-    one_lost::<T>() * number.abs()
+    if number.is_finite() { one_lost::<T>() * number.abs() } else { unknown(T::zero()) }
 }
 
 /// A number of whose error nothing is known, with this value, for a scalar with a bound.
