@@ -8,7 +8,7 @@ use num_traits::{FromPrimitive, Num, One, Signed, Zero};
 use simba::scalar::{SubsetOf, SupersetOf};
 
 use crate::Rounded;
-use crate::functions::{self, one_of, whole};
+use crate::functions::{self, one_of, stepped};
 use crate::residual::half_ulp;
 
 impl Rounded {
@@ -20,6 +20,11 @@ impl Rounded {
         let is_exact = is_whole || is_dyadic(value);
         // Infinity and NaN have no rounding error.
         if is_exact || !value.is_finite() { Self::from(value) } else { Self::nearest(value) }
+    }
+
+    /// True if the exact number may be zero or have the other sign.
+    fn may_have_either_sign(self) -> bool {
+        self.error > 0.0 && self.value.abs() <= self.error
     }
 
     /// The double nearest to a number.
@@ -81,11 +86,13 @@ impl Signed for Rounded {
     }
 
     fn abs_sub(&self, other: &Self) -> Self {
-        if self <= other { Self::zero() } else { *self - *other }
+        // max(X - Y, 0)
+        let difference = *self - *other;
+        Self { value: if self <= other { 0.0 } else { difference.value }, error: difference.error }
     }
 
     fn signum(&self) -> Self {
-        whole(self.value.signum())
+        stepped(*self, |value| value.signum())
     }
 
     fn is_positive(&self) -> bool {
@@ -193,8 +200,9 @@ impl SubsetOf<Self> for Rounded {
 }
 
 impl SupersetOf<f64> for Rounded {
+    /// True if the number is the double.
     fn is_in_subset(&self) -> bool {
-        true
+        self.error == 0.0
     }
 
     fn to_subset_unchecked(&self) -> f64 {
@@ -208,7 +216,7 @@ impl SupersetOf<f64> for Rounded {
 
 impl SupersetOf<f32> for Rounded {
     fn is_in_subset(&self) -> bool {
-        true
+        self.error == 0.0
     }
 
     fn to_subset_unchecked(&self) -> f32 {
@@ -243,7 +251,7 @@ macro_rules! to_whole_numbers {
     ($($name:ident)*) => {$(
         #[inline]
         fn $name(self) -> Self {
-            whole(ComplexField::$name(self.value))
+            stepped(self, ComplexField::$name)
         }
     )*};
 }
@@ -281,7 +289,8 @@ impl ComplexField for Rounded {
     }
 
     fn argument(self) -> Self {
-        if self.value >= 0.0 { Self::zero() } else { Self::pi() }
+        let argument = if self.value >= 0.0 { Self::zero() } else { Self::pi() };
+        if self.may_have_either_sign() { Self::bounded(argument.value, consts::PI) } else { argument }
     }
 
     fn norm1(self) -> Self {
@@ -386,7 +395,8 @@ impl RealField for Rounded {
     }
 
     fn copysign(self, sign: Self) -> Self {
-        Self { value: self.value.copysign(sign.value), error: self.error }
+        let moved = if sign.may_have_either_sign() { 2.0 * self.value.abs() } else { 0.0 };
+        Self::bounded(self.value.copysign(sign.value), self.error + moved)
     }
 
     fn max(self, other: Self) -> Self {

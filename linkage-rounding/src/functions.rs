@@ -11,7 +11,7 @@ use linkage_runtime::{Real, lane};
 use nalgebra::{ComplexField, RealField};
 
 use crate::Rounded;
-use crate::residual::{TINY, UNIT};
+use crate::residual::{TINY, UNIT, of_length, of_sum};
 use crate::rules::times;
 
 /// Relative error of the platform's functions, in u: 1 ulp. This is an assumption. For exp, ln, pow, tan, asin, acos, atan
@@ -104,10 +104,16 @@ pub(crate) fn atan(x: Rounded) -> Rounded {
 
 /// The angle a between p = (x, y) and P obeys |sin a| = |p x (P - p)| / (|p| |P|) <= s, with
 /// s = (|x| e_y + |y| e_x) / (|p| (|p| - d)) and d = |P - p| at most. If d < |p|, then |a| < pi/2, hence
-/// |a| <= asin s <= s + (pi/2 - 1) s^3. If d >= |p|, P may have any direction: |a| <= pi.
+/// |a| <= asin s <= s + (pi/2 - 1) s^3. If d >= |p|, P may have any direction: |a| <= pi. If P may lie across the negative
+/// x axis, where the angle jumps, its angle may be any from -pi to pi.
 pub(crate) fn atan2(y: Rounded, x: Rounded) -> Rounded {
     let value = Real::arctangent2(y.value, x.value);
     let relative = if lane::has_arctangent2(y.value, x.value) { ARCTANGENT_ERROR } else { PLATFORM };
+    // The angle of the axis itself is pi, which a zero with a sign does not have.
+    let is_on_axis = y.error == 0.0 && y.value.is_sign_positive();
+    if x.value - x.error < 0.0 && y.value.abs() <= y.error && !is_on_axis {
+        return evaluated(value, relative, (PI + value.abs()) * SLOPE_MARGIN);
+    }
     if y.error == 0.0 && x.error == 0.0 {
         let is_zero = value == 0.0 && y.value == 0.0;
         return if is_zero { value.into() } else { evaluated(value, relative, 0.0) };
@@ -121,7 +127,7 @@ pub(crate) fn atan2(y: Rounded, x: Rounded) -> Rounded {
 }
 
 /// |P| - |p| = (P - p) (P + p) / (|P| + |p|) in magnitude at most (2 (|x| e_x + |y| e_y) + e_x^2 + e_y^2) / |p|, and at
-/// most |P - p| <= e_x + e_y.
+/// most |P - p| <= e_x + e_y. The value z is off by |x^2 + y^2 - z^2| / (|p| + z), and by a proved bound.
 pub(crate) fn hypot(x: Rounded, y: Rounded) -> Rounded {
     let value = Real::hypotenuse(x.value, y.value);
     if value == 0.0 && x.error == 0.0 && y.error == 0.0 {
@@ -133,7 +139,15 @@ pub(crate) fn hypot(x: Rounded, y: Rounded) -> Rounded {
     // |P| + |p| >= 2 |p| - d
     let near = (2.0 * across + squares) / (value + least) * SLOPE_MARGIN;
     let far = x.error + y.error;
-    evaluated(value, HYPOTENUSE_ERROR, if least > 0.0 && near < far { near } else { far })
+    let moved = if least > 0.0 && near < far { near } else { far };
+    let proved = HYPOTENUSE_ERROR * UNIT * value + TINY;
+    let rounding = match of_length(x.value, y.value, value) {
+        Some(residual) => RealField::min(residual / (2.0 * value) * SLOPE_MARGIN, proved),
+        // The magnitude of one side.
+        None if x.value == 0.0 || y.value == 0.0 => 0.0,
+        None => proved,
+    };
+    Rounded::bounded(value, moved + rounding)
 }
 
 macro_rules! platform_functions {
@@ -220,9 +234,20 @@ pub(crate) fn log(x: Rounded, base: Rounded) -> Rounded {
     Rounded::with_error(value, quotient.error + (value - quotient.value).abs())
 }
 
-/// A rounding to a whole number is a decision by the value, as a comparison is.
-pub(crate) fn whole(value: f64) -> Rounded {
-    Rounded::from(value)
+/// A function that does not decrease and jumps, such as a rounding to a whole number: the exact result is between those
+/// of the ends of the argument's interval.
+pub(crate) fn stepped(x: Rounded, of: impl Fn(f64) -> f64) -> Rounded {
+    let value = of(x.value);
+    if x.error == 0.0 {
+        return Rounded::from(value);
+    }
+    // An end that is rounded is moved outwards.
+    let [low, high] = [x.value - x.error, x.value + x.error];
+    let low = if of_sum(x.value, -x.error, low) == 0.0 { low } else { low.next_down() };
+    let high = if of_sum(x.value, x.error, high) == 0.0 { high } else { high.next_up() };
+    let [below, above] = [value - of(low), of(high) - value];
+    // Also unknown if an end is infinite or NaN.
+    Rounded::bounded(value, if below >= above { below } else { above })
 }
 
 /// The larger or smaller of two numbers is off by at most the larger error.

@@ -10,7 +10,7 @@
 //! | sum, difference, product, quotient, square root | computed; they round to nearest, as IEEE 754 requires |
 //! | sine and cosine up to 1e5 | 1.29, proved for `linkage_runtime` |
 //! | `atan2` of numbers that are not extreme | 1.25, proved for `linkage_runtime` |
-//! | `hypot` | 2, proved |
+//! | `hypot` | computed, at most 2, proved |
 //! | exp, ln, powers, tan, asin, acos, atan; sine, cosine and `atan2` of other arguments | 2, one ulp: assumed of the platform |
 //! | hyperbolic functions, cbrt, log10 | unknown |
 
@@ -47,15 +47,21 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAss
 /// assert!(difference.ulps() > 1e5);
 /// ```
 ///
-/// - Comparisons, signs and rounding to whole numbers are decided by the value, as in `f64`. The bound is that of the
-///   formulas that were computed; it does not say whether the exact numbers would have been compared otherwise. The
-///   bound of an angle by `atan2` holds up to whole turns.
+/// - Comparisons are decided by the value, as in `f64`. The bound is that of the formulas that were computed; it does not
+///   say whether the exact numbers would have been compared otherwise. Where a function jumps, the bound has both sides:
+///   a sign, a whole number, or an angle by `atan2`, which may be off by a turn if the exact numbers may lie across the
+///   negative x axis.
+/// - A number is a member of the subset of doubles (`nalgebra::try_convert`) only if its bound is zero. By this the
+///   functions of a mechanism see that a scalar carries bounds: the chord of links in line, zero by comparison, keeps the
+///   error of the difference that was compared; a position by Newton's method has the bound of one more step; a result
+///   that `f64` computes in twice the precision has these bits, and is off by its difference from the plain result and by
+///   the bound of that.
 /// - A constant in the text of a mechanism, such as the 0.1 of `0.1 * l2`, is rounded to a double. Each double that is
 ///   converted by `nalgebra::convert` counts as such a constant, with an error of half an ulp, but for whole numbers up
 ///   to 2^53 and for fractions of at most 33 bits and 17 decimal digits, such as 0.375, or of at most 13 bits, such as
 ///   powers of two, which are exact.
-/// - Where an algorithm compensates its rounding errors, the bound does not see that they cancel and is far too large:
-///   the positions of triangles that are flat to within 1e-4, refinement by residuals.
+/// - Where an algorithm compensates its rounding errors, the bound does not see that they cancel and is far too large, as
+///   that of results in twice the precision.
 /// - A bound that is not finite means that nothing is known, for instance after a division by a number that may be
 ///   zero. A user function that computes in `f64` returns [`unknown`](Self::unknown), or its own bound.
 #[derive(Debug, Clone, Copy, Default)]

@@ -75,6 +75,30 @@ pub(crate) fn of_quotient(a: f64, b: f64, quotient: f64) -> f64 {
     }
 }
 
+/// a + b and its rounding error: D. E. Knuth.
+#[inline]
+fn two_sum(a: f64, b: f64) -> [f64; 2] {
+    let sum = a + b;
+    let part = sum - a;
+    [sum, (a - (sum - part)) + (b - part)]
+}
+
+/// |x^2 + y^2 - length^2|; `None` out of the range.
+///
+/// The three squares and the two sums have five rounding errors, each at most u length^2 but for its factor near one; their
+/// sum has four of at most 5 u^2 length^2, and the last sum one of itself.
+#[inline]
+pub(crate) fn of_length(x: f64, y: f64, length: f64) -> Option<f64> {
+    let square = |number: f64| [number * number, rest(number, number, number * number)];
+    let [[x2, a], [y2, b], [z2, c]] = [x, y, length].map(square);
+    let (large, small) = if x2 < y2 { (y2, x2) } else { (x2, y2) };
+    let [first, d] = two_sum(large, -z2);
+    let [second, e] = two_sum(first, small);
+    let residual = (second + ((a + b - c) + (d + e))).abs();
+    let slack = 32.0 * UNIT * UNIT * z2;
+    are_moderate([x, y, length, x2, y2, z2]).then_some(residual * (1.0 + 4.0 * UNIT) + slack)
+}
+
 /// |a - root^2|.
 #[inline]
 pub(crate) fn of_root(a: f64, root: f64) -> f64 {

@@ -7,6 +7,7 @@
 use nalgebra::ComplexField;
 
 use crate::Rounded;
+use crate::functions::stepped;
 use crate::residual::{TINY, UNIT, half_ulp, of_product, of_quotient, of_root, of_sum};
 
 /// 1 + 2^-49: covers the rounding errors of a bound, which is a sum of a few positive terms. Each of at most eight
@@ -85,9 +86,15 @@ impl Rounded {
         Self::bounded(value, first + second + half_ulp(value))
     }
 
-    /// X - k Y with the whole number k that x and y give; the remainder of doubles is exact.
+    /// X - K Y, where the remainder of doubles x - k y is exact: |Z - z| <= e1 + |K| e2 + |K - k| |y|, and both whole numbers
+    /// are in the interval of that of the quotient.
     pub(crate) fn remainder(self, other: Self) -> Self {
-        let count = ComplexField::trunc(self.value / other.value);
-        Self::bounded(self.value % other.value, self.error + times(count.abs(), other.error))
+        let value = self.value % other.value;
+        if self.error == 0.0 && other.error == 0.0 && value.is_finite() {
+            return Self::from(value);
+        }
+        let count = stepped(self.over(other), ComplexField::trunc);
+        let moved = times(count.value.abs() + count.error, other.error) + times(2.0 * count.error, other.value.abs());
+        Self::bounded(value, self.error + moved)
     }
 }

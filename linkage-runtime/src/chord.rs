@@ -1,5 +1,6 @@
 //! The half chords of groups with two solutions: square roots of products of two factors, exact near dead points.
 
+use crate::bounded::{exact, has_bound, instead, lost};
 use crate::branch::Side;
 use crate::linear::{is_nonzero, power_of_two_below};
 use crate::scalar::to_f64;
@@ -315,7 +316,7 @@ fn flat_chord<T: Real>(
     scale: T,
 ) -> Result<T, PositionError> {
     let (p, q, epsilon) = (p.abs(), q.abs(), T::default_epsilon());
-    let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypot(y));
+    let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypotenuse(y));
     if !(sum.is_finite() && distance.is_finite()) {
         return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
     }
@@ -330,7 +331,7 @@ fn flat_chord<T: Real>(
             PositionError::Unbuildable { mechanism, group, gap: gap * gap }
         });
     }
-    let (low, high) = exact_factors(p, q, x, y, sum, distance);
+    let [low, high] = exact_factors(p, q, x, y, sum, distance);
     // The sums of the magnitudes of the terms of both factors, with their multiplicities.
     let two = real::<T>(2.0);
     let of_line = line * scale;
@@ -340,7 +341,7 @@ fn flat_chord<T: Real>(
     let root = if least > T::zero() {
         root(low, high, sum)
     } else if -least <= tolerance {
-        T::zero()
+        in_line(low, high, sum)
     } else {
         return Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, sum) });
     };
@@ -352,10 +353,31 @@ fn flat_chord<T: Real>(
 /// because lengths such as 33.3 and 66.7 are themselves rounded to that precision.
 ///
 /// A scalar without fused multiply-add, such as double-double, gives rounded squares: the result is then not exact.
-fn exact_factors<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> (T, T) {
-    let (low, high) = (beyond(two_sum(p, q), [x, y]), -beyond(two_sum(p, -q), [x, y]));
-    let touching = |factor: T, size: T| if factor.abs() <= T::default_epsilon() * size { T::zero() } else { factor };
-    (touching(low, sum), touching(high, distance))
+fn exact_factors<T: Real>(p: T, q: T, x: T, y: T, sum: T, distance: T) -> [T; 2] {
+    let touching = |factor: T, size: T| {
+        if factor.abs() <= T::default_epsilon() * size { instead(T::zero(), factor) } else { factor }
+    };
+    let [low, high] =
+        [q, -q].map(|q| if has_bound::<T>() { bounded_beyond(p, q, [x, y]) } else { beyond(two_sum(p, q), [x, y]) });
+    [touching(low, sum), touching(-high, distance)]
+}
+
+/// (a + b)^2 - x^2 - y^2 of the values, with the bound that follows from those of a, b, x and y: the bounds of the
+/// rounding errors that [`beyond`] makes good would be added.
+///
+/// With errors e the change is (2 (a + b) + e_ab) e_ab - (2 x + e_x) e_x - (2 y + e_y) e_y. `beyond` itself rounds its
+/// result, and before that eight terms below 2^-50 (a^2 + b^2 + x^2 + y^2).
+fn bounded_beyond<T: Real>(a: T, b: T, [x, y]: [T; 2]) -> T {
+    let [of_a, of_b, of_x, of_y] = [a, b, x, y].map(to_f64);
+    let value = beyond(two_sum(of_a, of_b), [of_x, of_y]);
+    let change = |number: T, off: T| lost((number + number + off) * off);
+    let off = |number: T| number - exact(number);
+    let [a, b, x, y] = [a, b, x, y].map(|number| (exact(number), off(number)));
+    let epsilon = T::default_epsilon();
+    let squares = a.0 * a.0 + b.0 * b.0 + x.0 * x.0 + y.0 * y.0;
+    let changes = change(a.0 + b.0, a.1 + b.1) + change(x.0, x.1) + change(y.0, y.1);
+    let value = exact(real::<T>(value));
+    value - (changes + lost(real::<T>(16.0) * epsilon * epsilon * squares) + lost(real::<T>(0.5) * epsilon * value))
 }
 
 /// (a + b)^2 - x^2 - y^2 for a sum a and its rounding error b.
@@ -407,9 +429,20 @@ fn touching_chord<T: Real>(
     } else if vanishes {
         Err(PositionError::Undetermined { mechanism, group })
     } else {
-        // The caller gives the zero the sign of the side.
-        Ok(T::zero())
+        Ok(in_line(low, high, radius))
     }
+}
+
+/// The chord zero of links in line, of which a factor is zero or negative within rounding error: a scalar with a bound
+/// keeps that the root of the factor that was meant need not be zero. The caller gives the zero the sign of the side.
+fn in_line<T: Real>(low: T, high: T, size: T) -> T {
+    if !has_bound::<T>() {
+        return T::zero();
+    }
+    let unit = power_of_two_below(size);
+    let [least, other] = if low < high { [low, high] } else { [high, low] };
+    let radicand = instead(T::zero(), least) / unit * (other / unit).abs();
+    radicand.sqrt() * unit
 }
 
 /// sqrt(`low` `high`) of positive factors, divided by a power of two near `size` against overflow: the digits are those

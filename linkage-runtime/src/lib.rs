@@ -23,6 +23,7 @@ pub mod __rt;
 pub mod __shared;
 pub mod accuracy;
 mod arctangent;
+mod bounded;
 mod branch;
 mod chord;
 #[cfg(feature = "std")]

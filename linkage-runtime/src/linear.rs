@@ -2,6 +2,7 @@
 
 use core::mem;
 
+use crate::bounded::has_bound;
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::native::{self, native};
 use crate::scalar::{greatest, largest, smallest, to_f64};
@@ -115,9 +116,9 @@ impl<T: Real, const N: usize> Factorization<T, N> {
 
     /// A result of solutions, or the `precise` one if there is one and the smallest pivot makes rounding errors large.
     #[inline(always)]
-    pub fn refined<X>(&self, rough: X, precise: impl FnOnce() -> Option<X>) -> X {
+    pub fn refined<X: Copy>(&self, rough: X, precise: impl FnOnce(X) -> Option<X>) -> X {
         if self.loses_digits {
-            return precise().unwrap_or(rough);
+            return precise(rough).unwrap_or(rough);
         }
         rough
     }
@@ -221,6 +222,9 @@ fn real_count(count: usize) -> f64 {
 /// A power of two near `value`; scaling by it is exact.
 #[inline]
 pub(crate) fn power_of_two_below<T: Real>(value: T) -> T {
+    if has_bound::<T>() {
+        return real(power_of_two_below(to_f64(value)));
+    }
     native!(value => native::power_of_two_below).flatten().unwrap_or_else(|| by_logarithm(value))
 }
 

@@ -1,5 +1,6 @@
 //! Damped Newton's method, u <- u - J^-1 Psi, which returns an error if it does not converge.
 
+use crate::bounded::{exact, has_bound, lost, unknown};
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
@@ -75,6 +76,9 @@ pub fn search<C: Constraints>(constraints: &C, start: Unknowns<C>) -> Result<(It
         }
     }
     if here.size <= enough || is_rounding_error(constraints, &here, &start) {
+        if has_bound::<C::Scalar>() {
+            here.unknowns = enclosed(constraints, here.unknowns);
+        }
         Ok((here, iterations))
     } else {
         Err(stopped(constraints, iterations, &here))
@@ -92,6 +96,22 @@ fn is_rounding_error<C: Constraints>(constraints: &C, at: &Iterate<C>, start: &U
         .iter()
         .zip(&bounds)
         .all(|(psi, bound)| bound.is_finite() && psi.abs() <= *bound * C::Scalar::default_epsilon())
+}
+
+/// The values of a scalar with a bound, off by what the solution may be away: by the mean value theorem u - u* =
+/// J^-1 Psi(u) with J between u and u*. That J is covered by the one of a box of twice the first step about u. Nothing is
+/// known if J may be singular there.
+fn enclosed<C: Constraints>(constraints: &C, unknowns: Unknowns<C>) -> Unknowns<C> {
+    let values = unknowns.map(exact);
+    let point = constraints.at(&values);
+    let (residual, _) = constraints.residual(&point);
+    let step_at = |point: &C::Point| constraints.solve(point, &residual);
+    let twice = |value: C::Scalar, step: C::Scalar| value - lost(step + step);
+    let of_box = step_at(&point).and_then(|step| step_at(&constraints.at(&values.zip_map(&step, twice))));
+    match of_box {
+        Ok(step) => values.zip_map(&step, |value, step| value - lost(step)),
+        Err(_) => values.map(unknown),
+    }
 }
 
 fn iterate<C: Constraints>(constraints: &C, unknowns: Unknowns<C>) -> Iterate<C> {

@@ -174,7 +174,7 @@ pub(crate) fn relative<T: Real>(value: T, scale: T) -> T {
     if value.is_zero() { none } else { value / scale + none }
 }
 
-/// Converts a scalar to `f64` for reports; NaN if it has no such value.
+/// The value of a scalar as `f64`, for reports and decisions.
 pub fn to_f64<T: Real>(value: T) -> f64 {
-    value.to_subset().unwrap_or(f64::NAN)
+    nalgebra::convert_unchecked(value)
 }

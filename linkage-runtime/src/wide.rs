@@ -9,6 +9,7 @@
 use linkage_double::DoubleDouble;
 use nalgebra::{Point2, SMatrix, SVector, UnitComplex};
 
+use crate::bounded::{has_bound, instead};
 use crate::native::is_native;
 use crate::scalar::{to_f64, unit};
 use crate::{OutputMotion, PointMotion, Real, real};
@@ -24,11 +25,11 @@ pub type Wide = DoubleDouble;
 /// as many below its half.
 const SMALLEST_PIVOT: f64 = 0.015_625;
 
-/// True if a group with this smallest pivot loses digits that [`Wide`] keeps: false for scalars other than `f32` and `f64`,
+/// True if a group with this smallest pivot loses digits that [`Wide`] keeps: for `f32`, `f64` and doubles with a bound,
 /// known at compile time.
 #[inline]
 pub(crate) fn loses_digits<T: Real>(smallest_pivot: T) -> bool {
-    is_native::<T>() && smallest_pivot < real(SMALLEST_PIVOT)
+    (is_native::<T>() || has_bound::<T>()) && smallest_pivot < real(SMALLEST_PIVOT)
 }
 
 /// The number in twice the precision.
@@ -62,71 +63,84 @@ where
 
 /// A result in twice the precision that can be rounded to `To`.
 pub trait Rounded<To> {
-    /// The rounded result; clears the flag if a number is not finite.
-    fn rounded(self, is_finite: &mut bool) -> To;
+    /// The rounded result; clears the flag if a number is not finite. A scalar with a bound is then off by what it
+    /// differs from the `rough` result, and by the bound of that.
+    fn rounded(self, rough: To, is_finite: &mut bool) -> To;
 }
 
 impl<T: Real> Rounded<T> for Wide {
-    fn rounded(self, is_finite: &mut bool) -> T {
+    fn rounded(self, rough: T, is_finite: &mut bool) -> T {
         let rounded = real::<T>(self.high());
         *is_finite &= rounded.is_finite();
-        rounded
+        instead(rounded, rough)
     }
 }
 
 impl<T: Real, const R: usize, const C: usize> Rounded<SMatrix<T, R, C>> for SMatrix<Wide, R, C> {
-    fn rounded(self, is_finite: &mut bool) -> SMatrix<T, R, C> {
-        self.map(|entry| entry.rounded(is_finite))
+    fn rounded(self, rough: SMatrix<T, R, C>, is_finite: &mut bool) -> SMatrix<T, R, C> {
+        self.zip_map(&rough, |entry, rough| entry.rounded(rough, is_finite))
     }
 }
 
 impl<A: Rounded<B>, B, const N: usize> Rounded<[B; N]> for [A; N] {
-    fn rounded(self, is_finite: &mut bool) -> [B; N] {
-        self.map(|item| item.rounded(is_finite))
+    fn rounded(self, rough: [B; N], is_finite: &mut bool) -> [B; N] {
+        let mut items = self.into_iter();
+        // As many items as rough ones.
+        rough.map(|rough| match items.next() {
+            Some(item) => item.rounded(rough, is_finite),
+            None => rough,
+        })
     }
 }
 
 impl<T: Real> Rounded<PointMotion<T>> for PointMotion<Wide> {
-    fn rounded(self, is_finite: &mut bool) -> PointMotion<T> {
+    fn rounded(self, rough: PointMotion<T>, is_finite: &mut bool) -> PointMotion<T> {
+        let PointMotion { position, velocity, acceleration } = rough;
+        let rough = [position.coords, velocity, acceleration];
         let Self { position, velocity, acceleration } = self;
-        let [position, velocity, acceleration] = [position.coords, velocity, acceleration].rounded(is_finite);
+        let [position, velocity, acceleration] = [position.coords, velocity, acceleration].rounded(rough, is_finite);
         PointMotion { position: Point2::from(position), velocity, acceleration }
     }
 }
 
 impl<T: Real> Rounded<OutputMotion<T>> for OutputMotion<Wide> {
-    fn rounded(self, is_finite: &mut bool) -> OutputMotion<T> {
-        let [value, velocity, acceleration] = [self.value, self.velocity, self.acceleration].rounded(is_finite);
+    fn rounded(self, rough: OutputMotion<T>, is_finite: &mut bool) -> OutputMotion<T> {
+        let OutputMotion { value, velocity, acceleration } = rough;
+        let rough = [value, velocity, acceleration];
+        let Self { value, velocity, acceleration } = self;
+        let [value, velocity, acceleration] = [value, velocity, acceleration].rounded(rough, is_finite);
         OutputMotion { value, velocity, acceleration }
     }
 }
 
 /// The matrix or the matrices rounded; `None` if a number is not finite.
 #[must_use]
-pub fn rounded<A: Rounded<B>, B>(wide: A) -> Option<B> {
+pub fn rounded<A: Rounded<B>, B>(wide: A, rough: B) -> Option<B> {
     let mut is_finite = true;
-    let rounded = wide.rounded(&mut is_finite);
+    let rounded = wide.rounded(rough, &mut is_finite);
     is_finite.then_some(rounded)
 }
 
 /// The numbers by name rounded, as [`rounded`].
 #[must_use]
-pub fn rounded_by_name<T, A, B, const N: usize>(wide: A) -> Option<B>
+pub fn rounded_by_name<T, A, B, const N: usize>(wide: A, rough: B) -> Option<B>
 where
     T: Real,
     SVector<Wide, N>: From<A>,
+    SVector<T, N>: From<B>,
     B: From<SVector<T, N>>,
 {
-    rounded(SVector::from(wide)).map(B::from)
+    rounded(SVector::from(wide), SVector::from(rough)).map(B::from)
 }
 
 /// A value for each point or output rounded, as [`rounded`].
 #[must_use]
-pub fn rounded_each<X, Y, A, B, const N: usize>(wide: A) -> Option<B>
+pub fn rounded_each<X, Y, A, B, const N: usize>(wide: A, rough: B) -> Option<B>
 where
     X: Rounded<Y>,
     [X; N]: From<A>,
+    [Y; N]: From<B>,
     B: From<[Y; N]>,
 {
-    rounded(<[X; N]>::from(wide)).map(B::from)
+    rounded(<[X; N]>::from(wide), <[Y; N]>::from(rough)).map(B::from)
 }

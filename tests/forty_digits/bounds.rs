@@ -1,7 +1,5 @@
 //! The bounds of `Rounded` against the constraints solved in 48 digits: positions on a branch, velocities, accelerations
 //! and points of all mechanisms, with parameters, inputs and rates as they are.
-//!
-//! A position by Newton's method has no bound that is of use: the rules do not see that the iteration converges.
 
 use linkage_compiler::ids::Id;
 use linkage_gallery::{Fixture, Kinematics};

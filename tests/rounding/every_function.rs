@@ -87,7 +87,7 @@ impl Found {
     }
 }
 
-fn arguments(sample: Sample) -> Arguments<f64> {
+pub fn arguments(sample: Sample) -> Arguments<f64> {
     let Sample { parameters, q, rates, accelerations, .. } = sample;
     Arguments { parameters, q, rates, accelerations }
 }

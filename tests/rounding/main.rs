@@ -7,8 +7,12 @@
 //! POSES=1000 cargo test --release --all-features --test rounding -- --nocapture    this many poses of each mechanism
 //! ```
 
+mod dead_points;
 mod every_function;
 mod figures;
+mod in_line;
+mod limits;
+mod newton;
 mod results;
 mod user_functions;
 

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use super::formulas::{Formulas, is_formula};
-use crate::program::{Expression, Pattern, Statement};
+use crate::program::{Expression, Pattern, ROUGH, Statement};
 
 /// Replaces indices of results and local values by their expressions and names.
 pub(super) struct Finished<'a> {
@@ -34,7 +34,8 @@ impl Finished<'_> {
                 let (rough, precise) = (self.expression(rough), self.expression(precise));
                 let value = formulas.factors.iter().fold(rough, |rough, factors| {
                     let value = Box::new(precise.clone());
-                    let precise = Expression::Closure { arguments: vec![], statements: vec![], value, moves: false };
+                    let arguments = vec![Pattern::Name(ROUGH.to_owned())];
+                    let precise = Expression::Closure { arguments, statements: vec![], value, moves: false };
                     Expression::name(factors).method("refined", [rough, precise])
                 });
                 out.push(Statement::Let(self.pattern(to), value));

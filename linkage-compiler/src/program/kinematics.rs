@@ -8,6 +8,7 @@ use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Failure, Kernel, Source, Value, results};
 use super::names::Order;
 use super::plan::{Plan, unnamed};
+use super::precise::ROUGH;
 use super::signatures::Family;
 use crate::derivation::{ChordGeometry, Form, Quantity, Step, merged, needed_names};
 use crate::graph::NodeId;
@@ -58,6 +59,7 @@ impl Plan<'_, '_> {
         let [(_, pose), (_, rates), (_, accelerations)] = members.as_slice() else { return };
         let name = |name: &String| Expression::name(name);
         let precise = [name(&names.pose).borrowed(), name(&names.input_rates), name(&names.input_accelerations)];
+        let precise = precise.into_iter().chain([Expression::name(ROUGH)]);
         let precise = Expression::call("precise_kinematics", precise);
         let both = [&names.rates, &names.accelerations].map(|name| Pattern::Name(name.clone()));
         let rough = Expression::Tuple(vec![rates.clone(), accelerations.clone()]);

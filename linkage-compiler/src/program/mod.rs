@@ -38,6 +38,7 @@ pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Pa
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
+pub use precise::ROUGH;
 pub use scene::{MULTIPLIERS, SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
 pub use stored::Stored;

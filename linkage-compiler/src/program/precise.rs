@@ -20,6 +20,8 @@ const AT_NUMBERS: &str = "at_numbers";
 const MECHANISM: &str = "mechanism";
 /// The wide motion.
 const MOTION: &str = "motion";
+/// The result in the scalar of the caller, whose bound a scalar may carry.
+pub const ROUGH: &str = "rough";
 
 impl Kernel {
     /// True if a group is solved by factorisation.
@@ -46,7 +48,7 @@ impl Plan<'_, '_> {
         }
         let (rough, precise) = (rough.clone(), format!("precise_{}", signature.name));
         let arguments = signature.arguments.iter().map(|argument| Expression::name(&argument.name));
-        let call = Expression::call(&precise, arguments);
+        let call = Expression::call(&precise, arguments.chain([Expression::name(ROUGH)]));
         let value = body.local("refined");
         body.after.push(Statement::Refine(Pattern::Local(body.locals.len() - 1), rough, call));
         body.value = Value::Plain(value);
@@ -69,11 +71,11 @@ impl Plan<'_, '_> {
                 before.push(Statement::Let(Pattern::Name(MOTION.to_owned()), wide));
                 self.rounded_motion(&Expression::name(MOTION))
             }
-            returns => Expression::runtime(rounding(returns), [wide]),
+            returns => Expression::runtime(rounding(returns), [wide, Expression::name(ROUGH)]),
         };
         let calls = [WIDENED, WIDENED_POSE, AT_NUMBERS].map(str::to_owned).to_vec();
         let body = Body { before, calls, ..Body::plain(value) };
-        let arguments = of.arguments.iter().cloned().map(by_value);
+        let arguments = of.arguments.iter().cloned().map(by_value).chain([rough(of.returns.clone())]);
         let returns = Type::Around("Option", Box::new(of.returns.clone()));
         let signature = Function { access: Access::Cold, ..total(name, arguments, returns) };
         let doc = format!("`{}` in twice the precision, rounded once; `None` if a number is not finite.", of.name);
@@ -87,7 +89,8 @@ impl Plan<'_, '_> {
         let of_quantities = families.map(|family| (format!("{}s", family.word()), "rounded_each"));
         let members = of_coordinates.into_iter().chain(of_quantities);
         let members = members.map(|(field, rounded)| {
-            let value = Expression::runtime(rounded, [wide.clone().field(&field)]).tried();
+            let parts = [wide, &Expression::name(ROUGH)].map(|whole| whole.clone().field(&field));
+            let value = Expression::runtime(rounded, parts).tried();
             (field, value)
         });
         let motion = Type::Bare(self.signatures.types.motion.clone());
@@ -100,7 +103,8 @@ impl Plan<'_, '_> {
         let Arguments { pose, input_rates, input_accelerations, rates, accelerations, .. } =
             self.signatures.arguments.clone();
         let mut before = vec![self.let_widened()];
-        before.extend(signature.arguments.iter().map(|argument| self.let_widened_argument(argument)));
+        let widened = signature.arguments.iter().filter(|argument| argument.name != ROUGH);
+        before.extend(widened.map(|argument| self.let_widened_argument(argument)));
         let borrowed = |name: &String| Expression::name(name).borrowed();
         let of_velocity = vec![borrowed(&pose), Expression::name(&input_rates)];
         let of_acceleration = vec![borrowed(&pose), borrowed(&rates), Expression::name(&input_accelerations)];
@@ -110,8 +114,14 @@ impl Plan<'_, '_> {
             let wide = Expression::name(MECHANISM).method(function, arguments).method("ok", []).tried();
             before.push(Statement::Let(Pattern::Name(name.clone()), wide));
         }
-        let rounded = |name| Expression::runtime("rounded_by_name", [Expression::name(name)]).tried();
-        let both = Expression::Tuple([&rates, &accelerations].map(rounded).to_vec());
+        let parts = [&rates, &accelerations].map(|name| format!("{ROUGH}_{name}"));
+        let pattern = Pattern::Tuple(parts.iter().cloned().map(Pattern::Name).collect());
+        before.push(Statement::Let(pattern, Expression::name(ROUGH)));
+        let rounded = |(name, part)| {
+            let pair = [Expression::name(name), Expression::name(part)];
+            Expression::runtime("rounded_by_name", pair).tried()
+        };
+        let both = Expression::Tuple([&rates, &accelerations].into_iter().zip(&parts).map(rounded).collect());
         let calls = [WIDENED, WIDENED_POSE, AT_NUMBERS].map(str::to_owned).to_vec();
         let body = Body { before, calls, ..Body::plain(Expression::runtime("Some", [both])) };
         let doc = lines([
@@ -238,11 +248,17 @@ impl Signatures<'_> {
             passed: Passed::ByValue(Type::Own(self.types.inputs.clone())),
         };
         let Arguments { input_rates, input_accelerations, .. } = &self.arguments;
-        let arguments = [self.pose(), inputs(input_rates), inputs(input_accelerations)];
         let both = [Order::Rate, Order::Acceleration].map(|order| self.coordinates_type(order));
-        let returns = Type::Around("Option", Box::new(Type::Tuple(both.to_vec())));
+        let both = Type::Tuple(both.to_vec());
+        let arguments = [self.pose(), inputs(input_rates), inputs(input_accelerations), rough(both.clone())];
+        let returns = Type::Around("Option", Box::new(both));
         Function { access: Access::Cold, ..total("precise_kinematics", arguments, returns) }
     }
+}
+
+/// The argument of a result of this type in the scalar of the caller.
+fn rough(of: Type) -> Argument {
+    Argument { name: ROUGH.to_owned(), passed: Passed::ByValue(of) }
 }
 
 /// The function of the runtime that rounds a result of this type.

@@ -11,6 +11,7 @@
 mod search;
 
 use self::search::Searched;
+use crate::bounded::{angle_but_for_turns, has_bound, instead};
 use crate::linear::power_of_two_below;
 use crate::{PositionError, Real, real};
 
@@ -111,7 +112,7 @@ pub fn limits<T: Real, P, const B: usize, const N: usize>(
     let exact = |end: Option<(T, Block)>| -> Result<Limit<T>, PositionError> {
         let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
         let input = searched.corrected(start, &position, end, place)?;
-        Ok(Limit::Exact { input: searched.last(start, &position, input)?, group })
+        Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })
     };
     let (lower, upper) = (exact(lower)?, exact(upper)?);
     let reach = match search {
@@ -157,8 +158,8 @@ impl<T: Real> Bound<T> {
         };
         let is_finite = lower.into_iter().chain(upper).all(|input| input.is_finite());
         // At a limit a rounding error may put the zero on the other side of `start`.
-        let lower = lower.map(|input| if input < start { input } else { start });
-        let upper = upper.map(|input| if input > start { input } else { start });
+        let lower = lower.map(|input| if input < start { input } else { instead(start, input) });
+        let upper = upper.map(|input| if input > start { input } else { instead(start, input) });
         is_finite.then(|| [lower, upper].map(|input| Some((input?, block))))
     }
 }
@@ -172,13 +173,13 @@ fn of_angle<T: Real>(coefficients: [T; 3], rate: T, start: T) -> Option<Ends<T>>
         return Some([None; 2]);
     }
     let [a, b, c] = normalised(coefficients)?;
-    let r = b.hypot(c);
+    let r = b.hypotenuse(c);
     if a >= r || r.is_zero() {
         return Some([None; 2]);
     }
     // atan2 gives the half width: acos loses digits near 0 and pi. Where links just touch, a may be less than -r.
     let sine = ((r - a) / r * ((r + a) / r)).max(T::zero()).sqrt();
-    let (width, middle) = (sine.atan2(-a / r), c.atan2(b));
+    let (width, middle) = (sine.arctangent2(-a / r), angle_but_for_turns(c, b));
     let turns = ((rate * start - middle) / T::two_pi()).round() * T::two_pi();
     let ends = [middle - width + turns, middle + width + turns].map(|angle| Some(angle / rate));
     let [first, second] = ends;
@@ -204,7 +205,8 @@ fn of_length<T: Real>([a, b, c]: [T; 3], start: T) -> Option<Ends<T>> {
         if one < other { [one, other] } else { [other, one] }
     } else if c < T::zero() {
         // Links that just touch, at one input: a rounding error may make the radicand negative.
-        [-half / c; 2]
+        let middle = -half / c;
+        [if has_bound::<T>() { middle - instead(T::zero(), radicand).sqrt() / c } else { middle }; 2]
     } else {
         return Some([None; 2]);
     };

@@ -32,9 +32,9 @@ impl<T: Real, N: Dim> Decomposition<T, N> {
                     is_done = false;
                     // tan of the angle: t^2 + 2 z t - 1 = 0, the smaller root.
                     let z = (b - a) * (b + a) / (real::<T>(2.0) * product);
-                    let root = z.abs() + T::one().hypot(z);
+                    let root = z.abs() + T::one().hypotenuse(z);
                     let t = if z < T::zero() { -root.recip() } else { root.recip() };
-                    let cosine = T::one().hypot(t).recip();
+                    let cosine = T::one().hypotenuse(t).recip();
                     rotate(&mut columns, first, second, cosine, cosine * t);
                     rotate(&mut vectors, first, second, cosine, cosine * t);
                 }
