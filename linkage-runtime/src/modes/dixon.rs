@@ -21,87 +21,16 @@
 
 use nalgebra::Complex;
 
+use super::minors::{Columns, Minors, Sized, alternating};
+
 /// A complex number.
 pub type Number = Complex<f64>;
 
-const ZERO: Number = Number { re: 0.0, im: 0.0 };
-const ONE: Number = Number { re: 1.0, im: 0.0 };
+pub const ZERO: Number = Number { re: 0.0, im: 0.0 };
+pub const ONE: Number = Number { re: 1.0, im: 0.0 };
 
 /// The most columns of c: k and six directions.
 pub const COLUMNS: usize = 7;
-
-/// The determinants of some rows of c.
-#[derive(Clone)]
-struct Minors {
-    /// Their number.
-    rows: usize,
-    /// det c[K] for each set K of as many columns, as a set of bits.
-    values: [Number; 1 << COLUMNS],
-    /// The sums of the sizes of their products.
-    sizes: [f64; 1 << COLUMNS],
-}
-
-/// A set of columns of c, as bits.
-type Columns = usize;
-
-impl Minors {
-    /// The determinants of these rows, each with k and then the factors of the directions.
-    fn of<'a>(rows: impl Iterator<Item = &'a [Number; COLUMNS]>, directions: usize) -> Self {
-        let (mut values, mut sizes) = ([ZERO; 1 << COLUMNS], [0.0; 1 << COLUMNS]);
-        (values[0], sizes[0]) = (ONE, 1.0);
-        let mut count = 0;
-        // Expansion by the last row, from small sets to large ones.
-        for row in rows {
-            count += 1;
-            for set in (1..1usize << (directions + 1)).filter(|set| set.count_ones() as usize == count) {
-                let mut sign = -1.0;
-                for column in (0..=directions).rev().filter(|column| set >> column & 1 == 1) {
-                    sign = -sign;
-                    values[set] += row[column] * values[set & !(1 << column)] * sign;
-                    sizes[set] += row[column].l1_norm() * sizes[set & !(1 << column)];
-                }
-            }
-        }
-        Self { rows: count, values, sizes }
-    }
-
-    /// det c[set]
-    fn of_set(&self, set: Columns) -> Sized {
-        Sized { value: self.values[set], size: self.sizes[set] }
-    }
-
-    /// det c[first, set], where `first` is the first column whatever its number.
-    fn with_first(&self, first: usize, set: Columns) -> Sized {
-        let before = (set & ((1 << first) - 1)).count_ones();
-        let Sized { value, size } = self.of_set(set | 1 << first);
-        Sized { value: value * alternating(before), size }
-    }
-}
-
-/// A sum of products, and the sum of their sizes: its rounding error is that of the sizes.
-#[derive(Clone, Copy)]
-struct Sized {
-    value: Number,
-    size: f64,
-}
-
-impl Sized {
-    fn conj(self) -> Self {
-        Self { value: self.value.conj(), ..self }
-    }
-
-    fn times(self, other: Self) -> Self {
-        Self { value: self.value * other.value, size: self.size * other.size }
-    }
-
-    fn scaled(self, factor: Number) -> Self {
-        Self { value: self.value * factor, size: self.size * factor.l1_norm() }
-    }
-}
-
-fn alternating(exponent: u32) -> f64 {
-    if exponent.is_multiple_of(2) { 1.0 } else { -1.0 }
-}
 
 /// The holomorphic and the antiholomorphic columns of one choice.
 struct Columnwise {

@@ -5,6 +5,7 @@ mod circle;
 mod dixon;
 mod family;
 mod linearized;
+mod minors;
 mod numbers;
 mod search;
 mod single;
