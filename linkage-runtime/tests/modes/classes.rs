@@ -208,7 +208,9 @@ fn is_on_family<const L: usize, const N: usize>(group: &Sliding<L, N>, position:
                 at.iter_mut().zip(step.iter()).for_each(|(angle, step)| *angle -= step);
             }
             let (residuals, scales, _) = decomposed(&at);
-            let closes = residuals.iter().zip(&scales).all(|(psi, scale)| psi.abs() <= 16.0 * f64::EPSILON * scale);
+            // Relative to the largest loop: one may have no length at all.
+            let scale = scales.into_iter().fold(0.0, f64::max);
+            let closes = residuals.iter().all(|psi| psi.abs() <= 16.0 * f64::EPSILON * scale);
             let moved: f64 = (0..N).map(|angle| (at[angle] - position[angle]) * null[angle]).sum();
             closes && moved.abs() > 0.5 * ASIDE
         })
