@@ -290,10 +290,8 @@ impl<const SIZE: usize> Dixon<SIZE> {
     /// W at x, on the unit circle.
     fn at(&self, x: Number) -> [[Number; SIZE]; SIZE] {
         let mut matrix = self.constant;
-        let mut powers = [ONE; MOST_POWER + 1];
-        for place in 1..powers.len() {
-            powers[place] = powers[place - 1] * x;
-        }
+        let square = x * x;
+        let powers = [ONE, x, square, square * x, square * square];
         for term in self.terms().iter().filter(|term| term.power != 0) {
             let power = powers[(term.power.unsigned_abs() as usize).min(MOST_POWER)];
             term.add_to(&mut matrix, if term.power < 0 { power.conj() } else { power });
@@ -301,9 +299,9 @@ impl<const SIZE: usize> Dixon<SIZE> {
         matrix
     }
 
-    /// det W at x, and a bound of its rounding error that of each pivot is an epsilon of the size of the
-    /// terms of its row.
-    pub fn determinant(&self, x: Number) -> (Number, f64) {
+    /// det W at x, and a bound of its rounding error if `BOUND` is true, else zero: the error of each pivot is an epsilon of
+    /// the size of the terms of its row.
+    pub fn determinant<const BOUND: bool>(&self, x: Number) -> (Number, f64) {
         let size = self.size;
         let (mut matrix, mut sizes) = (self.at(x), self.sizes);
         let mut determinant = ONE;
@@ -320,18 +318,22 @@ impl<const SIZE: usize> Dixon<SIZE> {
             }
             let top = matrix[step];
             determinant *= top[step];
-            let pivot = top[step].l1_norm();
-            most *= pivot + sizes[step] * f64::EPSILON;
-            product *= pivot;
-            if pivot == 0.0 {
+            if BOUND {
+                let pivot = top[step].l1_norm();
+                most *= pivot + sizes[step] * f64::EPSILON;
+                product *= pivot;
+            }
+            if top[step] == ZERO {
                 let rest: f64 = sizes[step + 1..size].iter().product();
-                return (ZERO, most * rest);
+                return (ZERO, if BOUND { most * rest } else { 0.0 });
             }
             let (inverse, of_top) = (top[step].inv(), sizes[step]);
             let rows = matrix[step + 1..size].iter_mut().zip(&mut sizes[step + 1..size]);
             for (row, of_row) in rows.filter(|(row, _)| row[step] != ZERO) {
                 let factor = row[step] * inverse;
-                *of_row += factor.l1_norm() * of_top;
+                if BOUND {
+                    *of_row += factor.l1_norm() * of_top;
+                }
                 for (entry, above) in row[step + 1..size].iter_mut().zip(&top[step + 1..size]) {
                     *entry -= factor * above;
                 }

@@ -25,12 +25,13 @@ impl Minors {
         // Expansion by the last row, from small sets to large ones.
         for row in rows {
             count += 1;
+            let lengths = row.map(|number| number.l1_norm());
             for set in (1..1usize << (directions + 1)).filter(|set| set.count_ones() as usize == count) {
                 let mut sign = -1.0;
                 for column in (0..=directions).rev().filter(|column| set >> column & 1 == 1) {
                     sign = -sign;
                     values[set] += row[column] * values[set & !(1 << column)] * sign;
-                    sizes[set] += row[column].l1_norm() * sizes[set & !(1 << column)];
+                    sizes[set] += lengths[column] * sizes[set & !(1 << column)];
                 }
             }
         }

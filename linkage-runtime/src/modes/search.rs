@@ -26,6 +26,9 @@ const MOST_MOVED: f64 = 0.1;
 /// epsilon.
 const SAME: f64 = 1e-6;
 
+/// The most directions that are tried as x. Cells take the time of two to four such tries.
+const MOST_TRIED: usize = 2;
+
 /// The search for all positions of one group.
 pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
     /// The names of the mechanism and of the group.
@@ -57,10 +60,14 @@ where
     /// All positions, if every root of the determinant is a position of its own. The matrix has at most `SIZE` rows, and its
     /// determinant at most `TERMS` terms.
     fn by_determinant<const SIZE: usize, const TERMS: usize>(&self, numbers: &Numbers<L>) -> Option<Modes<T, N>> {
-        let kept = numbers.turning().unwrap_or(1);
-        let mut modes = Modes::none();
-        let is_whole = numbers.has_determinant && self.with::<SIZE, TERMS>(numbers, kept, &mut modes).is_some();
-        is_whole.then(|| modes.sorted())
+        if !numbers.has_determinant {
+            return None;
+        }
+        let kept = numbers.turning().map_or(1..=MOST_TRIED, |turning| turning..=turning);
+        kept.into_iter().find_map(|kept| {
+            let mut modes = Modes::none();
+            self.with::<SIZE, TERMS>(numbers, kept, &mut modes).map(|()| modes.sorted())
+        })
     }
 
     /// All positions, by cells.
@@ -100,7 +107,11 @@ where
         modes: &mut Modes<T, N>,
     ) -> Option<()> {
         let dixon = Dixon::<SIZE>::new(&numbers.rows, numbers.equations(), numbers.directions, kept)?;
-        let determinant = TrigonometricPolynomial::<TERMS>::of(dixon.degree()?, |x| dixon.determinant(x))?;
+        let determinant = TrigonometricPolynomial::<TERMS>::of(
+            dixon.degree()?,
+            |x| dixon.determinant::<false>(x).0,
+            |x| dixon.determinant::<true>(x),
+        )?;
         let roots = determinant.roots();
         // Two simple roots never have the same position.
         let mut reached = [false; MOST];
