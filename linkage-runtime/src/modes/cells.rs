@@ -77,7 +77,7 @@ pub struct Cells<'a> {
 /// A place at which it is not decided how many positions there are.
 pub struct Doubt(pub PerAngle);
 
-/// What a cell is found to be.
+/// The state of a cell after it is narrowed.
 enum State {
     /// It has no position but those found.
     Done,

@@ -1,7 +1,7 @@
 //! Groups with unknown lengths: sliders on guides of known direction, and on guides that turn with one direction.
 
 use linkage_runtime::PositionError;
-use linkage_runtime::modes::{Loops, Memory, Unknown};
+use linkage_runtime::modes::{Loops, Memory, Modes, Unknown};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -51,11 +51,13 @@ impl<const L: usize, const N: usize> Sliding<L, N> {
         (residuals, scales, columns)
     }
 
-    pub fn all(&self) -> Result<Vec<[f64; N]>, PositionError> {
+    pub fn modes(&self) -> Result<Modes<f64, N>, PositionError> {
         let mut memory = Memory::default();
-        let found =
-            memory.modes_with_lengths("Group", "t", self.loops, self.are, |all| all, |all| self.evaluate(all))?;
-        Ok(found.as_slice().to_vec())
+        memory.modes_with_lengths("Group", "t", self.loops, self.are, |all| all, |all| self.evaluate(all))
+    }
+
+    pub fn all(&self) -> Result<Vec<[f64; N]>, PositionError> {
+        self.modes().map(|modes| modes.as_slice().to_vec())
     }
 }
 
