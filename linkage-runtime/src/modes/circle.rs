@@ -12,7 +12,8 @@ use crate::Real;
 /// The estimated rounding error of a polynomial is multiplied by this. In all tests 4 is enough.
 const SAFETY: f64 = 8.0;
 
-/// The rounding error of a determinant is less than this part of its bound: in 500 000 random groups it was 1/2000 at most.
+/// The rounding error of a determinant is less than this part of its bound: for the double butterfly of the gallery, at five
+/// inputs and with each direction as x, it is 1/700 at most.
 const PART_OF_BOUND: f64 = 1.0 / 256.0;
 
 /// The error of one in so many samples is bounded: those of the others are of its size.
