@@ -74,7 +74,8 @@ pub struct Linearized {
     pub parts: PerAngle,
 }
 
-/// A term z e^(i psi): z e^(i psi) in the middle, its angles with their senses and their shares of the half width, and the half width of psi.
+/// A term z e^(i psi): its value in the middle, its angles with their senses and their shares of the half width, and the half
+/// width of psi.
 struct Term {
     value: Number,
     angles: [Option<(usize, f64, f64)>; 2],

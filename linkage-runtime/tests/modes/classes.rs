@@ -240,7 +240,7 @@ fn check<const L: usize, const N: usize>(kinds: &[Kind<L>], count: usize, class:
                 // The loops close to 1e-15, and links and pivots are a thousand times as small as the lengths of their loops.
                 let is_there = nearest < 1e-11 / regularity;
                 if modes.has_family() && !is_there {
-                    assert!(regularity < 1e-6, "{class:?} {case} misses {planted:?} beside a family of {group:?}");
+                    assert!(regularity < 1e-6, "{class:?} {case} has a family and misses {planted:?} of {group:?}");
                     counts.undetermined += 1;
                     counts.elsewhere += usize::from(!is_on_family(&group, &planted));
                 } else {
