@@ -93,7 +93,8 @@ pub enum PositionError {
         /// The number of positions.
         count: usize,
     },
-    /// The number of positions of a group cannot be determined: some are nearer to each other than rounding error.
+    /// It is not decided how many positions a group has: near one place rounding error, or the limit of the search, hides
+    /// whether there are several, one or none.
     Undecided {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
@@ -165,8 +166,8 @@ impl fmt::Display for PositionError {
             ),
             Self::Undecided { mechanism, group, regularity } => write!(
                 f,
-                "positions of group {group} of {mechanism} cannot be distinguished: they are nearer to each other than rounding \
-                 error, and the regularity there is {regularity:.1e}"
+                "it is not decided how many positions group {group} of {mechanism} has at this input: near one place, of \
+                 regularity {regularity:.1e}, rounding error or the limit of the search hides their number"
             ),
             Self::NotFinite { mechanism, quantity } => write!(f, "{quantity} of {mechanism} is not a finite number"),
             Self::Input(error) => error.fmt(f),

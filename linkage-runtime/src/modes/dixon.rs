@@ -21,57 +21,16 @@
 
 use nalgebra::Complex;
 
+use super::minors::{Columns, Minors, Sized, alternating};
+
 /// A complex number.
 pub type Number = Complex<f64>;
 
-const ZERO: Number = Number { re: 0.0, im: 0.0 };
-const ONE: Number = Number { re: 1.0, im: 0.0 };
+pub const ZERO: Number = Number { re: 0.0, im: 0.0 };
+pub const ONE: Number = Number { re: 1.0, im: 0.0 };
 
 /// The most columns of c: k and six directions.
 pub const COLUMNS: usize = 7;
-
-/// The determinants of some rows of c.
-#[derive(Clone)]
-struct Minors {
-    /// Their number.
-    rows: usize,
-    /// det c[K] for each set K of as many columns, as a set of bits.
-    values: [Number; 1 << COLUMNS],
-}
-
-/// A set of columns of c, as bits.
-type Columns = usize;
-
-impl Minors {
-    /// The determinants of these rows, each with k and then the factors of the directions.
-    fn of<'a>(rows: impl Iterator<Item = &'a [Number; COLUMNS]>, directions: usize) -> Self {
-        let mut values = [ZERO; 1 << COLUMNS];
-        values[0] = ONE;
-        let mut count = 0;
-        // Expansion by the last row, from small sets to large ones.
-        for row in rows {
-            count += 1;
-            for set in (1..1usize << (directions + 1)).filter(|set| set.count_ones() as usize == count) {
-                let mut sign = -1.0;
-                for column in (0..=directions).rev().filter(|column| set >> column & 1 == 1) {
-                    sign = -sign;
-                    values[set] += row[column] * values[set & !(1 << column)] * sign;
-                }
-            }
-        }
-        Self { rows: count, values }
-    }
-
-    /// det c[first, set], where `first` is the first column whatever its number.
-    fn with_first(&self, first: usize, set: Columns) -> Number {
-        let before = (set & ((1 << first) - 1)).count_ones();
-        self.values[set | 1 << first] * alternating(before)
-    }
-}
-
-fn alternating(exponent: u32) -> f64 {
-    if exponent.is_multiple_of(2) { 1.0 } else { -1.0 }
-}
 
 /// The holomorphic and the antiholomorphic columns of one choice.
 struct Columnwise {
@@ -140,6 +99,8 @@ struct Term {
     column: usize,
     power: i32,
     value: Number,
+    /// The sum of the sizes of the products in it.
+    size: f64,
 }
 
 impl Term {
@@ -155,6 +116,9 @@ impl Term {
 
 /// The most terms of W: 70 of three loops without lengths.
 const TERMS: usize = 96;
+
+/// The largest power of x: of three loops whose guides all turn, 3 and one more.
+const MOST_POWER: usize = 4;
 
 /// W, with room for `SIZE` rows.
 pub struct Dixon<const SIZE: usize> {
@@ -172,6 +136,8 @@ pub struct Dixon<const SIZE: usize> {
     constant: [[Number; SIZE]; SIZE],
     /// The factor of each row and column that balances the matrix.
     balance: [f64; SIZE],
+    /// The sum of the sizes of the terms of each row.
+    sizes: [f64; SIZE],
 }
 
 impl<const SIZE: usize> Dixon<SIZE> {
@@ -180,7 +146,7 @@ impl<const SIZE: usize> Dixon<SIZE> {
     /// A loop with a length gives one equation instead of two, the sum of a holomorphic and an antiholomorphic column.
     /// The determinant is the sum over the choices of one of both in each.
     pub fn new(rows: &[[Number; COLUMNS]], guided: &[Guided], directions: usize, kept: usize) -> Option<Self> {
-        let none = Term { row: 0, column: 0, power: 0, value: ZERO };
+        let none = Term { row: 0, column: 0, power: 0, value: ZERO, size: 0.0 };
         let mut dixon = Self {
             directions,
             kept,
@@ -190,6 +156,7 @@ impl<const SIZE: usize> Dixon<SIZE> {
             count: 0,
             constant: [[ZERO; SIZE]; SIZE],
             balance: [1.0; SIZE],
+            sizes: [0.0; SIZE],
         };
         for choice in 0..1usize << guided.len() {
             dixon.add(&Columnwise::of(rows, guided, directions, choice))?;
@@ -199,6 +166,14 @@ impl<const SIZE: usize> Dixon<SIZE> {
         let mut constant = [[ZERO; SIZE]; SIZE];
         dixon.terms().iter().filter(|term| term.power == 0).for_each(|term| term.add_to(&mut constant, ONE));
         dixon.constant = constant;
+        let mut sizes = [0.0; SIZE];
+        for term in dixon.terms() {
+            sizes[term.row] += term.size;
+            if term.row != term.column {
+                sizes[term.column] += term.size;
+            }
+        }
+        dixon.sizes = sizes;
         Some(dixon)
     }
 
@@ -211,21 +186,22 @@ impl<const SIZE: usize> Dixon<SIZE> {
             |count: usize| all.clone().filter(move |set| set & !others == 0 && set.count_ones() as usize == count);
         for set in of_size(conjugate.rows) {
             let complement = others & !set;
-            let factor = conjugate.values[set].conj() * columns.sign(self.row_sum(complement), conjugate.rows);
+            let sign = columns.sign(self.row_sum(complement), conjugate.rows);
+            let factor = conjugate.of_set(set).conj().scaled(sign);
             let row = self.row(set)?;
-            self.push(row, row, columns.power, holomorphic.with_first(0, complement) * factor)?;
-            self.push(row, row, columns.power + 1, holomorphic.with_first(self.kept, complement) * factor)?;
+            self.push(row, row, columns.power, holomorphic.with_first(0, complement).times(factor))?;
+            self.push(row, row, columns.power + 1, holomorphic.with_first(self.kept, complement).times(factor))?;
         }
         let Some(fewer) = conjugate.rows.checked_sub(1) else { return Some(()) };
         for set in of_size(fewer) {
             let complement = others & !set;
-            let factor = holomorphic.values[complement] * columns.sign(self.row_sum(complement), fewer);
+            let factor = holomorphic.of_set(complement).scaled(columns.sign(self.row_sum(complement), fewer));
             let row = self.row(set)?;
-            self.push(row, row, columns.power, conjugate.with_first(0, set).conj() * factor)?;
-            self.push(row, row, columns.power - 1, conjugate.with_first(self.kept, set).conj() * factor)?;
+            self.push(row, row, columns.power, conjugate.with_first(0, set).conj().times(factor))?;
+            self.push(row, row, columns.power - 1, conjugate.with_first(self.kept, set).conj().times(factor))?;
             for added in (1..=self.directions).filter(|column| complement >> column & 1 == 1) {
                 let column = self.row(set | 1 << added)?;
-                self.push(row, column, columns.power, conjugate.with_first(added, set).conj() * factor)?;
+                self.push(row, column, columns.power, conjugate.with_first(added, set).conj().times(factor))?;
             }
         }
         Some(())
@@ -247,9 +223,9 @@ impl<const SIZE: usize> Dixon<SIZE> {
         Some(known.unwrap_or(self.size - 1))
     }
 
-    fn push(&mut self, row: usize, column: usize, power: i32, value: Number) -> Option<()> {
+    fn push(&mut self, row: usize, column: usize, power: i32, Sized { value, size }: Sized) -> Option<()> {
         if value != ZERO {
-            *self.terms.get_mut(self.count)? = Term { row, column, power, value };
+            *self.terms.get_mut(self.count)? = Term { row, column, power, value, size };
             self.count += 1;
         }
         Some(())
@@ -288,7 +264,9 @@ impl<const SIZE: usize> Dixon<SIZE> {
             }
             let factors = largest.map(|largest| if largest > 0.0 { power_of_two(1.0 / root_of(largest)) } else { 1.0 });
             for term in &mut self.terms[..self.count] {
-                term.value *= factors[term.row] * factors[term.column];
+                let factor = factors[term.row] * factors[term.column];
+                term.value *= factor;
+                term.size *= factor;
             }
             for (balance, factor) in self.balance.iter_mut().zip(factors) {
                 *balance *= factor;
@@ -311,41 +289,57 @@ impl<const SIZE: usize> Dixon<SIZE> {
 
     /// W at x, on the unit circle.
     fn at(&self, x: Number) -> [[Number; SIZE]; SIZE] {
-        let powers = [x.conj() * x.conj(), x.conj(), ONE, x, x * x];
         let mut matrix = self.constant;
+        let square = x * x;
+        let powers = [ONE, x, square, square * x, square * square];
         for term in self.terms().iter().filter(|term| term.power != 0) {
-            term.add_to(&mut matrix, powers[(term.power + 2) as usize]);
+            let power = powers[(term.power.unsigned_abs() as usize).min(MOST_POWER)];
+            term.add_to(&mut matrix, if term.power < 0 { power.conj() } else { power });
         }
         matrix
     }
 
-    /// det W at x.
-    pub fn determinant(&self, x: Number) -> Number {
+    /// det W at x, and a bound of its rounding error if `BOUND` is true, else zero: the error of each pivot is an epsilon of
+    /// the size of the terms of its row.
+    pub fn determinant<const BOUND: bool>(&self, x: Number) -> (Number, f64) {
         let size = self.size;
-        let mut matrix = self.at(x);
+        let (mut matrix, mut sizes) = (self.at(x), self.sizes);
         let mut determinant = ONE;
+        // The product of the pivots with their errors, and that without.
+        let (mut most, mut product) = (1.0, 1.0);
         for step in 0..size {
             let size_at = |row: usize| matrix[row][step].l1_norm();
             let pivot = (step..size).max_by(|&one, &other| size_at(one).total_cmp(&size_at(other)));
             let Some(pivot) = pivot else { break };
             if pivot != step {
                 matrix.swap(pivot, step);
+                sizes.swap(pivot, step);
                 determinant = -determinant;
             }
             let top = matrix[step];
             determinant *= top[step];
-            if top[step] == ZERO {
-                return ZERO;
+            if BOUND {
+                let pivot = top[step].l1_norm();
+                most *= pivot + sizes[step] * f64::EPSILON;
+                product *= pivot;
             }
-            let inverse = top[step].inv();
-            for row in matrix[step + 1..size].iter_mut().filter(|row| row[step] != ZERO) {
+            if top[step] == ZERO {
+                let rest: f64 = sizes[step + 1..size].iter().product();
+                return (ZERO, if BOUND { most * rest } else { 0.0 });
+            }
+            let (inverse, of_top) = (top[step].inv(), sizes[step]);
+            let rows = matrix[step + 1..size].iter_mut().zip(&mut sizes[step + 1..size]);
+            for (row, of_row) in rows.filter(|(row, _)| row[step] != ZERO) {
                 let factor = row[step] * inverse;
+                if BOUND {
+                    *of_row += factor.l1_norm() * of_top;
+                }
                 for (entry, above) in row[step + 1..size].iter_mut().zip(&top[step + 1..size]) {
                     *entry -= factor * above;
                 }
             }
         }
-        determinant
+        (determinant, most - product)
     }
 
     /// The directions at a root x of det W, x among them; `None` if they do not follow from W.

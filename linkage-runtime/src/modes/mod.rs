@@ -1,9 +1,16 @@
 //! All positions of a group of two or three loops without a formula for each: its assembly modes.
 
+mod cells;
 mod circle;
 mod dixon;
+mod family;
+mod linearized;
+mod minors;
 mod numbers;
 mod search;
+mod single;
+mod solved;
+mod triangle;
 
 use search::Search;
 
@@ -51,6 +58,7 @@ const MOST: usize = 20;
 pub struct Modes<T, const N: usize> {
     unknowns: [[T; N]; MOST],
     count: usize,
+    has_family: bool,
 }
 
 impl<T: Real, const N: usize> Modes<T, N> {
@@ -60,11 +68,17 @@ impl<T: Real, const N: usize> Modes<T, N> {
         self.unknowns.get(..self.count).unwrap_or_default()
     }
 
+    /// True if there are infinitely many positions besides these, which are apart from them.
+    #[must_use]
+    pub fn has_family(&self) -> bool {
+        self.has_family
+    }
+
     /// The unknowns of one position.
     ///
     /// # Errors
-    /// [`PositionError::NoMode`] if there is no position of this number, [`PositionError::NoClosedForm`] for
-    /// [`AssemblyMode::OfGuess`].
+    /// [`PositionError::NoMode`] if there is no position of this number, or [`PositionError::Undetermined`] if there are
+    /// infinitely many besides; [`PositionError::NoClosedForm`] for [`AssemblyMode::OfGuess`].
     pub fn take(
         &self,
         mechanism: &'static str,
@@ -73,7 +87,10 @@ impl<T: Real, const N: usize> Modes<T, N> {
     ) -> Result<[T; N], PositionError> {
         let AssemblyMode::Number(number) = mode else { return Err(PositionError::NoClosedForm { mechanism, group }) };
         let found = self.as_slice().get(number).copied();
-        found.ok_or(PositionError::NoMode { mechanism, group, number, count: self.count })
+        found.ok_or(match self.has_family {
+            true => PositionError::Undetermined { mechanism, group },
+            false => PositionError::NoMode { mechanism, group, number, count: self.count },
+        })
     }
 }
 
@@ -125,8 +142,9 @@ impl<T: Real, const L: usize, const N: usize> Memory<T, L, N> {
     /// [`newton_group`](crate::position::newton_group).
     ///
     /// # Errors
-    /// [`PositionError::Undetermined`] if there are infinitely many positions, [`PositionError::Undecided`] if positions
-    /// are nearer to each other than rounding error, [`PositionError::NotFinite`] if a number is not finite.
+    /// [`PositionError::Undetermined`] if there are infinitely many positions and none apart from them,
+    /// [`PositionError::Undecided`] if rounding error hides how many positions there are, [`PositionError::NotFinite`] if a
+    /// number is not finite.
     pub fn modes(
         &mut self,
         mechanism: &'static str,

@@ -1,6 +1,7 @@
 //! The loops of a group as complex numbers, in units in which no product overflows.
 
 use super::dixon::{COLUMNS, Guided, Number, power_of_two};
+use super::linearized::System;
 use super::{Loops, Unknown};
 use crate::scalar::to_f64;
 use crate::{PositionError, Real, real};
@@ -28,6 +29,8 @@ pub struct Numbers<const L: usize> {
     /// The guides of the lengths.
     guides: [Guide; L],
     lengths: usize,
+    /// True if the determinant can be computed: no product of lengths underflows, and all guides have a direction.
+    pub has_determinant: bool,
 }
 
 /// The guide of a length s, which adds s d or s d t_j to its loop.
@@ -36,27 +39,28 @@ struct Guide {
     /// The unknown that is s.
     place: usize,
     row: usize,
-    /// d.
+    /// d, divided by a power of two.
     along: Number,
+    /// This power.
+    scale: f64,
     /// j.
     with: Option<usize>,
 }
 
 impl Guide {
-    /// d or d t_j.
+    /// d or d t_j, divided by the power of two.
     fn at(&self, directions: &Directions) -> Number {
         self.along * self.with.and_then(|place| directions.get(place)).copied().unwrap_or(ONE)
     }
 }
 
 impl<const L: usize> Numbers<L> {
-    /// The loops of the group with these names of mechanism and group.
+    /// The loops of a group of this mechanism.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`]; [`PositionError::Undecided`] if a length is too small in comparison with the largest;
-    /// [`PositionError::Undetermined`] if a guide has no direction.
+    /// [`PositionError::NotFinite`].
     pub fn new<T: Real, const N: usize>(
-        [mechanism, group]: [&'static str; 2],
+        mechanism: &'static str,
         loops: &Loops<T, L, N>,
         are: &[Unknown<T>; N],
     ) -> Result<Self, PositionError> {
@@ -66,8 +70,9 @@ impl<const L: usize> Numbers<L> {
             directions: 0,
             places: [0; COLUMNS - 1],
             equations: [Guided { row: 0, factor: ONE, is_turning: false }; L],
-            guides: [Guide { place: 0, row: 0, along: ONE, with: None }; L],
+            guides: [Guide { place: 0, row: 0, along: ONE, scale: 1.0, with: None }; L],
             lengths: 0,
+            has_determinant: true,
         };
         let mut columns = [None; N];
         let angles = are.iter().zip(&mut columns).enumerate().filter(|(_, (unknown, _))| **unknown == Unknown::Angle);
@@ -90,24 +95,24 @@ impl<const L: usize> Numbers<L> {
                 row.iter_mut().for_each(|number| *number = Number::new(number.re / scale, number.im / scale));
                 *unit = scale;
             }
-            if row.iter().any(|number| *number != Number::default() && size(number) < TINIEST) {
-                return Err(PositionError::Undecided { mechanism, group, regularity: 0.0 });
-            }
+            numbers.has_determinant &= row.iter().all(|number| *number == Number::default() || size(number) >= TINIEST);
         }
         for (place, unknown) in are.iter().enumerate() {
             let Unknown::Length { in_loop: row, along, with } = *unknown else { continue };
             let along = complex(along);
-            let has_direction = size(&along) > 0.0 && size(&along).is_finite();
-            if !has_direction {
-                return Err(PositionError::Undetermined { mechanism, group });
+            if !(along.re.is_finite() && along.im.is_finite()) {
+                return Err(PositionError::NotFinite { mechanism, quantity: "the direction of a guide" });
             }
+            let scale = power_of_two(size(&along));
+            numbers.has_determinant &= scale > 0.0;
             let last = numbers.lengths;
             let (Some(equation), Some(guide)) = (numbers.equations.get_mut(last), numbers.guides.get_mut(last)) else {
                 break;
             };
-            let factor = (along / power_of_two(size(&along))).conj();
-            *equation = Guided { row, factor, is_turning: with.is_some() };
-            *guide = Guide { place, row, along, with: with.and_then(|place| columns.get(place).copied().flatten()) };
+            let along = if scale > 0.0 { Number::new(along.re / scale, along.im / scale) } else { Number::default() };
+            *equation = Guided { row, factor: along.conj(), is_turning: with.is_some() };
+            let with = with.and_then(|place| columns.get(place).copied().flatten());
+            *guide = Guide { place, row, along, scale, with };
             numbers.lengths += 1;
         }
         Ok(numbers)
@@ -122,14 +127,20 @@ impl<const L: usize> Numbers<L> {
         self.guides.iter().take(self.lengths)
     }
 
-    /// The unit of a loop.
-    pub fn unit(&self, row: usize) -> f64 {
-        self.units.get(row).copied().unwrap_or(1.0)
+    /// The unit of an unknown length: that of its loop, divided by the size of d.
+    pub fn unit(&self, place: usize) -> f64 {
+        let guide = self.guides().find(|guide| guide.place == place);
+        guide.map_or(1.0, |guide| self.units.get(guide.row).copied().unwrap_or(1.0) / guide.scale)
     }
 
     /// The direction that must be kept, from 1: the one with which guides turn.
     pub fn turning(&self) -> Option<usize> {
         self.guides().find_map(|guide| guide.with).map(|place| place + 1)
+    }
+
+    /// The equations of the loops in the angles of the directions.
+    pub fn system(&self) -> System {
+        System::new(&self.rows, self.equations(), self.turning().map(|place| place - 1), self.directions)
     }
 
     /// The angles of these directions, and the lengths with which the loops are closed.
@@ -142,17 +153,18 @@ impl<const L: usize> Numbers<L> {
         }
         for guide in self.guides() {
             if let Some(value) = values.get_mut(guide.place) {
-                *value = real(self.length(guide, directions) * self.unit(guide.row));
+                *value = real(self.length(guide, directions) * self.unit(guide.place));
             }
         }
         values
     }
 
-    /// s of a guide, in the unit of its loop: the sum of the other links plus s d is zero, and s is real.
+    /// s of a guide, in its unit: the sum of the other links plus s d is zero, and s is real.
     fn length(&self, guide: &Guide, directions: &Directions) -> f64 {
         let sum = self.rows.get(guide.row).map_or(Number::default(), |row| sum(row, directions));
         let along = guide.at(directions);
-        -(sum * along.conj()).re / along.norm_sqr()
+        let square = along.norm_sqr();
+        if square > 0.0 { -(sum * along.conj()).re / square } else { 0.0 }
     }
 
     /// The largest residual of a loop at these directions, relative to the sum of its links.

@@ -1,11 +1,14 @@
-//! The search for all positions of a group: the roots of the Dixon determinant, each polished on the loops.
+//! The search for all positions of a group: the roots of the Dixon determinant, or else cells of angles, each polished on
+//! the loops.
 
 use core::mem;
 
+use super::cells::{Cells, Doubt};
 use super::circle::{Root, TrigonometricPolynomial, direction};
 use super::dixon::Dixon;
+use super::linearized::PerAngle;
 use super::numbers::Numbers;
-use super::{Loops, MOST, Modes, Unknown};
+use super::{Loops, MOST, Modes, Unknown, most_modes};
 use crate::position::{Evaluated, polished, regularity};
 use crate::scalar::{largest, to_f64};
 use crate::{PositionError, Real};
@@ -23,6 +26,9 @@ const MOST_MOVED: f64 = 0.1;
 /// epsilon.
 const SAME: f64 = 1e-6;
 
+/// The most directions that are tried as x. Cells take the time of two to four such tries.
+const MOST_TRIED: usize = 2;
+
 /// The search for all positions of one group.
 pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
     /// The names of the mechanism and of the group.
@@ -35,16 +41,6 @@ pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
     pub evaluate: G,
 }
 
-/// The result of the search with one direction as x.
-enum Outcome {
-    /// Every root of the determinant is a position of its own: the list is whole.
-    Whole,
-    /// The determinant is zero for every x, within rounding error.
-    Zero,
-    /// A root is in doubt, where the regularity of the group is this.
-    Doubt(f64),
-}
-
 impl<T, F, G, const L: usize, const N: usize> Search<'_, T, F, G, L, N>
 where
     T: Real,
@@ -53,118 +49,124 @@ where
 {
     /// All positions.
     pub fn run(&self) -> Result<Modes<T, N>, PositionError> {
-        let numbers = Numbers::new(self.names, self.loops, self.are)?;
-        match L {
-            2 => self.of_numbers::<6, 7>(&numbers),
-            _ => self.of_numbers::<20, 21>(&numbers),
-        }
+        let numbers = Numbers::new(self.names[0], self.loops, self.are)?;
+        let found = match L {
+            2 => self.by_determinant::<6, 7>(&numbers),
+            _ => self.by_determinant::<20, 21>(&numbers),
+        };
+        found.map_or_else(|| self.by_cells(&numbers), Ok)
     }
 
-    /// All positions, with a matrix of at most `SIZE` rows whose determinant has at most `TERMS` terms. If a root is in
-    /// doubt with one direction as x, as where two positions share it, the next is tried.
-    fn of_numbers<const SIZE: usize, const TERMS: usize>(
-        &self,
-        numbers: &Numbers<L>,
-    ) -> Result<Modes<T, N>, PositionError> {
+    /// All positions, if every root of the determinant is a position of its own. The matrix has at most `SIZE` rows, and its
+    /// determinant at most `TERMS` terms.
+    fn by_determinant<const SIZE: usize, const TERMS: usize>(&self, numbers: &Numbers<L>) -> Option<Modes<T, N>> {
+        if !numbers.has_determinant {
+            return None;
+        }
+        let kept = numbers.turning().map_or(1..=MOST_TRIED, |turning| turning..=turning);
+        kept.into_iter().find_map(|kept| {
+            let mut modes = Modes::none();
+            self.with::<SIZE, TERMS>(numbers, kept, &mut modes).map(|()| modes.sorted())
+        })
+    }
+
+    /// All positions, by cells.
+    fn by_cells(&self, numbers: &Numbers<L>) -> Result<Modes<T, N>, PositionError> {
         let [mechanism, group] = self.names;
+        let undecided = |at: &PerAngle| {
+            let regularity = self.regularity(self.start(numbers, at));
+            PositionError::Undecided { mechanism, group, regularity }
+        };
+        let system = numbers.system();
+        let found = Cells::new(&system, most_modes(L)).search().map_err(|Doubt(at)| undecided(&at))?;
         let mut modes = Modes::none();
-        let mut error = PositionError::Undetermined { mechanism, group };
-        let turning = numbers.turning();
-        for kept in (1..=numbers.directions).filter(|kept| turning.is_none_or(|turning| turning == *kept)) {
-            match self.with::<SIZE, TERMS>(numbers, kept, &mut modes) {
-                Outcome::Whole => {
-                    modes.sort();
-                    return Ok(modes);
-                }
-                Outcome::Zero => {}
-                Outcome::Doubt(regularity) => error = PositionError::Undecided { mechanism, group, regularity },
-            }
+        modes.has_family = found.has_family;
+        for at in found.as_slice() {
+            let start = self.start(numbers, at);
+            let found = polished(self.names, start, &self.evaluate).ok();
+            let is_near = |found: &[T; N]| self.distance(numbers, found, &start) <= MOST_MOVED;
+            self.push(&mut modes, found.filter(is_near).ok_or_else(|| undecided(at))?);
         }
-        Err(error)
+        if modes.has_family && modes.count == 0 {
+            return Err(PositionError::Undetermined { mechanism, group });
+        }
+        Ok(modes.sorted())
     }
 
-    /// Adds the positions found with this direction as x.
+    /// The unknowns at these angles of the directions.
+    fn start(&self, numbers: &Numbers<L>, angles: &PerAngle) -> [T; N] {
+        (self.unknowns)(numbers.values(&angles.map(direction)))
+    }
+
+    /// Adds the positions found with this direction as x. `None` if a root is in doubt, as where two positions share it, or
+    /// if the determinant is zero for every x within rounding error.
     fn with<const SIZE: usize, const TERMS: usize>(
         &self,
         numbers: &Numbers<L>,
         kept: usize,
         modes: &mut Modes<T, N>,
-    ) -> Outcome {
-        let dixon = Dixon::<SIZE>::new(&numbers.rows, numbers.equations(), numbers.directions, kept);
-        let Some(dixon) = dixon else { return Outcome::Zero };
-        let Some(degree) = dixon.degree() else { return Outcome::Zero };
-        let determinant = TrigonometricPolynomial::<TERMS>::of(degree, |x| dixon.determinant(x));
-        let Some(determinant) = determinant else { return Outcome::Zero };
+    ) -> Option<()> {
+        let dixon = Dixon::<SIZE>::new(&numbers.rows, numbers.equations(), numbers.directions, kept)?;
+        let determinant = TrigonometricPolynomial::<TERMS>::of(
+            dixon.degree()?,
+            |x| dixon.determinant::<false>(x).0,
+            |x| dixon.determinant::<true>(x),
+        )?;
         let roots = determinant.roots();
-        let Some(roots) = roots.as_slice() else { return Outcome::Zero };
-        let mut outcome = Outcome::Whole;
         // Two simple roots never have the same position.
         let mut reached = [false; MOST];
-        for root in roots {
-            match *root {
-                Root::Simple(angle) => match self.follow(numbers, &dixon, angle) {
-                    Ok(found) => {
-                        let place = self.add(modes, numbers, found).and_then(|place| reached.get_mut(place));
-                        if place.is_none_or(|reached| mem::replace(reached, true)) {
-                            outcome = Outcome::Doubt(self.regularity(found));
-                        }
-                    }
-                    Err(regularity) => outcome = Outcome::Doubt(regularity),
-                },
-                Root::Cluster([low, high]) => {
-                    for angle in [low, 0.5 * (low + high), high] {
-                        let found = self.follow(numbers, &dixon, angle);
-                        outcome =
-                            Outcome::Doubt(found.map_or_else(|regularity| regularity, |found| self.regularity(found)));
-                        found.ok().and_then(|found| self.add(modes, numbers, found));
-                    }
-                }
+        for root in roots.as_slice()? {
+            let Root::Simple(angle) = *root else { return None };
+            let found = self.follow(numbers, &dixon, angle)?;
+            let place = self.add(modes, numbers, found)?;
+            if mem::replace(reached.get_mut(place)?, true) {
+                return None;
             }
         }
-        match outcome {
-            // Positions that are not real come in pairs, and the number of all is even.
-            Outcome::Whole if !modes.count.is_multiple_of(2) => Outcome::Doubt(0.0),
-            outcome => outcome,
-        }
+        // Positions that are not real come in pairs, and the number of all is even.
+        modes.count.is_multiple_of(2).then_some(())
     }
 
-    /// The position at a root, or the regularity of the group there if it is not clear whether there is one.
-    fn follow<const SIZE: usize>(&self, numbers: &Numbers<L>, dixon: &Dixon<SIZE>, angle: f64) -> Result<[T; N], f64> {
-        let directions = dixon.directions(direction(angle)).ok_or(0.0)?;
-        let start = (self.unknowns)(numbers.values(&directions));
+    /// The position at a root; `None` if it is not clear whether there is one.
+    fn follow<const SIZE: usize>(&self, numbers: &Numbers<L>, dixon: &Dixon<SIZE>, angle: f64) -> Option<[T; N]> {
+        let directions = dixon.directions(direction(angle))?;
         let is_closed = numbers.residual(&directions) <= OPEN;
         if !is_closed {
-            return Err(self.regularity(start));
+            return None;
         }
-        let found = polished(self.names, start, &self.evaluate).ok();
-        let is_near = |found: &[T; N]| self.distance(numbers, found, &start) <= MOST_MOVED;
-        found.filter(is_near).ok_or_else(|| self.regularity(start))
+        let start = (self.unknowns)(numbers.values(&directions));
+        let found = polished(self.names, start, &self.evaluate).ok()?;
+        (self.distance(numbers, &found, &start) <= MOST_MOVED).then_some(found)
     }
 
     /// The largest difference of the unknowns of two positions: of angles in radians, of lengths in the units of loops.
     fn distance(&self, numbers: &Numbers<L>, one: &[T; N], other: &[T; N]) -> f64 {
-        let differences = self.are.iter().zip(one.iter().zip(other)).map(|(unknown, (one, other))| match unknown {
+        let pairs = self.are.iter().zip(one.iter().zip(other)).enumerate();
+        let differences = pairs.map(|(place, (unknown, (one, other)))| match unknown {
             Unknown::Angle => to_f64(principal(*one - *other)),
-            Unknown::Length { in_loop, .. } => to_f64(*one - *other) / numbers.unit(*in_loop),
+            Unknown::Length { .. } => to_f64(*one - *other) / numbers.unit(place),
         });
         largest(differences)
     }
 
     /// Adds a position that is not there yet, with angles from -pi to pi, and returns its place; `None` if there is no
     /// room.
-    fn add(&self, modes: &mut Modes<T, N>, numbers: &Numbers<L>, mut found: [T; N]) -> Option<usize> {
+    fn add(&self, modes: &mut Modes<T, N>, numbers: &Numbers<L>, found: [T; N]) -> Option<usize> {
+        let is_same = |other: &[T; N]| self.distance(numbers, &found, other) < SAME;
+        let known = modes.as_slice().iter().position(is_same);
+        known.or_else(|| self.push(modes, found))
+    }
+
+    /// Adds a position, and returns its place.
+    fn push(&self, modes: &mut Modes<T, N>, mut found: [T; N]) -> Option<usize> {
         for (unknown, value) in self.are.iter().zip(&mut found) {
             if matches!(unknown, Unknown::Angle) {
                 *value = principal(*value);
             }
         }
-        let is_same = |other: &[T; N]| self.distance(numbers, &found, other) < SAME;
-        let known = modes.as_slice().iter().position(is_same);
-        if known.is_none() {
-            *modes.unknowns.get_mut(modes.count)? = found;
-            modes.count += 1;
-        }
-        Some(known.unwrap_or(modes.count - 1))
+        *modes.unknowns.get_mut(modes.count)? = found;
+        modes.count += 1;
+        Some(modes.count - 1)
     }
 
     fn regularity(&self, unknowns: [T; N]) -> f64 {
@@ -175,15 +177,16 @@ where
 
 impl<T: Real, const N: usize> Modes<T, N> {
     fn none() -> Self {
-        Self { unknowns: [[T::zero(); N]; MOST], count: 0 }
+        Self { unknowns: [[T::zero(); N]; MOST], count: 0, has_family: false }
     }
 
-    /// Sorts the positions by the first unknown, then by the second, and so on.
-    fn sort(&mut self) {
+    /// The positions in the order of the first unknown, then of the second, and so on.
+    fn sorted(mut self) -> Self {
         let count = self.count;
         if let Some(all) = self.unknowns.get_mut(..count) {
             all.sort_unstable_by(|one, other| one.partial_cmp(other).unwrap_or(core::cmp::Ordering::Equal));
         }
+        self
     }
 }
 
