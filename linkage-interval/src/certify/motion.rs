@@ -4,9 +4,11 @@ use linkage_runtime::{Certifiable, Column, Number};
 
 use super::error::CertifyError;
 use super::expansion::Expansion;
+use super::reason::reason;
 use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
+use crate::matrix::symmetric;
 
 /// The first step, relative to the scale of the parameter. A hundred times as long or short costs a few trials.
 const FIRST_STEP: f64 = 0.1;
@@ -76,7 +78,7 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         end: Option<f64>,
         overlap: f64,
     ) -> Result<(), CertifyError> {
-        let expansion = self.expansion(parameter).ok_or_else(|| self.stopped(self.input()))?;
+        let expansion = self.expansion(parameter).ok_or_else(|| self.stopped(&self.joint))?;
         let scale = self.system.scales.get(parameter).copied().unwrap_or(1.0);
         let from = self.at(parameter);
         let floor: Vec<f64> = self.joint.iter().map(|x| OF_WIDTH * x.width()).collect();
@@ -104,7 +106,11 @@ impl<'a, M: Certifiable> Motion<'a, M> {
             }
             self.step *= SHORTER;
             if self.step < SHORTEST_STEP {
-                return Err(self.stopped(expansion.over(range).last().copied().unwrap_or(Interval::ENTIRE)));
+                // A cut may be a step ahead.
+                let wider = |(x, scale): (Interval, &f64)| x + symmetric(SHORTEST_STEP * scale);
+                let within: Vec<Interval> =
+                    expansion.over(range).into_iter().zip(&self.system.scales).map(wider).collect();
+                return Err(self.stopped(&within));
             }
         }
     }
@@ -125,10 +131,10 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         }
     }
 
-    /// The error at a step that cannot be certified.
-    fn stopped(&self, input: Interval) -> CertifyError {
+    /// The error of a motion that cannot go on from its joint into a box.
+    pub(super) fn stopped(&self, within: &[Interval]) -> CertifyError {
         let middle: Vec<f64> = self.joint.iter().map(|x| x.middle()).collect();
-        CertifyError::Singular { mechanism: M::NAME, group: nearest_group(self.system, &middle), input }
+        reason(self.system, &middle, within)
     }
 }
 
@@ -149,31 +155,6 @@ pub(super) fn certified_position<M: Certifiable>(
     let floor = vec![0.0; guess.len()];
     let tube = Tube::certify(system, parameter, guess, c, &floor)?;
     Some(tube.part(system, Dimensions::All, c)?.q)
-}
-
-/// The name of the group whose block of J is nearest to a singularity at a point.
-pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> &'static str {
-    let columns = system.float_jacobian(q);
-    let regularity = |group: &linkage_runtime::Group| {
-        let block: Vec<Vec<f64>> = group
-            .unknowns
-            .iter()
-            .map(|&column| {
-                let scale = system.scales.get(column).copied().unwrap_or(1.0);
-                group.equations.iter().filter_map(|&row| Some(columns.get(column)?.get(row)? * scale)).collect()
-            })
-            .collect();
-        let rows: Vec<f64> = group.equations.iter().filter_map(|&row| system.rows.get(row).copied()).collect();
-        let square: Vec<&[f64]> = block.iter().map(Vec::as_slice).collect();
-        let inverse = crate::matrix::inverse(&square, &rows);
-        let largest = inverse.map(|inverse| {
-            let entries = inverse.iter().flat_map(|row| row.iter().zip(&rows).map(|(entry, row)| (entry * row).abs()));
-            entries.fold(0.0, f64::max)
-        });
-        largest.map_or(0.0, |largest| 1.0 / largest)
-    };
-    let nearest = M::GROUPS.iter().min_by(|one, other| regularity(one).total_cmp(&regularity(other)));
-    nearest.map(|group| group.name).unwrap_or_default()
 }
 
 /// The unknowns of a box.
