@@ -10,6 +10,7 @@ mod duals;
 mod enclosures;
 mod facts;
 mod formulas;
+mod functions;
 mod published;
 mod velocities;
 mod wheels;

@@ -187,6 +187,6 @@ fn a_search_that_ends_names_no_singular_group() {
     assert_eq!(
         CertifyError::Undecided { mechanism: "Shaft", input: 1e5.into() }.to_string(),
         "the motion of Shaft cannot be certified between the inputs 100000.0 and 100000.0, though no group is nearly \
-         singular there: bounds are too wide, as those of angles beyond 1e5 rad"
+         singular there: the bounds are too wide, as next to a pole or for angles beyond 1e5 rad"
     );
 }

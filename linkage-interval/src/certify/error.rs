@@ -62,7 +62,7 @@ pub enum CertifyError {
         input: Interval,
     },
     /// Even the shortest step fails in this interval of the input, though no group is nearly singular there: the bounds
-    /// are too wide, as those of sines of angles beyond 1e5 rad, of which none are known.
+    /// are too wide, as next to a pole, or of sines of angles beyond 1e5 rad.
     Undecided {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
@@ -132,7 +132,7 @@ impl fmt::Display for CertifyError {
             Self::Undecided { mechanism, input } => write!(
                 f,
                 "the motion of {mechanism} cannot be certified between the inputs {:?} and {:?}, though no group is nearly \
-                 singular there: bounds are too wide, as those of angles beyond 1e5 rad",
+                 singular there: the bounds are too wide, as next to a pole or for angles beyond 1e5 rad",
                 input.least(),
                 input.most()
             ),

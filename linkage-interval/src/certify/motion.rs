@@ -8,7 +8,6 @@ use super::reason::reason;
 use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
-use crate::matrix::symmetric;
 
 /// The first step, relative to the scale of the parameter. A hundred times as long or short costs a few trials.
 const FIRST_STEP: f64 = 0.1;
@@ -106,11 +105,7 @@ impl<'a, M: Certifiable> Motion<'a, M> {
             }
             self.step *= SHORTER;
             if self.step < SHORTEST_STEP {
-                // A cut may be a step ahead.
-                let wider = |(x, scale): (Interval, &f64)| x + symmetric(SHORTEST_STEP * scale);
-                let within: Vec<Interval> =
-                    expansion.over(range).into_iter().zip(&self.system.scales).map(wider).collect();
-                return Err(self.stopped(&within));
+                return Err(self.stopped(&expansion.over(range)));
             }
         }
     }

@@ -5,15 +5,22 @@ use linkage_runtime::{Certifiable, Group};
 use super::error::CertifyError;
 use super::system::{Dimensions, System};
 use crate::Interval;
+use crate::matrix::symmetric;
 
 /// The regularity below which a group is called singular or nearly so. Where no step can be certified it was at most 2e-5
 /// before dead points, and 1e-9 before change points; elsewhere it is that of the linkage.
 const NEARLY_SINGULAR: f64 = 1e-3;
 
+/// The distance of a cut, a kink or a pole from the shortest step, relative to the scales: before a pole bounds grow, and
+/// steps end 1.7e-8 before that of a tangent.
+const NEAR: f64 = 1.0 / (1_u64 << 24) as f64;
+
 /// The error of a part of a motion in a box that has no certificate; `q` is a position next to it.
 pub(super) fn reason<M: Certifiable>(system: &System<M>, q: &[f64], within: &[Interval]) -> CertifyError {
     let (mechanism, input) = (M::NAME, within.last().copied().unwrap_or(Interval::ENTIRE));
-    if let Some(error) = no_bounds(system, within) {
+    let wider = |(&x, scale): (&Interval, &f64)| x + symmetric(NEAR * scale);
+    let around: Vec<Interval> = within.iter().zip(&system.scales).map(wider).collect();
+    if let Some(error) = no_bounds(system, within).or_else(|| no_bounds(system, &around)) {
         return error;
     }
     match nearest(system, q) {
