@@ -12,6 +12,7 @@ mod facts;
 mod formulas;
 mod functions;
 mod published;
+mod sampled;
 mod velocities;
 mod wheels;
 

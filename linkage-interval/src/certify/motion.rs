@@ -80,7 +80,9 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         let expansion = self.expansion(parameter).ok_or_else(|| self.stopped(&self.joint))?;
         let scale = self.system.scales.get(parameter).copied().unwrap_or(1.0);
         let from = self.at(parameter);
-        let floor: Vec<f64> = self.joint.iter().map(|x| OF_WIDTH * x.width()).collect();
+        // At the end of a tube by another coordinate the parameter has a width, over which the center moves.
+        let width = |(x, rate): (&Interval, &f64)| OF_WIDTH * (x.width() + rate.abs() * from.width());
+        let floor: Vec<f64> = self.joint.iter().zip(&expansion.w).map(width).collect();
         loop {
             if self.tests == self.most_tests {
                 let boxes = self.tubes.len();
