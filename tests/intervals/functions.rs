@@ -91,7 +91,13 @@ macro_rules! cases {
 
 type Check = fn(&Line, Exception);
 
-fn cases() -> [(&'static str, [Check; 3], fn(&Line) -> Enclosure); 17] {
+/// The name of a function, its checks at a place, and the extremes of an output.
+type Case = (&'static str, [Check; 3], fn(&Line) -> Enclosure);
+
+/// The name of a function, its value and its places.
+type Composed = (&'static str, fn(&[f64]) -> f64, Vec<Place>);
+
+fn cases() -> [Case; 17] {
     cases![
         sin 2, cos 2, tan 2, asin 2, acos 2, atan 2, atan2 4, sqrt 2, abs 2, exp 2, ln 2, hypot 4,
         inverse 2, modulus 2, sign 2, norm 4, angle 4,
@@ -99,7 +105,7 @@ fn cases() -> [(&'static str, [Check; 3], fn(&Line) -> Enclosure); 17] {
 }
 
 /// Functions that are no rows of the table, but have such places: their values and places.
-fn composed() -> [(&'static str, fn(&[f64]) -> f64, Vec<Place>); 5] {
+fn composed() -> [Composed; 5] {
     let places = |name: &str| written().find(|row| row.name == name).unwrap().places.to_vec();
     let at_zero = |exception| vec![Place { exception, at: &[0.0], across: &[1.0] }];
     [
