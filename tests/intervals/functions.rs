@@ -205,7 +205,7 @@ where
     // Of a quotient by zero nothing is known.
     let is_infinite = matches!(exception, Exception::Pole | Exception::Edge) || line.name == "sign";
     assert_eq!(value.values().width().is_infinite(), is_infinite, "{} {value:?}", line.name);
-    // The formulas themselves, over boxes with the place inside, at each end of them, and beside it.
+    // The formulas themselves, over boxes with the place inside, at each end of them, and outside of them.
     let m = <M::Over<Series<Interval>>>::with_parameters(Column::from_fn(|place| {
         Series::constant(line.parameters::<P>()[place].into())
     }));
@@ -312,7 +312,7 @@ fn places_are_of_their_kind() {
     }
 }
 
-/// Where the table states no place, a function is finite and smooth: along random lines its extremes are sharp.
+/// A function is finite and smooth outside of its places: along random lines its extremes are sharp.
 #[test]
 fn functions_are_smooth_elsewhere() {
     let random = &mut SmallRng::seed_from_u64(44);
@@ -322,7 +322,7 @@ fn functions_are_smooth_elsewhere() {
             let arguments: Vec<f64> = (0..row.arity).map(|_| random.random_range(-50.0..50.0)).collect();
             assert!(!is_finite || (row.value)(&arguments).is_finite(), "{} {arguments:?}", row.name);
         }
-        // From 0.1 to 0.95 the arguments are beside all places.
+        // From 0.1 to 0.95 the arguments are at no place.
         let [at, across] =
             [0.6, 0.9].map(|most| (0..row.arity).map(|_| random.random_range(0.1..most)).collect::<Vec<_>>());
         let at: Vec<f64> =

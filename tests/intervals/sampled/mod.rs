@@ -238,7 +238,8 @@ where
     M: Certifiable + Branches<Scalar = f64, V = D<1>> + std::fmt::Debug,
 {
     let from = random.random_range(-3.0..3.0);
-    for start in positions(m, from).into_iter().take(2) {
+    let all = positions(m, from);
+    if let Some(start) = all.get(random.random_range(0..all.len().max(1))).copied() {
         let turns = random.random_range(0..4);
         let certify = Certify::new(m).turns(turns);
         let to = from + random.random_range(-3.0..3.0);
