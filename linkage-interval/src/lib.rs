@@ -18,6 +18,7 @@ pub mod certify;
 pub mod enclose;
 mod interval;
 mod matrix;
+mod ratio;
 mod series;
 
 pub use interval::Interval;

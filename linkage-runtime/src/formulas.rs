@@ -73,12 +73,6 @@ pub trait Certifiable: Mechanism<Scalar = f64> {
     const PARAMETERS: &'static [&'static str];
     /// The names of the quantities: `c_x`, `c_y` for a point `C`, then those of the outputs.
     const QUANTITIES: &'static [&'static str];
-    /// For each unknown the number of full turns after which Psi repeats; zero if there is none: for a length, and for an
-    /// angle that enters otherwise than by sine, cosine and tangent of its multiples. Points and outputs may differ after
-    /// them: an output may be the angle itself.
-    const UNKNOWN_PERIODS: &'static [u32];
-    /// For each input the number of such turns.
-    const INPUT_PERIODS: &'static [u32];
     /// The name of the first user function in the equations of each group, in the order of
     /// [`GROUPS`](Mechanism::GROUPS).
     const USER_FUNCTIONS: &'static [Option<&'static str>];

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use linkage::certify::Certify;
 use linkage::{Certifiable, Column, Formulas, Interval, Mechanism, Number, linkage};
 use linkage_gallery::cam_rocker::CamRocker;
 use linkage_gallery::{Fixture, Kinematics};
@@ -9,21 +10,34 @@ use linkage_oracle::{Oracle, all_close};
 
 use crate::formulas::{At, column, title};
 
-/// Psi repeats after the turns of each unknown and of each input.
-pub fn periods_leave_the_residual<F: Fixture + Certifiable>() {
-    let oracle = Oracle::of::<F>();
-    assert_eq!(F::UNKNOWN_PERIODS.len(), F::UNKNOWNS.len());
-    assert_eq!(F::INPUT_PERIODS.len(), F::INPUTS.len());
+/// Psi is the same after the turns of one coordinate or of two together for which `repeats` says so.
+pub fn turns_leave_the_residual<F: Fixture + Certifiable>() {
+    let (oracle, mechanism) = (Oracle::of::<F>(), F::default());
     assert_eq!(F::USER_FUNCTIONS.len(), F::GROUPS.len());
-    for sample in oracle.samples(3) {
-        let at = At::of(&sample, &oracle.derivation);
+    let (unknowns, count) = (F::UNKNOWNS.len(), F::UNKNOWNS.len() + F::INPUTS.len());
+    let certify = Certify::new(&mechanism);
+    for sample in oracle.samples(2) {
+        let at = At {
+            parameters: Certifiable::parameters(&mechanism).into_iter().collect(),
+            ..At::of(&sample, &oracle.derivation)
+        };
         let before = residual::<F>(&at);
-        for (place, &turns) in F::UNKNOWN_PERIODS.iter().chain(F::INPUT_PERIODS).enumerate() {
-            let mut turned = at.map(|value| value);
-            *turned.unknowns.iter_mut().chain(&mut turned.inputs).nth(place).unwrap() += TAU * f64::from(turns);
-            let scale = at.parameters.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
-            let what = format!("{} after {turns} turns of coordinate {place}", title::<F>());
-            all_close(&what, &residual::<F>(&turned), &before, scale, 1e-12);
+        let scale = at.parameters.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
+        for (one, other) in (0..count).flat_map(|one| (one..count).map(move |other| (one, other))) {
+            for (by_one, by_other) in [(1, 1), (1, -1), (2, 1), (2, -1), (1, 2), (1, -2), (2, 2)] {
+                let mut turns = vec![0; count];
+                turns[other] = by_other;
+                turns[one] = by_one;
+                let own = Column::from_fn(|place: usize| turns[place]);
+                if !certify.repeats(&own, &Column::from_fn(|place: usize| turns[unknowns + place])) {
+                    continue;
+                }
+                let mut turned = at.map(|value| value);
+                let coordinates = turned.unknowns.iter_mut().chain(&mut turned.inputs);
+                coordinates.zip(&turns).for_each(|(coordinate, &turns)| *coordinate += TAU * f64::from(turns as i32));
+                let what = format!("{} after the turns {turns:?}", title::<F>());
+                all_close(&what, &residual::<F>(&turned), &before, scale, 1e-12);
+            }
         }
     }
 }
@@ -36,7 +50,8 @@ fn residual<F: Certifiable>(at: &At<f64>) -> Vec<f64> {
 }
 
 linkage! {
-    /// Angles that enter by halves and thirds, bare, by a parameter, and not at all.
+    /// Angles that enter by halves and thirds, by a parameter, and not at all.
+    #[derive(Debug, Clone, Copy, PartialEq)]
     mechanism Geared {
         param a = 3, b = 2, c = 1, n = 2;
         input phi, idle;
@@ -52,12 +67,24 @@ linkage! {
 }
 
 #[test]
-fn periods_are_those_of_the_multiples_of_an_angle() {
-    // An output that is the angle itself leaves its period.
+fn angles_repeat_by_their_multiples() {
+    let m = Geared::default();
     assert_eq!(Geared::<f64>::INPUTS, ["phi", "idle"]);
-    assert_eq!(Geared::INPUT_PERIODS, [6, 1]);
     assert_eq!(Geared::<f64>::UNKNOWNS, ["x", "y", "psi", "chi", "delta"]);
-    assert_eq!(Geared::UNKNOWN_PERIODS, [0, 0, 1, 10, 0]);
+    // An output that is the angle itself is no part of Psi.
+    let least = |m: &Geared, place: usize| {
+        let repeats = |turns: i64| {
+            let mut all = [0; 7];
+            all[place] = turns;
+            let [x, y, psi, chi, delta, phi, idle] = all;
+            Certify::new(m).repeats(&Column::from([x, y, psi, chi, delta]), &Column::from([phi, idle]))
+        };
+        (1..=20).find(|&turns| repeats(turns) && repeats(-turns) && repeats(2 * turns))
+    };
+    let all: Vec<_> = (0..7).map(|place| least(&m, place)).collect();
+    assert_eq!(all, [None, None, Some(1), Some(10), Some(1), Some(6), Some(1)]);
+    assert_eq!(least(&Geared { n: 0.375, ..m }, 4), Some(8));
+    assert_eq!(least(&Geared { n: 0.1, ..m }, 4), None);
     assert_eq!(Geared::<f64>::PARAMETERS, ["a", "b", "c", "n"]);
     assert_eq!(<Geared as Certifiable>::QUANTITIES, ["p_x", "p_y", "turned"]);
 }

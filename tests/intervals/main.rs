@@ -10,8 +10,11 @@ mod duals;
 mod enclosures;
 mod facts;
 mod formulas;
+mod functions;
 mod published;
+mod sampled;
 mod velocities;
+mod wheels;
 
 use linkage_gallery::all_mechanisms;
 
@@ -51,8 +54,8 @@ macro_rules! tests {
             }
             tests!(@ $($orders)? $($Mechanism)+);
             #[test]
-            fn periods_leave_the_residual() {
-                $(super::facts::periods_leave_the_residual::<$Mechanism>();)+
+            fn turns_leave_the_residual() {
+                $(super::facts::turns_leave_the_residual::<$Mechanism>();)+
             }
         }
     )*};

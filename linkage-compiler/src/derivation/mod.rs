@@ -23,7 +23,6 @@ mod limits;
 mod linear;
 mod motion;
 mod multipliers;
-mod periods;
 mod plane;
 mod position;
 mod position_formulas;

@@ -1,6 +1,6 @@
 //! The implementations of the runtime's traits for formulas over numbers of any kind.
 
-use proc_macro2::{Literal, Span, TokenStream};
+use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
 use super::expression::literal;
@@ -22,8 +22,6 @@ pub(super) fn of_driver(program: &Program<Code>, place: Span) -> Option<TokenStr
     let parameters = mechanism.parameters.iter().map(|parameter| string(&parameter.name.text));
     let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(mechanism));
     let quantities = quantities.map(|name| string(&name));
-    let [of_unknowns, of_inputs] = [&any.unknown_periods, &any.input_periods]
-        .map(|periods| periods.iter().map(|&period| Literal::u32_unsuffixed(period)).collect::<Vec<_>>());
     let users = any.user_functions.iter().map(|user| match user {
         Some(name) => {
             let name = string(name);
@@ -49,8 +47,6 @@ pub(super) fn of_driver(program: &Program<Code>, place: Span) -> Option<TokenStr
             type Over<#other: __rt::Number> = #name<#other>;
             const PARAMETERS: &'static [&'static str] = &[#(#parameters),*];
             const QUANTITIES: &'static [&'static str] = &[#(#quantities),*];
-            const UNKNOWN_PERIODS: &'static [u32] = &[#(#of_unknowns),*];
-            const INPUT_PERIODS: &'static [u32] = &[#(#of_inputs),*];
             const USER_FUNCTIONS: &'static [__rt::Option<&'static str>] = &[#(#users),*];
             fn parameters(&self) -> __rt::Column<f64, __rt::D<#p>> {
                 [#(self.#fields),*].into()

@@ -155,7 +155,7 @@ impl Graph {
                 self.may_be_undefined(base) || (exponent < 0 && self.values[base.index()].is_none())
             }),
             Node::Call(function, arguments) => {
-                function.operation().may_be_undefined
+                function.operation().may_be_undefined()
                     || arguments.iter().any(|&argument| self.may_be_undefined(argument))
             }
             // A user function, such as a table, may have a limited domain.

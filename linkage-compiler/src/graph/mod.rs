@@ -21,5 +21,5 @@ pub use arena::Graph;
 pub use function::Function;
 pub use node::{Condition, External, ExternalId, Fault, Node, NodeId, SymbolId};
 pub use number::Number;
-pub use operations::{OPERATIONS, Operation, written};
+pub use operations::{Exception, OPERATIONS, Operation, Place, written};
 pub use print::Texts;

@@ -1,4 +1,6 @@
-//! The operation table: name, value and derivatives of each elementary function.
+//! The operation table: name, value, derivatives and exceptional places of each elementary function.
+
+use std::f64::consts::FRAC_PI_2;
 
 use super::arena::Graph;
 use super::function::Function;
@@ -11,6 +13,35 @@ type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Ve
 /// The expressions of the arguments at whose zeros the function has a kink or a jump, while they change their sign.
 type Kinks = fn(graph: &Graph, arguments: &[NodeId]) -> Vec<NodeId>;
 
+/// The behaviour of a function at a place where it is not smooth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Exception {
+    /// It jumps.
+    Cut,
+    /// It has no bounds.
+    Pole,
+    /// It is continuous, and its derivative jumps.
+    Kink,
+    /// Its domain ends: beyond it the function is undefined.
+    Edge,
+}
+
+/// A point of the arguments where a function is not smooth, and a direction across it, out of the domain at its edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    pub exception: Exception,
+    pub at: &'static [f64],
+    pub across: &'static [f64],
+}
+
+/// A place of a function of one argument.
+const fn place(exception: Exception, at: &'static [f64; 1], across: &'static [f64; 1]) -> Place {
+    Place { exception, at, across }
+}
+
+/// The edges of the domain from -1 to 1.
+const SINES: &[Place] = &[place(Exception::Edge, &[1.0], &[1.0]), place(Exception::Edge, &[-1.0], &[-1.0])];
+
 /// One row of the operation table.
 pub struct Operation {
     pub function: Function,
@@ -20,8 +51,9 @@ pub struct Operation {
     /// The value, for the interpreter, of `arity` numbers.
     pub value: fn(&[f64]) -> f64,
     pub partials: Partials,
-    /// True if it is undefined at some finite arguments.
-    pub may_be_undefined: bool,
+    /// The cuts, poles, kinks and edges of the domain, a place of each kind; of those that repeat, one. A function
+    /// without a place is smooth at all finite arguments.
+    pub places: &'static [Place],
     pub kinks: Kinks,
 }
 
@@ -34,7 +66,7 @@ pub const OPERATIONS: [Operation; 13] = [
         value: |x| x[0].sin(),
         // d sin x = cos x
         partials: |g, x, _| vec![g.call(Function::Cos, &[x[0]])],
-        may_be_undefined: false,
+        places: &[],
         kinks: none,
     },
     Operation {
@@ -47,7 +79,7 @@ pub const OPERATIONS: [Operation; 13] = [
             let sine = g.call(Function::Sin, &[x[0]]);
             vec![g.negate(sine)]
         },
-        may_be_undefined: false,
+        places: &[],
         kinks: none,
     },
     Operation {
@@ -61,7 +93,7 @@ pub const OPERATIONS: [Operation; 13] = [
             let one = g.one();
             vec![g.add(one, square)]
         },
-        may_be_undefined: true,
+        places: &[place(Exception::Pole, &[FRAC_PI_2], &[1.0])],
         kinks: none,
     },
     Operation {
@@ -71,7 +103,7 @@ pub const OPERATIONS: [Operation; 13] = [
         value: |x| x[0].asin(),
         // d asin x = 1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| vec![inverse_half_chord(g, x[0])],
-        may_be_undefined: true,
+        places: SINES,
         kinks: none,
     },
     Operation {
@@ -84,7 +116,7 @@ pub const OPERATIONS: [Operation; 13] = [
             let inverse = inverse_half_chord(g, x[0]);
             vec![g.negate(inverse)]
         },
-        may_be_undefined: true,
+        places: SINES,
         kinks: none,
     },
     Operation {
@@ -99,7 +131,7 @@ pub const OPERATIONS: [Operation; 13] = [
             let sum = g.add(one, square);
             vec![g.power(sum, -1)]
         },
-        may_be_undefined: false,
+        places: &[],
         kinks: none,
     },
     Operation {
@@ -115,7 +147,10 @@ pub const OPERATIONS: [Operation; 13] = [
             let by_x = g.divide(yx[0], square);
             vec![by_y, g.negate(by_x)]
         },
-        may_be_undefined: false,
+        places: &[
+            Place { exception: Exception::Cut, at: &[0.0, -1.0], across: &[1.0, 0.0] },
+            Place { exception: Exception::Cut, at: &[0.0, 0.0], across: &[1.0, 0.5] },
+        ],
         // A jump by 2 pi at y = 0, x < 0.
         kinks: |_, yx| vec![yx[0]],
     },
@@ -129,7 +164,7 @@ pub const OPERATIONS: [Operation; 13] = [
             let inverse = g.power(root, -1);
             vec![g.scale(Number::ratio(1, 2), inverse)]
         },
-        may_be_undefined: true,
+        places: &[place(Exception::Edge, &[0.0], &[-1.0])],
         kinks: |g, x| squared(g, x[0]),
     },
     Operation {
@@ -139,7 +174,7 @@ pub const OPERATIONS: [Operation; 13] = [
         value: |x| x[0].abs(),
         // d |x| = x / |x|, undefined at 0
         partials: |g, x, modulus| vec![g.divide(x[0], modulus)],
-        may_be_undefined: false,
+        places: &[place(Exception::Kink, &[0.0], &[1.0])],
         kinks: |_, x| vec![x[0]],
     },
     Operation {
@@ -149,7 +184,7 @@ pub const OPERATIONS: [Operation; 13] = [
         value: |x| x[0].exp(),
         // d e^x = e^x
         partials: |_, _, value| vec![value],
-        may_be_undefined: false,
+        places: &[],
         kinks: none,
     },
     Operation {
@@ -159,7 +194,7 @@ pub const OPERATIONS: [Operation; 13] = [
         value: |x| x[0].ln(),
         // d ln x = 1 / x
         partials: |g, x, _| vec![g.power(x[0], -1)],
-        may_be_undefined: true,
+        places: &[place(Exception::Pole, &[0.0], &[-1.0]), place(Exception::Edge, &[0.0], &[-1.0])],
         kinks: none,
     },
     Operation {
@@ -169,7 +204,7 @@ pub const OPERATIONS: [Operation; 13] = [
         value: |x| x[0].hypot(x[1]),
         // d hypot(x, y) = (x dx + y dy) / hypot(x, y)
         partials: |g, xy, modulus| vec![g.divide(xy[0], modulus), g.divide(xy[1], modulus)],
-        may_be_undefined: false,
+        places: &[Place { exception: Exception::Kink, at: &[0.0, 0.0], across: &[1.0, 2.0] }],
         // With one argument it is the modulus of the other. Elsewhere a motion passes x = y = 0 by chance only.
         kinks: |g, xy| match xy.iter().filter(|&&x| !g.is_zero(x)).collect::<Vec<_>>().as_slice() {
             &[&x] => vec![x],
@@ -183,7 +218,7 @@ pub const OPERATIONS: [Operation; 13] = [
         value: |x| if x[0] == 0.0 { x[2] } else { x[1] },
         // d if_nonzero(a, v, w) = dv if a moves; `differentiate` has the other case.
         partials: |g, _, _| vec![g.zero(), g.one(), g.zero()],
-        may_be_undefined: false,
+        places: &[],
         kinks: none,
     },
 ];
@@ -191,6 +226,14 @@ pub const OPERATIONS: [Operation; 13] = [
 /// The rows of the functions of the language.
 pub fn written() -> impl Iterator<Item = &'static Operation> {
     OPERATIONS.iter().filter(|row| row.function != Function::IfNonzero)
+}
+
+impl Operation {
+    /// True if it is undefined at some finite arguments.
+    #[must_use]
+    pub fn may_be_undefined(&self) -> bool {
+        self.places.iter().any(|place| matches!(place.exception, Exception::Pole | Exception::Edge))
+    }
 }
 
 impl Function {

@@ -9,15 +9,11 @@ use super::pose::Given;
 use super::signatures::{Family, Signatures, total};
 use crate::derivation::{Quantity, Row};
 use crate::graph::{Node, NodeId, SymbolId};
-use crate::ids::{ColumnId, CoordinateId, Id, InputId, RowId, Table, UnknownId};
-use crate::model::Kind;
+use crate::ids::{ColumnId, Id, InputId, RowId, Table, UnknownId};
 
 /// The formulas of a driver over numbers of any kind, and facts about them.
 pub struct AnyNumber<B> {
     pub functions: Vec<Function<B>>,
-    /// For each coordinate the number of full turns after which Psi repeats, or zero.
-    pub unknown_periods: Vec<u32>,
-    pub input_periods: Vec<u32>,
     /// For each block the name of the first user function in its equations.
     pub user_functions: Vec<Option<String>>,
 }
@@ -25,9 +21,8 @@ pub struct AnyNumber<B> {
 impl<B> AnyNumber<B> {
     /// These functions with other bodies.
     pub fn map<C>(self, mut other: impl FnMut(Function<B>) -> Function<C>) -> AnyNumber<C> {
-        let Self { functions, unknown_periods, input_periods, user_functions } = self;
-        let functions = functions.into_iter().map(&mut other).collect();
-        AnyNumber { functions, unknown_periods, input_periods, user_functions }
+        let Self { functions, user_functions } = self;
+        AnyNumber { functions: functions.into_iter().map(&mut other).collect(), user_functions }
     }
 }
 
@@ -43,17 +38,7 @@ impl Plan<'_, '_> {
             self.gamma_of_columns(),
             self.quantities_of_columns(),
         ];
-        let periods = self.derivation.periods();
-        let (mechanism, driver) = (self.signatures.mechanism, self.signatures.driver);
-        let period = |(column, id): (&ColumnId, &CoordinateId)| {
-            if mechanism.coordinates[*id].kind == Kind::Angle { periods[*column] } else { 0 }
-        };
-        AnyNumber {
-            functions,
-            unknown_periods: self.derivation.unknowns.iter().zip(&driver.unknowns).map(period).collect(),
-            input_periods: self.derivation.inputs.iter().zip(&driver.inputs).map(period).collect(),
-            user_functions: self.user_functions(),
-        }
+        AnyNumber { functions, user_functions: self.user_functions() }
     }
 
     fn residual_of_columns(&mut self) -> Function<Body> {

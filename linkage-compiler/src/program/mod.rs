@@ -115,8 +115,6 @@ pub fn stub<'a, B>(mechanism: &'a Mechanism, driver: &'a Driver) -> Program<'a, 
     let scenes = scenes.collect();
     let any_number = mechanism.requests.contains(&Request::Intervals).then(|| AnyNumber {
         functions: signatures.of_columns().into_iter().map(Function::without_body).collect(),
-        unknown_periods: Vec::new(),
-        input_periods: Vec::new(),
         user_functions: Vec::new(),
     });
     Program { signatures, position, functions, scenes, any_number, derived: None }

@@ -116,7 +116,7 @@ impl<M: Certifiable> Certificate<M> {
     }
 }
 
-/// A box moved by full turns of the coordinates whose formulas repeat.
+/// A box in a tube after full turns of its angles, after which Psi is the same.
 pub(super) struct Moved {
     /// The turns of the unknowns.
     pub(super) turns: Vec<i64>,
@@ -125,29 +125,47 @@ pub(super) struct Moved {
 }
 
 impl Moved {
-    /// Moves a box by the turns that bring it nearest to another.
-    pub(super) fn near<M: Certifiable>(system: &System<M>, start: &[Interval], end: &[Interval]) -> Self {
-        let input = M::U::COUNT;
-        let turns_of = |place: usize| {
-            let period = if place == input { system.input_period() } else { M::UNKNOWN_PERIODS.get(place).copied() };
-            let apart = end.get(place).zip(start.get(place)).map(|(end, start)| end.middle() - start.middle());
-            full_turns(apart.unwrap_or_default(), period.unwrap_or_default())
+    /// Moves a box into a tube; `None` if no full turns do, or if Psi is not the same after them.
+    pub(super) fn into_tube<M: Certifiable>(system: &System<M>, tube: &Tube, start: &[Interval]) -> Option<Self> {
+        let parameter = tube.expansion.parameter;
+        let from = start.get(parameter)?.middle();
+        let [first, last] = if system.is_angle(parameter) {
+            [turns(((tube.range.least() - from) / TAU).floor()), turns(((tube.range.most() - from) / TAU).ceil())]
+        } else {
+            [0; 2]
         };
+        (first..=last).find_map(|turns| Self::by_parameter(system, tube, start, turns))
+    }
+
+    /// Moves a box by these turns of the parameter, and by the turns of the other angles that are nearest to the tube.
+    fn by_parameter<M: Certifiable>(
+        system: &System<M>,
+        tube: &Tube,
+        start: &[Interval],
+        by_parameter: i64,
+    ) -> Option<Self> {
         let two_pi = Interval::pi() + Interval::pi();
-        let moved = |(place, &x): (usize, &Interval)| match turns_of(place) {
-            0 => x,
-            turns => x + two_pi * Interval::from(turns as f64),
+        let after = |x: Interval, turns: i64| if turns == 0 { x } else { x + two_pi * Interval::from(turns as f64) };
+        let parameter = tube.expansion.parameter;
+        let center = tube.expansion.over(after(*start.get(parameter)?, by_parameter));
+        let turns_of = |place: usize| match center.get(place).zip(start.get(place)) {
+            _ if place == parameter => by_parameter,
+            Some((center, start)) if system.is_angle(place) => {
+                turns(((center.middle() - start.middle()) / TAU).round())
+            }
+            _ => 0,
         };
-        let q = start.iter().enumerate().map(moved).collect();
-        Self { turns: (0..input).map(turns_of).collect(), input_turns: turns_of(input), q }
+        let mut turns: Vec<i64> = (0..start.len()).map(turns_of).collect();
+        let q: Vec<Interval> = start.iter().zip(&turns).map(|(&x, &turns)| after(x, turns)).collect();
+        let is_again = tube.contains(&q) && system.repeats(&turns);
+        let input_turns = turns.pop()?;
+        is_again.then_some(Self { turns, input_turns, q })
     }
 }
 
-/// The multiple of a period, in full turns, nearest to an angle; 0 without a period.
-fn full_turns(angle: f64, period: u32) -> i64 {
+/// A whole number of full turns; 0 beyond those that are doubles.
+fn turns(turns: f64) -> i64 {
     /// Up to here all whole numbers are doubles.
     const MOST_TURNS: f64 = 9e15;
-    let period = f64::from(period);
-    let turns = if period > 0.0 { (angle / (TAU * period)).round() * period } else { 0.0 };
     if turns.abs() < MOST_TURNS { turns as i64 } else { 0 }
 }

@@ -12,7 +12,8 @@ use super::dead_point::{DeadPoint, dead_points};
 use super::error::CertifyError;
 use super::extremes::{Enclosure, enclosure};
 use super::jet::Measure;
-use super::motion::{Motion, certified_position, nearest_group, unknowns_of};
+use super::motion::{Motion, certified_position, unknowns_of};
+use super::reason::no_position;
 use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
@@ -86,7 +87,7 @@ impl<M: Certifiable> Curve<M> {
     pub fn passes(&self, position: &M::Coordinates) -> bool {
         let guess = self.system.position(position);
         let q = guess.and_then(|guess| certified_position(&self.system, self.system.count(), &guess));
-        q.is_some_and(|q| self.tubes.iter().any(|tube| returned(&self.system, tube, &q).is_some()))
+        q.is_some_and(|q| self.tubes.iter().any(|tube| Moved::into_tube(&self.system, tube, &q).is_some()))
     }
 
     /// The scale of the input.
@@ -126,19 +127,9 @@ impl Heading {
 
 /// Adds a tube in a direction, and returns the rates at its end.
 fn advance<M: Certifiable>(motion: &mut Motion<'_, M>, along: &[f64]) -> Result<Vec<f64>, CertifyError> {
-    let lost = |motion: &Motion<'_, M>| {
-        let q: Vec<f64> = motion.joint.iter().map(|x| x.middle()).collect();
-        CertifyError::Singular { mechanism: M::NAME, group: nearest_group(motion.system, &q), input: motion.input() }
-    };
-    let heading = Heading::of(motion, along).ok_or_else(|| lost(motion))?;
+    let heading = Heading::of(motion, along).ok_or_else(|| motion.stopped(&motion.joint))?;
     motion.advance(heading.parameter, heading.direction, None, OVERLAP)?;
-    Ok(Heading::of(motion, &heading.rates).ok_or_else(|| lost(motion))?.rates)
-}
-
-/// A box moved by full turns into a tube, if it lies in it then.
-pub(super) fn returned<M: Certifiable>(system: &System<M>, tube: &Tube, start: &[Interval]) -> Option<Moved> {
-    let moved = Moved::near(system, start, &tube.over(tube.range));
-    tube.contains(&moved.q).then_some(moved)
+    Ok(Heading::of(motion, &heading.rates).ok_or_else(|| motion.stopped(&motion.joint))?.rates)
 }
 
 /// True if a tube reaches the start, moved by full turns, behind the joint at which it begins: before it, the start would
@@ -158,9 +149,8 @@ impl<M: Certifiable> Certify<'_, M> {
         let system = self.system(start)?;
         let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
         self.check_emitted(&system, &guess)?;
-        let no_position = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
         let at = |parameter| certified_position(&system, parameter, &guess);
-        let first = (0..guess.len()).rev().find_map(at).ok_or_else(no_position)?;
+        let first = (0..guess.len()).rev().find_map(at).ok_or_else(|| no_position(&system, &guess))?;
         let mut motion = Motion::new(&system, first.clone(), self.most_tests);
         let mut along = vec![0.0; guess.len()];
         if let Some(input) = along.last_mut() {
@@ -171,7 +161,7 @@ impl<M: Certifiable> Certify<'_, M> {
             along = advance(&mut motion, &along)?;
             self.check_emitted_at(&motion)?;
             if let [_, .., last] = motion.tubes.as_slice()
-                && let Some(moved) = returned(&system, last, &first)
+                && let Some(moved) = Moved::into_tube(&system, last, &first)
                 && is_beyond(last, &moved, &before)
             {
                 break (moved.turns, moved.input_turns);

@@ -2,10 +2,11 @@
 
 use linkage_runtime::{Certifiable, Column};
 
-use super::curve::returned;
+use super::certificate::Moved;
 use super::error::CertifyError;
 use super::jet::Measure;
-use super::motion::{nearest_group, unknowns_of};
+use super::motion::unknowns_of;
+use super::reason::{nearest_group, reason};
 use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
@@ -107,11 +108,7 @@ pub(super) fn dead_points<M: Certifiable>(
 ) -> Result<Vec<DeadPoint<M>>, CertifyError> {
     let mut all: Vec<DeadPoint<M>> = Vec::new();
     for tube in tubes.iter().filter(|tube| tube.expansion.parameter != system.count()) {
-        let undecided = || CertifyError::Singular {
-            mechanism: M::NAME,
-            group: nearest_group(system, &tube.expansion.q),
-            input: tube.over(tube.range).last().copied().unwrap_or(Interval::ENTIRE),
-        };
+        let undecided = || reason(system, &tube.expansion.q, &tube.over(tube.range));
         let mut found = InputRate { system, tube }.all().ok_or_else(undecided)?;
         if tube.is_backward {
             found.reverse();
@@ -119,7 +116,7 @@ pub(super) fn dead_points<M: Certifiable>(
         for point in found {
             // In the overlap of two tubes a dead point is found twice, near the start perhaps after full turns.
             let again = all.last().is_some_and(|last| intersect(&last.q, &point.q));
-            let first = all.first().and_then(|first| returned(system, tube, &first.q));
+            let first = all.first().and_then(|first| Moved::into_tube(system, tube, &first.q));
             if !again && !first.is_some_and(|first| intersect(&first.q, &point.q)) {
                 all.push(point);
             }

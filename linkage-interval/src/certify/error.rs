@@ -51,6 +51,24 @@ pub enum CertifyError {
         /// The inputs of the step.
         input: Interval,
     },
+    /// The equations of a group have no bounded derivative in this interval of the input: they jump, as an angle by
+    /// `atan2` at pi, have a kink, as a modulus at zero, or a pole, or are undefined.
+    NoBounds {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The unknowns of the group.
+        group: &'static str,
+        /// The inputs of the step.
+        input: Interval,
+    },
+    /// Even the shortest step fails in this interval of the input, though no group is nearly singular there: the bounds
+    /// are too wide, as next to a pole, or of sines of angles beyond 1e5 rad.
+    Undecided {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The inputs of the step.
+        input: Interval,
+    },
     /// Two enclosures of one derivative have no number in common: the emitted formula is not the derivative of Psi.
     Contradiction {
         /// The mechanism, or the driver of one.
@@ -101,6 +119,20 @@ impl fmt::Display for CertifyError {
                 f,
                 "the motion of {mechanism} cannot be certified between the inputs {:?} and {:?}: group {group} is \
                  singular there or nearly so",
+                input.least(),
+                input.most()
+            ),
+            Self::NoBounds { mechanism, group, input } => write!(
+                f,
+                "the equations of group {group} of {mechanism} jump, have a kink or a pole, or are undefined between the \
+                 inputs {:?} and {:?}",
+                input.least(),
+                input.most()
+            ),
+            Self::Undecided { mechanism, input } => write!(
+                f,
+                "the motion of {mechanism} cannot be certified between the inputs {:?} and {:?}, though no group is nearly \
+                 singular there: the bounds are too wide, as next to a pole or for angles beyond 1e5 rad",
                 input.least(),
                 input.most()
             ),

@@ -10,8 +10,8 @@ use crate::series::{Series, lines};
 /// The most steps of Newton's method: it doubles the digits in each, or it does not converge.
 const NEWTON_STEPS: usize = 25;
 
-/// Relative to the scales of the coordinates, Newton steps this short are the last ones. Halved or doubled, the box
-/// around the position becomes no smaller.
+/// Relative to the scales of the coordinates, or to their magnitudes if these are larger, Newton steps this short are the
+/// last ones. Halved or doubled, the box around the position becomes no smaller.
 const SHORT: f64 = 1e-14;
 
 /// A Newton step that is no shorter than half of the one before shows rounding error if it is shorter than this, else
@@ -61,7 +61,9 @@ impl Expansion {
             let psi: Vec<f64> = system.float_psi(&point).iter().map(|psi| psi.value).collect();
             let step = with_parameter(parameter, product(&y, &psi), 0.0);
             q.iter_mut().zip(&step).for_each(|(x, step)| *x -= step);
-            let length = step.iter().zip(&system.scales).map(|(step, scale)| (step / scale).abs()).fold(0.0, f64::max);
+            let lengths =
+                step.iter().zip(&q).zip(&system.scales).map(|((step, x), scale)| step.abs() / x.abs().max(*scale));
+            let length = lengths.fold(0.0, f64::max);
             if !length.is_finite() || length > STAGNANT && length > 0.5 * last && last < 1.0 {
                 return None;
             }

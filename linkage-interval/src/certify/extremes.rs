@@ -142,7 +142,10 @@ impl<M: Certifiable> Search<'_, M> {
                 return true;
             }
         }
-        if middle <= c.least() || middle >= c.most() {
+        // Next to zero the doubles are denser, and the rounding errors of positions as large.
+        let parameter = self.tubes.get(tube).map_or(0, |tube| tube.expansion.parameter);
+        let rounding = f64::EPSILON * self.system.scales.get(parameter).copied().unwrap_or(1.0);
+        if middle <= c.least() || middle >= c.most() || c.width() <= rounding {
             return false;
         }
         let halves = [Interval::new(c.least(), middle), Interval::new(middle, c.most())];

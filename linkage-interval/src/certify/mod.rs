@@ -2,7 +2,8 @@
 //!
 //! - [`turn`] and [`range`] certify a motion as a function of its input: for each value of the input there is exactly one
 //!   position in a tube about the motion, the determinant of J is not zero in the whole tube, and the tubes meet. After a
-//!   full turn the motion is closed, or arrives at another position given, or neither ([`End`]).
+//!   full turn the motion is closed, or arrives at another position given, or neither ([`End`]). Wheels are at their start
+//!   again after full turns of all together ([`Certify::repeats`]).
 //! - [`curve`] certifies a motion as a curve through dead points of the input, which it encloses, until it is at its start
 //!   again.
 //! - [`Certificate::quantities`] and [`Certificate::velocity_ratios`] enclose smallest and largest values over the whole
@@ -43,9 +44,11 @@ mod expansion;
 mod extremes;
 mod jet;
 mod motion;
+mod reason;
 mod system;
 mod tube;
 mod turn;
+mod turned;
 
 use linkage_runtime::{Certifiable, Column, Group};
 
@@ -89,7 +92,7 @@ impl<'a, M: Certifiable> Certify<'a, M> {
     }
 
     /// The number of full turns of [`turn`](Self::turn), by default 1. A motion that arrives at another position may be
-    /// closed after several, and with gears the formulas repeat only then.
+    /// closed after several, and with wheels the formulas repeat only then.
     #[must_use]
     pub fn turns(mut self, turns: u32) -> Self {
         self.turns = turns;
@@ -123,6 +126,18 @@ impl<'a, M: Certifiable> Certify<'a, M> {
     pub fn most_tests(mut self, most: usize) -> Self {
         self.most_tests = most;
         self
+    }
+
+    /// True if Psi is the same, at all positions, after these full turns of the unknowns and the inputs: the motion that
+    /// arrives there is at its start again.
+    ///
+    /// Angles with sines only repeat each by itself, those of wheels together: `psi = -theta / 2` after two turns of theta
+    /// and minus one of psi. Where a ratio is one of parameters, their doubles are taken as they are: 0.3 / 0.1 is not 3.
+    /// Of parameters with tolerances it must hold for all values. Points and outputs may differ: an output may be the angle
+    /// itself.
+    #[must_use]
+    pub fn repeats(&self, unknowns: &Column<i64, M::U>, inputs: &Column<i64, M::V>) -> bool {
+        turned::repeats::<M>(self.parameters.as_slice(), unknowns.as_slice(), inputs.as_slice())
     }
 
     fn invalid(&self, what: &'static str) -> CertifyError {

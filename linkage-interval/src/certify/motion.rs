@@ -4,6 +4,7 @@ use linkage_runtime::{Certifiable, Column, Number};
 
 use super::error::CertifyError;
 use super::expansion::Expansion;
+use super::reason::reason;
 use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
@@ -76,10 +77,12 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         end: Option<f64>,
         overlap: f64,
     ) -> Result<(), CertifyError> {
-        let expansion = self.expansion(parameter).ok_or_else(|| self.stopped(self.input()))?;
+        let expansion = self.expansion(parameter).ok_or_else(|| self.stopped(&self.joint))?;
         let scale = self.system.scales.get(parameter).copied().unwrap_or(1.0);
         let from = self.at(parameter);
-        let floor: Vec<f64> = self.joint.iter().map(|x| OF_WIDTH * x.width()).collect();
+        // At the end of a tube by another coordinate the parameter has a width, over which the center moves.
+        let width = |(x, rate): (&Interval, &f64)| OF_WIDTH * (x.width() + rate.abs() * from.width());
+        let floor: Vec<f64> = self.joint.iter().zip(&expansion.w).map(width).collect();
         loop {
             if self.tests == self.most_tests {
                 let boxes = self.tubes.len();
@@ -104,7 +107,7 @@ impl<'a, M: Certifiable> Motion<'a, M> {
             }
             self.step *= SHORTER;
             if self.step < SHORTEST_STEP {
-                return Err(self.stopped(expansion.over(range).last().copied().unwrap_or(Interval::ENTIRE)));
+                return Err(self.stopped(&expansion.over(range)));
             }
         }
     }
@@ -125,10 +128,10 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         }
     }
 
-    /// The error at a step that cannot be certified.
-    fn stopped(&self, input: Interval) -> CertifyError {
+    /// The error of a motion that cannot go on from its joint into a box.
+    pub(super) fn stopped(&self, within: &[Interval]) -> CertifyError {
         let middle: Vec<f64> = self.joint.iter().map(|x| x.middle()).collect();
-        CertifyError::Singular { mechanism: M::NAME, group: nearest_group(self.system, &middle), input }
+        reason(self.system, &middle, within)
     }
 }
 
@@ -149,31 +152,6 @@ pub(super) fn certified_position<M: Certifiable>(
     let floor = vec![0.0; guess.len()];
     let tube = Tube::certify(system, parameter, guess, c, &floor)?;
     Some(tube.part(system, Dimensions::All, c)?.q)
-}
-
-/// The name of the group whose block of J is nearest to a singularity at a point.
-pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> &'static str {
-    let columns = system.float_jacobian(q);
-    let regularity = |group: &linkage_runtime::Group| {
-        let block: Vec<Vec<f64>> = group
-            .unknowns
-            .iter()
-            .map(|&column| {
-                let scale = system.scales.get(column).copied().unwrap_or(1.0);
-                group.equations.iter().filter_map(|&row| Some(columns.get(column)?.get(row)? * scale)).collect()
-            })
-            .collect();
-        let rows: Vec<f64> = group.equations.iter().filter_map(|&row| system.rows.get(row).copied()).collect();
-        let square: Vec<&[f64]> = block.iter().map(Vec::as_slice).collect();
-        let inverse = crate::matrix::inverse(&square, &rows);
-        let largest = inverse.map(|inverse| {
-            let entries = inverse.iter().flat_map(|row| row.iter().zip(&rows).map(|(entry, row)| (entry * row).abs()));
-            entries.fold(0.0, f64::max)
-        });
-        largest.map_or(0.0, |largest| 1.0 / largest)
-    };
-    let nearest = M::GROUPS.iter().min_by(|one, other| regularity(one).total_cmp(&regularity(other)));
-    nearest.map(|group| group.name).unwrap_or_default()
 }
 
 /// The unknowns of a box.

@@ -7,6 +7,7 @@ use linkage_runtime::jacobian::ScalesOf;
 use linkage_runtime::{Certifiable, Column, Dim, Formulas, Number};
 
 use super::error::CertifyError;
+use super::turned::repeats;
 use crate::Interval;
 use crate::series::{Series, lines, unit_line};
 
@@ -106,9 +107,20 @@ impl<M: Certifiable> System<M> {
         fixed.all(|(_, (one, other))| one == other).then(|| unknowns.iter().copied().chain([moving]).collect())
     }
 
-    /// The number of turns of the input after which the formulas repeat; zero if they do not.
-    pub(super) fn input_period(&self) -> Option<u32> {
-        M::INPUT_PERIODS.get(self.moving).copied()
+    /// True if an unknown, or the moving input after them, is an angle.
+    pub(super) fn is_angle(&self, coordinate: usize) -> bool {
+        let input = M::INPUT_ANGLES.get(self.moving);
+        let own = M::UNKNOWN_ANGLES.get(coordinate);
+        own.or(if coordinate == M::U::COUNT { input } else { None }).copied().unwrap_or_default()
+    }
+
+    /// True if Psi is the same after these full turns of the unknowns and of the moving input.
+    pub(super) fn repeats(&self, turns: &[i64]) -> bool {
+        let (unknowns, moving) = turns.split_at(M::U::COUNT.min(turns.len()));
+        let inputs: Vec<i64> = (0..self.inputs.len())
+            .map(|place| moving.first().copied().filter(|_| place == self.moving).unwrap_or_default())
+            .collect();
+        repeats::<M>(&self.parameters, unknowns, &inputs)
     }
 
     /// True if a parameter has a tolerance.

@@ -11,7 +11,8 @@ use crate::matrix::{apply, symmetric};
 /// the tube is wider than necessary; 1.1 to 2 take about as many boxes.
 const INFLATION: f64 = 1.3;
 
-/// The smallest radius relative to the scale of a coordinate, about a hundred rounding errors.
+/// The smallest radius relative to the scale of a coordinate, or to its magnitude if that is larger, as after many turns:
+/// about a hundred rounding errors.
 const LEAST_RADIUS: f64 = 1.0 / (1_u64 << 46) as f64;
 
 /// The largest radius relative to the scale of a coordinate: beyond it an angle has no direction.
@@ -64,7 +65,8 @@ impl Tube {
         let expansion = Expansion::near(system, parameter, guess)?;
         let b = expansion.residual(system, Dimensions::All, range);
         let scales: Vec<f64> = others(parameter, &system.scales).copied().collect();
-        let floors = others(parameter, floor).zip(&scales).map(|(&floor, scale)| floor.max(LEAST_RADIUS * scale));
+        let magnitudes = others(parameter, &expansion.q).zip(&scales).map(|(x, scale)| x.abs().max(*scale));
+        let floors = others(parameter, floor).zip(magnitudes).map(|(&floor, of)| floor.max(LEAST_RADIUS * of));
         let mut radius: Vec<f64> =
             b.iter().zip(floors).map(|(b, floor)| (INFLATION * b.magnitude()).max(floor)).collect();
         for _ in 0..TRIALS {

@@ -4,7 +4,8 @@ use linkage_runtime::{Certifiable, Number};
 
 use super::certificate::{Certificate, End, Moved};
 use super::error::CertifyError;
-use super::motion::{Motion, certified_position, nearest_group};
+use super::motion::{Motion, certified_position};
+use super::reason::no_position;
 use super::system::System;
 use super::{Certify, curve};
 use crate::Interval;
@@ -15,7 +16,6 @@ impl<M: Certifiable> Certify<'_, M> {
     /// # Errors
     /// [`CertifyError::DeadPoint`] if the input turns back, and the others of [`CertifyError`].
     pub fn turn(&self, start: &M::Coordinates) -> Result<Certificate<M>, CertifyError> {
-        let period = M::INPUT_PERIODS.get(self.input).copied().unwrap_or_default();
         if M::INPUT_ANGLES.get(self.input) != Some(&true) || self.turns == 0 {
             return Err(self.invalid("a turn of the input"));
         }
@@ -23,9 +23,7 @@ impl<M: Certifiable> Certify<'_, M> {
         let turns = i64::from(self.turns);
         let to = Interval::from(from) + (Interval::pi() + Interval::pi()) * Interval::from(f64::from(self.turns));
         let mut certificate = self.over_inputs(start, from, to)?;
-        if period > 0 && turns % i64::from(period) == 0 {
-            certificate.end = self.end(&certificate, turns);
-        }
+        certificate.end = self.end(&certificate, turns);
         Ok(certificate)
     }
 
@@ -50,13 +48,12 @@ impl<M: Certifiable> Certify<'_, M> {
         let input = system.count();
         let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
         self.check_emitted(&system, &guess)?;
-        let no_position = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(&system, &guess) };
-        let first = certified_position(&system, input, &guess).ok_or_else(no_position)?;
+        let first = certified_position(&system, input, &guess).ok_or_else(|| no_position(&system, &guess))?;
         let (direction, end) = if to.middle() > from { (1.0, to.most()) } else { (-1.0, to.least()) };
         let mut motion = Motion::new(&system, first.clone(), self.most_tests);
         while motion.input().middle() != end {
             match motion.advance(input, direction, Some(end), 0.0) {
-                Err(error @ CertifyError::Singular { .. }) => {
+                Err(error @ (CertifyError::Singular { .. } | CertifyError::Undecided { .. })) => {
                     return Err(curve::dead_point_ahead(&motion, direction).unwrap_or(error));
                 }
                 result => result?,
@@ -72,10 +69,9 @@ impl<M: Certifiable> Certify<'_, M> {
     fn end(&self, certificate: &Certificate<M>, turns: i64) -> End {
         let Certificate { system, tubes, start, .. } = certificate;
         let Some(last) = tubes.last() else { return End::Open };
-        let at_end = last.over(last.range);
         let reached = |position: &[Interval]| {
-            let moved = Moved::near(system, position, &at_end);
-            (moved.input_turns == turns && last.contains(&moved.q)).then_some(moved.turns)
+            let moved = Moved::into_tube(system, last, position)?;
+            (moved.input_turns == turns).then_some(moved.turns)
         };
         if let Some(turns) = reached(start) {
             return End::Closed { turns };

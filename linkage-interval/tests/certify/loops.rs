@@ -46,7 +46,6 @@ pub trait Shape: Copy + Debug + PartialEq + 'static {
     /// Outputs as differences of two unknowns.
     const OUTPUTS: &'static [(usize, usize)] = &[];
     const UNKNOWN_ANGLES: &'static [bool];
-    const UNKNOWN_PERIODS: &'static [u32];
     const GROUPS: &'static [Group];
     const USER_FUNCTIONS: &'static [Option<&'static str>] = &[None];
     const FAULT: Fault = Fault::None;
@@ -283,8 +282,6 @@ impl<S: Shape> Certifiable for Loops<S, f64> {
 
     const PARAMETERS: &'static [&'static str] = &[];
     const QUANTITIES: &'static [&'static str] = &[];
-    const UNKNOWN_PERIODS: &'static [u32] = S::UNKNOWN_PERIODS;
-    const INPUT_PERIODS: &'static [u32] = &[1];
     const USER_FUNCTIONS: &'static [Option<&'static str>] = S::USER_FUNCTIONS;
 
     fn parameters(&self) -> Column<f64, S::P> {

@@ -36,7 +36,6 @@ macro_rules! four_bar {
             const POINTS: &'static [&'static [Term]] = &[&[crank(1), link(2, 0)]];
             const OUTPUTS: &'static [(usize, usize)] = &[(0, 1)];
             const UNKNOWN_ANGLES: &'static [bool] = &[true; 2];
-            const UNKNOWN_PERIODS: &'static [u32] = &[1; 2];
             const GROUPS: &'static [Group] = &[Group { name: "phi, psi", equations: &[0, 1], unknowns: &[0, 1] }];
             const FAULT: Fault = $fault;
         }
@@ -59,7 +58,6 @@ impl Shape for SliderCrank {
         &[&[crank(0), link(1, 0), (-1.0, Length::Unknown(1), Angle::Fixed, 0), ground(2, 1)]];
     const POINTS: &'static [&'static [Term]] = &[&[crank(0), link(1, 0)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true, false];
-    const UNKNOWN_PERIODS: &'static [u32] = &[1, 0];
     const GROUPS: &'static [Group] = &[Group { name: "rod, slider", equations: &[0, 1], unknowns: &[0, 1] }];
 }
 
@@ -78,7 +76,6 @@ impl Shape for SixBar {
     const POINTS: &'static [&'static [Term]] = &[&[link(4, 1), across(link(4, 1), 5), link(6, 2)]];
     const OUTPUTS: &'static [(usize, usize)] = &[(0, 1), (2, 3)];
     const UNKNOWN_ANGLES: &'static [bool] = &[true; 4];
-    const UNKNOWN_PERIODS: &'static [u32] = &[1; 4];
     const GROUPS: &'static [Group] = &[
         Group { name: "coupler, rocker", equations: &[0, 1], unknowns: &[0, 1] },
         Group { name: "rod, second", equations: &[2, 3], unknowns: &[2, 3] },
@@ -95,7 +92,6 @@ impl Shape for HalfSpeed {
     type Q = D<0>;
     const LOOPS: &'static [&'static [Term]] = &[&[crank(0), (-1.0, Length::Unknown(1), Angle::Twice(0), 0)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true, false];
-    const UNKNOWN_PERIODS: &'static [u32] = &[1, 0];
     const GROUPS: &'static [Group] = &[Group { name: "u, s", equations: &[0, 1], unknowns: &[0, 1] }];
 }
 
@@ -108,7 +104,6 @@ impl Shape for UserFunction {
     type Q = D<0>;
     const LOOPS: &'static [&'static [Term]] = FourBar::LOOPS;
     const UNKNOWN_ANGLES: &'static [bool] = FourBar::UNKNOWN_ANGLES;
-    const UNKNOWN_PERIODS: &'static [u32] = FourBar::UNKNOWN_PERIODS;
     const GROUPS: &'static [Group] = FourBar::GROUPS;
     const USER_FUNCTIONS: &'static [Option<&'static str>] = &[Some("lift")];
 }
@@ -141,7 +136,6 @@ impl Shape for Jansen {
     ];
     const POINTS: &'static [&'static [Term]] = &[&[ground(0, 0), ground(11, 1), link(2, 4), link(8, 9)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true; 10];
-    const UNKNOWN_PERIODS: &'static [u32] = &[1; 10];
     const GROUPS: &'static [Group] = &[
         Group { name: "b, j", equations: &[0, 1], unknowns: &[0, 1] },
         Group { name: "d, e", equations: &[2, 3], unknowns: &[2, 3] },
@@ -185,7 +179,6 @@ impl Shape for DoubleButterfly {
     ];
     const POINTS: &'static [&'static [Term]] = &[&[crank(1), link(2, 0)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true; 6];
-    const UNKNOWN_PERIODS: &'static [u32] = &[1; 6];
     const GROUPS: &'static [Group] = &[Group {
         name: "coupler, upper, rocker, lower, link, strut",
         equations: &[0, 1, 2, 3, 4, 5],

@@ -143,7 +143,7 @@ where
         }
         let (at, part) = (self.linear(&q)?, self.part(&q, &held)?);
         let (elimination, part) =
-            (Elimination::<M>::all_but(1, at.jacobian.clone()), Elimination::<M>::all_but(1, part.jacobian));
+            (Elimination::<M>::all_but(1, at.jacobian), Elimination::<M>::all_but(1, part.jacobian));
         let mut free = elimination.free().map(|column| elimination.null_vector(column));
         let cone = self.cone(&q, &part, direction);
         let (&[one, other], Some(first), Some(second)) = (cone.lines(), free.next(), free.next()) else {

@@ -45,6 +45,15 @@ pub(super) struct Searched<A, D> {
     pub(super) determinants: D,
 }
 
+/// Two inputs between which a group stops the mechanism.
+struct Bracket<T, P, const N: usize> {
+    /// The position at `assembled`, unless that is where the bisection began.
+    nearest: Option<Sample<T, P, N>>,
+    assembled: T,
+    unbuildable: T,
+    group: &'static str,
+}
+
 /// The outcome of a step from one input to another.
 enum Reached<S, T: Copy> {
     /// The position at the input.
@@ -337,12 +346,18 @@ impl<A, D> Searched<A, D> {
             Found::Stopped(group) => group,
         };
         let mut moved: Option<Sample<T, P, N>> = None;
-        for _ in 1..BEGINNINGS {
+        let mut beginnings = 0;
+        loop {
             let from = moved.as_ref().map_or(from, |sample| &sample.position);
-            let (nearest, [assembled, unbuildable]) = self.between(from, at, input, &mut group)?;
-            let limit = Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group }));
-            let Some(nearest) = nearest else { return limit };
-            let Found::Assembled(beyond) = self.at(&nearest.position, unbuildable)? else { return limit };
+            let Bracket { nearest, assembled, unbuildable, group: other } = self.between(from, at, input, group)?;
+            beginnings += 1;
+            let beyond = match nearest {
+                Some(nearest) if beginnings < BEGINNINGS => self.at(&nearest.position, unbuildable)?,
+                _ => Found::Stopped(other),
+            };
+            let Found::Assembled(beyond) = beyond else {
+                return Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group: other }));
+            };
             if unbuildable == input {
                 return Ok(Reached::Assembled(beyond));
             }
@@ -353,20 +368,16 @@ impl<A, D> Searched<A, D> {
             }
             (at, moved) = (unbuildable, Some(beyond));
         }
-        let from = moved.as_ref().map_or(from, |sample| &sample.position);
-        let (_, [assembled, unbuildable]) = self.between(from, at, input, &mut group)?;
-        Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group }))
     }
 
-    /// Bisects between an input at which the mechanism assembles and one at which a group does not, which it replaces by
-    /// the group that stops it last. Returns the last position found, and the two inputs.
+    /// Bisects between an input at which the mechanism assembles and one at which a group does not.
     fn between<T: Real, P, const N: usize>(
         &self,
         from: &P,
         mut assembled: T,
         mut unbuildable: T,
-        group: &mut &'static str,
-    ) -> Result<(Option<Sample<T, P, N>>, [T; 2]), PositionError>
+        mut group: &'static str,
+    ) -> Result<Bracket<T, P, N>, PositionError>
     where
         A: Fn(&P, T) -> Result<P, PositionError>,
         D: Fn(&P) -> [T; N],
@@ -386,11 +397,11 @@ impl<A, D> Searched<A, D> {
             }
             match found {
                 Found::Assembled(sample) => (assembled, nearest) = (middle, Some(sample)),
-                Found::Stopped(other) => (unbuildable, *group) = (middle, other),
+                Found::Stopped(other) => (unbuildable, group) = (middle, other),
                 Found::Undetermined => break,
             }
         }
-        Ok((nearest, [assembled, unbuildable]))
+        Ok(Bracket { nearest, assembled, unbuildable, group })
     }
 
     /// Minimises the determinant of a block between two inputs, and returns the limit if the mechanism cannot be

@@ -1,0 +1,79 @@
+//! The reason why a part of a motion has no certificate.
+
+use linkage_runtime::{Certifiable, Group};
+
+use super::error::CertifyError;
+use super::system::{Dimensions, System};
+use crate::Interval;
+use crate::matrix::symmetric;
+
+/// The regularity below which a group is called singular or nearly so. Where no step can be certified it was at most 2e-5
+/// before dead points, and 1e-9 before change points; elsewhere it is that of the linkage.
+const NEARLY_SINGULAR: f64 = 1e-3;
+
+/// The distance of a cut, a kink or a pole from the shortest step, relative to the scales: before a pole bounds grow, and
+/// steps end 1.7e-8 before that of a tangent.
+const NEAR: f64 = 1.0 / (1_u64 << 24) as f64;
+
+/// The error of a part of a motion in a box that has no certificate; `q` is a position next to it.
+pub(super) fn reason<M: Certifiable>(system: &System<M>, q: &[f64], within: &[Interval]) -> CertifyError {
+    let (mechanism, input) = (M::NAME, within.last().copied().unwrap_or(Interval::ENTIRE));
+    let wider = |(&x, scale): (&Interval, &f64)| x + symmetric(NEAR * scale);
+    let around: Vec<Interval> = within.iter().zip(&system.scales).map(wider).collect();
+    if let Some(error) = no_bounds(system, within).or_else(|| no_bounds(system, &around)) {
+        return error;
+    }
+    match nearest(system, q) {
+        Some((group, regularity)) if system.has_tolerances() || regularity < NEARLY_SINGULAR => {
+            CertifyError::Singular { mechanism, group: group.name, input }
+        }
+        _ => CertifyError::Undecided { mechanism, input },
+    }
+}
+
+/// The error of a start that has no certificate.
+pub(super) fn no_position<M: Certifiable>(system: &System<M>, guess: &[f64]) -> CertifyError {
+    let point: Vec<Interval> = guess.iter().map(|&x| x.into()).collect();
+    let otherwise = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(system, guess) };
+    no_bounds(system, &point).unwrap_or_else(otherwise)
+}
+
+/// The error of a group whose equations have no bounded derivative in a box.
+fn no_bounds<M: Certifiable>(system: &System<M>, within: &[Interval]) -> Option<CertifyError> {
+    let columns = system.jacobian(Dimensions::All, within);
+    let has_bounds =
+        |row: usize| columns.iter().filter_map(|column| column.get(row)).all(|x| x.magnitude().is_finite());
+    let group = M::GROUPS.iter().find(|group| !group.equations.iter().all(|&row| has_bounds(row)))?;
+    let input = within.last().copied().unwrap_or(Interval::ENTIRE);
+    Some(CertifyError::NoBounds { mechanism: M::NAME, group: group.name, input })
+}
+
+/// The name of the group whose block of J is nearest to a singularity at a point.
+pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> &'static str {
+    nearest(system, q).map(|(group, _)| group.name).unwrap_or_default()
+}
+
+/// The group whose block of J is nearest to a singularity at a point, and the regularity of it: 1 divided by the largest
+/// entry of the inverse, relative to the scales of rows and columns.
+fn nearest<M: Certifiable>(system: &System<M>, q: &[f64]) -> Option<(&'static Group, f64)> {
+    let columns = system.float_jacobian(q);
+    let regularity = |group: &Group| {
+        let block: Vec<Vec<f64>> = group
+            .unknowns
+            .iter()
+            .map(|&column| {
+                let scale = system.scales.get(column).copied().unwrap_or(1.0);
+                group.equations.iter().filter_map(|&row| Some(columns.get(column)?.get(row)? * scale)).collect()
+            })
+            .collect();
+        let rows: Vec<f64> = group.equations.iter().filter_map(|&row| system.rows.get(row).copied()).collect();
+        let square: Vec<&[f64]> = block.iter().map(Vec::as_slice).collect();
+        let inverse = crate::matrix::inverse(&square, &rows);
+        let largest = inverse.map(|inverse| {
+            let entries = inverse.iter().flat_map(|row| row.iter().zip(&rows).map(|(entry, row)| (entry * row).abs()));
+            entries.fold(0.0, f64::max)
+        });
+        largest.map_or(0.0, |largest| 1.0 / largest)
+    };
+    M::GROUPS.iter().map(|group| (group, regularity(group))).min_by(|one, other| one.1.total_cmp(&other.1))
+}
