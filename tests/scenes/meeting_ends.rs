@@ -160,8 +160,7 @@ fn a_free_length_leaves_the_direction_open() {
     assert!(LongOnLength::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).is_err());
     assert!(LongStored::default().balance(0.0, &q).is_err());
     assert!(Quartic::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).is_err());
-    let mut loose = Loose::default();
-    loose.free = 0.1;
+    let loose = Loose { free: 0.1, ..Loose::default() };
     assert!(loose.forces(0.0, &BeadCoordinates { y: 0.0 }, 1.0).is_err());
 }
 
