@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use linkage::circuits::CurveEnd;
+use linkage::circuits::{CurveEnd, MotionCurve};
 use linkage::continuation::{Direction, Event, Path};
 use linkage::{PathError, linkage};
 use rand::rngs::SmallRng;
@@ -77,6 +77,18 @@ fn a_path_does_not_pass_two_dead_points() {
     println!("{error}");
     assert!(matches!(error, PathError::DeadPoint { .. }), "{error}");
     assert!((path.position().v - 0.5343823626306666).abs() < 1e-13, "{}", path.position().v);
+}
+
+/// The dead point at v = 0.6796845311790034 is 0.0021 before a change point: both are in one step. Its place is that of a
+/// continuation in small steps (`by_continuation`).
+#[test]
+fn a_dead_point_just_before_a_change_point() {
+    let m = Steph3 { a: 2.5, b: 3.0, c: 4.0, d: 1.5, px: -2.0, py: 2.0, e: 3.0, f: 2.5, x: -3.0, y: 3.0 };
+    let found = circuits(&m, 0.12597204876184753);
+    let near = |motion: &&MotionCurve<_>| motion.change_points().any(|at| (at.point.input - 0.6775507254).abs() < 1e-9);
+    let motion = found.motions.iter().find(near).unwrap();
+    let [first, second] = dead_inputs(motion)[..] else { panic!("{:?}", dead_inputs(motion)) };
+    assert!((first + 1.7165609705684652).abs() < 1e-12 && (second - 0.6796845311790034).abs() < 1e-12);
 }
 
 linkage! {
