@@ -1,5 +1,5 @@
 use super::{Formula, Name, Printer};
-use crate::graph::{Condition, External, Function, Graph, NodeId, Number, OPERATIONS, SymbolId};
+use crate::graph::{Condition, External, Function, Graph, NodeId, Number, SymbolId, written};
 
 /// A graph with these symbols.
 fn graph<const N: usize>(names: [&str; N]) -> (Graph, [NodeId; N]) {
@@ -54,7 +54,7 @@ fn names_have_greek_letters_subscripts_and_dots() {
 /// Every function of the language has a notation of its own: LaTeX shows a user function as `\mathrm{asin}(x)`.
 #[test]
 fn every_function_of_the_language_has_its_own_notation() {
-    for row in OPERATIONS {
+    for row in written() {
         let (mut g, [x]) = graph(["x"]);
         let node = g.call(row.function, &[x, x][..row.arity]);
         let Formula { latex, .. } = formula(&g, node);
