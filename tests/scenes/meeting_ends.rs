@@ -16,6 +16,8 @@ linkage! {
         scene Joined { inertia; spring k between A and B; energy; equilibrium; }
         scene Freed { inertia; spring k, 0 between A and B; energy; }
         scene Damped { inertia; damper c between A and B; power; }
+        scene Kept { inertia; stop norm(B - A) in 0..c, restitution 1; }
+        scene Braked { inertia; friction k on norm(B - A); }
         scene Loose { inertia; spring k, free between A and B; energy; equilibrium; }
     }
 }
@@ -43,6 +45,10 @@ linkage! {
         scene Quartic { inertia; potential k * (norm(d) - free)^4; equilibrium; energy; }
         scene Slowed { inertia; damper k between P and (x, y); power; }
         scene Drawn { inertia; torque k on norm(d); }
+        scene Rubbed { inertia; friction k on norm(d); }
+        scene RubbedBoth { inertia; friction k on x + norm(d) - abs(y - y0); }
+        scene Bowl { inertia; stop norm(d) in 0..free, restitution 1; }
+        scene Ring { inertia; stop norm(d) in free..1, restitution 1; }
         scene Wound { inertia; force (k * norm(d)^2, k * norm(d)^4) at (x, y); }
     }
 }
@@ -114,6 +120,26 @@ fn laws_of_a_length_that_is_zero() {
     motion.unwrap().finish(|_, _| true).unwrap();
 }
 
+/// The forces, stiffnesses and energies of scenes are those of the first.
+macro_rules! agrees {
+    ($expected:ident, $q:ident, $rates:ident: $($scene:expr),*) => {
+        let (force, balance) = ($expected.forces(0.0, &$q, $rates).unwrap(), $expected.balance(0.0, &$q).unwrap());
+        let energy = $expected.energy(&$q, $rates).unwrap();
+        $(
+            let scene = $scene;
+            for (found, expected) in scene.forces(0.0, &$q, $rates).unwrap().iter().zip(&force) {
+                close(stringify!($scene), *found, *expected, 1e-14 * expected.abs());
+            }
+            let found = scene.balance(0.0, &$q).unwrap();
+            for (found, expected) in found.slopes.iter().flatten().zip(balance.slopes.iter().flatten()) {
+                close("slope", *found, *expected, 1e-12);
+            }
+            let found = scene.energy(&$q, $rates).unwrap();
+            close("energy", found.potential, energy.potential, 1e-14 * energy.potential);
+        )*
+    };
+}
+
 /// Every spelling gives one force and one stiffness, also at the point where the length is zero.
 #[test]
 fn spellings_of_one_spring() {
@@ -121,25 +147,11 @@ fn spellings_of_one_spring() {
     for [dx, dy] in [[0.0, 0.0], [1e-300, 0.0], [0.0, -1e-9], [0.3, 0.4]] {
         let q = BallCoordinates { x: 0.3 + dx, y: -0.1 + dy };
         let rates = BallInputs { x: 0.2, y: -0.7 };
-        let (force, balance) = (dotted.forces(0.0, &q, rates).unwrap(), dotted.balance(0.0, &q).unwrap());
-        let energy = dotted.energy(&q, rates).unwrap();
-        macro_rules! agrees {
-            ($($scene:ident),*) => { $(
-                let scene = $scene::default();
-                let found = scene.forces(0.0, &q, rates).unwrap();
-                for (found, expected) in found.iter().zip(&force) {
-                    close(stringify!($scene), *found, *expected, 1e-14 * expected.abs());
-                }
-                let found = scene.balance(0.0, &q).unwrap();
-                for place in 0..4 {
-                    let [column, row] = [place / 2, place % 2];
-                    close("slope", found.slopes[column][row], balance.slopes[column][row], 1e-12);
-                }
-                let found = scene.energy(&q, rates).unwrap();
-                close("energy", found.potential, energy.potential, 1e-14 * energy.potential);
-            )* };
-        }
-        agrees!(Sprung, OnLength, Squared, Twice, Rooted, Magnitude);
+        agrees!(
+            dotted, q, rates:
+            Sprung::default(), OnLength::default(), Squared::default(), Twice::default(), Rooted::default(),
+            Magnitude::default()
+        );
     }
     let q = BallCoordinates { x: 0.3, y: -0.1 };
     assert_eq!(Cubed::default().forces(0.0, &q, BallInputs { x: 1.0, y: 0.0 }).unwrap().as_slice(), [0.0, 0.0]);
@@ -171,25 +183,12 @@ fn a_free_length_of_the_value_zero() {
     for [dx, dy] in [[0.0, 0.0], [1e-300, 0.0], [0.0, -1e-9], [0.3, 0.4]] {
         let q = BallCoordinates { x: 0.3 + dx, y: -0.1 + dy };
         let rates = BallInputs { x: 0.2, y: -0.7 };
-        let (force, balance) = (plain.forces(0.0, &q, rates).unwrap(), plain.balance(0.0, &q).unwrap());
-        let energy = plain.energy(&q, rates).unwrap();
-        macro_rules! agrees {
-            ($($scene:ident),*) => { $(
-                let scene = $scene { free: 0.0, ..$scene::default() };
-                let found = scene.forces(0.0, &q, rates).unwrap();
-                for (found, expected) in found.iter().zip(&force) {
-                    close(stringify!($scene), *found, *expected, 1e-14 * expected.abs());
-                }
-                let found = scene.balance(0.0, &q).unwrap();
-                for place in 0..4 {
-                    let [column, row] = [place / 2, place % 2];
-                    close("slope", found.slopes[column][row], balance.slopes[column][row], 1e-12);
-                }
-                let found = scene.energy(&q, rates).unwrap();
-                close("energy", found.potential, energy.potential, 1e-14 * energy.potential);
-            )* };
-        }
-        agrees!(Long, LongOnLength, LongStored);
+        agrees!(
+            plain, q, rates:
+            Long { free: 0.0, ..Long::default() },
+            LongOnLength { free: 0.0, ..LongOnLength::default() },
+            LongStored { free: 0.0, ..LongStored::default() }
+        );
     }
     let q = BallCoordinates { x: 0.3, y: -0.1 };
     let still = Quartic { free: 0.0, ..Quartic::default() };
@@ -218,6 +217,71 @@ fn a_law_of_the_value_zero_needs_no_direction() {
     none!(Long, LongOnLength, Slowed, Drawn);
     let power = Slowed { k: 0.0, ..Slowed::default() }.power(0.0, &q, rates).unwrap();
     assert_eq!(power.dissipated, 0.0);
+}
+
+/// A friction without a limit needs no direction, and |y|' has that of y'.
+#[test]
+fn a_friction_along_a_length_that_is_zero() {
+    let q = BallCoordinates { x: 0.3, y: -0.1 };
+    let rates = BallInputs { x: 1.0, y: 2.0 };
+    macro_rules! free {
+        ($($scene:ident),*) => { $(
+            let start = |q, input_rates| Start { t: 0.0, q, input_rates };
+            let error = simulate(&$scene::default(), start(q, rates), 1.0, 1e-9).err().unwrap().to_string();
+            assert!(error.contains("friction") && error.contains("is not a finite number"), "{error}");
+            let scene = $scene { k: 0.0, ..$scene::default() };
+            for [x, y] in [[0.3, -0.1], [-0.7, -2.1]] {
+                let q = BallCoordinates { x, y };
+                let mut motion = simulate(&scene, start(q, rates), 3.0, 1e-9).unwrap();
+                motion.finish(|_, _| true).unwrap();
+                close("x", motion.state().q.x, x + 3.0, 1e-12);
+                close("y", motion.state().q.y, y + 6.0, 1e-12);
+            }
+            let mut motion = simulate(&scene, start(q, BallInputs { x: 0.0, y: 0.0 }), 3.0, 1e-9).unwrap();
+            motion.finish(|_, _| true).unwrap();
+            assert_eq!([motion.state().q.x, motion.state().q.y], [0.3, -0.1]);
+        )* };
+    }
+    free!(Rubbed, RubbedBoth);
+
+    // y'' = -k sign y' from y = -1/20 with y' = 5: through zero, at rest after v^2 / (2 k)
+    let start = Start { t: 0.0, q: BeadCoordinates { y: -0.05 }, input_rates: 5.0 };
+    let scene = Braked::default();
+    let mut motion = simulate(&scene, start, 1.0, 1e-9).unwrap();
+    motion.finish(|_, _| true).unwrap();
+    close("y", motion.state().q.y, -0.05 + 25.0 / 200.0, 1e-10);
+}
+
+/// A pin with play in a round hole, at first in the middle; a length is not stopped at zero.
+#[test]
+fn a_stop_on_a_length_that_is_zero() {
+    // free = 0.2: from the middle along (0.6, 0.8) at unit speed, at the rim after 0.2, through the middle after 0.4, ...
+    let scene = Bowl::default();
+    for [t, s] in [[0.0, 0.0], [-0.1, 0.1]] {
+        let q = BallCoordinates { x: 0.3 - 0.6 * s, y: -0.1 - 0.8 * s };
+        let start = Start { t, q, input_rates: BallInputs { x: 0.6, y: 0.8 } };
+        let mut motion = simulate(&scene, start, 1.5, 1e-9).unwrap();
+        motion.finish(|_, _| true).unwrap();
+        let state = motion.state();
+        // 1.5 = 0.2 + 3 * 0.4 + 0.1: after four impacts 0.1 from the rim behind the middle.
+        close("x", state.q.x, 0.3 - 0.6 * 0.1, 1e-12);
+        close("y", state.q.y, -0.1 - 0.8 * 0.1, 1e-12);
+        close("x'", state.rates.x, 0.6, 1e-12);
+    }
+    let rest = Start { t: 0.0, q: BallCoordinates { x: 0.3, y: -0.1 }, input_rates: BallInputs { x: 0.0, y: 0.0 } };
+    simulate(&scene, rest, 1.5, 1e-9).unwrap().finish(|_, _| true).unwrap();
+    // An end at zero that is known at run time only.
+    let ring = Ring { free: 0.0, ..Ring::default() };
+    let start = Start { t: 0.0, q: BallCoordinates { x: 0.3, y: -0.1 }, input_rates: BallInputs { x: 0.6, y: 0.8 } };
+    let error = simulate(&ring, start, 1.5, 1e-9).err().unwrap().to_string();
+    assert!(error.contains("stop") && error.contains("is not a finite number"), "{error}");
+
+    // c = 0.8: from -0.3 with y' = 1 through zero to 0.8, and back
+    let scene = Kept::default();
+    let start = Start { t: 0.0, q: BeadCoordinates { y: -0.3 }, input_rates: 1.0 };
+    let mut motion = simulate(&scene, start, 2.0, 1e-9).unwrap();
+    motion.finish(|_, _| true).unwrap();
+    close("y", motion.state().q.y, 0.8 - 0.9, 1e-12);
 }
 
 #[test]

@@ -261,6 +261,12 @@ impl Graph {
         }
     }
 
+    /// True of a length or another magnitude: its derivatives are 0 / 0 where it is zero.
+    #[must_use]
+    pub fn is_length(&self, id: NodeId) -> bool {
+        matches!(self.node(id), Node::Call(Function::Hypot | Function::Abs | Function::Sqrt, _))
+    }
+
     /// True if the first coefficient is negative: then the sign is moved out of odd functions.
     #[must_use]
     pub fn leads_negative(&self, id: NodeId) -> bool {

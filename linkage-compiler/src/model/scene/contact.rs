@@ -26,7 +26,7 @@ impl Lowering<'_> {
                 let label = format!("friction on {}", self.text(*on)?);
                 Some(Contact {
                     label,
-                    along: along?,
+                    along: self.signed(along?),
                     law: ContactLaw::Friction(nodes.into_iter().collect::<Option<_>>()?),
                     bearing: None,
                 })
@@ -53,10 +53,19 @@ impl Lowering<'_> {
                     let message = "a restitution must be between 0 and 1: s'+ = -e s'- at an impact";
                     self.diagnostics.error(self.expressions.region(*restitution), message);
                 }
+                let (along, range) = self.above_zero(along?, range);
                 let law = ContactLaw::Stop { range, restitution: restitution_node };
-                Some(Contact { label, along: along?, law, bearing: None })
+                Some(Contact { label, along, law, bearing: None })
             }
             _ => None,
+        }
+    }
+    /// A length never passes an end at zero or below: it stays in -c..c if it stays in 0..c, and so does x of |x|.
+    fn above_zero(&mut self, scalar: NodeId, [lower, upper]: [NodeId; 2]) -> (NodeId, [NodeId; 2]) {
+        if self.graph.is_length(scalar) && self.graph.constant_value(lower).is_some_and(|lower| lower <= 0.0) {
+            (self.signed(scalar), [self.graph.negate(upper), upper])
+        } else {
+            (scalar, [lower, upper])
         }
     }
 }

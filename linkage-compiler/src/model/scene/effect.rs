@@ -99,11 +99,7 @@ impl Lowering<'_> {
                     let message = "the constant of a damper is negative: it would drive the mechanism";
                     self.diagnostics.error(self.expressions.region(*constant), message);
                 }
-                // |x|' along |x| is x' along x
-                let along = match self.graph.node(along) {
-                    Node::Call(Function::Abs, x) => x[0],
-                    _ => along,
-                };
+                let along = self.signed(along);
                 let (along, per_rate) = match self.half_square(along) {
                     // F = -c s' / s = -(c / s^2) (s^2 / 2)' along s^2 / 2
                     Some(half_square) => {
@@ -239,13 +235,8 @@ impl Lowering<'_> {
     /// direction of it.
     fn along_one_length(&mut self, potential: NodeId) -> Option<(NodeId, NodeId)> {
         let moves = |node| self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol));
-        let is_length = |&node: &NodeId| {
-            let is_call =
-                matches!(self.graph.node(node), Node::Call(Function::Hypot | Function::Abs | Function::Sqrt, _));
-            is_call && moves(node)
-        };
         let reachable = self.graph.reachable(&[potential]);
-        let length = reachable.iter().copied().rfind(is_length)?;
+        let length = reachable.iter().copied().rfind(|&node| self.graph.is_length(node) && moves(node))?;
         let needs_direction = reachable.iter().any(|&node| match self.graph.node(node) {
             Node::Sum { terms, .. } => terms.iter().any(|(_, term)| *term == length),
             Node::Product { factors, .. } => factors.iter().any(|&(base, exponent)| base == length && exponent < 2),
@@ -280,6 +271,14 @@ impl Lowering<'_> {
     fn by_length(&mut self, force: NodeId, length: NodeId, part: NodeId, limit: NodeId) -> NodeId {
         let quotient = self.graph.divide(force, length);
         self.graph.call(Function::IfNonzero, &[part, quotient, limit])
+    }
+
+    /// x of |x|: a force against |x|' along |x| is one against x' along x.
+    pub(super) fn signed(&self, scalar: NodeId) -> NodeId {
+        match self.graph.node(scalar) {
+            Node::Call(Function::Abs, x) => x[0],
+            _ => scalar,
+        }
     }
 
     /// s^2 / 2 of a length or another magnitude, also of a constant one: an opened joint may change it. A force along it need
