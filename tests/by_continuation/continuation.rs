@@ -22,6 +22,8 @@ pub struct Equations {
     pub loops: [Vec<Part>; 2],
     /// True for coordinates that are angles.
     pub angles: [bool; 5],
+    /// True if the first loop alone determines two unknowns, and the second one the others.
+    pub are_groups: bool,
 }
 
 /// A place that a curve passes.
@@ -101,6 +103,16 @@ impl Equations {
     /// The least singular value of the derivatives: zero where motions cross.
     pub fn regularity(&self, y: &Position) -> f64 {
         self.residual(y).1.svd(false, false).singular_values.min()
+    }
+
+    /// The signs of the determinants of the groups: a motion keeps them between its dead points and change points.
+    pub fn signs(&self, y: &Position) -> [bool; 2] {
+        let (_, slope) = self.residual(y);
+        if self.are_groups {
+            [0, 2].map(|row| slope.fixed_view::<2, 2>(row, row + 1).determinant() > 0.0)
+        } else {
+            [slope.fixed_view::<4, 4>(0, 1).determinant() > 0.0; 2]
+        }
     }
 
     /// The unit tangent nearest to a direction.

@@ -93,7 +93,7 @@ impl Family for Stephenson {
         let first = vec![Part::Link(1, a, 0.0), Part::Link(2, b, 0.0), Part::Ground(-d, 0.0), Part::Link(3, -c, 0.0)];
         let second = [Part::Link(1, a, 0.0), Part::Link(2, px, py), Part::Link(4, e, 0.0), Part::Ground(-x, -y)];
         let second = second.into_iter().chain([Part::Link(0, -f, 0.0)]).collect();
-        Equations { loops: [first, second], angles: [true; 5] }
+        Equations { loops: [first, second], angles: [true; 5], are_groups: false }
     }
 
     fn position(q: &StephensonCoordinates) -> Position {
@@ -122,7 +122,7 @@ impl Family for Watt {
         let first = vec![Part::Link(0, a, 0.0), Part::Link(1, b, 0.0), Part::Ground(-d, 0.0), Part::Link(2, -c, 0.0)];
         let second = [Part::Link(0, a, 0.0), Part::Link(1, px, py), Part::Link(3, e, 0.0), Part::Ground(-d, 0.0)];
         let second = second.into_iter().chain([Part::Link(2, -qx, -qy), Part::Link(4, -f, 0.0)]).collect();
-        Equations { loops: [first, second], angles: [true; 5] }
+        Equations { loops: [first, second], angles: [true; 5], are_groups: true }
     }
 
     fn position(q: &WattCoordinates) -> Position {
@@ -150,7 +150,7 @@ impl Family for Slider {
         let Self { a, b, c, d, qx, qy, e, h } = *self;
         let first = vec![Part::Link(0, a, 0.0), Part::Link(1, b, 0.0), Part::Ground(-d, 0.0), Part::Link(2, -c, 0.0)];
         let second = vec![Part::Ground(d, -h), Part::Link(2, qx, qy), Part::Link(3, e, 0.0), Part::Slide(4, -1.0)];
-        Equations { loops: [first, second], angles: [true, true, true, true, false] }
+        Equations { loops: [first, second], angles: [true, true, true, true, false], are_groups: true }
     }
 
     fn position(q: &SliderCoordinates) -> Position {

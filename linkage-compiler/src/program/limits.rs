@@ -55,33 +55,22 @@ impl Plan<'_, '_> {
             }
         };
         let branch_argument = Expression::name(&branch);
-        let moved = Expression::Struct(
-            Type::Bare(self.signatures.types.coordinates.clone()),
-            vec![(name.field.clone(), Expression::name(&name.field))],
-            Some(Box::new(position().method("coordinates", []))),
-        );
-        // `assemble_near` starts at the previous position, whose turns it keeps.
-        let near = Expression::call("assemble_near", [moved.borrowed(), branch_argument.clone()]);
         let inputs_type = Type::Bare(self.signatures.types.inputs.clone());
+        // `assemble_near` starts at the previous position, whose turns it keeps.
         let needs_guess = !self.position.is_closed || !self.position.turns.is_empty();
-        let (last, assemble) = if needs_guess {
-            (Pattern::Name(position_name.clone()), near)
+        let assembled = if needs_guess {
+            Expression::call("assemble_near", [position(), branch_argument.clone()])
         } else {
-            // `..inputs` is needed only for several inputs.
-            let others = (self.signatures.inputs() > 1).then(|| Box::new(Expression::name(&inputs)));
-            let moved = vec![(name.field.clone(), Expression::name(&name.field))];
-            let moved = Expression::Struct(inputs_type.clone(), moved, others);
-            (Pattern::Ignored, Expression::call("assemble", [moved, branch_argument.clone()]))
+            let inputs = Expression::associated(inputs_type.clone(), "from", [position()]);
+            Expression::call("assemble", [inputs, branch_argument.clone()])
         };
-        let function = |arguments: Vec<Pattern>, value: Expression| Expression::Closure {
-            arguments,
+        let function = |value: Expression| Expression::Closure {
+            arguments: vec![Pattern::Name(position_name.clone())],
             statements: Vec::new(),
             value: Box::new(value),
             moves: false,
         };
-        let assemble = function(vec![last, Pattern::Name(name.field.clone())], assemble);
-        let determinants =
-            function(vec![Pattern::Name(position_name.clone())], Expression::call("block_determinants", [position()]));
+        let (assemble, coordinates) = (function(assembled), function(position().method("coordinates", [])));
         let (start, start_position) = if self.position.is_closed {
             let start = Expression::name(&inputs).method("into", []);
             (start, Expression::call("assemble", [Expression::name(&inputs), branch_argument]))
@@ -89,8 +78,8 @@ impl Plan<'_, '_> {
             let start = Expression::associated(inputs_type, "from", [Expression::name(&guess)]);
             (start, Expression::call("assemble_near", [Expression::name(&guess), branch_argument]))
         };
-        let value = Expression::name(&inputs).field(&name.field);
-        let arguments = [Expression::mechanism(), value, position(), bounds, search, assemble, determinants];
+        let number = Expression::Count(place.index());
+        let arguments = [Expression::own(), number, position().borrowed(), bounds, search, assemble, coordinates];
         let mut body = Body::result(Expression::runtime("limits", arguments));
         body.before = vec![
             Statement::Let(Pattern::Name(inputs), start),

@@ -9,11 +9,14 @@
 //! ([`PositionError::Undetermined`]).
 
 mod search;
+mod touch;
+mod walk;
 
 use self::search::Searched;
 use crate::bounded::{angle_but_for_turns, has_bound, instead};
 use crate::linear::power_of_two_below;
-use crate::{PositionError, Real, real};
+use crate::scalar::arithmetic::*;
+use crate::{Mechanism, PositionError, Real, real};
 
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,38 +91,44 @@ pub enum Search<T> {
     Length(T),
 }
 
-/// Computes the limits about the input `start` of `position`. `assemble` computes the position at an input from one
-/// nearby, `determinants` the determinants of the blocks of a position.
+/// Computes the limits of the input at `place` about `position`. `assemble` computes the position at the inputs of a
+/// position nearby, `coordinates` those of a position.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if a number is not finite.
-pub fn limits<T: Real, P, const B: usize, const N: usize>(
-    mechanism: &'static str,
-    start: T,
-    position: P,
-    bounds: [Bound<T>; B],
-    search: Search<T>,
-    assemble: impl Fn(&P, T) -> Result<P, PositionError>,
-    determinants: impl Fn(&P) -> [T; N],
-) -> Result<Limits<T>, PositionError> {
+pub fn limits<M: Mechanism, const B: usize>(
+    mechanism: &M,
+    place: usize,
+    position: &M::Pose,
+    bounds: [Bound<M::Scalar>; B],
+    search: Search<M::Scalar>,
+    assemble: impl Fn(&M::Coordinates) -> Result<M::Pose, PositionError>,
+    coordinates: impl Fn(&M::Pose) -> M::Coordinates,
+) -> Result<Limits<M::Scalar>, PositionError> {
+    let position = coordinates(position);
+    let start = M::inputs(&position)[place];
     let [mut lower, mut upper] = [None; 2];
     for bound in &bounds {
-        let [below, above] = bound.about(start).ok_or(PositionError::NotFinite { mechanism, quantity: "a limit" })?;
+        let not_finite = PositionError::NotFinite { mechanism: M::NAME, quantity: "a limit" };
+        let [below, above] = bound.about(start).ok_or(not_finite)?;
         lower = nearer(lower, below, |new, old| new > old);
         upper = nearer(upper, above, |new, old| new < old);
     }
-    let searched = Searched { assemble, determinants };
-    let exact = |end: Option<(T, Block)>| -> Result<Limit<T>, PositionError> {
+    let reach = match search {
+        Search::ClosedFormOnly => M::Scalar::zero(),
+        Search::Turn => M::Scalar::two_pi(),
+        Search::Length(reach) => reach,
+    };
+    let searched = Searched { mechanism, place, reach, assemble: &assemble, coordinates: &coordinates };
+    let exact = |end: Option<(M::Scalar, Block)>| -> Result<Limit<M::Scalar>, PositionError> {
         let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
         let input = searched.corrected(start, &position, end, place)?;
         Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })
     };
     let (lower, upper) = (exact(lower)?, exact(upper)?);
-    let reach = match search {
-        Search::ClosedFormOnly => return Ok(Limits { lower, upper }),
-        Search::Turn => T::two_pi(),
-        Search::Length(reach) => reach,
-    };
+    if let Search::ClosedFormOnly = search {
+        return Ok(Limits { lower, upper });
+    }
     Ok(Limits {
         lower: searched.toward(start, &position, lower, start - reach)?,
         upper: searched.toward(start, &position, upper, start + reach)?,

@@ -5,7 +5,9 @@
 //! divided, between two samples where the determinant falls and rises.
 
 use super::Limit;
-use crate::{PositionError, Real, real};
+use super::walk::{Stuck, Walked};
+use crate::scalar::arithmetic::*;
+use crate::{Column, Dim, Mechanism, PositionError, real};
 
 /// Steps of a search, one degree each for an angle without other limits. A group that turns forty times as fast as the
 /// input is then sampled nine times in its turn. With a tenth of the steps its limits are missed; twice as many take
@@ -35,39 +37,41 @@ const SECANTS: usize = 16;
 /// group stops the mechanism before, and the limit is not moved.
 const ULPS_INWARD: usize = 10;
 
-/// The most times that a step from one input to another is begun again, at the place where Newton's method had stopped it
-/// in the middle of a motion. One is usual.
-const BEGINNINGS: usize = 16;
-
-/// The functions of a mechanism that a search calls.
-pub(super) struct Searched<A, D> {
-    pub(super) assemble: A,
-    pub(super) determinants: D,
+/// A mechanism whose limits of one input are searched.
+pub(super) struct Searched<'m, M: Mechanism> {
+    pub(super) mechanism: &'m M,
+    /// The place of the input among the inputs.
+    pub(super) place: usize,
+    /// The range of the input that is searched on either side.
+    pub(super) reach: M::Scalar,
+    /// The position at the inputs of a position nearby.
+    pub(super) assemble: &'m dyn Fn(&M::Coordinates) -> Result<M::Pose, PositionError>,
+    pub(super) coordinates: &'m dyn Fn(&M::Pose) -> M::Coordinates,
 }
 
 /// Two inputs between which a group stops the mechanism.
-struct Bracket<T, P, const N: usize> {
-    /// The position at `assembled`, unless that is where the bisection began.
-    nearest: Option<Sample<T, P, N>>,
-    assembled: T,
-    unbuildable: T,
+struct Bracket<M: Mechanism> {
+    assembled: M::Scalar,
+    unbuildable: M::Scalar,
     group: &'static str,
 }
 
 /// The outcome of a step from one input to another.
-enum Reached<S, T: Copy> {
+enum Reached<M: Mechanism> {
     /// The position at the input.
-    Assembled(S),
+    Assembled(Sample<M>),
     /// A group is undetermined there.
     Undetermined,
+    /// Motions touch next to it.
+    Touch,
     /// The mechanism stops before.
-    Limit(Limit<T>),
+    Limit(Limit<M::Scalar>),
 }
 
 /// The outcome at an input.
-enum Found<S> {
+pub(super) enum Found<M: Mechanism> {
     /// A position.
-    Assembled(S),
+    Assembled(Sample<M>),
     /// A group is undetermined here: the search skips the input.
     Undetermined,
     /// A group has no position: its unknowns.
@@ -75,20 +79,28 @@ enum Found<S> {
 }
 
 /// A position evaluated by the search, with the magnitudes of the determinants of its blocks.
-struct Sample<T, P, const N: usize> {
-    input: T,
-    position: P,
-    determinants: [T; N],
+pub(super) struct Sample<M: Mechanism> {
+    pub(super) input: M::Scalar,
+    pub(super) position: M::Coordinates,
+    pub(super) determinants: Column<M::Scalar, M::G>,
 }
 
-impl<T: Real, P, const N: usize> Sample<T, P, N> {
-    /// The determinant of a block; zero for an invalid index.
-    fn determinant(&self, place: usize) -> T {
-        self.determinants.get(place).copied().unwrap_or_else(T::zero)
+impl<M: Mechanism> Clone for Sample<M> {
+    fn clone(&self) -> Self {
+        *self
     }
 }
 
-impl<A, D> Searched<A, D> {
+impl<M: Mechanism> Copy for Sample<M> {}
+
+impl<M: Mechanism> Sample<M> {
+    /// The determinant of a block; zero for an invalid index.
+    pub(super) fn determinant(&self, place: usize) -> M::Scalar {
+        self.determinants.as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero)
+    }
+}
+
+impl<M: Mechanism> Searched<'_, M> {
     /// Corrects a limit in closed form for the rounding errors of its coefficients, which cancel where lengths are
     /// nearly equal.
     ///
@@ -97,17 +109,13 @@ impl<A, D> Searched<A, D> {
     /// the distance from `start`; the exponent grows as the corrections become smaller. If the next zero is at the
     /// distance X beyond the limit, the error of the secant is 4 x^2 / X: at the exponent `NEAREST` it is negligible,
     /// while x, the difference of two inputs, still has three correct digits.
-    pub(super) fn corrected<T: Real, P, const N: usize>(
+    pub(super) fn corrected(
         &self,
-        start: T,
-        position: &P,
-        end: T,
+        start: M::Scalar,
+        position: &M::Coordinates,
+        end: M::Scalar,
         place: usize,
-    ) -> Result<T, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
+    ) -> Result<M::Scalar, PositionError> {
         const NEAREST: i32 = 40;
         // If a later group is undetermined, the links are in line up to rounding error: the limit needs no correction.
         if matches!(self.at(position, end)?, Found::Undetermined) {
@@ -115,17 +123,17 @@ impl<A, D> Searched<A, D> {
         }
         let (mut input, mut exponent) = (end, NEAREST);
         for _ in 0..SECANTS {
-            let step = (start - end) * real::<T>(2.0).powi(-exponent);
-            let (near, far) = (input + step, input + step * real::<T>(4.0));
+            let step = (start - end) * real::<M::Scalar>(2.0).powi(-exponent);
+            let (near, far) = (input + step, input + step * real::<M::Scalar>(4.0));
             let mut correction = None;
             if let (Found::Assembled(one), Found::Assembled(other)) =
                 (self.at(position, near)?, self.at(position, far)?)
             {
                 let ratio = one.determinant(place) / other.determinant(place);
                 let part = ratio * ratio;
-                let secant = ((near - input) - part * (far - input)) / (T::one() - part);
+                let secant = ((near - input) - part * (far - input)) / (M::Scalar::one() - part);
                 // From farther away the two determinants differ in too few digits.
-                correction = (secant.abs() <= step.abs() * real::<T>(1000.0)).then_some(secant);
+                correction = (secant.abs() <= step.abs() * real::<M::Scalar>(1000.0)).then_some(secant);
             }
             match correction {
                 Some(correction) => {
@@ -135,7 +143,8 @@ impl<A, D> Searched<A, D> {
                     }
                     if exponent == NEAREST {
                         // Without cancellation the closed form is accurate to the last digit.
-                        let is_accurate = (input - end).abs() <= real::<T>(2.0) * T::default_epsilon() * end.abs();
+                        let is_accurate =
+                            (input - end).abs() <= real::<M::Scalar>(2.0) * M::Scalar::default_epsilon() * end.abs();
                         return Ok(if is_accurate { end } else { input });
                     }
                     exponent += 8;
@@ -150,13 +159,14 @@ impl<A, D> Searched<A, D> {
 
     /// Moves a limit, which rounding error may have put outside, inward to an input at which no group stops the
     /// mechanism.
-    pub(super) fn last<T: Real, P, const N: usize>(&self, start: T, position: &P, end: T) -> Result<T, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
+    pub(super) fn last(
+        &self,
+        start: M::Scalar,
+        position: &M::Coordinates,
+        end: M::Scalar,
+    ) -> Result<M::Scalar, PositionError> {
         let mut input = end;
-        let mut step = T::default_epsilon() * end.abs();
+        let mut step = M::Scalar::default_epsilon() * end.abs();
         for _ in 0..ULPS_INWARD {
             if (start - input).abs() <= step || !matches!(self.at(position, input)?, Found::Stopped(_)) {
                 return Ok(input);
@@ -168,31 +178,27 @@ impl<A, D> Searched<A, D> {
     }
 
     /// Searches for the first limit between `start` and a known limit, or `beyond` if there is none.
-    pub(super) fn toward<T: Real, P, const N: usize>(
+    pub(super) fn toward(
         &self,
-        start: T,
-        position: &P,
-        known: Limit<T>,
-        beyond: T,
-    ) -> Result<Limit<T>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
+        start: M::Scalar,
+        position: &M::Coordinates,
+        known: Limit<M::Scalar>,
+        beyond: M::Scalar,
+    ) -> Result<Limit<M::Scalar>, PositionError> {
         let end = known.input().unwrap_or(beyond);
         // The first step and the last one are divided: the minima next to their ends have no neighbours beyond.
         let whole = f64::from(STEPS);
         let parts = |step: f64| (1..=PARTS).map(move |part| step + f64::from(part) / f64::from(PARTS));
         let places = parts(0.0).chain((2..STEPS).map(f64::from)).chain(parts(whole - 1.0));
-        let mut last: [Option<Sample<T, P, N>>; 2] = [None, None];
+        let mut last: [Option<Sample<M>>; 2] = [None, None];
         if let Found::Assembled(sample) = self.at(position, start)? {
             last[1] = Some(sample);
         }
         for place in places {
             let is_last = place >= whole;
-            let input = if is_last { end } else { start + (end - start) * real::<T>(place / whole) };
+            let input = if is_last { end } else { start + (end - start) * real::<M::Scalar>(place / whole) };
             let (from, at) = last[1].as_ref().map_or((position, start), |here| (&here.position, here.input));
-            let is_known = |found: &Found<_>| match (found, known) {
+            let is_known = |found: &Found<M>| match (found, known) {
                 (Found::Undetermined, _) => true,
                 (Found::Stopped(group), Limit::Exact { group: other, .. }) => *group == other,
                 _ => false,
@@ -202,14 +208,14 @@ impl<A, D> Searched<A, D> {
                     // At a limit in closed form the mechanism may not assemble because of rounding errors, or a later
                     // group may be undetermined; an input just inside shows whether another group stops the mechanism
                     // before.
-                    self.reach(from, at, end + (start - end) * real::<T>(INSET))?
+                    self.reach(from, at, end + (start - end) * real::<M::Scalar>(INSET))?
                 }
                 found => self.follow(from, at, input, found)?,
             };
             let there = match reached {
                 Reached::Assembled(there) => there,
-                Reached::Undetermined if is_last => return Ok(known),
-                Reached::Undetermined => continue,
+                Reached::Undetermined | Reached::Touch if is_last => return Ok(known),
+                Reached::Undetermined | Reached::Touch => continue,
                 Reached::Limit(limit) => return Ok(limit),
             };
             let found = match &last {
@@ -232,27 +238,19 @@ impl<A, D> Searched<A, D> {
     }
 
     /// The limit at a minimum of a determinant between two samples: it falls at the first and rises at the second.
-    fn limit_within<T: Real, P, const N: usize>(
-        &self,
-        here: &Sample<T, P, N>,
-        there: &Sample<T, P, N>,
-    ) -> Result<Option<Limit<T>>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
-        let little = (there.input - here.input) * real::<T>(BESIDE);
+    fn limit_within(&self, here: &Sample<M>, there: &Sample<M>) -> Result<Option<Limit<M::Scalar>>, PositionError> {
+        let little = (there.input - here.input) * real::<M::Scalar>(BESIDE);
         let inside = [here.input + little, there.input - little];
         let [mut after, mut before] = [None, None];
         for (beside, input) in [&mut after, &mut before].into_iter().zip(inside) {
             *beside = match self.reach(&here.position, here.input, input)? {
                 Reached::Assembled(beside) => Some(beside),
-                Reached::Undetermined => None,
+                Reached::Undetermined | Reached::Touch => None,
                 Reached::Limit(limit) => return Ok(Some(limit)),
             };
         }
         let (Some(after), Some(before)) = (after, before) else { return Ok(None) };
-        for block in 0..N {
+        for block in 0..M::G::COUNT {
             let falls = after.determinant(block) < here.determinant(block);
             let rises = before.determinant(block) < there.determinant(block);
             if falls
@@ -267,14 +265,7 @@ impl<A, D> Searched<A, D> {
 
     /// The limit at a minimum of a determinant about the middle one of three samples, if the mechanism cannot be assembled
     /// there.
-    fn limit_among<T: Real, P, const N: usize>(
-        &self,
-        [before, here, there]: [&Sample<T, P, N>; 3],
-    ) -> Result<Option<Limit<T>>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
+    fn limit_among(&self, [before, here, there]: [&Sample<M>; 3]) -> Result<Option<Limit<M::Scalar>>, PositionError> {
         let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
         for (block, ((a, b), c)) in determinants.enumerate() {
             if b < a
@@ -288,15 +279,13 @@ impl<A, D> Searched<A, D> {
     }
 
     /// Computes the position at an input, or finds the group that stops it.
-    fn at<T: Real, P, const N: usize>(&self, from: &P, input: T) -> Result<Found<Sample<T, P, N>>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
-        match (self.assemble)(from, input) {
-            Ok(position) => {
-                let determinants = (self.determinants)(&position).map(|determinant| determinant.abs());
-                Ok(Found::Assembled(Sample { input, position, determinants }))
+    pub(super) fn at(&self, from: &M::Coordinates, input: M::Scalar) -> Result<Found<M>, PositionError> {
+        let mut inputs = M::inputs(from);
+        inputs[self.place] = input;
+        match (self.assemble)(&M::with_inputs(from, inputs)) {
+            Ok(pose) => {
+                let determinants = self.mechanism.block_determinants(&pose).abs();
+                Ok(Found::Assembled(Sample { input, position: (self.coordinates)(&pose), determinants }))
             }
             Err(
                 PositionError::Unbuildable { group, .. }
@@ -310,16 +299,7 @@ impl<A, D> Searched<A, D> {
     }
 
     /// Follows the motion from the position `from` at the input `at` to another input.
-    fn reach<T: Real, P, const N: usize>(
-        &self,
-        from: &P,
-        at: T,
-        input: T,
-    ) -> Result<Reached<Sample<T, P, N>, T>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
+    fn reach(&self, from: &M::Coordinates, at: M::Scalar, input: M::Scalar) -> Result<Reached<M>, PositionError> {
         let found = self.at(from, input)?;
         self.follow(from, at, input, found)
     }
@@ -329,101 +309,73 @@ impl<A, D> Searched<A, D> {
     ///
     /// Newton's method may fail far from a position although the mechanism moves on: an input is unbuildable only if it
     /// stops the mechanism from a position next to it, too.
-    fn follow<T: Real, P, const N: usize>(
+    fn follow(
         &self,
-        from: &P,
-        mut at: T,
-        input: T,
-        found: Found<Sample<T, P, N>>,
-    ) -> Result<Reached<Sample<T, P, N>, T>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
+        from: &M::Coordinates,
+        at: M::Scalar,
+        input: M::Scalar,
+        found: Found<M>,
+    ) -> Result<Reached<M>, PositionError> {
         let mut group = match found {
             Found::Assembled(there) => return Ok(Reached::Assembled(there)),
             Found::Undetermined => return Ok(Reached::Undetermined),
             Found::Stopped(group) => group,
         };
-        let mut moved: Option<Sample<T, P, N>> = None;
-        let mut beginnings = 0;
+        let (mut position, mut here) = (*from, at);
         loop {
-            let from = moved.as_ref().map_or(from, |sample| &sample.position);
-            let Bracket { nearest, assembled, unbuildable, group: other } = self.between(from, at, input, group)?;
-            beginnings += 1;
-            let beyond = match nearest {
-                Some(nearest) if beginnings < BEGINNINGS => self.at(&nearest.position, unbuildable)?,
-                _ => Found::Stopped(other),
+            let stuck = match self.walk((position, here), input, group)? {
+                Walked::Arrived(there) => return Ok(Reached::Assembled(there)),
+                Walked::Stuck(stuck) => stuck,
             };
-            let Found::Assembled(beyond) = beyond else {
-                return Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group: other }));
+            let Bracket { assembled, unbuildable, group: other } = self.between(&stuck, group)?;
+            group = other;
+            let Some(beyond) = self.beyond_touch((position, here), unbuildable, group)? else {
+                return Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group }));
             };
-            if unbuildable == input {
-                return Ok(Reached::Assembled(beyond));
+            (position, here) = (beyond.position, beyond.input);
+            if (here - input) * (here - assembled) >= M::Scalar::zero() {
+                return Ok(Reached::Touch);
             }
-            match self.at(&beyond.position, input)? {
-                Found::Assembled(there) => return Ok(Reached::Assembled(there)),
-                Found::Undetermined => return Ok(Reached::Undetermined),
-                Found::Stopped(other) => group = other,
-            }
-            (at, moved) = (unbuildable, Some(beyond));
         }
     }
 
     /// Bisects between an input at which the mechanism assembles and one at which a group does not.
-    fn between<T: Real, P, const N: usize>(
-        &self,
-        from: &P,
-        mut assembled: T,
-        mut unbuildable: T,
-        mut group: &'static str,
-    ) -> Result<Bracket<T, P, N>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
-        let mut nearest: Option<Sample<T, P, N>> = None;
+    fn between(&self, stuck: &Stuck<M>, mut group: &'static str) -> Result<Bracket<M>, PositionError> {
+        let (mut nearest, mut unbuildable) = (stuck.last, stuck.unbuildable);
         for _ in 0..NARROWINGS {
-            let mut middle = assembled + (unbuildable - assembled) / real::<T>(2.0);
+            let assembled = nearest.input;
+            let mut middle = assembled + (unbuildable - assembled) / real::<M::Scalar>(2.0);
             if middle == assembled || middle == unbuildable {
                 break;
             }
-            let from = nearest.as_ref().map_or(from, |sample| &sample.position);
-            let mut found = self.at(from, middle)?;
+            let mut found = self.along(&nearest, middle)?;
             if matches!(found, Found::Undetermined) {
                 // Usually only this input is undetermined: one nearby shows on which side of it the limit lies.
-                middle = assembled + (middle - assembled) / real::<T>(2.0);
-                found = self.at(from, middle)?;
+                middle = assembled + (middle - assembled) / real::<M::Scalar>(2.0);
+                found = self.along(&nearest, middle)?;
             }
             match found {
-                Found::Assembled(sample) => (assembled, nearest) = (middle, Some(sample)),
+                Found::Assembled(sample) => nearest = sample,
                 Found::Stopped(other) => (unbuildable, group) = (middle, other),
                 Found::Undetermined => break,
             }
         }
-        Ok(Bracket { nearest, assembled, unbuildable, group })
+        Ok(Bracket { assembled: nearest.input, unbuildable, group })
     }
 
     /// Minimises the determinant of a block between two inputs, and returns the limit if the mechanism cannot be
     /// assembled at the minimum.
-    fn limit_at_minimum<T: Real, P, const N: usize>(
+    fn limit_at_minimum(
         &self,
-        from: &Sample<T, P, N>,
-        to: T,
+        from: &Sample<M>,
+        to: M::Scalar,
         block: usize,
-    ) -> Result<Option<Limit<T>>, PositionError>
-    where
-        A: Fn(&P, T) -> Result<P, PositionError>,
-        D: Fn(&P) -> [T; N],
-    {
-        let golden = real::<T>(0.618_033_988_749_894_9);
+    ) -> Result<Option<Limit<M::Scalar>>, PositionError> {
+        let golden = real::<M::Scalar>(0.618_033_988_749_894_9);
         let (mut a, mut b) = (from.input, to);
-        let look = |input: T| -> Result<Result<T, Limit<T>>, PositionError> {
-            Ok(match self.reach(&from.position, from.input, input)? {
-                Reached::Assembled(sample) => Ok(sample.determinant(block)),
-                Reached::Undetermined => Ok(T::zero()),
-                Reached::Limit(limit) => Err(limit),
-            })
+        let determinant = |found: &Reached<M>| match found {
+            Reached::Assembled(sample) => sample.determinant(block),
+            _ => M::Scalar::zero(),
         };
         for _ in 0..NARROWINGS {
             let width = (b - a) * golden;
@@ -431,9 +383,11 @@ impl<A, D> Searched<A, D> {
             if low == high || low == a || high == b {
                 break;
             }
+            let look = |input: M::Scalar| self.reach(&from.position, from.input, input);
             match (look(low)?, look(high)?) {
-                (Err(limit), _) | (_, Err(limit)) => return Ok(Some(limit)),
-                (Ok(left), Ok(right)) if left <= right => b = high,
+                (Reached::Limit(limit), _) | (_, Reached::Limit(limit)) => return Ok(Some(limit)),
+                (Reached::Touch, _) | (_, Reached::Touch) => break,
+                (left, right) if determinant(&left) <= determinant(&right) => b = high,
                 _ => a = low,
             }
         }

@@ -1,0 +1,97 @@
+//! Positions at which motions touch, where Newton's method does not come any further.
+//!
+//! Two motions with one tangent differ by the square of the distance h from their touch, and so does the determinant. Steps
+//! of Newton's method that end on the motion on which they began are then shorter than h^2. But the motion is smooth: its
+//! positions before the touch, extrapolated, give it beyond, and the positions on both sides give the touch itself.
+
+use super::search::{Found, Sample, Searched};
+use super::walk::Walked;
+use crate::jacobian::ulp::{EQUAL_ULPS, ulps};
+use crate::jacobian::{EliminationOf as Elimination, Scales};
+use crate::scalar::arithmetic::*;
+use crate::{Column, Dim, Mechanism, PerUnknown, PositionError, Real, real};
+
+/// The distances from a touch of positions on either side, in the order in which they are found before it, divided by the
+/// range of the search. The interpolation through all of them has an error in the eighth derivative: rounding error.
+const DISTANCES: [f64; 4] = [27.0 / 32768.0, 18.0 / 32768.0, 12.0 / 32768.0, 8.0 / 32768.0];
+
+/// The largest error of an extrapolation, divided by the distance from the positions it begins from: a larger one is another
+/// motion.
+const LARGEST_ERROR: f64 = 0.125;
+
+/// The positions before a touch.
+const BEFORE: usize = DISTANCES.len();
+
+impl<M: Mechanism> Searched<'_, M> {
+    /// A position beyond a touch, where the motion from a regular position, with its input, stops at the input `end`; `None` if
+    /// there is no touch.
+    ///
+    /// Motions that only come close to each other turn back, and leave a gap: in its middle the interpolated position does
+    /// not satisfy the equations to rounding error.
+    pub(super) fn beyond_touch(
+        &self,
+        (mut position, at): (M::Coordinates, M::Scalar),
+        end: M::Scalar,
+        group: &'static str,
+    ) -> Result<Option<Sample<M>>, PositionError> {
+        let Some(block) = M::GROUPS.iter().position(|other| other.name == group) else { return Ok(None) };
+        let mut here = at;
+        let mut nodes = [(end, PerUnknown::<M>::zeros()); 2 * BEFORE];
+        // The square root of the determinant is proportional to the distance.
+        let mut roots = [M::Scalar::zero(); BEFORE];
+        for ((node, root), distance) in nodes.iter_mut().zip(&mut roots).zip(DISTANCES) {
+            let input = end + (self.reach * real(distance)).copysign(at - end);
+            let Walked::Arrived(sample) = self.walk((position, here), input, group)? else { return Ok(None) };
+            *node = (input, M::unknowns(&sample.position));
+            *root = sample.determinant(block).sqrt();
+            (position, here) = (sample.position, input);
+        }
+        let [.., one, other] = roots;
+        let touch = here + (here - nodes[BEFORE - 2].0) * (other / (one - other));
+        if !touch.is_finite() || (touch - here) * (end - at) <= M::Scalar::zero() {
+            return Ok(None);
+        }
+        let mut beyond = None;
+        for place in 0..BEFORE {
+            let input = touch + (touch - nodes[BEFORE - 1 - place].0);
+            let expected = interpolated(&nodes[..BEFORE + place], input);
+            let Found::Assembled(found) = self.at(&M::with_unknowns(&position, expected), input)? else {
+                return Ok(None);
+            };
+            let unknowns = M::unknowns(&found.position);
+            if (unknowns - expected).norm() > (expected - nodes[0].1).norm() * real(LARGEST_ERROR) {
+                return Ok(None);
+            }
+            nodes[BEFORE + place] = (input, unknowns);
+            beyond = Some(found);
+        }
+        let mut inputs = M::inputs(&position);
+        inputs[self.place] = touch;
+        let middle = M::coordinates(interpolated(&nodes, touch), inputs);
+        Ok(beyond.filter(|_| self.is_position(&middle)))
+    }
+
+    /// True if there is a position next to `q` with the same inputs, up to rounding error, where J has lost one rank: N Psi is
+    /// zero, with the left null vector N. Newton's method corrects what is left of the other equations.
+    fn is_position(&self, q: &M::Coordinates) -> bool {
+        let pose = self.mechanism.pose_at(q);
+        let scales = Scales::of(self.mechanism, &pose);
+        let mut jacobian = scales.jacobian(self.mechanism, &pose);
+        (0..M::V::COUNT).for_each(|input| jacobian.fix(M::U::COUNT + input));
+        let elimination = Elimination::<M>::all_but(1, jacobian);
+        let [residual, terms] = [self.mechanism.residual(&pose), self.mechanism.residual_scales(&pose)]
+            .map(|values| values.component_div(&scales.residuals));
+        let height = elimination.left_null_product(&residual);
+        let noise = elimination.left_null_error(&(terms * ulps(EQUAL_ULPS)));
+        height.iter().zip(&noise).all(|(height, &noise)| height.abs() <= noise)
+    }
+}
+
+/// The polynomial through these nodes, by Lagrange's formula.
+fn interpolated<T: Real, U: Dim>(nodes: &[(T, Column<T, U>)], at: T) -> Column<T, U> {
+    nodes.iter().enumerate().fold(Column::zeros(), |sum, (place, &(here, value))| {
+        let others = nodes.iter().enumerate().filter(|(other, _)| *other != place);
+        let weight = others.fold(T::one(), |weight, (_, &(there, _))| weight * ((at - there) / (here - there)));
+        sum + value * weight
+    })
+}
