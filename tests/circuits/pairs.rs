@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use linkage::circuits::{CurveEnd, MotionCurve};
+use linkage::circuits::{CurveEnd, CurveMeeting, MotionCurve};
 use linkage::continuation::{Direction, Event, Path};
 use linkage::{PathError, linkage};
 use rand::rngs::SmallRng;
@@ -219,4 +219,41 @@ fn touches_of_random_sliders_are_found() {
     }
     println!("{count} linkages have motions that touch");
     assert!(count > 10);
+}
+
+/// The motions of a four-bar in line cross, and a dyad in line reverses them: all four links are one group.
+#[test]
+fn touches_within_a_group_are_found() {
+    let random = &mut SmallRng::seed_from_u64(46);
+    // Three linkages have a motion that moves the dyad by less than 0.08 of its own way: it reverses next to the touch, and
+    // has no mode at either input.
+    let (mut found, mut hidden) = (0, 0);
+    for _ in 0..60 {
+        let [a, c, d, part] = std::array::from_fn(|_| random.random_range(0.5..4.0));
+        let [px, py, x, y] = std::array::from_fn(|_| random.random_range(-3.0..3.0));
+        let b: f64 = d + c - a;
+        // From the ground joint of the input crank to the joint of the dyad on the coupler.
+        let [east, north] = [a + px - x, py - y];
+        let length = f64::hypot(east, north);
+        if b < 0.3 || length < 0.5 {
+            continue;
+        }
+        let (v, f) = (north.atan2(east), length * part / 5.0);
+        let m = Steph3 { a, b, c, d, px, py, e: length - f, f, x, y };
+        let is_touch = |at: &CurveMeeting<Steph3Coordinates>| {
+            let q = at.point.position;
+            [q.t, q.p, q.r, q.v - v].iter().all(|angle| (angle / 2.0).sin().abs() < 1e-13)
+        };
+        let touches = |motion: &MotionCurve<_>| motion.change_points().filter(is_touch).count();
+        let is_found = [0.02, 0.005].into_iter().any(|offset| {
+            let circuits = circuits(&m, v + offset);
+            let touches: Vec<usize> = circuits.motions.iter().map(touches).collect();
+            let joined = circuits.circuits.iter().filter(|circuit| circuit.iter().any(|&motion| touches[motion] > 0));
+            assert!(joined.count() == 1 && touches.iter().sum::<usize>() <= 2, "{m:?} {touches:?}");
+            touches.iter().sum::<usize>() == 2
+        });
+        *(if is_found { &mut found } else { &mut hidden }) += 1;
+    }
+    println!("{found} linkages, {hidden} hidden");
+    assert!(found > 40 && hidden == 3);
 }

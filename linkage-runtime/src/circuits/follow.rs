@@ -5,7 +5,7 @@ use std::vec::Vec;
 use super::modes::{Modes, crossing_function};
 use super::motion::{CurveEnd, CurveEvent, CurvePoint, MotionCurve};
 use super::{CircuitError, CircuitOptions};
-use crate::continuation::{Direction, Event, Options, Path};
+use crate::continuation::{Direction, Event, Options, Path, TouchOnPath, Touches};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::{Branches, D, Mechanism, PathError, real};
@@ -52,8 +52,11 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
         let start = self.modes.positions[mode];
         let mut path = Path::with(self.mechanism, &start, direction, self.options)?;
         let mut points = vec![point::<M>(start, Some(CurveEvent::Mode(Some(mode))))];
+        let mut touches = Touches::new(&path);
         for _ in 0..self.options.most_steps {
             let step = path.advance_watching(|q, _| crossing_function(self.modes, q))?;
+            let beside = points.len() - 1;
+            insert(&mut points, beside, touches.after_step(&path)?);
             let event = match step.event {
                 Some(Event::Zero) => Some(CurveEvent::Mode(self.modes.find(&step.position))),
                 Some(Event::DeadPoint { group }) => Some(CurveEvent::DeadPoint { group }),
@@ -62,6 +65,8 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
             };
             if event == Some(CurveEvent::Mode(Some(mode))) {
                 points.push(point::<M>(step.position, None));
+                let end = points.len() - 1;
+                insert(&mut points, end, touches.at_end(&path)?);
                 return Ok((points, CurveEnd::Closed { turns: turns::<M>(&start, &step.position) }));
             }
             points.push(point::<M>(step.position, event));
@@ -73,6 +78,14 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
             }
         }
         Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
+    }
+}
+
+/// Inserts a touch beside the point at this place.
+fn insert<M: Mechanism<V = D<1>>>(points: &mut Points<M>, place: usize, touch: Option<TouchOnPath<M>>) {
+    if let Some(TouchOnPath { position, groups, is_before }) = touch {
+        let event = CurveEvent::ChangePoint { group: groups.first() };
+        points.insert(if is_before { place } else { place + 1 }, point::<M>(position, Some(event)));
     }
 }
 

@@ -17,7 +17,8 @@
 //!    from its chord. A determinant that touches zero within the error of the position does not change its sign.
 //! 4. *Change points*, where [J A] loses rank and motions cross: all tangents follow from the second derivatives, all
 //!    singular groups are found, and [`AtChangePoint`] selects the motion. Where motions only come close to each other,
-//!    Psi is not zero at the point between them; they are followed round their bend, however sharp it is.
+//!    Psi is not zero at the point between them; they are followed round their bend, however sharp it is. A motion passes
+//!    a touch with another motion of one group without an event: the circuits search for these.
 //!
 //! The branch changes only as [`AtChangePoint`] says; otherwise following fails with a [`PathError`](crate::PathError)
 //! that names the group.
@@ -35,6 +36,7 @@ mod options;
 mod path;
 mod place;
 mod tangents;
+mod touches;
 
 pub use along::{Along, AlongCoordinates, AlongPose, AlongRates};
 pub use events::Event;
@@ -42,3 +44,4 @@ pub use groups::Groups;
 pub use options::{AtChangePoint, Direction, Options};
 pub use path::{Path, PathStep};
 pub use tangents::Tangents;
+pub(crate) use touches::{TouchOnPath, Touches};

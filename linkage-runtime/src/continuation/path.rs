@@ -40,9 +40,9 @@ crate::__by_fields!([M: Mechanism] PathStep<M> { position, rates, length, event 
 ///
 /// As an iterator it returns the steps one by one, each a `Result`, and ends after a limit or an error.
 pub struct Path<'a, M: Mechanism> {
-    curve: Curve<'a, M>,
-    place: Place<M>,
-    options: Options<M::Scalar>,
+    pub(super) curve: Curve<'a, M>,
+    pub(super) place: Place<M>,
+    pub(super) options: Options<M::Scalar>,
     /// The length at which the next step is tried first.
     step: M::Scalar,
     /// The arc length so far.

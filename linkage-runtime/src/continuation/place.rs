@@ -45,6 +45,11 @@ impl<M: Mechanism> Place<M> {
         }
     }
 
+    /// The place on the way back.
+    pub(super) fn reversed(&self) -> Self {
+        Self { tangent: -self.tangent, slopes: -self.slopes, orientation: -self.orientation, ..self.clone() }
+    }
+
     /// The fraction of the distance to another place at which the determinant of a group is zero, if one changes its
     /// sign.
     pub(super) fn sign_changes(&self, to: &Self) -> Option<M::Scalar> {
