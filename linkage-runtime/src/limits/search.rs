@@ -37,6 +37,9 @@ const SECANTS: usize = 16;
 /// group stops the mechanism before, and the limit is not moved.
 const ULPS_INWARD: usize = 10;
 
+/// The position at the inputs of a position nearby.
+type Assemble<'m, M> = &'m dyn Fn(&<M as Mechanism>::Coordinates) -> Result<<M as Mechanism>::Pose, PositionError>;
+
 /// A mechanism whose limits of one input are searched.
 pub(super) struct Searched<'m, M: Mechanism> {
     pub(super) mechanism: &'m M,
@@ -44,8 +47,7 @@ pub(super) struct Searched<'m, M: Mechanism> {
     pub(super) place: usize,
     /// The range of the input that is searched on either side.
     pub(super) reach: M::Scalar,
-    /// The position at the inputs of a position nearby.
-    pub(super) assemble: &'m dyn Fn(&M::Coordinates) -> Result<M::Pose, PositionError>,
+    pub(super) assemble: Assemble<'m, M>,
     pub(super) coordinates: &'m dyn Fn(&M::Pose) -> M::Coordinates,
 }
 
