@@ -35,6 +35,7 @@ mod groups;
 mod options;
 mod path;
 mod place;
+mod step;
 mod tangents;
 mod touches;
 
