@@ -133,7 +133,7 @@ impl<'a, M: Certifiable> Certify<'a, M> {
     ///
     /// Angles with sines only repeat each by itself, those of wheels together: `psi = -theta / 2` after two turns of theta
     /// and minus one of psi. Where a ratio is one of parameters, their doubles are taken as they are: 0.3 / 0.1 is not 3.
-    /// Of parameters with tolerances it must hold for all values. Points and outputs may differ: an output may be the angle
+    /// If parameters have tolerances, the same turns must repeat for all their values. Points and outputs may differ: an output may be the angle
     /// itself.
     #[must_use]
     pub fn repeats(&self, unknowns: &Column<i64, M::U>, inputs: &Column<i64, M::V>) -> bool {
