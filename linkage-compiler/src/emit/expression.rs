@@ -113,6 +113,10 @@ fn written(value: &Expression) -> TokenStream {
             let (of, name) = (path(of), ident(name));
             quote!(#of::#name(#(#arguments),*))
         }
+        Expression::Function(of, name) => {
+            let (of, name) = (path(of), ident(name));
+            quote!(#of::#name)
+        }
         Expression::Method(of, name, arguments) => {
             let (of, name) = (operand(of, Binding::Atom), ident(name));
             quote!(#of.#name(#(#arguments),*))

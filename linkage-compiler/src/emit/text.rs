@@ -145,6 +145,7 @@ fn expression(value: &Expression) -> String {
         }
         Expression::Runtime(name, arguments) => format!("{name}({})", expressions(arguments)),
         Expression::Associated(of, name, arguments) => format!("{}::{name}({})", path(of), expressions(arguments)),
+        Expression::Function(of, name) => format!("{}::{name}", path(of)),
         Expression::Method(of, name, arguments) => format!("{}.{name}({})", part(of), expressions(arguments)),
         Expression::Try(value) => format!("{}?", expression(value)),
         Expression::Borrowed(value) | Expression::MutablyBorrowed(value) | Expression::Dereferenced(value) => {

@@ -160,9 +160,13 @@ impl Finished<'_> {
                 E::Closure { arguments, statements, value: Box::new(self.expression(*value)), moves }
             }
             E::Block(statements, value) => E::Block(statements, Box::new(self.expression(*value))),
-            finished @ (E::Name(_) | E::Number(_) | E::Exact(_) | E::Text(_) | E::Count(_) | E::Constant(_)) => {
-                finished
-            }
+            finished @ (E::Name(_)
+            | E::Number(_)
+            | E::Exact(_)
+            | E::Text(_)
+            | E::Count(_)
+            | E::Constant(_)
+            | E::Function(..)) => finished,
         }
     }
 

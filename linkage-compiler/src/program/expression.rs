@@ -43,8 +43,10 @@ pub enum Expression {
     // Calls.
     /// A call of a function of the runtime.
     Runtime(&'static str, Vec<Expression>),
-    /// An associated function of a type.
+    /// A call of an associated function of a type.
     Associated(Type, String, Vec<Expression>),
+    /// A function of a type as a value.
+    Function(Type, &'static str),
     /// A method call.
     Method(Box<Expression>, String, Vec<Expression>),
     /// `value?`
@@ -356,7 +358,8 @@ impl Expression {
             | Self::Exact(_)
             | Self::Text(_)
             | Self::Count(_)
-            | Self::Constant(_) => {}
+            | Self::Constant(_)
+            | Self::Function(..) => {}
         }
     }
 

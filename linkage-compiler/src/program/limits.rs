@@ -64,13 +64,13 @@ impl Plan<'_, '_> {
             let inputs = Expression::associated(inputs_type.clone(), "from", [position()]);
             Expression::call("assemble", [inputs, branch_argument.clone()])
         };
-        let function = |value: Expression| Expression::Closure {
+        let assemble = Expression::Closure {
             arguments: vec![Pattern::Name(position_name.clone())],
             statements: Vec::new(),
-            value: Box::new(value),
+            value: Box::new(assembled),
             moves: false,
         };
-        let (assemble, coordinates) = (function(assembled), function(position().method("coordinates", [])));
+        let coordinates = Expression::Function(Type::Bare(self.signatures.types.pose.clone()), "coordinates");
         let (start, start_position) = if self.position.is_closed {
             let start = Expression::name(&inputs).method("into", []);
             (start, Expression::call("assemble", [Expression::name(&inputs), branch_argument]))

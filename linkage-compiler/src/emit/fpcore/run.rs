@@ -226,6 +226,7 @@ impl Run {
             | E::All(_)
             | E::Count(_)
             | E::Constant(_)
+            | E::Function(..)
             | E::Result(_)
             | E::Local(_) => Value::Unknown,
         }
