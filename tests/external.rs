@@ -109,3 +109,32 @@ fn no_value_is_an_error() {
     not_finite(slider.velocity_ratios(&slider.pose_at(&q)).unwrap_err());
     not_finite(slider.solve(&q).unwrap_err());
 }
+
+/// s^4 / 4 and its derivative only.
+fn quartic<T: Real>(s: T) -> (T, T) {
+    let cube = s * s * s;
+    (cube * s * linkage::nalgebra::convert::<f64, T>(0.25), cube)
+}
+
+linkage! {
+    /// A ball on a nonlinear spring to the origin.
+    #[derive(Debug, Clone)]
+    mechanism Tied {
+        param m = 1;
+        input x, y;
+        extern fn quartic(s) -> (energy, force);
+        body ball { mass m; center (x, y); }
+        scene Pulled { inertia; potential energy(norm((x, y))); }
+    }
+}
+
+/// A force needs the first derivative of its potential only, also along a length that is zero.
+#[test]
+fn a_potential_of_a_length() {
+    let pulled = Pulled::default();
+    let rates = TiedInputs { x: 0.0, y: 0.0 };
+    for ([x, y], expected) in [([0.3, 0.4], [-0.075, -0.1]), ([0.0, 0.0], [0.0, 0.0])] {
+        let forces = pulled.forces(0.0, &TiedCoordinates { x, y }, rates).unwrap();
+        assert!((forces[0] - expected[0]).abs() < 1e-16 && (forces[1] - expected[1]).abs() < 1e-16, "{forces:?}");
+    }
+}

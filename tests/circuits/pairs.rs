@@ -2,9 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use linkage::circuits::{CurveEnd, CurveMeeting, MotionCurve};
+use linkage::circuits::{CircuitOptions, Circuits, CurveEnd, CurveMeeting, MotionCurve};
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{PathError, linkage};
+use linkage::{Branches, D, PathError, linkage};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -30,6 +30,18 @@ linkage! {
         unknown t, p, r, u;
         loop a@t + b@p = d@0 + c@r;
         loop a@t + (px, py)@p + e@u = (x, y) + f@v;
+    }
+}
+
+linkage! {
+    /// A crank-rocker, and a cosine between two limits.
+    #[derive(Debug, Clone)]
+    mechanism Narrow {
+        param a, b, c, d, middle, half;
+        input v;
+        unknown p, r, w;
+        loop a@v + b@p = d@0 + c@r;
+        equation w = acos((cos(r) - middle) / half);
     }
 }
 
@@ -188,6 +200,43 @@ fn motions_that_touch_are_one_circuit() {
     }
 }
 
+/// The range of the input ends just beyond a touch of two groups, and of links of one group.
+#[test]
+fn a_touch_before_a_limit_is_found() {
+    fn joined<M: Branches<Scalar = f64, V = D<1>>>(m: &M, start: f64, range: [f64; 2]) -> Vec<usize> {
+        let mut options = CircuitOptions::default();
+        options.path.range = Some(range);
+        let found = Circuits::of(m, start, options).unwrap();
+        assert!(found.motions.iter().all(|motion| motion.end == CurveEnd::Limits));
+        found.circuits.iter().map(Vec::len).filter(|&count| count > 1).collect()
+    }
+    let (m, v) = in_line([2.5, 1.5, 3.0], [1.0, 1.5], [-1.0, -1.0], 0.5);
+    for end in [0.02, 0.004, 0.001] {
+        assert_eq!(joined(&Watt2S::default(), 0.05, [-end, 0.1]), [2], "{end}");
+        assert_eq!(joined(&m, v - 0.05, [v - 0.1, v + end]), [2], "{end}");
+    }
+}
+
+/// An equation has a value only where the motion is, and little beyond.
+#[test]
+fn a_domain_next_to_the_motion() {
+    let [a, b, c, d] = [1.0_f64, 3.0, 2.5, 2.2];
+    let extreme = |side: f64| (side * side - d * d - c * c) / (2.0 * d * c);
+    let (least, most) = (extreme(b - a), extreme(b + a));
+    let m = Narrow { a, b, c, d, middle: 0.5 * (least + most), half: 0.5001 * (most - least) };
+    let found = circuits(&m, 0.4);
+    assert_eq!(counts(&found), [2, 2, 2]);
+}
+
+#[test]
+fn a_start_where_motions_touch_is_ambiguous() {
+    let q = Watt2SCoordinates { v: 0.0, p: PI, r: PI, u: -FRAC_PI_2, s: 0.0 };
+    let Err(error) = Path::new(&Watt2S::default(), &q, Direction::Increasing) else {
+        panic!("two motions begin there")
+    };
+    assert!(matches!(error, PathError::ChangePoint { .. }), "{error:?}");
+}
+
 /// The reversal is found within a step, or the crossing; both are one change point.
 #[test]
 fn touches_of_random_sliders_are_found() {
@@ -221,25 +270,29 @@ fn touches_of_random_sliders_are_found() {
     assert!(count > 10);
 }
 
+/// A linkage whose four-bar and whose dyad are in line at an input.
+fn in_line([a, c, d]: [f64; 3], [px, py]: [f64; 2], [x, y]: [f64; 2], part: f64) -> (Steph3, f64) {
+    // From the ground joint of the input crank to the joint of the dyad on the coupler.
+    let [east, north] = [a + px - x, py - y];
+    let length = east.hypot(north);
+    let f = length * part;
+    (Steph3 { a, b: d + c - a, c, d, px, py, e: length - f, f, x, y }, north.atan2(east))
+}
+
 /// The motions of a four-bar in line cross, and a dyad in line reverses them: all four links are one group.
 #[test]
 fn touches_within_a_group_are_found() {
     let random = &mut SmallRng::seed_from_u64(46);
-    // Three linkages have a motion that moves the dyad by less than 0.08 of its own way: it reverses next to the touch, and
+    // Two linkages have a motion that moves the dyad by less than 0.08 of its own way: it reverses next to the touch, and
     // has no mode at either input.
     let (mut found, mut hidden) = (0, 0);
     for _ in 0..60 {
         let [a, c, d, part] = std::array::from_fn(|_| random.random_range(0.5..4.0));
         let [px, py, x, y] = std::array::from_fn(|_| random.random_range(-3.0..3.0));
-        let b: f64 = d + c - a;
-        // From the ground joint of the input crank to the joint of the dyad on the coupler.
-        let [east, north] = [a + px - x, py - y];
-        let length = f64::hypot(east, north);
-        if b < 0.3 || length < 0.5 {
+        let (m, v) = in_line([a, c, d], [px, py], [x, y], part / 5.0);
+        if m.b < 0.3 || m.e + m.f < 0.5 {
             continue;
         }
-        let (v, f) = (north.atan2(east), length * part / 5.0);
-        let m = Steph3 { a, b, c, d, px, py, e: length - f, f, x, y };
         let is_touch = |at: &CurveMeeting<Steph3Coordinates>| {
             let q = at.point.position;
             [q.t, q.p, q.r, q.v - v].iter().all(|angle| (angle / 2.0).sin().abs() < 1e-13)
@@ -255,5 +308,5 @@ fn touches_within_a_group_are_found() {
         *(if is_found { &mut found } else { &mut hidden }) += 1;
     }
     println!("{found} linkages, {hidden} hidden");
-    assert!(found > 40 && hidden == 3);
+    assert!(found > 40 && hidden == 2);
 }

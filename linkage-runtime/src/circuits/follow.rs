@@ -55,33 +55,34 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
         let mut touches = Touches::new(&path);
         for _ in 0..self.options.most_steps {
             let step = path.advance_watching(|q, _| crossing_function(self.modes, q))?;
-            let beside = points.len() - 1;
-            insert(&mut points, beside, touches.after_step(&path)?);
+            let last = points.len() - 1;
+            insert(&mut points, last, touches.after_step(&path)?);
             let event = match step.event {
                 Some(Event::Zero) => Some(CurveEvent::Mode(self.modes.find(&step.position))),
                 Some(Event::DeadPoint { group }) => Some(CurveEvent::DeadPoint { group }),
                 Some(Event::ChangePoint { groups, .. }) => Some(CurveEvent::ChangePoint { group: groups.first() }),
                 Some(Event::Limit) | None => None,
             };
-            if event == Some(CurveEvent::Mode(Some(mode))) {
-                points.push(point::<M>(step.position, None));
-                let end = points.len() - 1;
-                insert(&mut points, end, touches.at_end(&path)?);
-                return Ok((points, CurveEnd::Closed { turns: turns::<M>(&start, &step.position) }));
-            }
-            points.push(point::<M>(step.position, event));
-            if matches!(step.event, Some(Event::Limit)) {
-                return Ok((points, CurveEnd::Limits));
-            }
-            if self.modes.way(&step.position, &start) > self.most {
-                return Ok((points, CurveEnd::Open));
-            }
+            let is_closed = event == Some(CurveEvent::Mode(Some(mode)));
+            points.push(point::<M>(step.position, event.filter(|_| !is_closed)));
+            let end = if is_closed {
+                CurveEnd::Closed { turns: turns::<M>(&start, &step.position) }
+            } else if matches!(step.event, Some(Event::Limit)) {
+                CurveEnd::Limits
+            } else if self.modes.way(&step.position, &start) > self.most {
+                CurveEnd::Open
+            } else {
+                continue;
+            };
+            let last = points.len() - 1;
+            insert(&mut points, last, touches.at_end(&path)?);
+            return Ok((points, end));
         }
         Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
     }
 }
 
-/// Inserts a touch beside the point at this place.
+/// Inserts a touch before or after the point at this place.
 fn insert<M: Mechanism<V = D<1>>>(points: &mut Points<M>, place: usize, touch: Option<TouchOnPath<M>>) {
     if let Some(TouchOnPath { position, groups, is_before }) = touch {
         let event = CurveEvent::ChangePoint { group: groups.first() };

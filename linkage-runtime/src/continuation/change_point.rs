@@ -137,7 +137,7 @@ where
         let at = self.linear(guess)?;
         let Some(held) = self.held(guess, &Elimination::<M>::all_but(1, at.jacobian))? else { return Ok(None) };
         let Some(q) = self.stationary(guess, reach, 1, &held)? else { return Ok(None) };
-        let Some(q) = self.reversal(&q, &held)? else { return Ok(None) };
+        let Some(q) = self.reversal(&q, reach, &held)? else { return Ok(None) };
         if self.difference(&q, guess).norm() > reach {
             return Ok(None);
         }
@@ -172,15 +172,20 @@ where
         Ok(Some(Crossing { q, tangents, count: 1, is_complete: true, defect: 1, groups, touch }))
     }
 
-    /// The position at which the coordinates of a part are held where they are, and one equation of the rest has an extreme
-    /// along the motion that the others leave: its slope is zero there.
-    fn reversal(&self, q: &M::Coordinates, held: &Held<M>) -> Result<Option<M::Coordinates>, PathError> {
+    /// The position within `reach` of `guess` at which the coordinates of a part are held where they are, and one equation of
+    /// the rest has an extreme along the motion that the others leave: its slope is zero there.
+    fn reversal(
+        &self,
+        guess: &M::Coordinates,
+        reach: M::Scalar,
+        held: &Held<M>,
+    ) -> Result<Option<M::Coordinates>, PathError> {
         let mut inner = (0..M::U::COUNT + 1).filter(|column| !held.iter().any(|held| *held == Some(*column)));
         let outside = Held::<M>::from_fn(|row| if held[row].is_none() { inner.next() } else { None });
         let Some(last) = inner.next() else { return Ok(None) };
-        let mut q = *q;
+        let mut q = *guess;
         for _ in 0..MOST_ITERATIONS {
-            let mut at = self.part(&q, &outside)?;
+            let Ok(mut at) = self.part(&q, &outside) else { return Ok(None) };
             at.jacobian.fix(last);
             let elimination = Elimination::<M>::all_but(1, at.jacobian);
             let Some(column) = elimination.free().find(|&column| column != last) else { return Ok(None) };
@@ -192,6 +197,9 @@ where
                 return Ok(None);
             }
             q = self.moved(&q, &step);
+            if self.difference(&q, guess).norm() > reach {
+                return Ok(None);
+            }
             if step.norm() <= self.rounding_error(&q) * real(EQUAL_ULPS) {
                 return Ok(Some(q));
             }
@@ -212,7 +220,8 @@ where
             unknowns: PerUnknown::<M>::from_fn(apart),
             inputs: PerInput::<M>::from_fn(|_| apart(M::U::COUNT)),
         };
-        let at = self.linear(&self.moved(q, &aside))?;
+        // Some equations have no value there.
+        let Ok(at) = self.linear(&self.moved(q, &aside)) else { return Ok(None) };
         let contains = |row: usize, column: usize| !at.jacobian.entry(row, column).is_zero();
         let columns = 0..M::U::COUNT + 1;
         let in_part =

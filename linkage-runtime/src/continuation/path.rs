@@ -70,7 +70,7 @@ where
     ///
     /// # Errors
     /// Those of [`position::newton`]; [`PathError::NoDirection`] and [`PathError::ChangePoint`] if `direction` is
-    /// ambiguous; [`PathError::Lost`] if the path has no tangent; [`InputError::OutOfRange`] for invalid options.
+    /// ambiguous, as where motions touch; [`PathError::Lost`] if the path has no tangent; [`InputError::OutOfRange`] for invalid options.
     pub fn with(
         mechanism: &'a M,
         guess: &M::Coordinates,
@@ -101,6 +101,9 @@ where
                 return Ok(path(place, Some(crossing.q), Resume::AtChangePoint));
             }
             if elimination.regularity() < M::Scalar::default_epsilon().sqrt() {
+                if let Some(touch) = curve.touch(&q, nearly_zero(), &along)? {
+                    return Err(PathError::ChangePoint { mechanism: M::NAME, group: touch.groups.first() });
+                }
                 let rejection = Rejection { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
                 return Err(curve.lost(&q, 0, rejection));
             }
@@ -287,9 +290,10 @@ where
         let shortest = self.curve.rounding_error(&self.place.q) * real(EQUAL_ULPS);
         let mut trial = self.step;
         let mut rejection = Rejection { residual: f64::NAN, regularity: f64::NAN };
+        let mut not_finite = None;
         for number in 0..MOST_TRIALS {
-            match self.attempt(trial, &wanted)? {
-                Ok((end, tried)) => {
+            match self.attempt(trial, &wanted) {
+                Ok(Ok((end, tried))) => {
                     let chord = self.curve.difference(&end.place.q, &self.place.q).norm();
                     if !(self.length + chord).is_finite() {
                         let quantity = "the length of the path";
@@ -298,7 +302,10 @@ where
                     self.curve.mechanism.check_implied(&end.place.q)?;
                     return Ok(self.arrive(end, tried, chord, number > 0));
                 }
-                Err(why) => rejection = why,
+                Ok(Err(why)) => (rejection, not_finite) = (why, None),
+                // A shorter step may stay where the equations have values.
+                Err(error @ PathError::Position(PositionError::NotFinite { .. })) => not_finite = Some(error),
+                Err(error) => return Err(error),
             }
             trial *= real(0.5);
             if trial < shortest {
@@ -306,7 +313,7 @@ where
             }
         }
         self.is_ended = true;
-        Err(self.curve.lost(&self.place.q, MOST_TRIALS, rejection))
+        Err(not_finite.unwrap_or_else(|| self.curve.lost(&self.place.q, MOST_TRIALS, rejection)))
     }
 
     /// Moves to the end of a step that was tried with a length and whose chord is given; `was_rejected` if longer

@@ -68,8 +68,8 @@ where
             return Ok(found.ok_or(rejection).map(|end| (end, tried)));
         }
         // Where motions touch, no shorter step comes any further.
-        let rejected = |guess: M::Scalar| -> Tried<(End<M>, M::Scalar)> {
-            let guess = curve.moved(&from.q, &(from.tangent * guess));
+        let rejected = || -> Tried<(End<M>, M::Scalar)> {
+            let guess = curve.moved(&from.q, &(from.tangent * tried));
             if from.regularity < real(DOUBTFUL)
                 && let Some(end) = self.touch_ahead(&guess, tried)?
             {
@@ -78,7 +78,7 @@ where
             }
             Ok(Err(rejection))
         };
-        let Some(place) = arc.filter(|place| !flips(place)) else { return rejected(tried) };
+        let Some(place) = arc.filter(|place| !flips(place)) else { return rejected() };
         let mut place = place.clone();
         if place.orientation.is_zero() {
             place.orientation = from.orientation;
@@ -104,7 +104,7 @@ where
         }
         match found {
             Some(end) => Ok(Ok((end, tried))),
-            None => rejected(tried),
+            None => rejected(),
         }
     }
 
@@ -168,7 +168,9 @@ where
             let along = back.dot(&tangent);
             let [away, otherwise] = [back.dot(&one), back.dot(&other)];
             let bend = if away.abs() > otherwise.abs() { one * away } else { other * otherwise };
-            place.bend = bend * (along * along).recip();
+            if along.abs() > nearly_zero() {
+                place.bend = bend * (along * along).recip();
+            }
         }
         let tangents = crossing.tangents().iter().map(|tangent| curve.rates(tangent));
         let tangents = Tangents::new(tangents, crossing.is_complete);

@@ -1,7 +1,7 @@
 //! Touches on a path within one group: its motions touch others there, and go on.
 //!
 //! No pivot changes its sign, and no step is stopped: the last pivot is proportional to the square of the distance, and has
-//! a minimum. Every step beside a minimum is searched.
+//! a minimum. The steps before and after each minimum are searched.
 
 use super::Groups;
 use super::path::Path;
@@ -33,36 +33,41 @@ impl<M: Mechanism<V = D<1>>> Touches<M> {
         Self { before: None, last: path.place.clone() }
     }
 
-    /// After a step, the touch beside the place at which the step began.
+    /// After a step, the touch nearest to the place at which the step began.
     pub(crate) fn after_step(&mut self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError> {
         let next = path.place.clone();
-        let found = self.beside(path, Some(&next))?;
+        let found = self.nearest(path, Some(&next))?;
         self.before = Some(core::mem::replace(&mut self.last, next));
         Ok(found)
     }
 
     /// After the last step, the touch before its end.
     pub(crate) fn at_end(&self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError> {
-        self.beside(path, None)
+        self.nearest(path, None)
     }
 
-    /// The touch beside the last place, if its regularity is not larger than that of its neighbours.
-    fn beside(&self, path: &Path<'_, M>, next: Option<&Place<M>>) -> Result<Option<TouchOnPath<M>>, PathError> {
+    /// The touch nearest to the last place, if the regularity has a minimum there.
+    fn nearest(&self, path: &Path<'_, M>, next: Option<&Place<M>>) -> Result<Option<TouchOnPath<M>>, PathError> {
         let (place, curve) = (&self.last, &path.curve);
         let neighbours = [self.before.as_ref(), next];
-        let is_minimum = neighbours.iter().flatten().all(|other| other.regularity >= place.regularity);
-        if !is_minimum || place.regularity > real(LARGEST) || place.regularity <= nearly_zero() {
+        // Of two equal ones the first.
+        let is_minimum = self.before.as_ref().is_none_or(|before| before.regularity > place.regularity)
+            && next.is_none_or(|next| next.regularity >= place.regularity);
+        // At a change point that was found it is zero.
+        if !is_minimum || place.regularity > real(LARGEST) || place.regularity.is_zero() {
             return Ok(None);
         }
         let lengths = neighbours.map(|other| other.map(|other| curve.difference(&other.q, &place.q).norm()));
         let reach = lengths.iter().flatten().fold(M::Scalar::zero(), |most, &length| most.max(length));
         let Some(mut crossing) = curve.touch(&place.q, reach, &place.tangent)? else { return Ok(None) };
-        let is_before = curve.difference(&crossing.q, &place.q).dot(&place.tangent) < M::Scalar::zero();
+        let way = curve.difference(&crossing.q, &place.q);
+        let is_before = way.dot(&place.tangent) < M::Scalar::zero();
         let is_between = lengths[usize::from(!is_before)].is_some();
         let towards = if is_before { place.reversed() } else { place.clone() };
         crossing.put_first(&towards.tangent);
         let tangent = crossing.tangents()[0];
-        let is_on_path = curve.is_arc(&towards, &crossing.q, &tangent, place.regularity, &path.options);
+        let is_on_path = way.norm() <= nearly_zero()
+            || curve.is_arc(&towards, &crossing.q, &tangent, place.regularity, &path.options);
         let found = TouchOnPath { position: crossing.q, groups: crossing.groups, is_before };
         Ok((is_between && is_on_path).then_some(found))
     }

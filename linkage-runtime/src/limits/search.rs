@@ -335,7 +335,7 @@ impl<M: Mechanism> Searched<'_, M> {
                 return Ok(Reached::Limit(Limit::Bracketed { assembled, unbuildable, group }));
             };
             (position, here) = (beyond.position, beyond.input);
-            if (here - input) * (here - assembled) >= M::Scalar::zero() {
+            if here == input || (here > input) == (here > assembled) {
                 return Ok(Reached::Touch);
             }
         }

@@ -1,8 +1,8 @@
 //! Positions at which motions touch, where Newton's method does not come any further.
 //!
-//! Two motions with one tangent differ by the square of the distance h from their touch, and so does the determinant. Steps
-//! of Newton's method that end on the motion on which they began are then shorter than h^2. But the motion is smooth: its
-//! positions before the touch, extrapolated, give it beyond, and the positions on both sides give the touch itself.
+//! At a distance h from their touch two motions with one tangent differ by a multiple of h^2, and the determinant is one, too.
+//! Newton's method stays on a motion only in steps shorter than that. But the motion is smooth: its positions before the
+//! touch, extrapolated, give it beyond, and the positions on both sides give the touch itself.
 
 use super::search::{Found, Sample, Searched};
 use super::walk::Walked;
@@ -11,8 +11,9 @@ use crate::jacobian::{EliminationOf as Elimination, Scales};
 use crate::scalar::arithmetic::*;
 use crate::{Column, Dim, Mechanism, PerUnknown, PositionError, Real, real};
 
-/// The distances from a touch of positions on either side, in the order in which they are found before it, divided by the
-/// range of the search. The interpolation through all of them has an error in the eighth derivative: rounding error.
+/// The distances of positions from the input at which the motion stops, in the order in which they are found, divided by the
+/// range of the search. They are mirrored at the touch. The interpolation through all of them has an error in the eighth
+/// derivative: rounding error.
 const DISTANCES: [f64; 4] = [27.0 / 32768.0, 18.0 / 32768.0, 12.0 / 32768.0, 8.0 / 32768.0];
 
 /// The largest error of an extrapolation, divided by the distance from the positions it begins from: a larger one is another
@@ -23,8 +24,8 @@ const LARGEST_ERROR: f64 = 0.125;
 const BEFORE: usize = DISTANCES.len();
 
 impl<M: Mechanism> Searched<'_, M> {
-    /// A position beyond a touch, where the motion from a regular position, with its input, stops at the input `end`; `None` if
-    /// there is no touch.
+    /// A position beyond the touch at which a motion stops. It comes from a regular position at the input `at`, and stops at
+    /// the input `end`. `None` if there is no touch.
     ///
     /// Motions that only come close to each other turn back, and leave a gap: in its middle the interpolated position does
     /// not satisfy the equations to rounding error.
@@ -36,19 +37,21 @@ impl<M: Mechanism> Searched<'_, M> {
     ) -> Result<Option<Sample<M>>, PositionError> {
         let Some(block) = M::GROUPS.iter().position(|other| other.name == group) else { return Ok(None) };
         let mut here = at;
+        let scales = Scales::of(self.mechanism, &self.mechanism.pose_at(&position)).coordinates.unknowns;
+        let distance = |one: PerUnknown<M>, other: PerUnknown<M>| (one - other).component_div(&scales).norm();
         let mut nodes = [(end, PerUnknown::<M>::zeros()); 2 * BEFORE];
         // The square root of the determinant is proportional to the distance.
         let mut roots = [M::Scalar::zero(); BEFORE];
         for ((node, root), distance) in nodes.iter_mut().zip(&mut roots).zip(DISTANCES) {
             let input = end + (self.reach * real(distance)).copysign(at - end);
             let Walked::Arrived(sample) = self.walk((position, here), input, group)? else { return Ok(None) };
-            *node = (input, M::unknowns(&sample.position));
+            *node = (input, in_turn_of::<M>(M::unknowns(&sample.position), &M::unknowns(&position)));
             *root = sample.determinant(block).sqrt();
-            (position, here) = (sample.position, input);
+            (position, here) = (M::with_unknowns(&sample.position, node.1), input);
         }
         let [.., one, other] = roots;
         let touch = here + (here - nodes[BEFORE - 2].0) * (other / (one - other));
-        if !touch.is_finite() || (touch - here) * (end - at) <= M::Scalar::zero() {
+        if !touch.is_finite() || touch == here || (touch > here) != (end > at) {
             return Ok(None);
         }
         let mut beyond = None;
@@ -58,8 +61,8 @@ impl<M: Mechanism> Searched<'_, M> {
             let Found::Assembled(found) = self.at(&M::with_unknowns(&position, expected), input)? else {
                 return Ok(None);
             };
-            let unknowns = M::unknowns(&found.position);
-            if (unknowns - expected).norm() > (expected - nodes[0].1).norm() * real(LARGEST_ERROR) {
+            let unknowns = in_turn_of::<M>(M::unknowns(&found.position), &expected);
+            if distance(unknowns, expected) > distance(expected, nodes[0].1) * real(LARGEST_ERROR) {
                 return Ok(None);
             }
             nodes[BEFORE + place] = (input, unknowns);
@@ -72,7 +75,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// True if there is a position next to `q` with the same inputs, up to rounding error, where J has lost one rank: N Psi is
-    /// zero, with the left null vector N. Newton's method corrects what is left of the other equations.
+    /// zero, with the left null vector N. Newton's method solves the other equations.
     fn is_position(&self, q: &M::Coordinates) -> bool {
         let pose = self.mechanism.pose_at(q);
         let scales = Scales::of(self.mechanism, &pose);
@@ -85,6 +88,15 @@ impl<M: Mechanism> Searched<'_, M> {
         let noise = elimination.left_null_error(&(terms * ulps(EQUAL_ULPS)));
         height.iter().zip(&noise).all(|(height, &noise)| height.abs() <= noise)
     }
+}
+
+/// Unknowns with each angle in the turn nearest to that of other unknowns: an angle in closed form may jump by a turn.
+fn in_turn_of<M: Mechanism>(unknowns: PerUnknown<M>, others: &PerUnknown<M>) -> PerUnknown<M> {
+    let turn = M::Scalar::two_pi();
+    PerUnknown::<M>::from_fn(|place| {
+        let turns = ((others[place] - unknowns[place]) / turn).round();
+        unknowns[place] + if M::UNKNOWN_ANGLES[place] { turns * turn } else { M::Scalar::zero() }
+    })
 }
 
 /// The polynomial through these nodes, by Lagrange's formula.

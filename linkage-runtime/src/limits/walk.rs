@@ -24,7 +24,8 @@ pub(super) enum Walked<M: Mechanism> {
     Stuck(Stuck<M>),
 }
 
-/// The last position that was found, and an input beyond at which the mechanism was not assembled from there.
+/// The last position that was found, and an input beyond at which the mechanism was not assembled: from there, but for a
+/// motion of too many steps.
 pub(super) struct Stuck<M: Mechanism> {
     pub(super) last: Sample<M>,
     pub(super) unbuildable: M::Scalar,

@@ -124,6 +124,11 @@ impl<'a> Cells<'a> {
                 _ if self.system.has_family(&cell.middle, self.most + 1) => {
                     self.found.has_family = true;
                     left = MOST_WITH_FAMILY;
+                    // A wide cell may have other positions, too.
+                    if let Some(place) = waiting.get_mut(count).filter(|_| !cell.is_within(COARSE_HALF)) {
+                        *place = cell;
+                        count += 1;
+                    }
                 }
                 _ => return Err(Doubt(cell.middle)),
             }

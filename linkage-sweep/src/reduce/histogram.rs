@@ -1,7 +1,7 @@
 //! The distribution of a column.
 
 use linkage_runtime::lanes::Lanes;
-use linkage_runtime::nalgebra::try_convert;
+use linkage_runtime::nalgebra::convert_unchecked;
 
 use super::Reducer;
 use crate::count::{filled, positive};
@@ -121,7 +121,7 @@ impl<M: Lanes> Reducer<M> for Histogram {
 
     fn fold(&self, part: &mut Self::Part, block: &Block<'_, M>) {
         for (_, value) in block.accepted(part.place) {
-            part.add(try_convert(value).unwrap_or(f64::NAN));
+            part.add(convert_unchecked(value));
         }
     }
 

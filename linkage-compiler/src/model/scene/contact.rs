@@ -43,8 +43,11 @@ impl Lowering<'_> {
                 let label = format!("stop on {}", self.text(*on)?);
                 let (range, restitution_node) = ([ends[0]?, ends[1]?], given?);
                 let value = |node: NodeId| self.graph.constant_value(node);
+                // A length is not below zero.
+                let least =
+                    if along.is_some_and(|along| self.graph.is_length(along)) { 0.0 } else { f64::NEG_INFINITY };
                 if let [Some(lower), Some(upper)] = range.map(value)
-                    && lower >= upper
+                    && lower.max(least) >= upper
                 {
                     let region = self.expressions.region(*on);
                     self.diagnostics.error(region, format_args!("the range {lower}..{upper} of this stop is empty"));
@@ -60,6 +63,7 @@ impl Lowering<'_> {
             _ => None,
         }
     }
+
     /// A length never passes an end at zero or below: it stays in -c..c if it stays in 0..c, and so does x of |x|.
     fn above_zero(&mut self, scalar: NodeId, [lower, upper]: [NodeId; 2]) -> (NodeId, [NodeId; 2]) {
         if self.graph.is_length(scalar) && self.graph.constant_value(lower).is_some_and(|lower| lower <= 0.0) {

@@ -234,9 +234,8 @@ impl Lowering<'_> {
     /// -dV/ds / s and s^2 / 2, if V moves with one length s only, and not only with powers from s^2 on, which need no
     /// direction of it.
     fn along_one_length(&mut self, potential: NodeId) -> Option<(NodeId, NodeId)> {
-        let moves = |node| self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol));
         let reachable = self.graph.reachable(&[potential]);
-        let length = reachable.iter().copied().rfind(|&node| self.graph.is_length(node) && moves(node))?;
+        let length = reachable.iter().copied().rfind(|&node| self.graph.is_length(node) && self.moves(node))?;
         let needs_direction = reachable.iter().any(|&node| match self.graph.node(node) {
             Node::Sum { terms, .. } => terms.iter().any(|(_, term)| *term == length),
             Node::Product { factors, .. } => factors.iter().any(|&(base, exponent)| base == length && exponent < 2),
@@ -246,12 +245,14 @@ impl Lowering<'_> {
         let symbol = self.graph.symbol("length");
         let variable = self.graph.variable(symbol);
         let of_variable = self.graph.replace(&[potential], &FxHashMap::from_iter([(length, variable)]))[0];
-        let moves = |node| self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol));
-        if moves(of_variable) || !needs_direction && length != potential {
+        if self.moves(of_variable) || !needs_direction && length != potential {
             return None;
         }
         let slope = self.graph.partial(&[of_variable], symbol)[0];
-        let stiffness = self.graph.partial(&[slope], symbol)[0];
+        // A user function may have no second derivative.
+        let is_external = |&node: &NodeId| matches!(self.graph.node(node), Node::External(..));
+        let is_given = self.graph.reachable(&[slope]).iter().any(is_external);
+        let stiffness = if is_given { variable } else { self.graph.partial(&[slope], symbol)[0] };
         let half_square = self.half_square(length)?;
         let at = |place| FxHashMap::from_iter([(variable, place)]);
         let zero = self.graph.zero();
@@ -320,13 +321,18 @@ impl Lowering<'_> {
     /// Evaluates a scalar that must depend on coordinates.
     pub(super) fn moving(&mut self, id: ExpressionId) -> Option<NodeId> {
         let node = self.scalar(id)?;
-        if !self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol)) {
+        if !self.moves(node) {
             let message =
                 "this is constant: a friction or a stop acts on a coordinate, an output or an expression of these";
             self.diagnostics.error(self.expressions.region(id), message);
             return None;
         }
         Some(node)
+    }
+
+    /// True if an expression depends on a coordinate.
+    fn moves(&self, node: NodeId) -> bool {
+        self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol))
     }
 
     /// The rate of an expression in terms of the rates of the coordinates.
