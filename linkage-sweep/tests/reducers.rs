@@ -5,6 +5,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{bits, go_on, sweep};
+use linkage_rounding::Rounded;
 use linkage_sweep::{Best, Case, Column, Extremes, Histogram, Kind, Ranked, Rejected, Sweep, SweepError, found, given};
 
 type Crank = common::Crank<f64>;
@@ -25,6 +26,16 @@ fn summary(sweep: &Sweep<Crank>) -> String {
         Best::new(5, [found("s"), given("l")], stroke),
     );
     format!("{:?}", sweep.reduce(&reducers, go_on).unwrap())
+}
+
+/// The values are counted, whatever their bounds.
+#[test]
+fn a_histogram_of_numbers_with_bounds() {
+    let histogram = || Histogram::of(found("s"), 0.0, 3.0, 17);
+    let plain = sweep::<f64>().reduce(&histogram(), go_on).unwrap();
+    let bounded = sweep::<Rounded>().reduce(&histogram(), go_on).unwrap();
+    assert!(plain.counts.iter().sum::<u64>() > 1000, "{plain:?}");
+    assert_eq!(bounded, plain);
 }
 
 /// A column of all rows, with their mask.
