@@ -131,10 +131,10 @@ impl<'a, M: Certifiable> Certify<'a, M> {
     /// True if Psi is the same, at all positions, after these full turns of the unknowns and the inputs: the motion that
     /// arrives there is at its start again.
     ///
-    /// Angles with sines only repeat each by itself, those of wheels together: `psi = -theta / 2` after two turns of theta
-    /// and minus one of psi. Where a ratio is one of parameters, their doubles are taken as they are: 0.3 / 0.1 is not 3.
-    /// If parameters have tolerances, the same turns must repeat for all their values. Points and outputs may differ: an output may be the angle
-    /// itself.
+    /// Angles with sines only repeat each by itself, those of wheels together: `psi = -theta / 2` after two turns of
+    /// theta and minus one of psi. Where a ratio is one of parameters, their doubles are taken as they are: 0.3 / 0.1 is
+    /// not 3. If parameters have tolerances, the same turns must repeat for all their values. Points and outputs may
+    /// differ: an output may be the angle itself.
     #[must_use]
     pub fn repeats(&self, unknowns: &Column<i64, M::U>, inputs: &Column<i64, M::V>) -> bool {
         turned::repeats::<M>(self.parameters.as_slice(), unknowns.as_slice(), inputs.as_slice())

@@ -70,7 +70,8 @@ where
     ///
     /// # Errors
     /// Those of [`position::newton`]; [`PathError::NoDirection`] and [`PathError::ChangePoint`] if `direction` is
-    /// ambiguous, as where motions touch; [`PathError::Lost`] if the path has no tangent; [`InputError::OutOfRange`] for invalid options.
+    /// ambiguous, as where motions touch; [`PathError::Lost`] if the path has no tangent; [`InputError::OutOfRange`] for
+    /// invalid options.
     pub fn with(
         mechanism: &'a M,
         guess: &M::Coordinates,

@@ -44,9 +44,10 @@ struct Search<F, T> {
     evaluations: usize,
 }
 
-/// Finds an interval around the first zero between two points, at which the function changes its sign and near which it is
-/// monotonic; `Ok(None)` if there is none. A zero at the first point itself is none, a change of sign at the second is
-/// one, and at a first point with value and slope zero the sign is that of the second. `value` evaluates the function between them, and is not divided below `smallest`.
+/// Finds an interval around the first zero between two points, at which the function changes its sign and near which it
+/// is monotonic; `Ok(None)` if there is none. A zero at the first point itself is none, a change of sign at the second is
+/// one, and at a first point with value and slope zero the sign is that of the second. `value` evaluates the function
+/// between them, and is not divided below `smallest`.
 ///
 /// # Errors
 /// Those of `value`.

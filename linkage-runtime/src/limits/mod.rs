@@ -4,9 +4,9 @@
 //! whose outer joints are D apart. If the group depends on the input v alone, or through linear equations solved before
 //! it, they are of the form a + b cos(k v) + c sin(k v) or a + b v + c v^2, whose zeros have a closed form. Groups that
 //! depend on other groups are searched in steps, refined wherever the determinant of a group has a minimum. Where a group
-//! stops the mechanism, the motion is followed along its tangent, and through a position at which it touches another. A limit
-//! may be a change point, beyond which the motion is on another branch. A search skips inputs at which a group is undetermined
-//! ([`PositionError::Undetermined`]).
+//! stops the mechanism, the motion is followed along its tangent, and through a position at which it touches another. A
+//! limit may be a change point, beyond which the motion is on another branch. A search skips inputs at which a group is
+//! undetermined ([`PositionError::Undetermined`]).
 
 mod search;
 mod touch;

@@ -74,9 +74,8 @@ pub struct TrigonometricPolynomial<const TERMS: usize> {
 }
 
 impl<const TERMS: usize> TrigonometricPolynomial<TERMS> {
-    /// The polynomial of this degree that is `value` on the unit circle, up to a factor 1 or i, and `bounded` with a bound of
-    /// its error; `None` if it is zero
-    /// within rounding error, or not real.
+    /// The polynomial of this degree that is `value` on the unit circle, up to a factor 1 or i, and `bounded` with a
+    /// bound of its error; `None` if it is zero within rounding error, or not real.
     pub fn of(
         degree: usize,
         value: impl Fn(Number) -> Number,

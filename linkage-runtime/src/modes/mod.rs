@@ -20,8 +20,8 @@ use crate::{PositionError, Real};
 /// The number of a position of a group among all its positions at the same inputs.
 ///
 /// The positions are in the order of the first unknown of the group, an angle from -pi to pi or a length, then of the
-/// second, and so on. The number says no more: along a motion the positions change places in this order, so that a motion is followed
-/// by `assemble_near` or a [`Path`](crate::continuation::Path), not by its number.
+/// second, and so on. The number says no more: along a motion the positions change places in this order, so that a motion
+/// is followed by `assemble_near` or a [`Path`](crate::continuation::Path), not by its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum AssemblyMode {
