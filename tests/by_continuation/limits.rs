@@ -1,6 +1,6 @@
 //! The limits of an input: the first dead point on either side.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
@@ -145,4 +145,21 @@ fn touches_and_gaps_within_a_group() {
     println!("{counts:?}");
     assert!(counts.all > 200 && counts.crossed < counts.all / 2, "{counts:?}");
     assert_eq!([counts.wrong, counts.errors], [0; 2]);
+}
+
+/// A gap between two motions that turn into each other: both have the same limit, at a distance from the middle that is
+/// proportional to the fourth root of the difference from a touch.
+#[test]
+fn motions_that_nearly_touch_turn_back() {
+    for difference in [1e-6, 1e-10, 1e-12, 1e-13] {
+        let [a, b, c, d, px, py, e, f, x, y] = [4.5, 3.0, 5.0, 3.5 + difference, 2.5, -1.0, 4.0, 4.5, -2.0, -0.5];
+        let m = Stephenson { a, b, c, d, px, py, e, f, x, y };
+        let modes = m.branches(5.143345347380866).unwrap().map(|mode| (mode.branch, mode.pose.coordinates()));
+        let lower = modes.filter(|(_, q)| f64::abs(q.t) > 3.1).map(|(branch, q)| m.limits(&q, branch).unwrap().lower);
+        let inputs: Vec<f64> = lower.filter_map(|lower| lower.input()).collect();
+        let ratios: Vec<f64> = inputs.iter().map(|input| (input - 1.5 * PI) / difference.powf(0.25)).collect();
+        println!("{difference:e} {inputs:?} {ratios:?}");
+        assert!(ratios.len() == 2 && ratios.iter().all(|ratio| (ratio - 3.086).abs() < 0.06), "{ratios:?}");
+        assert!((inputs[0] - inputs[1]).abs() < 1e-6, "{inputs:?}");
+    }
 }
