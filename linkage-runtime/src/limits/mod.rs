@@ -106,7 +106,7 @@ pub fn limits<M: Mechanism, const B: usize>(
     coordinates: impl Fn(&M::Pose) -> M::Coordinates,
 ) -> Result<Limits<M::Scalar>, PositionError> {
     let position = coordinates(position);
-    let start = M::inputs(&position)[place];
+    let start = M::inputs(&position).as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero);
     let [mut lower, mut upper] = [None; 2];
     for bound in &bounds {
         let not_finite = PositionError::NotFinite { mechanism: M::NAME, quantity: "a limit" };

@@ -280,11 +280,18 @@ impl<M: Mechanism> Searched<'_, M> {
         Ok(None)
     }
 
+    /// The coordinates of a position with this input.
+    pub(super) fn at_input(&self, position: &M::Coordinates, input: M::Scalar) -> M::Coordinates {
+        let mut inputs = M::inputs(position);
+        if let Some(place) = inputs.as_mut_slice().get_mut(self.place) {
+            *place = input;
+        }
+        M::with_inputs(position, inputs)
+    }
+
     /// Computes the position at an input, or finds the group that stops it.
     pub(super) fn at(&self, from: &M::Coordinates, input: M::Scalar) -> Result<Found<M>, PositionError> {
-        let mut inputs = M::inputs(from);
-        inputs[self.place] = input;
-        match (self.assemble)(&M::with_inputs(from, inputs)) {
+        match (self.assemble)(&self.at_input(from, input)) {
             Ok(pose) => {
                 let determinants = self.mechanism.block_determinants(&pose).abs();
                 Ok(Found::Assembled(Sample { input, position: (self.coordinates)(&pose), determinants }))

@@ -68,9 +68,7 @@ impl<M: Mechanism> Searched<'_, M> {
             nodes[BEFORE + place] = (input, unknowns);
             beyond = Some(found);
         }
-        let mut inputs = M::inputs(&position);
-        inputs[self.place] = touch;
-        let middle = M::coordinates(interpolated(&nodes, touch), inputs);
+        let middle = M::with_unknowns(&self.at_input(&position, touch), interpolated(&nodes, touch));
         Ok(beyond.filter(|_| self.is_position(&middle)))
     }
 
