@@ -191,7 +191,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     /// The products of the left null vectors and `right`, L^-1 `right`, in the open rows; zero in the others.
     pub fn left_null_product(&self, right: &Column<T, U>) -> Column<T, U> {
         let reduced = self.forward_substituted(right);
-        self.in_open_rows(|row| reduced[row])
+        self.in_open_rows(|row| reduced.part(row))
     }
 
     /// The largest error of [`left_null_product`](Self::left_null_product) if the components of its argument have
@@ -200,10 +200,12 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
         self.in_open_rows(|row| {
             // The row of the inverse of L.
             let mut inverse = Column::<T, U>::unit(row);
-            for step in (0..self.order.pivots).rev() {
+            for (step, &row) in self.order.rows.iter().take(self.order.pivots).enumerate().rev() {
                 let below = self.order.rows.iter().skip(step + 1);
-                let sum = below.fold(T::zero(), |sum, &below| sum + inverse[below] * self.lower[(below, step)]);
-                inverse[self.order.rows[step]] -= sum;
+                let sum = below.fold(T::zero(), |sum, &below| sum + inverse.part(below) * self.lower.part(below, step));
+                if let Some(entry) = inverse.as_mut_slice().get_mut(row) {
+                    *entry -= sum;
+                }
             }
             inverse.abs().dot(noise)
         })
@@ -270,10 +272,12 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     /// L^-1 `right`, by rows of [J A].
     fn forward_substituted(&self, right: &Column<T, U>) -> Column<T, U> {
         let mut reduced = *right;
-        for step in 0..self.order.pivots {
-            let value = reduced[self.order.rows[step]];
+        for (step, &row) in self.order.rows.iter().take(self.order.pivots).enumerate() {
+            let value = reduced.part(row);
             for &below in self.order.rows.iter().skip(step + 1) {
-                reduced[below] -= self.lower[(below, step)] * value;
+                if let Some(entry) = reduced.as_mut_slice().get_mut(below) {
+                    *entry -= self.lower.part(below, step) * value;
+                }
             }
         }
         reduced

@@ -6,19 +6,15 @@
 
 use super::search::{Found, Sample, Searched};
 use super::walk::Walked;
-use crate::jacobian::ulp::{EQUAL_ULPS, ulps};
-use crate::jacobian::{EliminationOf as Elimination, Scales};
+use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
+use crate::jacobian::{EliminationOf as Elimination, Jacobian};
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, Mechanism, PerUnknown, PositionError, Real, real};
+use crate::{Column, Dim, Matrix, Mechanism, PerUnknown, PositionError, Real, real};
 
 /// The distances of positions from the input at which the motion stops, in the order in which they are found, divided by the
 /// range of the search. They are mirrored at the touch. The interpolation through all of them has an error in the eighth
-/// derivative: rounding error.
+/// derivative, which is less than the rounding error.
 const DISTANCES: [f64; 4] = [27.0 / 32768.0, 18.0 / 32768.0, 12.0 / 32768.0, 8.0 / 32768.0];
-
-/// The largest error of an extrapolation, divided by the distance from the positions it begins from: a larger one is another
-/// motion.
-const LARGEST_ERROR: f64 = 0.125;
 
 /// The positions before a touch.
 const BEFORE: usize = DISTANCES.len();
@@ -27,8 +23,8 @@ impl<M: Mechanism> Searched<'_, M> {
     /// A position beyond the touch at which a motion stops. It comes from a regular position at the input `at`, and stops at
     /// the input `end`. `None` if there is no touch.
     ///
-    /// Motions that only come close to each other turn back, and leave a gap: in its middle the interpolated position does
-    /// not satisfy the equations to rounding error.
+    /// Motions that only come close to each other turn back, and leave a gap: in its middle the equations leave a
+    /// residual that is larger than its rounding error.
     pub(super) fn beyond_touch(
         &self,
         (mut position, at): (M::Coordinates, M::Scalar),
@@ -37,8 +33,6 @@ impl<M: Mechanism> Searched<'_, M> {
     ) -> Result<Option<Sample<M>>, PositionError> {
         let Some(block) = M::GROUPS.iter().position(|other| other.name == group) else { return Ok(None) };
         let mut here = at;
-        let scales = Scales::of(self.mechanism, &self.mechanism.pose_at(&position)).coordinates.unknowns;
-        let distance = |one: PerUnknown<M>, other: PerUnknown<M>| (one - other).component_div(&scales).norm();
         let mut nodes = [(end, PerUnknown::<M>::zeros()); 2 * BEFORE];
         // The square root of the determinant is proportional to the distance.
         let mut roots = [M::Scalar::zero(); BEFORE];
@@ -55,46 +49,44 @@ impl<M: Mechanism> Searched<'_, M> {
             return Ok(None);
         }
         let mut beyond = None;
-        for place in 0..BEFORE {
-            let input = touch + (touch - nodes[BEFORE - 1 - place].0);
-            let expected = interpolated(&nodes[..BEFORE + place], input);
+        let before = nodes;
+        for (count, (mirrored, _)) in before.iter().take(BEFORE).rev().enumerate() {
+            let input = touch + (touch - *mirrored);
+            let expected = interpolated(nodes.get(..BEFORE + count).unwrap_or_default(), input);
             let Found::Assembled(found) = self.at(&M::with_unknowns(&position, expected), input)? else {
                 return Ok(None);
             };
-            let unknowns = in_turn_of::<M>(M::unknowns(&found.position), &expected);
-            if distance(unknowns, expected) > distance(expected, nodes[0].1) * real(LARGEST_ERROR) {
-                return Ok(None);
+            if let Some(node) = nodes.get_mut(BEFORE + count) {
+                *node = (input, in_turn_of::<M>(M::unknowns(&found.position), &expected));
             }
-            nodes[BEFORE + place] = (input, unknowns);
             beyond = Some(found);
         }
         let middle = M::with_unknowns(&self.at_input(&position, touch), interpolated(&nodes, touch));
         Ok(beyond.filter(|_| self.is_position(&middle)))
     }
 
-    /// True if there is a position next to `q` with the same inputs, up to rounding error, where J has lost one rank: N Psi is
-    /// zero, with the left null vector N. Newton's method solves the other equations.
+    /// True if `q`, where J has lost one rank, is a position but for what Newton's method corrects: N Psi is zero to rounding
+    /// error, with the left null vector N, and the residuals are small.
     fn is_position(&self, q: &M::Coordinates) -> bool {
         let pose = self.mechanism.pose_at(q);
-        let scales = Scales::of(self.mechanism, &pose);
-        let mut jacobian = scales.jacobian(self.mechanism, &pose);
-        (0..M::V::COUNT).for_each(|input| jacobian.fix(M::U::COUNT + input));
+        let jacobian = Jacobian { unknowns: self.mechanism.jacobian_unknowns(&pose), inputs: Matrix::zeros() };
         let elimination = Elimination::<M>::all_but(1, jacobian);
-        let [residual, terms] = [self.mechanism.residual(&pose), self.mechanism.residual_scales(&pose)]
-            .map(|values| values.component_div(&scales.residuals));
+        let (residual, terms) = (self.mechanism.residual(&pose), self.mechanism.residual_scales(&pose));
         let height = elimination.left_null_product(&residual);
         let noise = elimination.left_null_error(&(terms * ulps(EQUAL_ULPS)));
-        height.iter().zip(&noise).all(|(height, &noise)| height.abs() <= noise)
+        let is_within = |(value, bound): (&M::Scalar, &M::Scalar)| value.abs() <= *bound;
+        height.iter().zip(&noise).all(is_within)
+            && residual.iter().zip(&(terms * nearly_zero::<M::Scalar>())).all(is_within)
     }
 }
 
 /// Unknowns with each angle in the turn nearest to that of other unknowns: an angle in closed form may jump by a turn.
 fn in_turn_of<M: Mechanism>(unknowns: PerUnknown<M>, others: &PerUnknown<M>) -> PerUnknown<M> {
     let turn = M::Scalar::two_pi();
-    PerUnknown::<M>::from_fn(|place| {
-        let turns = ((others[place] - unknowns[place]) / turn).round();
-        unknowns[place] + if M::UNKNOWN_ANGLES[place] { turns * turn } else { M::Scalar::zero() }
-    })
+    let each = unknowns.iter().zip(others).zip(M::UNKNOWN_ANGLES);
+    PerUnknown::<M>::from_iterator(each.map(|((&unknown, &other), &is_angle)| {
+        if is_angle { unknown + ((other - unknown) / turn).round() * turn } else { unknown }
+    }))
 }
 
 /// The polynomial through these nodes, by Lagrange's formula.

@@ -2,7 +2,7 @@
 
 use super::search::{Found, Sample, Searched};
 use crate::scalar::arithmetic::*;
-use crate::{Mechanism, PositionError, real};
+use crate::{Column, Mechanism, PositionError, real};
 
 /// The first step, divided by the range of the search. Each is at most twice as long as the one before.
 const FIRST: f64 = 1.0 / 1_048_576.0;
@@ -72,7 +72,8 @@ impl<M: Mechanism> Searched<'_, M> {
     /// The position at another input, from the tangent at a position, or from this itself if J is singular.
     pub(super) fn along(&self, from: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError> {
         let pose = self.mechanism.pose_at(&from.position);
-        let by_input = self.mechanism.jacobian_inputs(&pose).column(self.place);
+        let by_inputs = self.mechanism.jacobian_inputs(&pose);
+        let by_input = by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(Column::zeros);
         let unknowns = M::unknowns(&from.position);
         let guess = match self.mechanism.solve_jacobian(&pose, &by_input) {
             Ok(slopes) => unknowns - slopes * (input - from.input),
