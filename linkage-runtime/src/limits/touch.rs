@@ -65,8 +65,8 @@ impl<M: Mechanism> Searched<'_, M> {
         Ok(beyond.filter(|_| self.is_position(&middle)))
     }
 
-    /// True if `q`, where J has lost one rank, is a position but for what Newton's method corrects: N Psi is zero to rounding
-    /// error, with the left null vector N, and the residuals are small.
+    /// True if there is a position at these inputs near `q`. J has lost one rank there, so that Newton's method corrects Psi
+    /// but for N Psi, with the left null vector N: this may be no larger than its rounding error.
     fn is_position(&self, q: &M::Coordinates) -> bool {
         let pose = self.mechanism.pose_at(q);
         let jacobian = Jacobian { unknowns: self.mechanism.jacobian_unknowns(&pose), inputs: Matrix::zeros() };

@@ -15,7 +15,7 @@ const MOST_STEPS: usize = 8;
 
 impl System {
     /// True if more positions than `most`, the number of those that can be apart from each other, are found next to each
-    /// other near these angles, each closed within rounding error, or if a length is free: the group then has infinitely
+    /// other near these angles, each closed up to its rounding error, or if a length is free: the group then has infinitely
     /// many.
     pub fn has_family(&self, near: &PerAngle, most: usize) -> bool {
         let Some(start) = self.closed(near, None).filter(|_| self.shows_all_links()) else { return false };
