@@ -6,6 +6,7 @@
 mod attributes;
 mod expression;
 mod foreign;
+mod fragments;
 mod head;
 mod items;
 mod kind;
@@ -49,6 +50,7 @@ pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism
         }
         None => {}
     }
+    let input = fragments::visible(input);
     let mut mechanisms: Vec<Mechanism> = Vec::new();
     let parser = |stream: ParseStream| {
         while !stream.is_empty() {

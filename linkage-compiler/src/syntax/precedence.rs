@@ -1,6 +1,6 @@
 //! Parsers of expressions. Precedence from low to high: `+ -`, `@`, `* /`, unary `-`, `^`.
 
-use proc_macro2::{Delimiter, Ident, Span, TokenTree};
+use proc_macro2::{Ident, Span, TokenTree};
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token};
@@ -201,13 +201,6 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
             [x, y] => Ok(arena.push(Expression::Vector(x, y), region)),
             _ => Err(syn::Error::new_spanned(region, "expected `(expression)` or a vector `(x, y)`")),
         };
-    }
-    // An `$x:expr` from another macro comes in invisible delimiters.
-    if let Ok(proc_macro2::TokenTree::Group(group)) = stream.fork().parse()
-        && group.delimiter() == Delimiter::None
-    {
-        stream.parse::<proc_macro2::TokenTree>()?;
-        return syn::parse::Parser::parse2(|inner: ParseStream| parse(inner, arena), group.stream());
     }
     let name = stream.call(Ident::parse_any).map_err(|_| missing())?;
     if stream.peek(syn::token::Paren) {
