@@ -2,10 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::Ident;
-
 use crate::diagnostics::Diagnostics;
-use crate::model::Mechanism;
+use crate::model::{Mechanism, TypeName};
 use crate::program::emitted_types;
 
 /// Reports types of one name in different mechanisms; returns the places of those that are not emitted.
@@ -26,7 +24,7 @@ pub(crate) fn find<'a>(
             let text = name.to_string();
             let other = all.iter().enumerate().find(|(other, (other_place, other_mechanism))| {
                 // Of two declarations, the later clashes.
-                let is_declared = declared(other_mechanism).iter().any(|declared| **declared == text);
+                let is_declared = declared(other_mechanism).iter().any(|declared| **declared == *text);
                 *other != own
                     && !clashing.contains(other_place)
                     && types[*other].contains(&text)
@@ -43,7 +41,7 @@ pub(crate) fn find<'a>(
 }
 
 /// The names of types that the user wrote.
-fn declared(mechanism: &Mechanism) -> Vec<&Ident> {
+fn declared(mechanism: &Mechanism) -> Vec<&TypeName> {
     let drivers = mechanism.drivers.iter().map(|driver| &driver.name);
     let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
     std::iter::once(&mechanism.name).chain(drivers).chain(scenes).collect()
@@ -64,7 +62,7 @@ pub(crate) fn within(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
         .filter(|name| owners.get(name.as_str()).is_some_and(|count| *count > 1))
         .collect();
     let own = mechanism.name.clone();
-    let mut clashes = |name: &Ident| {
+    let mut clashes = |name: &TypeName| {
         let clashes = clashing.contains(&name.to_string()) && *name != own;
         if clashes {
             report(name, &own, diagnostics);
@@ -80,7 +78,7 @@ pub(crate) fn within(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
     }
 }
 
-fn report(name: &Ident, of: &Ident, diagnostics: &mut Diagnostics) {
+fn report(name: &TypeName, of: &TypeName, diagnostics: &mut Diagnostics) {
     let message = match name == of {
         true => format!("the type `{name}` is declared twice: choose another name"),
         false => format!("the type `{name}` is emitted for `{of}` as well: choose another name"),

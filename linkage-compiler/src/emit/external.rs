@@ -9,14 +9,15 @@ use quote::{quote, quote_spanned};
 use super::names::ident;
 use crate::graph::ExternalId;
 use crate::lower::Code;
-use crate::model::{ExternalFunction, Mechanism};
+use crate::model::{ExternalFunction, Mechanism, TypeName};
 use crate::program::{Function, Taken, call_of};
+use crate::syntax::identifier;
 
 /// Emits the user functions that some functions call, as associated functions of `of`.
 pub(super) fn calls(
     mechanism: &Mechanism,
     functions: &[Function<Code>],
-    of: &Ident,
+    of: &TypeName,
     root: &TokenStream,
 ) -> Option<TokenStream> {
     let bodies = functions.iter().filter_map(|function| function.body.as_ref());
@@ -34,7 +35,7 @@ fn call(external: &ExternalFunction) -> TokenStream {
     // An argument must not shadow the function.
     let reserved: BTreeSet<String> = path.get_ident().map(ToString::to_string).into_iter().collect();
     let mut taken = Taken::new(&reserved);
-    let arguments: Vec<Ident> = arguments.iter().map(|name| Ident::new(&taken.unique(name), place)).collect();
+    let arguments: Vec<Ident> = arguments.iter().map(|name| identifier(&taken.unique(name), place)).collect();
     let fields: Vec<String> = names.iter().map(|name| name.field.clone()).collect();
     let texts: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
     let docs = attributes.iter().filter(|attribute| attribute.path().is_ident("doc"));

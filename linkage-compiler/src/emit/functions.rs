@@ -7,6 +7,7 @@ use super::expression::argument;
 use super::names::comment;
 use super::places;
 use crate::lower::Code;
+use crate::syntax::identifier;
 use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value, count};
 
 /// Emits a function with its doc comment, at a place; `error` is its error type. Without a body it is a stub.
@@ -16,7 +17,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
     let work = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
     let bound = body.as_ref().and_then(|code| code.bound.as_ref()?.sentence());
     let doc = description(doc, work.unwrap_or_default(), bound);
-    let name = Ident::new(name, place);
+    let name = identifier(name, place);
     let itself = is_method.then(|| quote!(&self));
     let arguments = arguments.iter().map(|Argument { name, passed }| {
         let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(name)));

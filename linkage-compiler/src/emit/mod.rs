@@ -26,7 +26,7 @@ use quote::{quote, quote_spanned};
 
 use crate::derivation::Derivation;
 use crate::lower::Code;
-use crate::model::{Mechanism, Request};
+use crate::model::{Mechanism, Request, TypeName};
 use crate::program::{self, Function, Operations, Program};
 use fpcore::Straight;
 use names::string;
@@ -109,7 +109,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
 /// The `impl` block of a type with its functions, and trait implementations that call them, in an anonymous constant.
 /// `text` documents `NAME`; `error` is the error type.
 fn block(
-    of: &Ident,
+    of: &TypeName,
     (text, error): (&str, &str),
     functions: &[Function<Code>],
     place_of: &dyn Fn(&Function<Code>) -> Span,

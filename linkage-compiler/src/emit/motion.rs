@@ -1,15 +1,15 @@
 //! The types of results that hold a position with its motion.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::names::{comment, ident};
 use super::types::{derives, derives_of_pose};
-use crate::model::Mechanism;
+use crate::model::{Mechanism, TypeName};
 use crate::program::TypeNames;
 
 /// The results of `kinematics` and `full_kinematics`.
-pub(super) fn kinematics(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
+pub(super) fn kinematics(mechanism: &Mechanism, name: &TypeName, types: &TypeNames, root: &TokenStream) -> TokenStream {
     let visibility = &mechanism.visibility;
     let [kinematics, full, pose, rates, accelerations] =
         [&types.kinematics, &types.full_kinematics, &types.pose, &types.rates, &types.accelerations]
@@ -63,7 +63,7 @@ fn moving_quantities(mechanism: &Mechanism, types: &TypeNames, root: &TokenStrea
 }
 
 /// The result of `motion`.
-pub(super) fn motion(mechanism: &Mechanism, name: &Ident, types: &TypeNames, root: &TokenStream) -> TokenStream {
+pub(super) fn motion(mechanism: &Mechanism, name: &TypeName, types: &TypeNames, root: &TokenStream) -> TokenStream {
     let (visibility, derives) = (&mechanism.visibility, derives(mechanism, root));
     let [motion, coordinates, rates, accelerations] =
         [&types.motion, &types.coordinates, &types.rates, &types.accelerations].map(|name| ident(name));

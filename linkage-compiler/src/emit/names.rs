@@ -2,8 +2,10 @@
 
 use proc_macro2::{Ident, Literal, Span};
 
+use crate::syntax::identifier;
+
 pub(super) fn ident(name: &str) -> Ident {
-    Ident::new(name, Span::call_site())
+    identifier(name, Span::call_site())
 }
 
 /// A text as a string literal: raw if it contains characters that need an escape.

@@ -60,7 +60,7 @@ pub(super) fn fields(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     let outputs: Vec<_> = mechanism.outputs.iter().map(|o| &o.name).collect();
     for names in [symbols, functions, points, outputs] {
         for (index, name) in names.iter().enumerate() {
-            if name.is_keyword() {
+            if name.becomes_keyword() {
                 let Name { text, field, .. } = name;
                 diagnostics.error(
                     name.span,

@@ -11,7 +11,7 @@ use super::scope::{Scope, Undeclared};
 use crate::diagnostics::nearest;
 use crate::graph::SymbolId;
 use crate::ids::{CoordinateId, Id, InputId, Table};
-use crate::syntax::{Statement, StatementKind};
+use crate::syntax::{Statement, StatementKind, is_keyword};
 
 /// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
 /// names.
@@ -51,7 +51,7 @@ pub(super) fn complete(
         for name in missing {
             let is_driven = |driver: &Driver| {
                 statements.iter().any(|statement| match &statement.kind {
-                    StatementKind::Drive { name: of, by } => *of == driver.name && by.contains(&name),
+                    StatementKind::Drive { name: of, by } => driver.name == *of && by.contains(&name),
                     _ => false,
                 })
             };
@@ -170,7 +170,7 @@ fn distinguish(mechanism: &mut Mechanism) {
     for names in [symbols.collect::<Vec<_>>(), points.collect(), outputs.collect()] {
         let mut taken = BTreeSet::new();
         for name in names {
-            while name.is_keyword() || !taken.insert(name.field.clone()) {
+            while is_keyword(&name.field) || !taken.insert(name.field.clone()) {
                 name.field.push('_');
             }
         }

@@ -12,7 +12,7 @@ use super::expression::Lowering;
 use super::kind::Kind;
 use super::links::Links;
 use super::mechanism::{Constraint, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
-use super::name::Name;
+use super::name::{Name, TypeName};
 use super::scope::{Scope, Value};
 use super::{check, guess, request, scene};
 use crate::budget::Budget;
@@ -58,7 +58,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     };
     let has_scenes = statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_)));
     lowering.scope.has_time = has_scenes;
-    let mut result = Mechanism::named(attributes, everywhere, visibility, name);
+    let mut result = Mechanism::named(attributes, everywhere, visibility, TypeName::new(&name));
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
     if has_scenes {
@@ -448,7 +448,7 @@ impl Lowering<'_> {
             let unknowns =
                 unknowns.iter().chain(open.iter().filter(|index| !driven.contains(index))).copied().collect();
             result.drivers.push(Driver {
-                name: name.clone(),
+                name: TypeName::new(name),
                 attributes: statement.attributes.clone(),
                 inputs: driven.into(),
                 unknowns,

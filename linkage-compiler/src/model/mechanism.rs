@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::{Ident, Span};
+use proc_macro2::Span;
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 
 use super::chain::Chain;
 use super::kind::Kind;
-use super::name::Name;
+use super::name::{Name, TypeName};
 use super::opened::Opened;
 use super::request::Request;
 use super::scene::{Body, Scene};
@@ -26,7 +26,7 @@ pub struct Mechanism {
     /// The attributes of all emitted items: `cfg` and lint levels.
     pub everywhere: Vec<Attribute>,
     pub visibility: Visibility,
-    pub name: Ident,
+    pub name: TypeName,
     pub graph: Graph,
     pub parameters: Table<ParameterId, Parameter>,
     pub coordinates: Table<CoordinateId, Coordinate>,
@@ -118,7 +118,7 @@ impl Constraint {
 
 /// A choice of independent coordinates.
 pub struct Driver {
-    pub name: Ident,
+    pub name: TypeName,
     pub attributes: Vec<Attribute>,
     pub inputs: Table<InputId, CoordinateId>,
     pub unknowns: Table<UnknownId, CoordinateId>,
@@ -170,7 +170,7 @@ impl Mechanism {
         attributes: Vec<Attribute>,
         everywhere: Vec<Attribute>,
         visibility: Visibility,
-        name: Ident,
+        name: TypeName,
     ) -> Self {
         Self {
             attributes,
@@ -251,7 +251,7 @@ impl Mechanism {
     /// The scenes that a driver drives.
     pub fn scenes_of<'a>(&'a self, driver: &Driver) -> impl Iterator<Item = &'a Scene> {
         let name = driver.name.to_string();
-        self.scenes.iter().filter(move |scene| self.drivers[scene.driver].name == name)
+        self.scenes.iter().filter(move |scene| self.drivers[scene.driver].name == *name)
     }
 
     /// True if no type has the name `T` of the scalar type parameter.
@@ -305,7 +305,7 @@ impl Mechanism {
 }
 
 /// Mechanisms, drivers and scenes that are named `T`, as the scalar type parameter.
-pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &Ident> {
+pub(super) fn misnamed(mechanism: &Mechanism) -> impl Iterator<Item = &TypeName> {
     let drivers = mechanism.drivers.iter().map(|driver| &driver.name);
     let shared = mechanism.is_driven_by_choice().then_some(&mechanism.name);
     let scenes = mechanism.scenes.iter().map(|scene| &scene.name);

@@ -30,7 +30,7 @@ pub use lower::resolve;
 pub use mechanism::{
     Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
 };
-pub use name::Name;
+pub use name::{Name, TypeName};
 pub use opened::{Load, LoadKind, Opened};
 pub use places::Places;
 pub use request::Request;

@@ -1,6 +1,56 @@
-//! Names as the user wrote them, and in snake case as fields.
+//! Names as the user wrote them, in snake case as fields, and as identifiers.
 
-use proc_macro2::{Ident, Span};
+use std::fmt;
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::ToTokens;
+
+use crate::syntax::{identifier, is_keyword};
+
+/// The name of a type: of a mechanism, a driver or a scene. As text it is `type`, as a token `r#type`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TypeName(Ident);
+
+impl TypeName {
+    pub(super) fn new(name: &Ident) -> Self {
+        Self(name.clone())
+    }
+
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.0.span()
+    }
+}
+
+impl fmt::Display for TypeName {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(formatter)
+    }
+}
+
+impl ToTokens for TypeName {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        identifier(&self.to_string(), self.span()).to_tokens(tokens);
+    }
+}
+
+impl PartialEq<str> for TypeName {
+    fn eq(&self, other: &str) -> bool {
+        self.0 == other
+    }
+}
+
+impl PartialEq<&str> for TypeName {
+    fn eq(&self, other: &&str) -> bool {
+        *self == **other
+    }
+}
+
+impl PartialEq<Ident> for TypeName {
+    fn eq(&self, other: &Ident) -> bool {
+        self.0 == *other
+    }
+}
 
 /// A name of the mechanism.
 #[derive(Debug, Clone)]
@@ -18,10 +68,15 @@ impl Name {
         Self { field: snake_case(&text), text, span: ident.span() }
     }
 
-    /// True if the field is a Rust keyword: `Box` is the field `box`.
-    pub(super) fn is_keyword(&self) -> bool {
-        // `gen` is one since edition 2024.
-        self.field == "gen" || syn::parse_str::<Ident>(&self.field).is_err()
+    /// True if the field is a Rust keyword and the name is not: `Box` is the field `box`. The user wrote the name `r#box` as
+    /// such, and so it is in Rust.
+    pub(super) fn becomes_keyword(&self) -> bool {
+        self.field != self.text && is_keyword(&self.field)
+    }
+
+    /// The field as an identifier.
+    pub(crate) fn identifier(&self, place: Span) -> Ident {
+        identifier(&self.field, place)
     }
 }
 

@@ -7,8 +7,10 @@ use syn::{Attribute, Token, Visibility};
 
 use super::attributes;
 use super::expression::Expressions;
+use super::identifier::{can_be_name, plain};
 use super::kind::Bearer;
 use super::statement::{self, Statement};
+use super::tokens::name;
 use crate::diagnostics::{Diagnostics, Region};
 
 /// One `mechanism NAME { … }`.
@@ -38,16 +40,18 @@ pub(super) fn mechanism(stream: ParseStream) -> syn::Result<Mechanism> {
     if keyword != "mechanism" {
         let error = syn::Error::new(keyword.span(), format!("expected `{FORM}`, found `{keyword}`"));
         let is_named = stream.peek(syn::Ident) && stream.peek2(syn::token::Brace);
-        if !is_nameless && !is_named {
+        if !(is_named || is_nameless && can_be_name(&keyword.to_string())) {
             return Err(error);
         }
         diagnostics.push(error);
     }
-    let name: Ident = if is_nameless {
-        keyword
+    let name = if is_nameless {
+        plain(keyword)
+    } else if stream.fork().call(Ident::parse_any).is_ok() {
+        name(stream)?
     } else {
         let found = if stream.is_empty() { keyword.span() } else { stream.span() };
-        stream.parse().map_err(|_| syn::Error::new(found, format!("expected a name: `{FORM}`")))?
+        return Err(syn::Error::new(found, format!("expected a name: `{FORM}`")));
     };
     match before_braces(stream, &name) {
         Some(error) if stream.is_empty() => {

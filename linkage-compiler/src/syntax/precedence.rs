@@ -7,6 +7,7 @@ use syn::{Lit, Token};
 
 use super::expression::{Expression, ExpressionId, Expressions, Operator, Unit};
 use super::foreign;
+use super::identifier::plain;
 use super::tokens::take;
 use crate::diagnostics::Region;
 
@@ -141,7 +142,7 @@ pub(super) fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Resu
         value = read;
     }
     while !stream.peek(Token![..]) && stream.parse::<Option<Token![.]>>()?.is_some() {
-        let method: Ident = stream.call(Ident::parse_any)?;
+        let method = plain(stream.call(Ident::parse_any)?);
         let (mut arguments, close) = arguments(stream, arena)?;
         arguments.insert(0, value);
         let region = arena.region(value).to(close.into());
@@ -202,7 +203,10 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
             _ => Err(syn::Error::new_spanned(region, "expected `(expression)` or a vector `(x, y)`")),
         };
     }
-    let name = stream.call(Ident::parse_any).map_err(|_| missing())?;
+    let name = plain(stream.call(Ident::parse_any).map_err(|_| missing())?);
+    if name == "$crate" {
+        return Err(missing());
+    }
     if stream.peek(syn::token::Paren) {
         let (arguments, close) = arguments(stream, arena)?;
         let region = Region::from(name.span()).to(close.into());

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::parse::ParseStream;
 
 use super::expression::{ExpressionId, Expressions, Unread};
+use super::identifier::{can_be_name, is_keyword, plain};
 use super::kind::{KEYWORDS, StatementKind};
 use super::scene::{self, Body, Scene};
 use crate::diagnostics::Region;
@@ -190,7 +191,10 @@ fn names_with_places(tokens: &[TokenTree]) -> Vec<Unread> {
 /// The token as a name, unless it is a Rust keyword.
 fn name(token: &TokenTree) -> Option<Ident> {
     match token {
-        TokenTree::Ident(name) => syn::parse_str::<Ident>(&name.to_string()).is_ok().then(|| name.clone()),
+        TokenTree::Ident(name) => {
+            let text = name.to_string();
+            (!is_keyword(&text) && can_be_name(&text)).then(|| plain(name.clone()))
+        }
         _ => None,
     }
 }

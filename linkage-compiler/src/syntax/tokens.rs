@@ -5,19 +5,20 @@ use syn::Token;
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 
+use super::identifier::{can_be_name, is_keyword, plain};
 use crate::diagnostics::Region;
 
 pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
-    let is_free = stream.peek(syn::Ident);
     if stream.peek(Token![_]) {
         return Err(stream.error("`_` is not a name: write a name, which may begin with `_`"));
     }
     let name = stream.call(Ident::parse_any).map_err(|error| syn::Error::new(error.span(), "expected a name"))?;
     let text = name.to_string();
-    if !is_free || text.starts_with("r#") {
-        return Err(syn::Error::new(name.span(), format!("`{text}` is a Rust keyword: choose another name")));
+    if is_keyword(&text) || !can_be_name(&text) {
+        let advice = if can_be_name(&text) { format!(", or write `r#{text}`") } else { String::new() };
+        return Err(syn::Error::new(name.span(), format!("`{text}` is a Rust keyword: choose another name{advice}")));
     }
-    Ok(name)
+    Ok(plain(name))
 }
 
 /// Takes a sign of one or two characters, if it comes next.

@@ -10,7 +10,7 @@ use crate::emit::expression::{argument, literal};
 use crate::emit::names::ident;
 use crate::emit::types::field;
 use crate::lower::Code;
-use crate::model::Name;
+use crate::model::{Name, TypeName};
 use crate::program::{Program, Taken};
 
 pub struct Given {
@@ -88,7 +88,7 @@ impl Given {
     }
 
     /// `batch`, which takes columns or numbers.
-    pub fn batch(&self, name: &Ident, branch: &Ident) -> TokenStream {
+    pub fn batch(&self, name: &TypeName, branch: &Ident) -> TokenStream {
         let Self { parameters, start, inputs, of_start, of_inputs, .. } = self;
         let into = quote!(__rt::Into<__rt::Values<'a, T>>);
         quote! {

@@ -10,7 +10,7 @@ use crate::model::Name;
 
 /// A field name with the user's span, so that editors link the field to its declaration.
 pub(in crate::emit) fn field(name: &Name) -> Ident {
-    Ident::new(&name.field, proc_macro2::Span::call_site().located_at(name.span))
+    name.identifier(proc_macro2::Span::call_site().located_at(name.span))
 }
 
 /// The user's doc comment, or `text` if there is none.

@@ -7,7 +7,7 @@ mod derives;
 mod fields;
 mod parameters;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Attribute;
 
@@ -16,7 +16,7 @@ use super::names::{comment, ident};
 use super::pose;
 use crate::derivation::Derivation;
 use crate::lower::Code;
-use crate::model::{Coordinate, Mechanism, Request};
+use crate::model::{Coordinate, Mechanism, Request, TypeName};
 use crate::program::{Modes, Position, Program, TypeNames};
 use branch::branch;
 use by_name::{by_name, conversions, coordinates, described, orders};
@@ -170,7 +170,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
 }
 
 /// A doc comment that says which groups have no closed form, and where their positions come from.
-fn obstacles(position: &Position, name: &Ident) -> Option<TokenStream> {
+fn obstacles(position: &Position, name: &TypeName) -> Option<TokenStream> {
     let (mut sentences, from_guess) = (position.obstacles(), format!("[`{name}::assemble_near`]"));
     sentences.extend(position.modes.iter().map(|Modes { unknowns, most, .. }| {
         let unknowns = unknowns.replace(", ", "`, `");

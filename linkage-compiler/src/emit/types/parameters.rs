@@ -9,7 +9,7 @@ use super::fields::{Fields, docs};
 use crate::emit::expression;
 use crate::emit::names::{comment, ident};
 use crate::graph::Number;
-use crate::model::{Mechanism, Parameter};
+use crate::model::{Mechanism, Parameter, TypeName};
 
 /// `new` is emitted only up to this number of parameters; longer argument lists are hard to read at the call.
 pub(in crate::emit) const MOST_ARGUMENTS: usize = 7;
@@ -17,7 +17,7 @@ pub(in crate::emit) const MOST_ARGUMENTS: usize = 7;
 /// The type of the parameters, with its functions.
 pub(super) fn parameters(
     mechanism: &Mechanism,
-    name: &Ident,
+    name: &TypeName,
     attributes: &[Attribute],
     note: Option<TokenStream>,
     root: &TokenStream,
@@ -109,9 +109,9 @@ pub(in crate::emit) fn default_of(mechanism: &Mechanism, parameter: &Parameter) 
 /// The name of a second scalar type parameter; it differs from all types of the user.
 pub(in crate::emit) fn other_scalar(mechanism: &Mechanism) -> Ident {
     let scenes = mechanism.scenes.iter().map(|scene| &scene.name);
-    let types: Vec<&Ident> = mechanism.drivers.iter().map(|driver| &driver.name).chain(scenes).collect();
+    let types: Vec<&TypeName> = mechanism.drivers.iter().map(|driver| &driver.name).chain(scenes).collect();
     let mut name = "S".to_owned();
-    while types.iter().any(|taken| **taken == name) || mechanism.name == name {
+    while types.iter().any(|taken| **taken == *name) || mechanism.name == *name {
         name.push('S');
     }
     ident(&name)

@@ -10,6 +10,7 @@ use crate::graph::SymbolId;
 use crate::ids::{BodyId, DriverId};
 use crate::model::expression::Lowering;
 use crate::model::mechanism::{Driver, Mechanism};
+use crate::model::name::TypeName;
 
 /// Completes a scene with mistakes for its stub: all that the right scene may have.
 fn complete(scene: &mut Scene, result: &Mechanism) {
@@ -30,7 +31,7 @@ impl Lowering<'_> {
             let messages = self.diagnostics.len();
             let Some(driver) = self.driver_of(&draft, result) else { continue };
             let mut scene = Scene {
-                name: draft.name,
+                name: TypeName::new(&draft.name),
                 attributes: draft.attributes,
                 driver,
                 inertia: None,

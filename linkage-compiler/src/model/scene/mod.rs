@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, Span};
 use syn::Attribute;
 
-use super::name::Name;
+use super::name::{Name, TypeName};
 use super::opened::Paths;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{BodyId, DriverId, InputId, SceneId, SceneParameterId, Table};
@@ -30,7 +30,7 @@ pub struct Body {
 
 /// A mechanism with forces and inertia.
 pub struct Scene {
-    pub name: Ident,
+    pub name: TypeName,
     pub attributes: Vec<Attribute>,
     pub driver: DriverId,
     /// The bodies with inertia; `None` in a static scene.
