@@ -27,7 +27,8 @@ pub(super) fn guessed(mechanism: &Mechanism, driver: &Driver, root: &TokenStream
         Kind::Length | Kind::Number => quote!(pub #name: T,),
     });
     let members: TokenStream = members.collect();
-    quote!(#members scalar: ::core::marker::PhantomData<T>)
+    let scalar = ident(&taken.unique("scalar"));
+    quote!(#members #scalar: ::core::marker::PhantomData<T>)
 }
 
 /// The fields of a pose.

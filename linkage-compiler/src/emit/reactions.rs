@@ -18,7 +18,6 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
     let mut members = Vec::new();
     for &load in &scene.loads {
         let load = &mechanism.opened.loads[load];
-        let field = &load.field;
         let of_implied = if load.is_determined {
             ""
         } else {
@@ -33,7 +32,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
                 let doc = comment(&format!(
                     " The force on {link} in the pin at {joint}, along x and y of the ground.{of_implied}"
                 ));
-                let field = ident(field);
+                let field = ident(&load.field);
                 members.push(quote!(#[doc = #doc] pub #field: #root::__rt::Vector2<T>));
             }
             LoadKind::Guide { coordinate, guide, block, end } => {
@@ -44,8 +43,8 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
                 );
                 let moment =
                     format!(" The moment of {guide} on {block} about {end} in the guide of {coordinate}.{of_implied}");
-                for (part, doc) in [("normal", normal), ("moment", moment)] {
-                    let (field, doc) = (ident(&format!("{field}_{part}")), comment(&doc));
+                for (field, doc) in load.fields().iter().zip([normal, moment]) {
+                    let (field, doc) = (ident(field), comment(&doc));
                     members.push(quote!(#[doc = #doc] pub #field: T));
                 }
             }

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
+use syn::ext::IdentExt;
 
 use super::expression::{argument, literal};
 use super::names::{ident, string};
-use super::types::field;
+use super::types::{field, mark};
 use crate::derivation::{Block, Derivation, Kink};
 use crate::graph::SymbolId;
 use crate::ids::{ColumnId, CoordinateId, Id};
 use crate::lower::Code;
 use crate::model::{Coordinate, Driver, Kind, Mechanism};
-use crate::program::{Derived, Program, SceneSignatures, TypeNames};
+use crate::program::{Derived, Program, SceneSignatures, Taken, TypeNames};
 
 /// `is_finite` and `coordinates` of a pose.
 pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) -> TokenStream {
@@ -100,6 +101,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     // In the order of the fields.
     let order = mechanism.coordinate_order(driver);
     let fields: Vec<Ident> = order.iter().map(|&place| field(&mechanism.coordinates[place].name)).collect();
+    let of_none = mark(&fields);
     // Conversions between (u, v) and coordinates or rates by name.
     let composed = |function: &str, of: &Ident| {
         let function = ident(function);
@@ -107,7 +109,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
             fn #function(unknowns: #by_unknowns, inputs: #by_inputs) -> #of<T> {
                 let ([#(#unknown_fields),*], [#(#input_fields),*]): ([T; #u], [T; #v]) =
                     (unknowns.into(), inputs.into());
-                #of { #(#fields),* }
+                #of { #(#fields,)* #of_none }
             }
         }
     };
@@ -313,7 +315,11 @@ pub(super) fn of_scene(
     let unknowns = *unknowns;
     let [u, v, n, c] = [unknowns, inputs.len(), unknowns + 2 * inputs.len(), scene.contacts.len()].map(literal);
     let names: Vec<Ident> = inputs.iter().map(|input| ident(input)).collect();
-    let input_rates: Vec<Ident> = inputs.iter().map(|input| ident(&format!("{input}_rate"))).collect();
+    // `x_rate` may be a coordinate as well.
+    let fields_as_text = fields.iter().map(|field| field.unraw().to_string()).collect();
+    let mut taken = Taken::new(&fields_as_text);
+    let input_rates: Vec<Ident> =
+        inputs.iter().map(|input| ident(&taken.unique(&format!("{input}_rate")))).collect();
     let prescribed = inputs.ids().map(|at| match driven.contains(&at) {
         true => {
             let driven = ident(&inputs[at]);
@@ -322,6 +328,7 @@ pub(super) fn of_scene(
         false => quote!(__rt::None),
     });
     let prescribed: Vec<TokenStream> = prescribed.collect();
+    let (no_fields, no_inputs) = (mark(fields), mark(&names));
     let (time, drives) = match driven.is_empty() {
         true => (quote!(_t), TokenStream::new()),
         false => (quote!(t), quote!(let drives = self.drives(t);)),
@@ -371,8 +378,8 @@ pub(super) fn of_scene(
             fn parts(state: &#state) -> __rt::StateParts<#coordinates<T>, #inputs_type<T>> {
                 let [#(#fields,)* #(#input_rates),*]: [T; #n] = (*state).into();
                 __rt::StateParts {
-                    q: #coordinates { #(#fields),* },
-                    input_rates: #inputs_type { #(#names: #input_rates),* },
+                    q: #coordinates { #(#fields,)* #no_fields },
+                    input_rates: #inputs_type { #(#names: #input_rates,)* #no_inputs },
                 }
             }
             fn check(&self) -> #nothing {
@@ -416,13 +423,19 @@ fn reactions(signatures: &SceneSignatures, driver: &Driver, fields: &[Ident]) ->
     let names = ["t", "q", "rates", "accelerations", "contact_forces"];
     let [t, q, of_rates, of_accelerations, forces] =
         names.map(|name| argument(name, has_reactions && (name != "contact_forces" || !scene.contacts.is_empty())));
+    let no_fields = mark(fields);
     let value = if has_reactions {
         let unknowns = Members::of(mechanism, &driver.unknowns).fields;
         let inputs = Members::of(mechanism, &driver.inputs).fields;
         let forces = (!scene.contacts.is_empty()).then(|| quote!(&(*contact_forces).into()));
         quote! {
-            let ([#(#unknowns),*], [#(#inputs),*]): ([T; #u], [T; #v]) = (accelerations.unknowns.into(), accelerations.inputs.into());
-            self.reactions_of(t, q, rates, &#accelerations { #(#fields),* }, #forces)
+            // Its own block: a coordinate may have the name of an argument.
+            let accelerations = {
+                let ([#(#unknowns),*], [#(#inputs),*]): ([T; #u], [T; #v]) =
+                    (accelerations.unknowns.into(), accelerations.inputs.into());
+                #accelerations { #(#fields,)* #no_fields }
+            };
+            self.reactions_of(t, q, rates, &accelerations, #forces)
         }
     } else {
         quote!(__rt::Ok(()))

@@ -4,7 +4,7 @@
 //! the origin are the ground. A vector whose length is a coordinate is a guide: its end slides, without turning, on the
 //! link from which it begins.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
@@ -468,7 +468,7 @@ impl Links {
                 self.links[link].name.clone_from(&body.name.field);
             }
         }
-        let mut taken: BTreeMap<String, usize> = self.links.iter().map(|link| (link.name.clone(), 1)).collect();
+        let mut taken: BTreeSet<String> = self.links.iter().map(|link| link.name.clone()).collect();
         for index in 0..self.links.len() {
             if !self.links[index].name.is_empty() {
                 continue;
@@ -483,9 +483,13 @@ impl Links {
             if name.is_empty() {
                 "link".clone_into(&mut name);
             }
-            let count = taken.entry(name.clone()).or_default();
-            *count += 1;
-            self.links[index].name = if *count == 1 { name } else { format!("{name}_{count}") };
+            let mut number = 1;
+            let mut unique = name.clone();
+            while !taken.insert(unique.clone()) {
+                number += 1;
+                unique = format!("{name}_{number}");
+            }
+            self.links[index].name = unique;
         }
     }
 }

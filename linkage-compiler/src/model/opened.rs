@@ -6,7 +6,7 @@ use crate::ids::{BodyId, SceneId, Table};
 /// The force of a joint on a link.
 #[derive(Debug, Clone)]
 pub struct Load {
-    /// The name of its field.
+    /// The name of its field; a guide has one for each part of its force.
     pub field: String,
     pub kind: LoadKind,
     /// The components of the displacement that opens the joint: along x and y; for a guide, along its normal, and the
@@ -20,6 +20,15 @@ pub struct Load {
 }
 
 impl Load {
+    /// The fields of its force in the reactions of a scene.
+    #[must_use]
+    pub fn fields(&self) -> Vec<String> {
+        match self.kind {
+            LoadKind::Pin { .. } => vec![self.field.clone()],
+            LoadKind::Guide { .. } => ["normal", "moment"].map(|part| format!("{}_{part}", self.field)).into(),
+        }
+    }
+
     /// Names the force.
     #[must_use]
     pub fn description(&self) -> String {

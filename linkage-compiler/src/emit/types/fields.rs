@@ -52,6 +52,11 @@ impl<'a> Fields<'a> {
 
     /// The value of the `PhantomData` field.
     pub(super) fn mark(&self) -> Option<TokenStream> {
-        self.names.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData))
+        mark(&self.names)
     }
+}
+
+/// The value of the `PhantomData` field of a struct with these fields.
+pub(in crate::emit) fn mark(names: &[Ident]) -> Option<TokenStream> {
+    names.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData))
 }

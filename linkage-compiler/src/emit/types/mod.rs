@@ -23,7 +23,7 @@ use by_name::{by_name, conversions, coordinates, described, orders};
 use derives::serde_alias;
 pub(super) use derives::{derives, derives_of_pose, serde_of_direction, serde_of_parameters};
 use fields::Fields;
-pub(super) use fields::{docs, field};
+pub(super) use fields::{docs, field, mark};
 use parameters::parameters;
 pub(super) use parameters::{MOST_ARGUMENTS, default_of, docs_of_parameter, other_scalar};
 

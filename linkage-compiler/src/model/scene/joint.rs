@@ -185,9 +185,11 @@ impl Finder<'_, '_> {
             return known;
         }
         let mut load = self.load(site);
-        let same = self.found.iter().filter(|(_, other)| other.field == load.field).count();
-        if same > 0 {
-            load.field = format!("{}_{}", load.field, same + 1);
+        let taken: BTreeSet<String> = self.found.iter().flat_map(|(_, other)| other.fields()).collect();
+        let (first, mut number) = (load.field.clone(), 1);
+        while load.fields().iter().any(|field| taken.contains(field)) {
+            number += 1;
+            load.field = format!("{first}_{number}");
         }
         self.found.push((site, load));
         self.found.len() - 1

@@ -51,22 +51,18 @@ impl ScenePlan<'_, '_, '_> {
         let loads = &self.signatures.mechanism.opened.loads;
         for &load in &self.signatures.scene.loads {
             let Some(place) = derived.opened.iter().position(|&other| other == load) else { continue };
-            let (first, field) = (outputs.len(), &loads[load].field);
-            let names = match loads[load].kind {
-                LoadKind::Pin { .. } => ["x", "y"],
-                LoadKind::Guide { .. } => ["normal", "moment"],
+            let (load, first) = (&loads[load], outputs.len());
+            let parts = match load.kind {
+                LoadKind::Pin { .. } => ["x", "y"].map(|axis| format!("{}_{axis}", load.field)).into(),
+                LoadKind::Guide { .. } => load.fields(),
             };
-            let parts = names.map(|name| format!("{field}_{name}"));
             for (&node, name) in derived.forces[place].iter().zip(&parts) {
                 outputs.push(Output::named(node, name.clone()));
             }
-            match loads[load].kind {
-                LoadKind::Pin { .. } => {
-                    members.push((field.clone(), Expression::vector(results(first..first + 2))));
-                }
-                LoadKind::Guide { .. } => {
-                    members.extend(parts.into_iter().zip(results(first..first + 2)));
-                }
+            let parts = results(first..first + 2);
+            match load.kind {
+                LoadKind::Pin { .. } => members.push((load.field.clone(), Expression::vector(parts))),
+                LoadKind::Guide { .. } => members.extend(load.fields().into_iter().zip(parts)),
             }
         }
         if self.signatures.has_multipliers() {
