@@ -5,6 +5,7 @@ use super::kind::{Kind, bare_symbols};
 use super::lower::lacks_equations;
 use super::mechanism::Mechanism;
 use super::name::Name;
+use super::scope::Value;
 use crate::diagnostics::Region;
 use crate::graph::{NodeId, SymbolId};
 use crate::syntax::{Expression, ExpressionId, Statement, StatementKind, Unit};
@@ -85,6 +86,44 @@ impl Lowering<'_> {
                 let message =
                     format!("the angle of `{body}` is the length `{name}`: write the angle that the body turns by");
                 self.diagnostics.error(region, message);
+            }
+        }
+    }
+
+    /// Reports sums of an angle and a length that are coordinates: an arc has a radius.
+    pub(super) fn kinds_of_sums(&mut self, result: &Mechanism) {
+        let name_of = |symbol: SymbolId| {
+            let coordinate = result.coordinates.iter().find(|coordinate| coordinate.symbol == symbol);
+            coordinate.map(|coordinate| coordinate.name.text.as_str())
+        };
+        for operands in std::mem::take(&mut self.sums) {
+            // The first coordinate of each kind in each operand; an operand with both has its message.
+            let parts: Vec<(ExpressionId, [Option<&str>; 2])> = operands
+                .into_iter()
+                .map(|operand| {
+                    let symbols = match self.values.get(operand.index()) {
+                        Some(Value::Scalar(node)) => bare_symbols(&self.graph, *node),
+                        _ => Vec::new(),
+                    };
+                    let has = |symbol: SymbolId, kind| match kind {
+                        Kind::Length if !self.kinds.contains(&(symbol, Kind::Angle)) => {
+                            self.kinds.contains(&(symbol, kind)) || self.lengths_of_loops.contains(&symbol)
+                        }
+                        _ => self.kinds.contains(&(symbol, kind)),
+                    };
+                    let of =
+                        |kind| symbols.iter().filter(|&&symbol| has(symbol, kind)).find_map(|&symbol| name_of(symbol));
+                    (operand, [Kind::Angle, Kind::Length].map(of))
+                })
+                .filter(|(_, found)| found.iter().flatten().count() == 1)
+                .collect();
+            let angle = parts.iter().find_map(|(operand, [angle, _])| Some((*operand, (*angle)?)));
+            let length = parts.iter().find_map(|(_, [_, length])| *length);
+            if let (Some((operand, angle)), Some(length)) = (angle, length) {
+                let message = format!(
+                    "the angle `{angle}` and the length `{length}` have different units: write `r*{angle}` with a radius `r`"
+                );
+                self.diagnostics.error(self.expressions.region(operand), message);
             }
         }
     }

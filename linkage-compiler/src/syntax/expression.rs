@@ -18,6 +18,12 @@ pub enum Expression {
         digits: String,
         unit: Unit,
     },
+    /// A literal with a suffix that is no unit: another unit, a type, or a name without an operator before it.
+    Suffixed {
+        digits: String,
+        suffix: Ident,
+        is_hexadecimal: bool,
+    },
     Name(Ident),
     Vector(ExpressionId, ExpressionId),
     /// `magnitude @ angle`, where the magnitude may be a vector by components.
@@ -81,6 +87,8 @@ pub struct Expressions {
     slips: Vec<syn::Error>,
     /// The units that are reported.
     units: BTreeSet<String>,
+    /// The keywords of Rust in statements with a syntax error, which may be refused as names.
+    refused: BTreeSet<String>,
 }
 
 impl Expressions {
@@ -99,6 +107,22 @@ impl Expressions {
         if self.units.insert(unit.to_owned()) {
             self.slip(at, unknown_unit(unit, digits));
         }
+    }
+
+    /// Records a keyword of Rust in a statement with a syntax error.
+    pub(super) fn refuse(&mut self, keyword: &Ident) {
+        self.refused.insert(keyword.to_string());
+    }
+
+    /// The keywords of Rust that may be refused as names.
+    pub fn refused(&self) -> impl Iterator<Item = &str> {
+        self.refused.iter().map(String::as_str)
+    }
+
+    /// True if a unit is reported.
+    #[must_use]
+    pub fn has_reported(&self, unit: &str) -> bool {
+        self.units.contains(unit)
     }
 
     /// True if the statement has a mistake so far.
@@ -195,7 +219,7 @@ impl ExpressionId {
 }
 
 /// The message of a suffix that is not a unit of the language.
-fn unknown_unit(suffix: &str, digits: &str) -> String {
+pub(crate) fn unknown_unit(suffix: &str, digits: &str) -> String {
     let is_type = ["f16", "f32", "f64", "f128", "i8", "i16", "i32", "i64", "isize", "u8", "u16", "u32", "u64", "usize"];
     if is_type.contains(&suffix) {
         return format!("a number has no type: write `{digits}`");

@@ -21,6 +21,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
+pub(crate) use expression::unknown_unit;
 pub use expression::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;
 pub use head::Mechanism;
