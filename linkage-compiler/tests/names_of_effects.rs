@@ -28,7 +28,7 @@ fn effects_of_equal_names_are_numbered() {
     laws.dedup();
     // Both laws of the potential have its name.
     assert_eq!(scene.laws.len(), 5);
-    assert_eq!(laws, ["spring 1 on phi", "torque on phi", "spring 2 on phi", "potential"]);
+    assert_eq!(laws, ["spring 1 on phi", "torque on phi", "spring 2 on phi", "potential an expression"]);
     let contacts: Vec<&str> = scene.contacts.iter().map(|contact| contact.label.as_str()).collect();
     assert_eq!(
         contacts,

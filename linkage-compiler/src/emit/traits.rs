@@ -13,7 +13,7 @@ use crate::graph::SymbolId;
 use crate::ids::{ColumnId, CoordinateId, Id};
 use crate::lower::Code;
 use crate::model::{Coordinate, Driver, Kind, Mechanism};
-use crate::program::{Derived, Program, SceneSignatures, TypeNames};
+use crate::program::{Access, Derived, Function, Program, SceneSignatures, TypeNames};
 
 /// `is_finite` and `coordinates` of a pose.
 pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) -> TokenStream {
@@ -93,7 +93,8 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     let [u, v, g] = [u, v, program.position.blocks].map(literal);
     let groups = derivation.map(groups).unwrap_or_default();
     let assembly = program.position.is_closed.then(|| assembly(program));
-    let branches = program.functions.iter().any(|function| function.name == "branches").then(|| branches(program));
+    let is_list = |function: &Function<Code>| function.name == "branches" && function.access != Access::Deprecated;
+    let branches = program.functions.iter().any(is_list).then(|| branches(program));
     let by_unknowns = quote!(__rt::Column<T, __rt::D<#u>>);
     let by_inputs = quote!(__rt::Column<T, __rt::D<#v>>);
     let [square, mixed] = [&u, &v].map(|columns| quote!(__rt::Matrix<T, __rt::D<#u>, __rt::D<#columns>>));
