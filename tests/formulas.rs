@@ -67,7 +67,7 @@ fn of_numbers(function: &str, arguments: &str) -> Option<f64> {
     })
 }
 
-/// What is wrong with a formula: a function of numbers that is rational, a modulus of a number, or a factor 0 or 1.
+/// The fault of a formula: a function of numbers that is rational, a modulus of a number, or a factor 0 or 1.
 fn fault(formula: &str) -> Option<String> {
     for (open, _) in formula.match_indices('(') {
         let name: String = formula[..open].chars().rev().take_while(|c| c.is_alphanumeric() || *c == '√').collect();

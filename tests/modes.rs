@@ -301,7 +301,7 @@ fn sliders_on_axes() {
     is_whole!(ThreeLoops, ThreeLoopsCoordinates, ThreeLoopsBranch, [p q r t w], [x y s]);
 }
 
-/// Where positions cannot be listed, `branches` says why: a warning at the call, and an error.
+/// `branches` of a mechanism whose positions cannot be listed says why: a warning at the call, and an error.
 #[test]
 fn branches_that_cannot_be_listed() {
     // A platform on three legs, by the squares of its distances.

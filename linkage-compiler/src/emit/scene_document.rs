@@ -9,6 +9,7 @@ use super::names::string;
 use super::work::Work;
 use crate::derivation::{ContactFormula, Derivation, Reactions, Scene};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::ids::{InputId, Table};
 use crate::model::{self, Driver, LoadKind, Mechanism};
 use crate::notation::{Formula, Name, Printer};
 
@@ -52,12 +53,15 @@ pub(super) fn of_scene(
         }
     }
     let mut effects = Vec::new();
-    for (label, forces) in &derived.parts {
+    let is_zero = |forces: &Table<InputId, NodeId>| forces.iter().all(|&force| graph.is_zero(force));
+    for (place, (label, forces)) in derived.parts.iter().enumerate() {
         let equations = document.forces(graph, forces.iter().copied());
-        // The inertia of a body that no force moves has no part in Q, but an effect is shown.
-        let is_shown =
-            equations.is_some() || label.strip_prefix("body ").is_none_or(|body| is_heavy(mechanism, scene, body));
-        if is_shown {
+        // An effect without a part in Q is shown, with its other laws or once; the inertia of a body is not.
+        let is_other =
+            |(at, (other, forces)): (usize, &(String, _))| other == label && (!is_zero(forces) || at < place);
+        let is_alone = !derived.parts.iter().enumerate().any(is_other);
+        let is_effect = || label.strip_prefix("body ").is_none_or(|body| is_heavy(mechanism, scene, body));
+        if equations.is_some() || (is_alone && is_effect()) {
             let (label, equations) = (string(label), equations.unwrap_or_else(|| document.no_forces()));
             effects.push(quote!(Effect { name: #label, forces: #equations }));
         }
@@ -192,7 +196,7 @@ struct Contacts<'a> {
 struct ContactNodes {
     /// f ds/dv for each input.
     forces: Vec<NodeId>,
-    /// What |f| or s is compared with.
+    /// The limit of |f|, or the ends of s.
     bounds: Vec<NodeId>,
     /// The factor of s' at an impact.
     rebound: Option<NodeId>,

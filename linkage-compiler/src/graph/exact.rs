@@ -17,7 +17,7 @@ impl Graph {
         }
         let numbers: Option<Vec<Number>> = arguments.iter().map(|&argument| self.as_number(argument)).collect();
         let numbers = numbers?;
-        // A number that is the sum of two roundings is not exact.
+        // A float has rounding errors.
         if numbers.iter().any(|number| matches!(number, Number::Float(_))) {
             return None;
         }

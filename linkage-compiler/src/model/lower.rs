@@ -29,7 +29,7 @@ const LARGEST: usize = 25_000;
 /// so that a stub with the right names can be emitted.
 pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnostics) {
     let syntax::Mechanism { attributes, visibility, name, statements, expressions, diagnostics: mut own } = tree;
-    // A keyword that is refused as a name is one mistake, wherever the name stands.
+    // A keyword as a name is one mistake, wherever the name stands.
     own.keep_first(|message| message.ends_with("is a Rust keyword: choose another name"));
     let diagnostics = &mut own;
     const EVERYWHERE: [&str; 5] = ["cfg", "allow", "warn", "deny", "forbid"];
@@ -62,7 +62,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     };
     let has_scenes = statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_)));
     lowering.scope.has_time = has_scenes;
-    expressions.refused().for_each(|keyword| lowering.scope.excuse(keyword));
+    expressions.keywords().for_each(|keyword| lowering.scope.excuse(keyword));
     let mut result = Mechanism::named(attributes, everywhere, visibility, name);
     lowering.name_others(&result.name, &statements);
     let mut roles = Roles::default();

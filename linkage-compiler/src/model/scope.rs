@@ -52,8 +52,8 @@ pub(super) struct Scope {
     values: BTreeSet<String>,
     /// True if `t` is time, since there are scenes.
     pub(super) has_time: bool,
-    /// True if the statement has a message of time or of a rate.
-    has_reported_motion: bool,
+    /// The messages of time and of rates that the statement has.
+    reported_motion: BTreeSet<String>,
     /// The names of bodies, drivers and scenes, and the message of their use as a value.
     pub(super) others: BTreeMap<String, String>,
 }
@@ -148,12 +148,12 @@ impl Scope {
 
     /// Begins another statement.
     pub(super) fn begin_statement(&mut self) {
-        self.has_reported_motion = false;
+        self.reported_motion.clear();
     }
 
     /// Reports time or a rate where there is no motion, once in a statement.
     pub(super) fn report_motion(&mut self, what: &str, at: impl Into<Region>, diagnostics: &mut Diagnostics) {
-        if !std::mem::replace(&mut self.has_reported_motion, true) {
+        if self.reported_motion.insert(what.to_owned()) {
             let message = format!(
                 "{what} can be used only in the laws of a scene: write the expression there, as in `torque … on phi;`"
             );

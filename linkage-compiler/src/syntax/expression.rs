@@ -87,8 +87,8 @@ pub struct Expressions {
     slips: Vec<syn::Error>,
     /// The units that are reported.
     units: BTreeSet<String>,
-    /// The keywords of Rust in statements with a syntax error, which may be refused as names.
-    refused: BTreeSet<String>,
+    /// The keywords of Rust in statements with a syntax error, where they may be meant as names.
+    keywords: BTreeSet<String>,
 }
 
 impl Expressions {
@@ -110,13 +110,13 @@ impl Expressions {
     }
 
     /// Records a keyword of Rust in a statement with a syntax error.
-    pub(super) fn refuse(&mut self, keyword: &Ident) {
-        self.refused.insert(keyword.to_string());
+    pub(super) fn add_keyword(&mut self, keyword: &Ident) {
+        self.keywords.insert(keyword.to_string());
     }
 
-    /// The keywords of Rust that may be refused as names.
-    pub fn refused(&self) -> impl Iterator<Item = &str> {
-        self.refused.iter().map(String::as_str)
+    /// The keywords of Rust that may be meant as names, each with its message.
+    pub fn keywords(&self) -> impl Iterator<Item = &str> {
+        self.keywords.iter().map(String::as_str)
     }
 
     /// True if a unit is reported.

@@ -292,8 +292,8 @@ fn other_notation(stream: ParseStream, arena: &mut Expressions) -> syn::Result<O
     if stream.peek(Token![|]) {
         return bars(stream, arena);
     }
-    let is_refused = stream.peek(Token![match]) && arena.refused().any(|keyword| keyword == "match");
-    if stream.peek(Token![if]) || (stream.peek(Token![match]) && !is_refused) {
+    let is_name = stream.peek(Token![match]) && arena.keywords().any(|keyword| keyword == "match");
+    if stream.peek(Token![if]) || (stream.peek(Token![match]) && !is_name) {
         return foreign::condition(stream, arena).map(Some);
     }
     foreign::path(stream, arena)

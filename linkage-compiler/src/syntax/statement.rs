@@ -74,7 +74,7 @@ fn statement(stream: ParseStream, expressions: &mut Expressions, diagnostics: &m
             }
             expressions.truncate(before);
             let tokens = statement_tokens(stream);
-            recovery::refuse_keywords(&tokens, expressions);
+            recovery::record_keywords(&tokens, expressions);
             recovery::of_keyword(&word, &tokens, expressions)
         }
     }
