@@ -124,6 +124,12 @@ impl Lowering<'_> {
     }
 
     fn lower(&mut self, expression: &Expression, region: Region) -> Value {
+        // The expression has the next index.
+        if let (Expression::Number { digits, .. }, Some(suffix)) =
+            (expression, self.expressions.suffix(self.values.len()))
+        {
+            return self.suffixed(digits, &suffix.word, suffix.is_hexadecimal, region);
+        }
         match expression {
             Expression::Number { digits, unit } => match self.number(digits, region) {
                 Some(number) if *unit == Unit::Degrees => {
@@ -136,9 +142,6 @@ impl Lowering<'_> {
                     Value::Poison
                 }
             },
-            Expression::Suffixed { digits, suffix, is_hexadecimal } => {
-                self.suffixed(digits, suffix, *is_hexadecimal, region)
-            }
             Expression::Name(name) if name == "pi" => Value::Scalar(self.graph.pi()),
             Expression::Name(name) if self.is_law && name == "t" => self.time.map_or(Value::Poison, Value::Scalar),
             Expression::Name(name) if self.is_default && !self.scope.is_declared(name) => {

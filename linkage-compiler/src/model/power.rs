@@ -13,7 +13,8 @@ impl Lowering<'_> {
             return Value::Poison;
         }
         let (Some(base), Some(node)) = (self.scalar(base), self.scalar(exponent)) else { return Value::Poison };
-        if self.has_unit(exponent, "an exponent") {
+        // A reported product with a name.
+        if self.expressions.suffix(exponent.index()).is_some() || self.has_unit(exponent, "an exponent") {
             return Value::Poison;
         }
         let region = self.expressions.region(exponent);

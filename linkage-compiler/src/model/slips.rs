@@ -17,7 +17,9 @@ impl Lowering<'_> {
     /// The text of a plain number, and its value, if the expression is one.
     fn plain(&self, id: ExpressionId) -> Option<(String, f64, Unit)> {
         match self.expressions.get(id) {
-            Expression::Number { digits, unit } => Some((digits.clone(), digits.parse().ok()?, *unit)),
+            Expression::Number { digits, unit } if self.expressions.suffix(id.index()).is_none() => {
+                Some((digits.clone(), digits.parse().ok()?, *unit))
+            }
             Expression::Negate(inner) => {
                 let (digits, value, unit) = self.plain(*inner)?;
                 Some((format!("-{digits}"), -value, unit))

@@ -1,6 +1,6 @@
 //! Expressions, in an arena in which operands have smaller ids than the expressions that use them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, Span};
 
@@ -18,12 +18,6 @@ pub enum Expression {
         digits: String,
         unit: Unit,
     },
-    /// A literal with a suffix that is no unit: another unit, a type, or a name without an operator before it.
-    Suffixed {
-        digits: String,
-        suffix: Ident,
-        is_hexadecimal: bool,
-    },
     Name(Ident),
     Vector(ExpressionId, ExpressionId),
     /// `magnitude @ angle`, where the magnitude may be a vector by components.
@@ -39,6 +33,14 @@ pub enum Expression {
     Broken,
     /// An expression with a syntax error: its names.
     Unread(Vec<Unread>),
+}
+
+/// The suffix of a literal that is no unit: another unit, a type, or a name without an operator before it.
+#[derive(Debug)]
+pub struct Suffix {
+    pub word: Ident,
+    /// True if the literal is hexadecimal.
+    pub is_hexadecimal: bool,
 }
 
 /// The unit of a literal.
@@ -85,6 +87,8 @@ pub struct Expressions {
     pub(super) is_angle: bool,
     /// Mistakes that are read as what is meant.
     slips: Vec<syn::Error>,
+    /// The suffixes of numbers that are no units.
+    suffixes: BTreeMap<usize, Suffix>,
     /// The units that are reported.
     units: BTreeSet<String>,
     /// The keywords of Rust in statements with a syntax error, where they may be meant as names.
@@ -107,6 +111,18 @@ impl Expressions {
         if self.units.insert(unit.to_owned()) {
             self.slip(at, unknown_unit(unit, digits));
         }
+    }
+
+    /// Adds a number with a suffix that is no unit.
+    pub(super) fn push_suffixed(&mut self, digits: String, suffix: Suffix, region: Region) -> ExpressionId {
+        self.suffixes.insert(self.nodes.len(), suffix);
+        self.push(Expression::Number { digits, unit: Unit::None }, region)
+    }
+
+    /// The suffix of a number, if it is no unit.
+    #[must_use]
+    pub fn suffix(&self, index: usize) -> Option<&Suffix> {
+        self.suffixes.get(&index)
     }
 
     /// Records a keyword of Rust in a statement with a syntax error.
@@ -177,6 +193,7 @@ impl Expressions {
     /// Removes the expressions of a statement with a syntax error.
     pub(super) fn truncate(&mut self, length: usize) {
         self.nodes.truncate(length);
+        self.suffixes.split_off(&length);
     }
 
     /// The expression as written.

@@ -22,7 +22,7 @@ use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
 pub(crate) use expression::unknown_unit;
-pub use expression::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
+pub use expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;
 pub use head::Mechanism;
 pub use kind::{KEYWORDS, StatementKind};

@@ -5,7 +5,7 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token};
 
-use super::expression::{Expression, ExpressionId, Expressions, Operator, Unit};
+use super::expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit};
 use super::foreign;
 use super::tokens::take;
 use crate::diagnostics::Region;
@@ -260,13 +260,13 @@ fn number(stream: ParseStream, literal: &Lit, arena: &mut Expressions) -> syn::R
         None if suffix.is_empty() => Unit::None,
         None => {
             let is_hexadecimal = text.to_lowercase().starts_with("0x");
-            let mut suffix: Ident = syn::parse::Parser::parse_str(Ident::parse_any, &suffix)?;
-            suffix.set_span(literal.span());
+            let mut word: Ident = syn::parse::Parser::parse_str(Ident::parse_any, &suffix)?;
+            word.set_span(literal.span());
             if stream.peek(syn::token::Paren) {
-                arena.slip(region, format!("expected an operator: write `{digits}*{suffix}(…)` for a product"));
-                return name_or_call(stream, suffix, arena);
+                arena.slip(region, format!("expected an operator: write `{digits}*{word}(…)` for a product"));
+                return name_or_call(stream, word, arena);
             }
-            return Ok(arena.push(Expression::Suffixed { digits, suffix, is_hexadecimal }, region));
+            return Ok(arena.push_suffixed(digits, Suffix { word, is_hexadecimal }, region));
         }
     };
     Ok(arena.push(Expression::Number { digits, unit }, region))
