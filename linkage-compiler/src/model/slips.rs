@@ -1,13 +1,13 @@
 //! Slips that are valid formulas: degrees without a unit, a unit where none may stand, an angle that is a length.
 
 use super::expression::Lowering;
-use super::kind::{Kind, bare_symbols};
+use super::kind::{Kind, bare_symbols, bare_terms};
 use super::lower::lacks_equations;
 use super::mechanism::Mechanism;
 use super::name::Name;
 use super::scope::Value;
 use crate::diagnostics::Region;
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{NodeId, Number, SymbolId};
 use crate::syntax::{Expression, ExpressionId, Statement, StatementKind, Unit};
 
 /// A number above it is more than a turn in radians.
@@ -92,41 +92,49 @@ impl Lowering<'_> {
         }
     }
 
-    /// Reports sums of an angle and a length that are coordinates: an arc has a radius.
+    /// Reports sums of an angle and a length that are coordinates: an arc has a radius, which may be a number.
     pub(super) fn kinds_of_sums(&mut self, result: &Mechanism) {
         let name_of = |symbol: SymbolId| {
             let coordinate = result.coordinates.iter().find(|coordinate| coordinate.symbol == symbol);
             coordinate.map(|coordinate| coordinate.name.text.as_str())
         };
         for operands in std::mem::take(&mut self.sums) {
-            // The first coordinate of each kind in each operand; an operand with both has its message.
-            let parts: Vec<(ExpressionId, [Option<&str>; 2])> = operands
-                .into_iter()
-                .map(|operand| {
-                    let symbols = match self.values.get(operand.index()) {
-                        Some(Value::Scalar(node)) => bare_symbols(&self.graph, *node),
-                        _ => Vec::new(),
-                    };
-                    let has = |symbol: SymbolId, kind| match kind {
-                        Kind::Length if !self.kinds.contains(&(symbol, Kind::Angle)) => {
-                            self.kinds.contains(&(symbol, kind)) || self.lengths_of_loops.contains(&symbol)
-                        }
-                        _ => self.kinds.contains(&(symbol, kind)),
-                    };
-                    let of =
-                        |kind| symbols.iter().filter(|&&symbol| has(symbol, kind)).find_map(|&symbol| name_of(symbol));
-                    (operand, [Kind::Angle, Kind::Length].map(of))
-                })
-                .filter(|(_, found)| found.iter().flatten().count() == 1)
-                .collect();
-            let angle = parts.iter().find_map(|(operand, [angle, _])| Some((*operand, (*angle)?)));
-            let length = parts.iter().find_map(|(_, [_, length])| *length);
-            if let (Some((operand, angle)), Some(length)) = (angle, length) {
+            let mut found: [Vec<(ExpressionId, Number, &str)>; 2] = Default::default();
+            for operand in operands {
+                let Some(Value::Scalar(node)) = self.values.get(operand.index()) else { continue };
+                let terms = bare_terms(&self.graph, *node);
+                let kinds = terms.iter().map(|(_, symbol)| self.length_or_angle(*symbol));
+                let kinds: Vec<Option<Kind>> = kinds.collect();
+                // An operand with both has its own message.
+                if kinds.contains(&Some(Kind::Length)) && kinds.contains(&Some(Kind::Angle)) {
+                    continue;
+                }
+                for ((number, symbol), kind) in terms.into_iter().zip(kinds) {
+                    let (Some(kind), Some(name)) = (kind, name_of(symbol)) else { continue };
+                    found[usize::from(kind == Kind::Length)].push((operand, number.absolute(), name));
+                }
+            }
+            let [angles, lengths] = found;
+            let pair = angles.iter().find_map(|&(operand, number, angle)| {
+                let (_, _, length) = lengths.iter().find(|(_, other, _)| *other == number)?;
+                Some((operand, angle, *length))
+            });
+            if let Some((operand, angle, length)) = pair {
                 let message = format!(
                     "the angle `{angle}` and the length `{length}` have different units: write `r*{angle}` with a radius `r`"
                 );
                 self.diagnostics.error(self.expressions.region(operand), message);
             }
+        }
+    }
+
+    /// The kind of a name that is used as a length or as an angle.
+    fn length_or_angle(&self, symbol: SymbolId) -> Option<Kind> {
+        let has = |kind| self.kinds.contains(&(symbol, kind));
+        match () {
+            () if has(Kind::Angle) => Some(Kind::Angle),
+            () if has(Kind::Length) || self.lengths_of_loops.contains(&symbol) => Some(Kind::Length),
+            () => None,
         }
     }
 

@@ -142,7 +142,7 @@ impl fmt::Display for CertifyError {
             Self::Undecided { mechanism, input } => write!(
                 f,
                 "the motion of {mechanism} cannot be certified between the inputs {:?} and {:?}, though no group is nearly \
-                 singular there: the bounds are too wide, as next to a pole, for angles beyond 1e5 rad or with wide tolerances",
+                 singular there: the bounds are too wide, as next to a pole or for angles beyond 1e5 rad",
                 input.least(),
                 input.most()
             ),

@@ -62,8 +62,9 @@ pub const ENGINE: &[Mistake] = &[
     ("keyword_as_function", "(lift, slope, bend, change);\n        let rod = l@psi;\n        loop r@phi + rod = (x, 0);\n\n        point Middle = r@phi + rod / 2;\n        output valve = lift(phi, 0.1);", "(«match», slope, bend, change);\n        let rod = l@psi;\n        loop r@phi + rod = (x, 0);\n\n        point Middle = r@phi + rod / 2;\n        output valve = match(phi, 0.1);"),
     // Units of sums.
     ("length_plus_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = x + «phi»;"),
-    ("length_minus_half_an_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1) + 2*x - «phi/2»;"),
-    ("length_that_is_an_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); implied equation x = «2*psi»;"),
+    ("length_minus_half_an_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1) + 2*x - «2*phi»;"),
+    ("length_that_is_an_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); implied equation x = «psi»;"),
+    ("length_plus_angle_by_a_number", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = x + 0.5*phi;"),
     ("length_plus_arc", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = x + r*phi;"),
     ("angle_plus_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = phi + psi;"),
     // Requests.
