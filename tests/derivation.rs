@@ -8,6 +8,7 @@ use linkage_gallery::cam_rocker::*;
 use linkage_gallery::five_bar::*;
 use linkage_gallery::five_bar_scenes::*;
 use linkage_gallery::four_bar::*;
+use linkage_gallery::four_bar_effects;
 use linkage_gallery::geared_five_bar::*;
 use linkage_gallery::jansen::*;
 use linkage_gallery::norton_four_bar::*;
@@ -68,6 +69,10 @@ snapshots! {
     scene_in_text: Turning::DERIVATION.to_text();
     scene_in_latex: Turning::DERIVATION.to_latex();
     scene_of_two_inputs: Free::DERIVATION.to_text();
+    scene_with_all_effects_in_text: section(&four_bar_effects::Everything::DERIVATION.to_text(), "Equations of motion");
+    scene_with_all_effects_in_latex: section(&four_bar_effects::Everything::DERIVATION.to_latex(), "Equations of motion");
+    scene_with_a_drive: section(&four_bar_effects::Driven::DERIVATION.to_text(), "Equations of motion");
+    scene_with_frictions_by_reactions: section(&Worn::DERIVATION.to_text(), "Equations of motion");
 }
 
 // The forces of pins and guides, with frictions, and with one that acts on a link.

@@ -241,7 +241,8 @@ mod fragments {
         assert_eq!(sum.r#type, -2.0);
         let outputs = sum.motion(&SumCoordinates { v: 6.0, u: 2.0 }, 0.0, 0.0).unwrap().outputs;
         assert_eq!([outputs.quotient.value, outputs.power.value], [2.0 / 3.0, 2.0_f64.sin().powi(2)]);
-        let outputs = Difference::default().motion(&DifferenceCoordinates { v: 6.0, u: 2.0 }, 0.0, 0.0).unwrap().outputs;
+        let outputs =
+            Difference::default().motion(&DifferenceCoordinates { v: 6.0, u: 2.0 }, 0.0, 0.0).unwrap().outputs;
         assert_eq!(outputs.power.value, 16.0);
     }
 }

@@ -1,6 +1,6 @@
 //! Positions by number: all positions of groups of two and three loops.
 
-use linkage::{AssemblyMode, Branches, PositionError};
+use linkage::{AssemblyMode, Branches, PositionError, linkage};
 use linkage_gallery::double_butterfly::*;
 use linkage_gallery::slider_triad::*;
 use linkage_gallery::stephenson_far::*;
@@ -10,6 +10,44 @@ use linkage_gallery::three_rrr::*;
 use linkage_gallery::two_triads::*;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
+
+linkage! {
+    /// The robot 3-RPR by the lengths of its legs: three distances give a position and an angle.
+    #[derive(Debug, Clone)]
+    mechanism Platform {
+        param b = 2, c = 1.5, delta = 1, a2x = 5, a3x = 2, a3y = 4;
+        input l1, l2, l3;
+        unknown x, y, phi;
+        equation norm((x, y)) = l1;
+        equation norm((x, y) + b@phi - (a2x, 0)) = l2;
+        equation norm((x, y) + c@(phi + delta) - (a3x, a3y)) = l3;
+    }
+
+    /// Levers at one height, each with two positions.
+    #[derive(Debug, Clone)]
+    mechanism Comb {
+        param r = 1;
+        input h;
+        unknown a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16;
+        equation r * sin(a0) = h;
+        equation r * sin(a1) = h;
+        equation r * sin(a2) = h;
+        equation r * sin(a3) = h;
+        equation r * sin(a4) = h;
+        equation r * sin(a5) = h;
+        equation r * sin(a6) = h;
+        equation r * sin(a7) = h;
+        equation r * sin(a8) = h;
+        equation r * sin(a9) = h;
+        equation r * sin(a10) = h;
+        equation r * sin(a11) = h;
+        equation r * sin(a12) = h;
+        equation r * sin(a13) = h;
+        equation r * sin(a14) = h;
+        equation r * sin(a15) = h;
+        equation r * sin(a16) = h;
+    }
+}
 
 /// The listed positions with their branches: the equations hold, `assemble` finds each by its branch, and so does
 /// `assemble_near` from its coordinates without a number.
@@ -261,4 +299,24 @@ fn sliders_on_axes() {
     is_whole!(OneSlider, OneSliderCoordinates, OneSliderBranch, [p q r], [s]);
     is_whole!(TwoSliders, TwoSlidersCoordinates, TwoSlidersBranch, [p q], [s t]);
     is_whole!(ThreeLoops, ThreeLoopsCoordinates, ThreeLoopsBranch, [p q r t w], [x y s]);
+}
+
+/// `branches` of a mechanism whose positions cannot be listed says why: a warning at the call, and an error.
+#[test]
+fn branches_that_cannot_be_listed() {
+    // A platform on three legs, by the squares of its distances.
+    let m = Platform::default();
+    #[expect(deprecated, reason = "the warning is what is tested")]
+    let error = m.branches(PlatformInputs { l1: 3.0, l2: 3.0, l3: 3.0 }).err();
+    assert_eq!(error, Some(PositionError::NoClosedForm { mechanism: "Platform", group: "x, y, phi" }));
+    // 17 links with two positions each have 131072 branches.
+    #[expect(deprecated, reason = "the warning is what is tested")]
+    let error = Comb::default().branches(0.3).err().unwrap();
+    assert_eq!(error, PositionError::TooManyBranches { mechanism: "Comb" });
+    assert_eq!(error.to_string(), "Comb has too many branches to list its positions: use `assemble` with one of them");
+    // Each of them can be assembled.
+    assert_eq!(CombBranch::all().count(), 1 << 17);
+    let last = CombBranch::all().last().unwrap();
+    let pose = Comb::default().assemble(0.3, last).unwrap();
+    assert_eq!(Comb::default().branch_of(&pose), last);
 }

@@ -9,6 +9,7 @@ use linkage::sheet::Sheet;
 use linkage_gallery::cam_follower::*;
 use linkage_gallery::cam_rocker::*;
 use linkage_gallery::four_bar::*;
+use linkage_gallery::four_bar_effects;
 use linkage_gallery::norton_four_bar::*;
 use linkage_gallery::slider_crank_scenes::*;
 
@@ -136,4 +137,19 @@ fn scenes_have_sections_of_their_own() {
     let numbers: Vec<usize> = numbers.collect();
     let of_forces: usize = Turning::DERIVATION.forces.iter().map(|effect| effect.forces.len()).sum();
     assert!(numbers.len() > of_forces && numbers.iter().copied().eq(1..=numbers.len()), "{numbers:?}");
+}
+
+/// A sheet with scenes shows their frictions, stops and drives.
+#[test]
+fn scenes_with_all_effects() {
+    let mut sheet = Sheet::new(four_bar_effects::FourBar::DERIVATION);
+    sheet.scene(four_bar_effects::Everything::DERIVATION).scene(four_bar_effects::Driven::DERIVATION);
+    let html = sheet.to_html();
+    assert_balanced(&html);
+    for effect in ["body rocker", "spring on theta4", "torque on theta2", "friction on theta4", "stop on theta4"] {
+        assert_eq!(html.matches(&format!("<h3>{effect}</h3>")).count(), if effect == "body rocker" { 2 } else { 1 });
+    }
+    let limit = "<mrow><mi>μ</mi><mo>⋅</mo><mi>radius</mi><mo>⋅</mo><mi>load</mi></mrow>";
+    assert!(html.contains(limit) && html.contains("<mo>≤</mo><msub><mi>s</mi><mn>2</mn></msub><mo>≤</mo>"));
+    assert!(html.contains("At an impact the rate of s is multiplied by") && html.contains("The driven inputs move by"));
 }

@@ -41,8 +41,8 @@ const EVERYTHING: &str = "
 
 /// The sequences: numbers, names, keywords, signs, groups, and what is written in other languages.
 const SEQUENCES: [&str; 32] = [
-    "", "1", "-1", "0x10", "1u8", "1deg", "1e400", "2theta", "'a'", "\"s\"", "'a", "c", "r#type", "type", "self", "_", "t",
-    "r#sin", "é", "in", "a", "@", "..", "=", "#", "$", "(1,)", "(1, 2)", "{a}", "a::b(1)", "a.b", "c e",
+    "", "1", "-1", "0x10", "1u8", "1deg", "1e400", "2theta", "'a'", "\"s\"", "'a", "c", "r#type", "type", "self", "_",
+    "t", "r#sin", "é", "in", "a", "@", "..", "=", "#", "$", "(1,)", "(1, 2)", "{a}", "a::b(1)", "a.b", "c e",
 ];
 
 /// Every sequence instead of each name and number, at any depth.

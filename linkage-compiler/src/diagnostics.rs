@@ -1,5 +1,7 @@
 //! Error messages, collected for each stage, each on the tokens of the mistake.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 
@@ -80,6 +82,15 @@ impl Diagnostics {
         self.errors.retain(|_| {
             index += 1;
             !indices.contains(&(index - 1))
+        });
+    }
+
+    /// Keeps the first of several equal messages that satisfy a condition.
+    pub fn keep_first(&mut self, is_it: impl Fn(&str) -> bool) {
+        let mut known = BTreeSet::new();
+        self.errors.retain(|error| {
+            let text = error.to_string();
+            !is_it(&text) || known.insert(text)
         });
     }
 

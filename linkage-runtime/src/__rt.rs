@@ -13,7 +13,7 @@ pub use crate::chord::{
     Triangle, chord, elbow_chord, reach_chord, reachable, regular_chord, regular_elbow_chord, regular_reach_chord,
     solvable,
 };
-pub use crate::error::{finite, finite_matrix, no_closed_form};
+pub use crate::error::{finite, finite_matrix, no_closed_form, no_list, too_many_branches};
 pub use crate::implied::{closes, implied};
 pub use crate::lanes::{Batch, Lanes, Values};
 pub use crate::limits::{Bound, Search, limits};

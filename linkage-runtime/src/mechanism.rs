@@ -180,7 +180,8 @@ pub trait Assembly: Mechanism {
 /// `linkage!` implements it for every mechanism that has the function `branches`.
 #[diagnostic::on_unimplemented(
     message = "the positions of `{Self}` cannot be listed",
-    note = "`linkage!` implements `Branches` for each mechanism that has the function `branches`"
+    note = "`linkage!` implements `Branches` for each mechanism whose function `branches` lists positions: a call of it says \
+            why it does not"
 )]
 pub trait Branches: Mechanism {
     /// The assembly branch: a position at given inputs.

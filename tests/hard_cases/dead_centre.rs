@@ -3,10 +3,24 @@
 //! Known to fail: the crank angle by the law of cosines, acos, which loses half its digits there, and Newton's method
 //! at a given stroke, which takes 199 steps at delta = 1e-13 and may come out on either side of the dead centre.
 
-use linkage::PathError;
-use linkage::continuation::{Direction, Event, Path};
+use std::f64::consts::PI;
 
+use linkage::continuation::{Direction, Event, Path};
+use linkage::{PathError, linkage};
+
+use linkage_gallery::four_bar::*;
 use linkage_gallery::slider_crank::*;
+
+linkage! {
+    /// A lever that lifts its end to a given height.
+    #[derive(Debug, Clone)]
+    mechanism Lift {
+        param l = 100;
+        input h;
+        unknown a;
+        equation l * sin(a) = h;
+    }
+}
 
 const R: f64 = 0.15;
 const L: f64 = 0.3;
@@ -95,6 +109,34 @@ fn beyond_reach() {
     let mut path = Path::new(&m, &start(), Direction::Increasing).unwrap();
     let Err(PathError::DeadPoint { mechanism, group, gap }) = path.advance_to(0.46) else { panic!("it cannot reach") };
     assert_eq!((mechanism, group), ("Engine", "phi1, phi2"));
-    assert!(gap > 0.0 && gap < 0.1);
+    // In the unit of the stroke, to the accuracy of the dead centre.
+    assert!((gap - (0.46 - (R + L))).abs() < 1e-15);
     assert!(path.position().phi1.abs() < 1e-14);
+}
+
+/// The distance to an input that is a length is one in its unit, in whatever unit the lengths are.
+#[test]
+fn gaps_are_in_the_unit_of_the_input() {
+    for scale in [1.0, 2_f64.powi(300), 2_f64.powi(-300)] {
+        let m = Lift::new(100.0 * scale);
+        let mut path = Path::new(&m, &LiftCoordinates { h: 0.0, a: 0.0 }, Direction::Increasing).unwrap();
+        let error = path.advance_to(150.0 * scale).unwrap_err();
+        let PathError::DeadPoint { gap, .. } = error else { panic!("{error:?}") };
+        assert!((gap / scale - 50.0).abs() < 1e-12, "{gap}");
+        if scale == 1.0 {
+            assert_eq!(error.to_string(), "Lift locks 50.0 before this input: group a is at a dead point");
+        }
+        let m = Engine::new(100.0 * scale, 300.0 * scale);
+        let angle = -(100.0_f64 / 300.0).asin();
+        let start = SliderCrankCoordinates { phi1: PI / 2.0, phi2: angle, z3: 300.0 * angle.cos() * scale };
+        let error = Path::new(&m, &start, Direction::Increasing).unwrap().advance_to(450.0 * scale).unwrap_err();
+        let PathError::DeadPoint { gap, .. } = error else { panic!("{error:?}") };
+        assert!((gap / scale - 50.0).abs() < 1e-11, "{gap}");
+    }
+    // An angle is in radians: the crank of a four-bar locks where the coupler and the rocker are in line.
+    let m = FourBar::new(80.0, 50.0, 40.0, 60.0);
+    let limit = ((80.0_f64.powi(2) + 50.0_f64.powi(2) - 100.0_f64.powi(2)) / (2.0 * 80.0 * 50.0)).acos();
+    let start = m.branches(1.0).unwrap().next().unwrap().pose.coordinates();
+    let error = Path::new(&m, &start, Direction::Increasing).unwrap().advance_to(limit + 0.25).unwrap_err();
+    assert_eq!(error.to_string(), "FourBar locks 0.250 before this input: group theta3, theta4 is at a dead point");
 }

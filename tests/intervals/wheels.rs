@@ -55,6 +55,17 @@ linkage! {
         derive intervals;
     }
 
+    /// A pair of wheels alone: no sine or vector says that they are angles.
+    #[derive(Debug, Clone, PartialEq)]
+    mechanism Gears {
+        param z1 = 20, z2 = 30;
+        input w;
+        unknown a;
+        equation z1 * w + z2 * a = 0;
+        output sum = w + a;
+        derive intervals;
+    }
+
     /// A rocker that turns its crank and a cam.
     #[derive(Debug, Clone, PartialEq)]
     mechanism Treadle {
@@ -124,6 +135,15 @@ fn a_ratio_that_no_tolerance_changes_closes() {
     let start = BeltCoordinates { theta: 0.3, phi, x, wheel: 0.3 };
     let certificate = Certify::new(&m).tolerance(1e-4).turn(&start).unwrap();
     assert_eq!(certificate.end(), &End::Closed { turns: vec![0, 0, 1] });
+}
+
+/// The message of a turn that an input cannot have speaks of no number.
+#[test]
+fn an_input_that_is_no_angle_has_no_turn() {
+    let (m, start) = (Gears::default(), GearsCoordinates { w: 0.3, a: -0.2 });
+    let error = certify::turn(&m, &start).err().unwrap();
+    assert_eq!(error, CertifyError::NoTurn { mechanism: "Gears" });
+    assert!(certify::range(&m, &start, 0.3 + TAU).is_ok());
 }
 
 #[test]

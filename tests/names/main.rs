@@ -187,10 +187,12 @@ fn each_name_compiles_or_is_rejected() {
             let lists: Vec<&[String]> = names.chunks(IN_ONE).collect();
             let count = lists.len().max(*places);
             for first in 0..count {
-                let lists: Vec<Vec<String>> = (0..*places).map(|place| {
-                    let list = lists.get((first + place) % count).copied().unwrap_or_default();
-                    list.iter().filter(|name| of_places[place].contains(name)).cloned().collect()
-                }).collect();
+                let lists: Vec<Vec<String>> = (0..*places)
+                    .map(|place| {
+                        let list = lists.get((first + place) % count).copied().unwrap_or_default();
+                        list.iter().filter(|name| of_places[place].contains(name)).cloned().collect()
+                    })
+                    .collect();
                 let text = mechanism(&lists.iter().map(Vec::as_slice).collect::<Vec<_>>());
                 let functions = if text.contains("extern fn") { functions(&lists[6], IN_ONE) } else { String::new() };
                 modules.add(&format!("{what}_{round}_{first}"), &text, &functions, first);
@@ -200,7 +202,8 @@ fn each_name_compiles_or_is_rejected() {
     }
     // A type begins with a capital. Each name is that of a mechanism, of a driver and of a scene.
     let is_type = |name: &&String| name.trim_start_matches("r#").starts_with(|first: char| first.is_uppercase());
-    for (what, names, mechanism) in [("type", &of_expansions, types as Types), ("type_of_rust", &of_rust, small_types)] {
+    for (what, names, mechanism) in [("type", &of_expansions, types as Types), ("type_of_rust", &of_rust, small_types)]
+    {
         let is_accepted = |name: &&String| {
             let texts = [[name, "A0", "B0"], ["A0", name, "B0"], ["A0", "B0", name]].map(small_types);
             texts.iter().all(|text| read(text).is_some_and(|tokens| !is_rejected(&expanded(tokens))))
@@ -210,14 +213,20 @@ fn each_name_compiles_or_is_rejected() {
         for place in 0..accepted.len() {
             // Names next to each other, such as `State` and `StateRates`, would be types of each other.
             let third = accepted.len().div_ceil(3);
-            let [first, second, third] = [0, 1, 2].map(|next| accepted[(place + next * third) % accepted.len()].as_str());
+            let [first, second, third] =
+                [0, 1, 2].map(|next| accepted[(place + next * third) % accepted.len()].as_str());
             modules.add(&format!("{what}_{place}"), &mechanism([first, second, third]), "", place);
         }
     }
     for (number, text) in EMPTY.into_iter().enumerate() {
         modules.add_mistaken(&format!("empty_{number}"), text, "");
     }
-    println!("{:?} {} modules, {} bytes", begin.elapsed(), modules.0.len(), modules.0.iter().map(|(_, text)| text.len()).sum::<usize>());
+    println!(
+        "{:?} {} modules, {} bytes",
+        begin.elapsed(),
+        modules.0.len(),
+        modules.0.iter().map(|(_, text)| text.len()).sum::<usize>()
+    );
     let mut library = String::from("#![no_std]\n#![allow(non_snake_case)]\n");
     for (name, text) in modules.0 {
         fs::write(folder.join(format!("src/{name}.rs")), text).unwrap();

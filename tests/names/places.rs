@@ -196,7 +196,8 @@ fn joints(guides: &[String], pins: &[String]) -> String {
         }),
     ]
     .concat();
-    let shown = [each(guides, |name| format!("reaction on {name};")), each(pins, |name| format!("reaction at {name};"))];
+    let shown =
+        [each(guides, |name| format!("reaction on {name};")), each(pins, |name| format!("reaction at {name};"))];
     let rough = each(guides, |name| format!("friction 0.1, reaction on {name};"));
     format!(
         "pub mechanism M0 {{

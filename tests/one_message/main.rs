@@ -1,4 +1,4 @@
-//! One mistake is one message, on its token: three programs, each with a mistake planted in its mechanism, give the
+//! One mistake is one message, on its token: four programs, each with a mistake planted in its mechanism, give the
 //! message of the macro and nothing of rustc, because types and functions stand there for the rest of the program.
 //!
 //! The snapshot has all messages: the text between `«` and `»` is the token.
@@ -12,7 +12,7 @@ use std::path::Path;
 use std::process::Command;
 use std::{env, fs};
 
-use mistakes::{ENGINE, FOUR_BAR, Mistake, PRESS};
+use mistakes::{ENGINE, FOUR_BAR, Mistake, PENDULUM, PRESS};
 
 const MANIFEST: &str = r#"
 [package]
@@ -155,6 +155,7 @@ fn one_mistake_is_one_message() {
         ("four_bar", readme.as_str(), FOUR_BAR),
         ("press", include_str!("programs/press.rs"), PRESS),
         ("engine", include_str!("programs/engine.rs"), ENGINE),
+        ("pendulum", include_str!("programs/pendulum.rs"), PENDULUM),
     ];
     let also_in_main = with(&readme, "l3@theta3 + l4@", "l3@thta3 + l4@");
     write("also_in_main", &with(&also_in_main, "four_bar.velocity_ratios", "four_bar.velocity_rations"));

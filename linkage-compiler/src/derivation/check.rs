@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::data::Derivation;
 use crate::diagnostics::Diagnostics;
-use crate::graph::{External, Graph, SymbolId};
+use crate::graph::{External, Fault, Graph, SymbolId};
 use crate::model::{Call, Driver, ExternalFunction, Mechanism, Request, Scene, SceneRequest};
 
 /// The largest number of expressions of a derivation; it bounds the time of emission.
@@ -85,11 +85,13 @@ pub fn check(
 /// Reports a constant in the derivatives that is outside the range of `f64`.
 pub fn check_numbers(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, diagnostics: &mut Diagnostics) {
     let Some(fault) = graph.take_fault() else { return };
-    let message =
-        format!("in the derivatives of `{}`: {fault}\nchoose units in which the numbers are nearer to 1", driver.name);
-    match mechanism.extreme {
-        Some(extreme) => diagnostics.error(extreme.region, message),
-        None => diagnostics.error(driver.name.span(), message),
+    let message = format!("in the derivatives of `{}`: {fault}", driver.name);
+    match (fault, mechanism.extreme) {
+        (Fault::OutOfRange, extreme) => {
+            let message = format!("{message}\nchoose units in which the numbers are nearer to 1");
+            diagnostics.error(extreme.map_or(driver.name.span().into(), |extreme| extreme.region), message);
+        }
+        _ => diagnostics.error(driver.name.span(), message),
     }
 }
 

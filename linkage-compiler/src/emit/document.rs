@@ -8,12 +8,10 @@ use rustc_hash::FxHashMap;
 
 use super::names::string;
 use super::work::Work;
-use crate::derivation::{
-    ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Reactions, Row, Scene,
-};
+use crate::derivation::{ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{BlockId, CoordinateId, Id, InputId, Table, UnknownId};
-use crate::model::{self, Driver, LoadKind, Mechanism};
+use crate::model::{Driver, Mechanism};
 use crate::notation::{Formula, Name, Printer};
 use crate::program::{Derived, Operations};
 
@@ -106,126 +104,13 @@ pub(super) fn constant(
     }
 }
 
-/// The constant `DERIVATION` of a scene: its equations of motion.
-pub(super) fn of_scene(
-    mechanism: &Mechanism,
-    (driver, scene): (&Driver, &model::Scene),
-    (derivation, derived): (&Derivation, &Scene),
-    kernels: &[Work],
-    root: &TokenStream,
-) -> TokenStream {
-    let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
-    let mut names = names(mechanism, derivation, &inputs, &unknowns);
-    for parameter in &mechanism.scene_parameters {
-        names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
-    }
-    let contact_forces: Vec<String> = (1..=scene.contacts.len()).map(|number| format!("f_{number}")).collect();
-    let reactions = derived.reactions.as_ref();
-    let of_contacts = reactions.iter().flat_map(|reactions| &reactions.contact_forces);
-    names.extend(of_contacts.zip(&contact_forces).map(|(&symbol, name)| (symbol, Name::Plain(name))));
-    let graph = &derivation.graph;
-    let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
-    let own = scene.parameters.iter().map(|&place| mechanism.scene_parameters[place].name.text.as_str());
-    let own: Vec<&str> = own.collect();
-    let mut document = Document {
-        printer: Printer::new(graph, &shown),
-        derivation,
-        parameters: &own,
-        inputs: &inputs,
-        unknowns: &unknowns,
-    };
-    let mut mass_matrix = Vec::new();
-    for (row, entries) in derived.mass_matrix.iter().flatten().enumerate() {
-        for (column, &entry) in entries.iter().enumerate().skip(row) {
-            let name = if inputs.len() == 1 { "M".to_owned() } else { format!("M{}{}", row + 1, column + 1) };
-            mass_matrix.push(document.equation(Name::Plain(&name), entry));
-        }
-    }
-    let mut effects = Vec::new();
-    for (label, forces) in &derived.parts {
-        let mut equations = Vec::new();
-        for (index, &force) in forces.iter().enumerate().filter(|(_, force)| !graph.is_zero(**force)) {
-            let name = if forces.len() == 1 { "Q".to_owned() } else { format!("Q{}", index + 1) };
-            equations.push(document.equation(Name::Plain(&name), force));
-        }
-        if !equations.is_empty() {
-            let label = string(label);
-            effects.push(quote!(Effect { name: #label, forces: &[#(#equations),*] }));
-        }
-    }
-    let potential = !graph.is_zero(derived.potential);
-    let potential = option(potential.then(|| document.equation(Name::Plain("V"), derived.potential)));
-    let joints = reactions.map(|reactions| document.joints(mechanism, scene, reactions)).unwrap_or_default();
-    let used = graph.symbols_of(&reactions.iter().flat_map(|reactions| reactions.forces.concat()).collect::<Vec<_>>());
-    let of_contacts = reactions.iter().flat_map(|reactions| &reactions.contact_forces);
-    let acting = scene.contacts.iter().zip(of_contacts).zip(&contact_forces);
-    let acting = acting.filter(|((_, symbol), _)| !joints.is_empty() && used.contains(symbol));
-    let contacts = acting.map(|((contact, _), name)| {
-        let (label, shown) = (string(&contact.label), formula(&Formula::of_name(Name::Plain(name))));
-        quote!(Symbol { name: #label, formula: #shown })
-    });
-    let contacts = list(contacts);
-    let multipliers = reactions.iter().flat_map(|reactions| reactions.multipliers.names.iter());
-    let multipliers = multipliers.filter(|symbol| !joints.is_empty() && used.contains(symbol));
-    let multipliers =
-        list(multipliers.map(|&symbol| formula(&Formula::of_name(Name::Plain(graph.symbol_name(symbol))))));
-    let (parameters, kernels) = (symbols(&own), kernel_list(kernels));
-    let [text, of] = [&scene.name, &driver.name].map(|name| string(&name.to_string()));
-    let name = &scene.name;
-    quote! {
-        impl #name {
-            /// The equations of motion as data: every formula as text, `LaTeX` and `MathML`, and the operations of each
-            /// function. If it is not used, it is not in the program.
-            pub const DERIVATION: &'static #root::__rt::derivation::prelude::SceneDerivation = {
-                use #root::__rt::derivation::prelude::*;
-                &SceneDerivation {
-                    scene: #text,
-                    mechanism: #of,
-                    parameters: #parameters,
-                    mass_matrix: &[#(#mass_matrix),*],
-                    forces: &[#(#effects),*],
-                    potential: #potential,
-                    joints: &[#(#joints),*],
-                    multipliers: #multipliers,
-                    contacts: #contacts,
-                    kernels: #kernels,
-                }
-            };
-        }
-    }
-}
-
-impl Document<'_> {
-    /// The forces in the joints that a scene shows.
-    fn joints(&mut self, mechanism: &Mechanism, scene: &model::Scene, reactions: &Reactions) -> Vec<TokenStream> {
-        let shown = scene.loads.iter().filter_map(|load| {
-            let place = reactions.opened.iter().position(|other| other == load)?;
-            Some((&mechanism.opened.loads[*load], reactions.forces[place]))
-        });
-        let forces = shown.map(|(load, force)| {
-            let (name, parts) = match &load.kind {
-                LoadKind::Pin { joint, link } => (format!("the pin at {joint} on {link}"), ["R_x", "R_y"]),
-                LoadKind::Guide { coordinate, guide, block, .. } => {
-                    (format!("the guide of {coordinate}, {guide} on {block}"), ["N", "T"])
-                }
-            };
-            let left_out = load.left_out(&mechanism.graph);
-            let name = left_out.map_or(name.clone(), |equations| format!("{name}, without the forces of {equations}"));
-            let name = string(&name);
-            let [first, second] = [0, 1].map(|axis| self.equation(Name::Plain(parts[axis]), force[axis]));
-            quote!(JointForce { name: #name, components: [#first, #second] })
-        });
-        forces.collect()
-    }
-}
-
 /// The names of coordinates as the user wrote them.
-fn texts<'a, I>(mechanism: &'a Mechanism, places: &Table<I, CoordinateId>) -> Table<I, &'a str> {
+pub(super) fn texts<'a, I>(mechanism: &'a Mechanism, places: &Table<I, CoordinateId>) -> Table<I, &'a str> {
     places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str()).collect()
 }
 
 /// The name of each symbol.
-fn names<'a>(
+pub(super) fn names<'a>(
     mechanism: &'a Mechanism,
     derivation: &Derivation,
     inputs: &Table<InputId, &'a str>,
@@ -268,26 +153,26 @@ fn nonzero<F: Copy + Into<Option<NodeId>>>(
 }
 
 /// `&[first, second]`
-fn list(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
+pub(super) fn list(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
     let items = items.into_iter();
     quote!(&[#(#items),*])
 }
 
-fn option(value: Option<TokenStream>) -> TokenStream {
+pub(super) fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
         Some(value) => quote!(::core::option::Option::Some(#value)),
         None => quote!(::core::option::Option::None),
     }
 }
 
-fn formula(Formula { text, latex, mathml }: &Formula) -> TokenStream {
+pub(super) fn formula(Formula { text, latex, mathml }: &Formula) -> TokenStream {
     // MathML is long and contains few characters that need escapes, so it is not searched for raw strings.
     let (text, latex, mathml) = (string(text), string(latex), Literal::string(mathml));
     quote!(Formula { text: #text, latex: #latex, mathml: #mathml })
 }
 
 /// `&[Symbol]` of parameters or coordinates with these names.
-fn symbols(names: &[&str]) -> TokenStream {
+pub(super) fn symbols(names: &[&str]) -> TokenStream {
     list(names.iter().map(|name| {
         let (text, shown) = (string(name), formula(&Formula::of_name(Name::Plain(name))));
         quote!(Symbol { name: #text, formula: #shown })
@@ -295,7 +180,7 @@ fn symbols(names: &[&str]) -> TokenStream {
 }
 
 /// `&[Kernel]` with the operations of each function.
-fn kernel_list(kernels: &[Work]) -> TokenStream {
+pub(super) fn kernel_list(kernels: &[Work]) -> TokenStream {
     list(kernels.iter().map(|Work { function, operations, lines }| {
         let Operations { functions, divisions, multiplications, additions } = *operations;
         let [functions, divisions, multiplications, additions] =
@@ -317,12 +202,12 @@ fn kernel_list(kernels: &[Work]) -> TokenStream {
 }
 
 /// Writes formulas of one derivation as tokens.
-struct Document<'a> {
-    printer: Printer<'a>,
-    derivation: &'a Derivation,
-    parameters: &'a [&'a str],
-    inputs: &'a Table<InputId, &'a str>,
-    unknowns: &'a Table<UnknownId, &'a str>,
+pub(super) struct Document<'a> {
+    pub(super) printer: Printer<'a>,
+    pub(super) derivation: &'a Derivation,
+    pub(super) parameters: &'a [&'a str],
+    pub(super) inputs: &'a Table<InputId, &'a str>,
+    pub(super) unknowns: &'a Table<UnknownId, &'a str>,
 }
 
 /// The variables of a first or second derivative.
@@ -359,7 +244,7 @@ impl<'a> Document<'a> {
         formula(&self.printer.formula(node))
     }
 
-    fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
+    pub(super) fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
         let (left, right) = (formula(&Formula::of_name(left)), self.formula(right));
         quote!(Equation { left: #left, right: #right })
     }

@@ -7,8 +7,8 @@ use super::expression::argument;
 use super::names::comment;
 use super::places;
 use crate::lower::Code;
-use crate::syntax::identifier;
 use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value, count};
+use crate::syntax::identifier;
 
 /// Emits a function with its doc comment, at a place; `error` is its error type. Without a body it is a stub.
 pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) -> TokenStream {

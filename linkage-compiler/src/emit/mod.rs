@@ -16,6 +16,7 @@ mod places;
 mod pose;
 mod reactions;
 mod scene;
+mod scene_document;
 mod text;
 mod traits;
 mod types;
@@ -100,7 +101,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
             let derived = (derivation, &derivation.scenes[number]);
             let straight = straight.as_ref().map(|straight| straight.within(scene));
             let works = works(&scene.functions, straight.as_ref());
-            tokens.extend(document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, root));
+            tokens.extend(scene_document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, root));
         }
     }
     tokens

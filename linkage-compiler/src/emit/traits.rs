@@ -14,7 +14,7 @@ use crate::graph::SymbolId;
 use crate::ids::{ColumnId, CoordinateId, Id};
 use crate::lower::Code;
 use crate::model::{Coordinate, Driver, Kind, Mechanism};
-use crate::program::{Derived, Program, SceneSignatures, Taken, TypeNames};
+use crate::program::{Access, Derived, Function, Program, SceneSignatures, Taken, TypeNames};
 
 /// `is_finite` and `coordinates` of a pose.
 pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) -> TokenStream {
@@ -94,7 +94,8 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
     let [u, v, g] = [u, v, program.position.blocks].map(literal);
     let groups = derivation.map(groups).unwrap_or_default();
     let assembly = program.position.is_closed.then(|| assembly(program));
-    let branches = program.functions.iter().any(|function| function.name == "branches").then(|| branches(program));
+    let is_list = |function: &Function<Code>| function.name == "branches" && function.access != Access::Deprecated;
+    let branches = program.functions.iter().any(is_list).then(|| branches(program));
     let by_unknowns = quote!(__rt::Column<T, __rt::D<#u>>);
     let by_inputs = quote!(__rt::Column<T, __rt::D<#v>>);
     let [square, mixed] = [&u, &v].map(|columns| quote!(__rt::Matrix<T, __rt::D<#u>, __rt::D<#columns>>));
@@ -318,8 +319,7 @@ pub(super) fn of_scene(
     // `x_rate` may be a coordinate as well.
     let fields_as_text = fields.iter().map(|field| field.unraw().to_string()).collect();
     let mut taken = Taken::new(&fields_as_text);
-    let input_rates: Vec<Ident> =
-        inputs.iter().map(|input| ident(&taken.unique(&format!("{input}_rate")))).collect();
+    let input_rates: Vec<Ident> = inputs.iter().map(|input| ident(&taken.unique(&format!("{input}_rate")))).collect();
     let prescribed = inputs.ids().map(|at| match driven.contains(&at) {
         true => {
             let driven = ident(&inputs[at]);

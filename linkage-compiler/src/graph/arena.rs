@@ -172,7 +172,7 @@ impl Graph {
         }
         let value = node_value(&node, |_| None, |_, _| None, |id| self.values[id.index()]);
         if value.is_some_and(|value| !value.is_finite()) || self.is_out_of_range(&node) {
-            self.fault.get_or_insert(Fault::OutOfRange);
+            self.fault.get_or_insert(Fault::of(&node));
         }
         let id = NodeId(self.nodes.len());
         self.values.push(value);
@@ -229,18 +229,14 @@ impl Graph {
         self.intern(Node::Symbol(symbol))
     }
 
-    /// `function(arguments)`; signs and quarter turns are moved out of sines and cosines, roots and magnitudes of numbers
-    /// are numbers.
+    /// `function(arguments)`; signs and quarter turns are moved out of sines and cosines, and functions of numbers with
+    /// exact values are these.
     pub fn call(&mut self, function: Function, arguments: &[NodeId]) -> NodeId {
+        if let Some(exact) = self.exact(function, arguments) {
+            return exact;
+        }
         match (function, arguments) {
             (Function::Sin | Function::Cos, &[angle]) => self.circular(function, angle),
-            (Function::Sqrt, &[x]) => {
-                let exact = self.as_number(x).and_then(square_root);
-                match exact {
-                    Some(root) => self.number(root),
-                    None => self.intern(Node::Call(function, vec![x])),
-                }
-            }
             (Function::Abs, &[x]) => match self.as_number(x) {
                 Some(number) => self.number(number.absolute()),
                 None => self.intern(Node::Call(function, vec![x])),
@@ -276,15 +272,6 @@ impl Graph {
             Node::Sum { terms, .. } => terms.first().is_some_and(|(factor, _)| factor.is_negative()),
             _ => false,
         }
-    }
-}
-
-/// The exact square root of a ratio of squares.
-fn square_root(value: Number) -> Option<Number> {
-    let root = |n: i64| u64::try_from(n).ok().map(u64::isqrt).filter(|r| r * r == n.unsigned_abs());
-    match value {
-        Number::Ratio(n, d) => Some(Number::ratio(i128::from(root(n)?), i128::from(root(d)?))),
-        Number::Float(_) => None,
     }
 }
 

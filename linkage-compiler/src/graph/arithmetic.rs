@@ -2,7 +2,7 @@
 
 use super::arena::Graph;
 use super::function::Function;
-use super::node::{Condition, Fault, Node, NodeId};
+use super::node::{Condition, Fault, LARGEST_EXPONENT, Node, NodeId};
 use super::number::Number;
 
 /// Sums of more terms than this are not flattened into other sums. Otherwise n sums that each add to the previous one
@@ -164,7 +164,8 @@ impl Graph {
         let mut divisors: Vec<NodeId> = Vec::new();
         let mut collect = |base: NodeId, exponent: Option<i32>| {
             let entry = entry(&mut factors, base, 0);
-            match exponent.and_then(|exponent| entry.checked_add(exponent)) {
+            let total = exponent.and_then(|exponent| entry.checked_add(exponent));
+            match total.filter(|total| total.unsigned_abs() <= LARGEST_EXPONENT.unsigned_abs()) {
                 Some(total) => *entry = total,
                 None => overflow = true,
             }
@@ -174,7 +175,8 @@ impl Graph {
                 Node::Constant(value) => {
                     let value = *value;
                     if value.is_zero() && exponent <= 0 {
-                        self.fault.get_or_insert(Fault::DivisionByZero);
+                        let fault = if exponent == 0 { Fault::ZeroToZero } else { Fault::DivisionByZero };
+                        self.fault.get_or_insert(fault);
                     }
                     coefficient = coefficient.multiply(value.power(exponent));
                 }

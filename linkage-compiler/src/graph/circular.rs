@@ -35,7 +35,7 @@ impl Graph {
     }
 
     /// angle = turn * pi + rest, where `rest` has no term in pi.
-    fn split_pi(&mut self, angle: NodeId) -> (Number, NodeId) {
+    pub(super) fn split_pi(&mut self, angle: NodeId) -> (Number, NodeId) {
         let pi = self.pi();
         let turn = match self.node(angle) {
             Node::Pi => Number::ONE,

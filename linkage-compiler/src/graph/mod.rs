@@ -7,6 +7,7 @@ mod arena;
 mod arithmetic;
 mod circular;
 mod differentiate;
+mod exact;
 mod external;
 mod function;
 mod interpret;
@@ -19,7 +20,7 @@ mod sweep;
 
 pub use arena::Graph;
 pub use function::Function;
-pub use node::{Condition, External, ExternalId, Fault, Node, NodeId, SymbolId};
+pub use node::{Condition, External, ExternalId, Fault, LARGEST_EXPONENT, Node, NodeId, SymbolId};
 pub use number::Number;
 pub use operations::{Exception, OPERATIONS, Operation, Place, written};
 pub use print::Texts;

@@ -50,10 +50,19 @@ pub enum Node {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fault {
     DivisionByZero,
+    /// 0^0.
+    ZeroToZero,
+    /// A function of a number outside of its domain, or at its pole.
+    Undefined(Function),
     /// A constant that is neither zero nor a normal `f64`.
     OutOfRange,
+    /// An exponent beyond [`LARGEST_EXPONENT`].
     ExponentOverflow,
 }
+
+/// The largest magnitude of an exponent. A power loses as many bits as its exponent has: with 20 of 53 there is a value
+/// left, and the sums of exponents that derivatives and bounds of rounding errors make are far from the range of `i32`.
+pub const LARGEST_EXPONENT: i32 = 1 << 20;
 
 /// A condition that a cancellation assumes: where it fails, the original expression is undefined, although the
 /// simplified one may have a value.
@@ -67,11 +76,36 @@ pub enum Condition {
 
 impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::DivisionByZero => "division by zero",
-            Self::OutOfRange => "this constant is beyond the range of `f64`, 2.3e-308 to 1.7e308",
-            Self::ExponentOverflow => "this exponent is too large",
-        })
+        match self {
+            Self::DivisionByZero => f.write_str("division by zero"),
+            Self::ZeroToZero => f.write_str("zero to the power zero has no value: write `1` or `0`"),
+            Self::Undefined(function) => {
+                let domain = match function {
+                    Function::Sqrt => "an argument that is not negative",
+                    Function::Asin | Function::Acos => "an argument between -1 and 1",
+                    Function::Ln => "a positive argument",
+                    Function::Tan => "an angle other than odd multiples of `90deg`",
+                    _ => "an argument in its domain",
+                };
+                write!(f, "`{}` has no value here: write {domain}", function.operation().name)
+            }
+            Self::OutOfRange => f.write_str("this constant is beyond the range of `f64`, 2.3e-308 to 1.7e308"),
+            Self::ExponentOverflow => {
+                write!(f, "this exponent is too large: write one between -{LARGEST_EXPONENT} and {LARGEST_EXPONENT}")
+            }
+        }
+    }
+}
+
+impl Fault {
+    /// The reason why a node without symbols has no finite value: its function has none there, or it is beyond the range
+    /// of `f64`.
+    pub(super) fn of(node: &Node) -> Self {
+        match node {
+            // These overflow nowhere.
+            Node::Call(function, _) if function.operation().may_be_undefined() => Self::Undefined(*function),
+            _ => Self::OutOfRange,
+        }
     }
 }
 

@@ -30,6 +30,8 @@ pub(super) struct Lowering<'a> {
     pub(super) misused: BTreeSet<String>,
     /// Symbols that are lengths unless another use says otherwise.
     pub(super) supposed: Vec<SymbolId>,
+    /// The operands of the sums of scalars, and the sides of equations.
+    pub(super) sums: Vec<Vec<ExpressionId>>,
     /// Symbols that are components of vectors in loops.
     pub(super) lengths_of_loops: Vec<SymbolId>,
     pub(super) is_loop: bool,
@@ -42,6 +44,8 @@ pub(super) struct Lowering<'a> {
     /// The rate of each coordinate; empty without scenes.
     pub(super) rates: BTreeMap<SymbolId, NodeId>,
     pub(super) time: Option<NodeId>,
+    /// The suffixes of numbers that are reported as units.
+    pub(super) units: BTreeSet<String>,
     /// True in the law of a scene, where `rate` and `t` are allowed.
     pub(super) is_law: bool,
     /// The literal with the most extreme magnitude so far.
@@ -120,6 +124,12 @@ impl Lowering<'_> {
     }
 
     fn lower(&mut self, expression: &Expression, region: Region) -> Value {
+        // The expression has the next index.
+        if let (Expression::Number { digits, .. }, Some(suffix)) =
+            (expression, self.expressions.suffix(self.values.len()))
+        {
+            return self.suffixed(digits, &suffix.word, suffix.is_hexadecimal, region);
+        }
         match expression {
             Expression::Number { digits, unit } => match self.number(digits, region) {
                 Some(number) if *unit == Unit::Degrees => {
@@ -185,7 +195,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn number(&mut self, digits: &str, region: Region) -> Option<Number> {
+    pub(super) fn number(&mut self, digits: &str, region: Region) -> Option<Number> {
         let number = Number::parse(digits)?;
         let powers = number.to_f64().abs().log2().abs();
         if powers.is_finite() && self.extreme.is_none_or(|extreme| powers > extreme.powers) {
@@ -277,7 +287,10 @@ impl Lowering<'_> {
         let first_is_vector = (!(scalars.is_empty() && vectors.is_empty())).then_some(scalars.is_empty());
         match (poisoned, first_is_vector) {
             (false, Some(true)) => Value::Vector(self.graph.sum(&xs), self.graph.sum(&ys)),
-            (false, Some(false)) => Value::Scalar(self.graph.sum(&xs)),
+            (false, Some(false)) => {
+                self.sums.push(scalars);
+                Value::Scalar(self.graph.sum(&xs))
+            }
             _ => Value::Poison,
         }
     }
@@ -321,25 +334,6 @@ impl Lowering<'_> {
         }
     }
 
-    fn power(&mut self, base: ExpressionId, exponent: ExpressionId) -> Value {
-        if let Value::Vector(..) = self.value(base) {
-            let message = "a vector has no power: use `dot(P, P)` for the square of its length";
-            self.diagnostics.error(self.expressions.region(base), message);
-            return Value::Poison;
-        }
-        let (Some(base), Some(node)) = (self.scalar(base), self.scalar(exponent)) else { return Value::Poison };
-        if self.has_unit(exponent, "an exponent") {
-            return Value::Poison;
-        }
-        let integer = self.graph.as_number(node).and_then(Number::as_integer).and_then(|n| i32::try_from(n).ok());
-        let Some(integer) = integer else {
-            let message = "an exponent must be an integer: write a root as `sqrt(…)`";
-            self.diagnostics.error(self.expressions.region(exponent), message);
-            return Value::Poison;
-        };
-        Value::Scalar(self.graph.power(base, integer))
-    }
-
     fn call(&mut self, name: &Ident, arguments: &[ExpressionId], region: Region) -> Value {
         let text = name.to_string();
         if let Some((function, order)) = self.scope.function(&text) {
@@ -355,7 +349,7 @@ impl Lowering<'_> {
             .or_else(|| VECTOR_FUNCTIONS.iter().find(|(other, _)| *other == text).map(|(_, arity)| *arity));
         let Some(arity) = arity else {
             if text == "rate" {
-                self.diagnostics.error(region, "`rate(…)` can be used only in the laws of a scene");
+                self.scope.report_motion("`rate(…)`", region, self.diagnostics);
             } else {
                 let known = crate::graph::written().map(|row| row.name);
                 let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());

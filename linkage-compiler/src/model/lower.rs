@@ -20,7 +20,7 @@ use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::CoordinateId;
 use crate::structure::System;
-use crate::syntax::{self, ExpressionId, StatementKind};
+use crate::syntax::{self, ExpressionId, KEYWORD_AS_NAME, StatementKind};
 
 /// The largest number of expressions of a mechanism; its derivatives have several times as many.
 const LARGEST: usize = 25_000;
@@ -29,6 +29,8 @@ const LARGEST: usize = 25_000;
 /// so that a stub with the right names can be emitted.
 pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnostics) {
     let syntax::Mechanism { attributes, visibility, name, statements, expressions, diagnostics: mut own } = tree;
+    // A keyword as a name is one mistake, wherever the name stands.
+    own.keep_first(|message| message.contains(KEYWORD_AS_NAME));
     let diagnostics = &mut own;
     const EVERYWHERE: [&str; 5] = ["cfg", "allow", "warn", "deny", "forbid"];
     let is_everywhere = |attribute: &Attribute| EVERYWHERE.iter().any(|word| attribute.path().is_ident(word));
@@ -43,6 +45,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         undeclared_symbols: BTreeMap::new(),
         misused: BTreeSet::new(),
         supposed: Vec::new(),
+        sums: Vec::new(),
         lengths_of_loops: Vec::new(),
         is_loop: false,
         is_default: false,
@@ -51,6 +54,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         externals: Vec::new(),
         rates: BTreeMap::new(),
         time: None,
+        units: BTreeSet::new(),
         is_law: false,
         extreme: None,
         opening: None,
@@ -58,7 +62,9 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     };
     let has_scenes = statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_)));
     lowering.scope.has_time = has_scenes;
+    expressions.keywords().for_each(|keyword| lowering.scope.excuse(keyword));
     let mut result = Mechanism::named(attributes, everywhere, visibility, TypeName::new(&name));
+    lowering.name_others(&name, &statements);
     let mut roles = Roles::default();
     lowering.declare(&statements, &mut result, &mut roles);
     if has_scenes {
@@ -78,6 +84,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         None => Kind::Number,
     };
     lowering.kinds_of_numbers(&statements, &kind_of);
+    lowering.kinds_of_sums(&result);
     if lowering.diagnostics.is_empty() {
         lowering.unused_lets(&statements, &result);
         let chains = lowering.chains(&statements);
@@ -213,7 +220,7 @@ impl Lowering<'_> {
                 StatementKind::Unread { names, is_extern, .. } => {
                     self.scope.has_unread_functions |= is_extern;
                     for name in names {
-                        self.scope.excuse(name);
+                        self.scope.excuse(name.to_string());
                     }
                 }
                 StatementKind::External { path, arguments, names } => {
@@ -266,6 +273,7 @@ impl Lowering<'_> {
         let mut reading = scene::Reading::default();
         for statement in statements {
             let (attributes, before) = (statement.attributes.clone(), self.scope.uses());
+            self.scope.begin_statement();
             match &statement.kind {
                 StatementKind::Parameters(parameters) => {
                     for (name, default) in parameters {
@@ -292,6 +300,7 @@ impl Lowering<'_> {
                             "both sides are vectors, but an `equation` is between scalars: write `loop` instead";
                         self.diagnostics.error(region, message);
                     } else if let (Some(a), Some(b)) = (self.scalar(*left), self.scalar(*right)) {
+                        self.sums.push(vec![*left, *right]);
                         let row = self.graph.subtract(a, b);
                         self.close(attributes, *left, *right, vec![row], constraints);
                     }
@@ -456,7 +465,8 @@ impl Lowering<'_> {
             });
         }
         if !chosen {
-            if let Some(&first) = open.first() {
+            let is_read = statements.iter().all(|statement| !matches!(statement.kind, StatementKind::Unread { .. }));
+            if let Some(&first) = open.first().filter(|_| is_read) {
                 let name = &result.coordinates[first].name;
                 self.diagnostics
                     .error(name.span, format_args!("no driver is declared: add `drive NAME by {};`", name.text));

@@ -17,6 +17,7 @@ mod name;
 mod opened;
 mod opening;
 mod places;
+mod power;
 mod redundant;
 mod request;
 mod scene;

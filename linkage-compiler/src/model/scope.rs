@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
-use crate::diagnostics::{Diagnostics, nearest};
+use crate::diagnostics::{Diagnostics, Region, nearest};
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 
 /// The value of an expression; `Poison` stands for one with a reported mistake.
@@ -52,6 +52,10 @@ pub(super) struct Scope {
     values: BTreeSet<String>,
     /// True if `t` is time, since there are scenes.
     pub(super) has_time: bool,
+    /// The messages of time and of rates that the statement has.
+    reported_motion: BTreeSet<String>,
+    /// The names of bodies, drivers and scenes, and the message of their use as a value.
+    pub(super) others: BTreeMap<String, String>,
 }
 
 /// A name that is used but not declared.
@@ -75,10 +79,10 @@ impl Scope {
             diagnostics.error(name.span(), "`pi` is a constant of `linkage!`: choose another name");
             return false;
         }
-        if text == "t" && self.has_time {
+        if text == "t" && self.has_time && !self.entries.contains_key("t") {
             diagnostics.error(name.span(), "`t` is time in a mechanism with scenes: choose another name");
-            self.entries.insert(text, Entry::Value(Value::Poison));
-            return false;
+            self.entries.insert(text, Entry::Later);
+            return true;
         }
         if self.entries.contains_key(&text) {
             diagnostics.error(name.span(), format_args!("the name `{text}` is already in use: choose another one"));
@@ -108,8 +112,8 @@ impl Scope {
     }
 
     /// Records a name in a statement with a syntax error, which may declare it.
-    pub(super) fn excuse(&mut self, name: &Ident) {
-        self.excused.insert(name.to_string());
+    pub(super) fn excuse(&mut self, name: impl Into<String>) {
+        self.excused.insert(name.into());
     }
 
     /// The undeclared names in the order of use.
@@ -140,6 +144,33 @@ impl Scope {
             Some(Entry::Value(value)) => *value,
             _ => Value::Poison,
         }
+    }
+
+    /// Begins another statement.
+    pub(super) fn begin_statement(&mut self) {
+        self.reported_motion.clear();
+    }
+
+    /// Reports time or a rate where there is no motion, once in a statement.
+    pub(super) fn report_motion(&mut self, what: &str, at: impl Into<Region>, diagnostics: &mut Diagnostics) {
+        if self.reported_motion.insert(what.to_owned()) {
+            let message = format!(
+                "{what} can be used only in the laws of a scene: write the expression there, as in `torque … on phi;`"
+            );
+            diagnostics.error(at, message);
+        }
+    }
+
+    /// Reports the first use of a name that has no value.
+    fn report_other(&mut self, name: &Ident, diagnostics: &mut Diagnostics) {
+        if let Some(message) = self.others.get(&name.to_string()).filter(|_| self.excused.insert(name.to_string())) {
+            diagnostics.error(name.span(), message);
+        }
+    }
+
+    /// True for the name of something without a value: a body, a driver, a scene.
+    pub(super) fn is_other(&self, name: &Ident) -> bool {
+        self.others.contains_key(&name.to_string()) && !self.is_declared(name)
     }
 
     /// Records the use of an undeclared name, with a message at the first.
@@ -245,7 +276,11 @@ impl Scope {
                 Value::Poison
             }
             None if text == "t" && self.has_time => {
-                diagnostics.error(name.span(), "`t` (time) can be used only in the laws of a scene");
+                self.report_motion("`t` (time)", name.span(), diagnostics);
+                Value::Poison
+            }
+            None if self.others.contains_key(&text) => {
+                self.report_other(name, diagnostics);
                 Value::Poison
             }
             None => {

@@ -1,12 +1,13 @@
 //! Slips that are valid formulas: degrees without a unit, a unit where none may stand, an angle that is a length.
 
 use super::expression::Lowering;
-use super::kind::{Kind, bare_symbols};
+use super::kind::{Kind, bare_symbols, bare_terms};
 use super::lower::lacks_equations;
 use super::mechanism::Mechanism;
 use super::name::Name;
+use super::scope::Value;
 use crate::diagnostics::Region;
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{NodeId, Number, SymbolId};
 use crate::syntax::{Expression, ExpressionId, Statement, StatementKind, Unit};
 
 /// A number above it is more than a turn in radians.
@@ -16,7 +17,9 @@ impl Lowering<'_> {
     /// The text of a plain number, and its value, if the expression is one.
     fn plain(&self, id: ExpressionId) -> Option<(String, f64, Unit)> {
         match self.expressions.get(id) {
-            Expression::Number { digits, unit } => Some((digits.clone(), digits.parse().ok()?, *unit)),
+            Expression::Number { digits, unit } if self.expressions.suffix(id.index()).is_none() => {
+                Some((digits.clone(), digits.parse().ok()?, *unit))
+            }
             Expression::Negate(inner) => {
                 let (digits, value, unit) = self.plain(*inner)?;
                 Some((format!("-{digits}"), -value, unit))
@@ -86,6 +89,52 @@ impl Lowering<'_> {
                     format!("the angle of `{body}` is the length `{name}`: write the angle that the body turns by");
                 self.diagnostics.error(region, message);
             }
+        }
+    }
+
+    /// Reports sums of an angle and a length that are coordinates: an arc has a radius, which may be a number.
+    pub(super) fn kinds_of_sums(&mut self, result: &Mechanism) {
+        let name_of = |symbol: SymbolId| {
+            let coordinate = result.coordinates.iter().find(|coordinate| coordinate.symbol == symbol);
+            coordinate.map(|coordinate| coordinate.name.text.as_str())
+        };
+        for operands in std::mem::take(&mut self.sums) {
+            let mut found: [Vec<(ExpressionId, Number, &str)>; 2] = Default::default();
+            for operand in operands {
+                let Some(Value::Scalar(node)) = self.values.get(operand.index()) else { continue };
+                let terms = bare_terms(&self.graph, *node);
+                let kinds = terms.iter().map(|(_, symbol)| self.length_or_angle(*symbol));
+                let kinds: Vec<Option<Kind>> = kinds.collect();
+                // An operand with both has its own message.
+                if kinds.contains(&Some(Kind::Length)) && kinds.contains(&Some(Kind::Angle)) {
+                    continue;
+                }
+                for ((number, symbol), kind) in terms.into_iter().zip(kinds) {
+                    let (Some(kind), Some(name)) = (kind, name_of(symbol)) else { continue };
+                    found[usize::from(kind == Kind::Length)].push((operand, number.absolute(), name));
+                }
+            }
+            let [angles, lengths] = found;
+            let pair = angles.iter().find_map(|&(operand, number, angle)| {
+                let (_, _, length) = lengths.iter().find(|(_, other, _)| *other == number)?;
+                Some((operand, angle, *length))
+            });
+            if let Some((operand, angle, length)) = pair {
+                let message = format!(
+                    "the angle `{angle}` and the length `{length}` have different units: write `r*{angle}` with a radius `r`"
+                );
+                self.diagnostics.error(self.expressions.region(operand), message);
+            }
+        }
+    }
+
+    /// The kind of a name that is used as a length or as an angle.
+    fn length_or_angle(&self, symbol: SymbolId) -> Option<Kind> {
+        let has = |kind| self.kinds.contains(&(symbol, kind));
+        match () {
+            () if has(Kind::Angle) => Some(Kind::Angle),
+            () if has(Kind::Length) || self.lengths_of_loops.contains(&symbol) => Some(Kind::Length),
+            () => None,
         }
     }
 

@@ -23,7 +23,7 @@ impl Lowering<'_> {
         };
         let is_similar = |undeclared: &&Undeclared| {
             let name = undeclared.name.to_string();
-            constant_of_rust(&name).is_some() || nearest(&name, known.iter().copied()).is_some()
+            name == "t" || constant_of_rust(&name).is_some() || nearest(&name, known.iter().copied()).is_some()
         };
         let lines = Lines::of(statements);
         let (similar, new): (Vec<&Undeclared>, Vec<&Undeclared>) = reported.into_iter().partition(is_similar);
@@ -49,6 +49,9 @@ impl Lowering<'_> {
 fn advice(name: &str, known: &[&str], is_angle: bool) -> String {
     if let Some(constant) = constant_of_rust(name) {
         return format!(": write `{constant}`");
+    }
+    if name == "t" {
+        return ": declare it with `input`, `unknown` or `param`; time is `t` in the laws of a scene".to_owned();
     }
     if name == "time" {
         return ": time is `t`, in the laws of a scene".to_owned();

@@ -18,6 +18,7 @@ const MARKS: Marks = Marks {
     leading_minus: "<mo>−</mo>",
     // U+2062, invisible times, for screen readers; with space before the name of a function.
     times: "<mo>\u{2062}</mo>",
+    times_word: "<mo>⋅</mo>",
     times_function: "<mo rspace=\"0.17em\">\u{2062}</mo>",
     comma: "<mo>,</mo>",
     not_zero: "<mo>≠</mo><mn>0</mn>",

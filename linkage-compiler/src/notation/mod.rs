@@ -17,7 +17,7 @@ mod writer;
 
 use std::rc::Rc;
 
-use crate::graph::{Condition, Graph, NodeId, SymbolId};
+use crate::graph::{Condition, Function, Graph, Node, NodeId, SymbolId};
 pub use formula::Formula;
 use latex::Latex;
 use layout::{Layout, Sum};
@@ -76,6 +76,11 @@ impl<'a> Printer<'a> {
         }
         let missing = self.graph.sweep(&[root], |id| self.parts[id.index()].is_some(), |_| false);
         for id in missing {
+            // A reader takes the limit of v where v is 0 / 0.
+            if let Node::Call(Function::IfNonzero, arguments) = self.graph.node(id) {
+                self.parts[id.index()] = self.parts[arguments[1].index()].clone();
+                continue;
+            }
             let sum = Layout { graph: self.graph, names: self.names, parts: &self.parts }.sum(id);
             let fits = sum.length() <= self.longest;
             self.parts[id.index()] = Some(Rc::new(if fits { sum } else { Sum::ellipsis() }));

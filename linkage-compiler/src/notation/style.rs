@@ -21,6 +21,8 @@ pub(super) struct Marks {
     pub(super) minus: &'static str,
     pub(super) leading_minus: &'static str,
     pub(super) times: &'static str,
+    /// The multiplication sign next to a word, and before a number: without a sign, `rod lever` is read as one word.
+    pub(super) times_word: &'static str,
     /// The multiplication sign before a function.
     pub(super) times_function: &'static str,
     pub(super) comma: &'static str,

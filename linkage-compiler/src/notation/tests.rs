@@ -267,3 +267,40 @@ fn products_and_powers_in_latex() {
     let node = g.product(&[(sine, 2), (cosine, 1)]);
     assert_eq!(formula(&g, node).latex, r"\sin^2 x \cos x");
 }
+
+/// Names of several letters, next to one another or to anything else, have a sign between them.
+#[test]
+fn words_in_products_are_apart() {
+    let (mut g, [rod, lever, rate, x, theta]) = graph(["rod", "lever2", "rod.", "x", "theta"]);
+    let lift = g.external(["lift", "slope", "bend"].map(str::to_owned).to_vec());
+    let call = g.apply(External::new(lift, 1, 0), vec![theta]);
+    let sine = g.call(Function::Sin, &[theta]);
+    let sum = g.add(x, theta);
+    let two = g.scale(Number::integer(2), rod);
+    let dot = "<mo>⋅</mo>";
+    let [rod_math, lever_math] = ["<mi>rod</mi>", "<msub><mi>lever</mi><mn>2</mn></msub>"];
+    let product = |g: &mut Graph, factors: &[NodeId]| {
+        let factors: Vec<_> = factors.iter().map(|&factor| (factor, 1)).collect();
+        let node = g.product(&factors);
+        formula(g, node)
+    };
+    for (factors, latex, mathml) in [
+        (vec![rod, lever], r"\mathrm{rod} \cdot \mathrm{lever}_2", format!("{rod_math}{dot}{lever_math}")),
+        (vec![two, lever], r"2 \cdot \mathrm{rod} \cdot \mathrm{lever}_2", format!("<mn>2</mn>{dot}{rod_math}{dot}")),
+        (vec![rod, x], r"\mathrm{rod} \cdot x", format!("{rod_math}{dot}<mi>x</mi>")),
+        (vec![rod, theta], r"\mathrm{rod} \cdot \theta", format!("{rod_math}{dot}<mi>θ</mi>")),
+        (vec![rod, sine], r"\mathrm{rod} \cdot \sin \theta", format!("{rod_math}{dot}<mrow><mi>sin</mi>")),
+        (vec![rod, sum], r"\mathrm{rod} \cdot (x + \theta)", format!("{rod_math}{dot}<mrow><mo>(</mo>")),
+        (vec![rod, call], r"\mathrm{rod} \cdot \mathrm{lift}(\theta)", format!("{rod_math}{dot}<mrow><mi>lift</mi>")),
+        (vec![x, call], r"x \cdot \mathrm{lift}(\theta)", format!("<mi>x</mi>{dot}<mrow><mi>lift</mi>")),
+        (vec![x, rate], r"x \cdot \dot{\mathrm{rod}}", format!("<mi>x</mi>{dot}<mover><mi>rod</mi>")),
+        // Single letters need no sign.
+        (vec![x, theta], r"x \theta", "<mi>x</mi><mo>\u{2062}</mo><mi>θ</mi>".to_owned()),
+    ] {
+        let found = product(&mut g, &factors);
+        assert_eq!(found.latex, latex);
+        assert!(found.mathml.contains(&mathml), "{} has no {mathml}", found.mathml);
+    }
+    let square = g.product(&[(rod, 2), (lever, -2), (x, 1)]);
+    assert_eq!(formula(&g, square).latex, r"\frac{\mathrm{rod}^2 \cdot x}{\mathrm{lever}_2^2}");
+}

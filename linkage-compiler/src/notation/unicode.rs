@@ -12,6 +12,7 @@ const MARKS: Marks = Marks {
     minus: " − ",
     leading_minus: "−",
     times: "·",
+    times_word: "·",
     times_function: "·",
     comma: ", ",
     not_zero: " ≠ 0",

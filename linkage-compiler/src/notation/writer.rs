@@ -1,7 +1,7 @@
 //! The writer of all notations: it decides on brackets and calls a [`Style`].
 
 use super::layout::{Arguments, Base, Factor, Fraction, Sum};
-use super::name::Name;
+use super::name::{Name, Word, greek};
 use super::style::{Argument, Binding, Marks, Style, is_circular};
 use crate::graph::{Function, Number};
 
@@ -80,7 +80,12 @@ impl Writer<'_> {
         self.push(self.marks.product[0]);
         for (index, factor) in factors.iter().enumerate() {
             if index > 0 {
-                self.push(if factor.opens_function() { self.marks.times_function } else { self.marks.times });
+                let is_word = factors[index - 1].is_word() || factor.is_word();
+                self.push(match () {
+                    () if is_word || matches!(factor.base, Base::Number(_)) => self.marks.times_word,
+                    () if factor.opens_function() => self.marks.times_function,
+                    () => self.marks.times,
+                });
             }
             self.factor(factor, factors.get(index + 1), Binding::Product);
         }
@@ -199,6 +204,22 @@ impl Writer<'_> {
 
 impl Factor<'_> {
     /// True if it begins with the name of a function.
+    /// True for a name of several letters, also for that of a user function.
+    fn is_word(&self) -> bool {
+        let has_letters = |name: &str| {
+            let base = Word::new(name).base;
+            base.chars().nth(1).is_some() && greek(base).is_none()
+        };
+        match &self.base {
+            Base::Name(spelled) => match spelled.name {
+                Name::Plain(name) | Name::Rate(name) | Name::Acceleration(name) => has_letters(name),
+                Name::Ratio { .. } | Name::RatioDerivative { .. } | Name::Determinant(_) | Name::Inverse(_) => false,
+            },
+            Base::External { name, .. } => has_letters(name),
+            _ => false,
+        }
+    }
+
     fn opens_function(&self) -> bool {
         match &self.base {
             Base::Call(Function::Sqrt | Function::Abs, _) => false,

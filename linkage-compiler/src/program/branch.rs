@@ -117,8 +117,9 @@ pub struct AngleTurn {
 }
 
 impl Position {
-    /// The largest number of branches for which `all` and `branches` are emitted.
-    const MOST_BRANCHES: usize = 1 << 16;
+    /// The largest number of branches that `branches` assembles: at a microsecond each, it takes a tenth of a second. For
+    /// more it is a stub with this reason.
+    pub const MOST_BRANCHES: usize = 1 << 16;
 
     pub fn new(
         (mechanism, driver): (&Mechanism, &Driver),
@@ -252,6 +253,11 @@ impl Position {
 
     pub fn has_few_branches(&self) -> bool {
         self.count_branches().is_some_and(|count| count <= Self::MOST_BRANCHES)
+    }
+
+    /// True if all branches can be counted by a `u32`.
+    pub fn has_counted_branches(&self) -> bool {
+        self.count_branches().is_some_and(|count| u32::try_from(count).is_ok())
     }
 
     /// The number of branches: of all choices between two solutions, and of all numbers of positions.

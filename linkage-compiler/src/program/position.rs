@@ -3,7 +3,7 @@
 use super::branch::Position;
 use super::doc::{lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type};
-use super::function::{Body, Kernel, Output, Shape, Source, Value};
+use super::function::{Access, Body, Kernel, Output, Shape, Source, Value};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Step, needed_names};
@@ -57,9 +57,7 @@ impl Plan<'_, '_> {
         self.solve();
         self.check_implied();
         self.assemble();
-        if self.position.is_closed || self.position.is_listed() {
-            self.branches();
-        }
+        self.branches();
         self.branch_of();
         self.branch_near();
     }
@@ -343,7 +341,21 @@ impl Plan<'_, '_> {
 
     /// `branches`: the positions on all branches.
     fn branches(&mut self) {
-        if !self.position.has_few_branches() {
+        let signature = self.signatures.branches(&self.position);
+        if signature.access == Access::Deprecated {
+            let (function, error) = match self.position.open.first() {
+                Some((group, _)) => (
+                    Expression::runtime("no_list", [Expression::mechanism(), Expression::text(group)]),
+                    "`PositionError::NoClosedForm`",
+                ),
+                None => (
+                    Expression::runtime("too_many_branches", [Expression::mechanism()]),
+                    "`PositionError::TooManyBranches`",
+                ),
+            };
+            let mut doc = signature.doc.clone();
+            doc.extend(lines(["", "# Errors", &format!("{error}, always.")]));
+            self.add(signature, doc, Body::result(function));
             return;
         }
         let Arguments { inputs, branch, memory, .. } = self.signatures.arguments.clone();
@@ -366,7 +378,7 @@ impl Plan<'_, '_> {
         if is_listed {
             body.calls.push(REMEMBERING.to_owned());
             body.before.push(Statement::Let(Pattern::Mutable(Box::new(Pattern::Name(memory))), self.no_memory()));
-            self.add(self.signatures.branches(), lines(BRANCHES_BY_NUMBER), body);
+            self.add(signature, lines(BRANCHES_BY_NUMBER), body);
             return;
         }
         let doc = lines([
@@ -376,7 +388,7 @@ impl Plan<'_, '_> {
             "`PositionError::NotFinite` if a number is not finite. Branches on which a group cannot be assembled or is undetermined",
             "are omitted.",
         ]);
-        self.add(self.signatures.branches(), doc, body);
+        self.add(signature, doc, body);
     }
 
     fn branch_near(&mut self) {

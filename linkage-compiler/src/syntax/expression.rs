@@ -1,6 +1,6 @@
 //! Expressions, in an arena in which operands have smaller ids than the expressions that use them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Ident, Span};
 
@@ -33,6 +33,14 @@ pub enum Expression {
     Broken,
     /// An expression with a syntax error: its names.
     Unread(Vec<Unread>),
+}
+
+/// The suffix of a literal that is no unit: another unit, a type, or a name without an operator before it.
+#[derive(Debug)]
+pub struct Suffix {
+    pub word: Ident,
+    /// True if the literal is hexadecimal.
+    pub is_hexadecimal: bool,
 }
 
 /// The unit of a literal.
@@ -79,8 +87,12 @@ pub struct Expressions {
     pub(super) is_angle: bool,
     /// Mistakes that are read as what is meant.
     slips: Vec<syn::Error>,
+    /// The suffixes of numbers that are no units.
+    suffixes: BTreeMap<usize, Suffix>,
     /// The units that are reported.
     units: BTreeSet<String>,
+    /// The keywords of Rust in statements with a syntax error, where they may be meant as names.
+    keywords: BTreeSet<String>,
 }
 
 impl Expressions {
@@ -99,6 +111,34 @@ impl Expressions {
         if self.units.insert(unit.to_owned()) {
             self.slip(at, unknown_unit(unit, digits));
         }
+    }
+
+    /// Adds a number with a suffix that is no unit.
+    pub(super) fn push_suffixed(&mut self, digits: String, suffix: Suffix, region: Region) -> ExpressionId {
+        self.suffixes.insert(self.nodes.len(), suffix);
+        self.push(Expression::Number { digits, unit: Unit::None }, region)
+    }
+
+    /// The suffix of a number, if it is no unit.
+    #[must_use]
+    pub fn suffix(&self, index: usize) -> Option<&Suffix> {
+        self.suffixes.get(&index)
+    }
+
+    /// Records a keyword of Rust in a statement with a syntax error.
+    pub(super) fn add_keyword(&mut self, keyword: &Ident) {
+        self.keywords.insert(keyword.to_string());
+    }
+
+    /// The keywords of Rust that may be meant as names, each with its message.
+    pub fn keywords(&self) -> impl Iterator<Item = &str> {
+        self.keywords.iter().map(String::as_str)
+    }
+
+    /// True if a unit is reported.
+    #[must_use]
+    pub fn has_reported(&self, unit: &str) -> bool {
+        self.units.contains(unit)
     }
 
     /// True if the statement has a mistake so far.
@@ -153,6 +193,7 @@ impl Expressions {
     /// Removes the expressions of a statement with a syntax error.
     pub(super) fn truncate(&mut self, length: usize) {
         self.nodes.truncate(length);
+        self.suffixes.split_off(&length);
     }
 
     /// The expression as written.
@@ -195,7 +236,7 @@ impl ExpressionId {
 }
 
 /// The message of a suffix that is not a unit of the language.
-fn unknown_unit(suffix: &str, digits: &str) -> String {
+pub(crate) fn unknown_unit(suffix: &str, digits: &str) -> String {
     let is_type = ["f16", "f32", "f64", "f128", "i8", "i16", "i32", "i64", "isize", "u8", "u16", "u32", "u64", "usize"];
     if is_type.contains(&suffix) {
         return format!("a number has no type: write `{digits}`");

@@ -16,6 +16,8 @@ const UNITS: [&str; 16] = [
     "kPa",
 ];
 
+pub(super) const NO_FIELDS: &str = "a value has no fields: write `x(P)` or `y(P)` for a coordinate of a point";
+
 /// Words for a product in other languages.
 const TIMES: [&str; 3] = ["x", "X", "times"];
 
@@ -157,7 +159,7 @@ pub(super) fn postfix(
                     arena.push(Expression::Call(Ident::new(axis, field.span()), vec![value]), region)
                 }
                 _ => {
-                    arena.slip(region, "a value has no fields: write `x(P)` or `y(P)` for a coordinate of a point");
+                    arena.slip(region, NO_FIELDS);
                     arena.push(Expression::Broken, region)
                 }
             }));

@@ -5,10 +5,13 @@ use proc_macro2::{Ident, Span};
 /// The keywords of Rust 2024.
 const OF_RUST: [&str; 53] = [
     "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn",
-    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match",
-    "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait",
-    "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "_",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro",
+    "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super",
+    "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "_",
 ];
+
+/// What is said of a keyword as a name, after the keyword.
+pub(crate) const KEYWORD_AS_NAME: &str = "is a Rust keyword: choose another name";
 
 /// Words that Rust does not take as names, not even as `r#self`.
 const PARTS_OF_PATHS: [&str; 5] = ["self", "Self", "super", "crate", "_"];

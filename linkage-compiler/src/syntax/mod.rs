@@ -23,10 +23,11 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
-pub use expression::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
+pub(crate) use expression::unknown_unit;
+pub use expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;
 pub use head::Mechanism;
-pub(crate) use identifier::{identifier, is_keyword};
+pub(crate) use identifier::{KEYWORD_AS_NAME, identifier, is_keyword};
 pub use kind::{KEYWORDS, StatementKind};
 pub use scene::{Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Place, Scene};
 pub use statement::Statement;

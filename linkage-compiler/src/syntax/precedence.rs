@@ -5,7 +5,7 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token};
 
-use super::expression::{Expression, ExpressionId, Expressions, Operator, Unit};
+use super::expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit};
 use super::foreign;
 use super::identifier::plain;
 use super::tokens::take;
@@ -142,34 +142,44 @@ pub(super) fn postfix(stream: ParseStream, arena: &mut Expressions) -> syn::Resu
         value = read;
     }
     while !stream.peek(Token![..]) && stream.parse::<Option<Token![.]>>()?.is_some() {
-        let method = plain(stream.call(Ident::parse_any)?);
-        let (mut arguments, close) = arguments(stream, arena)?;
-        arguments.insert(0, value);
+        let no_field = |error: syn::Error| syn::Error::new(error.span(), foreign::NO_FIELDS);
+        let method = plain(stream.call(Ident::parse_any).map_err(no_field)?);
+        let Parenthesised { mut items, close, .. } = arguments(stream, arena)?;
+        items.insert(0, value);
         let region = arena.region(value).to(close.into());
-        value = arena.push(Expression::Call(method, arguments), region);
+        value = arena.push(Expression::Call(method, items), region);
     }
     Ok(value)
 }
 
-fn arguments(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<ExpressionId>, Span)> {
+/// Expressions in parentheses.
+struct Parenthesised {
+    items: Vec<ExpressionId>,
+    close: Span,
+    /// True if a comma follows the last.
+    has_last_comma: bool,
+}
+
+fn arguments(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Parenthesised> {
     let was_angle = std::mem::take(&mut arena.is_angle);
     let arguments = listed(stream, arena);
     arena.is_angle = was_angle;
     arguments
 }
 
-fn listed(stream: ParseStream, arena: &mut Expressions) -> syn::Result<(Vec<ExpressionId>, Span)> {
+fn listed(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Parenthesised> {
     let content;
     let parentheses = syn::parenthesized!(content in stream);
-    let mut arguments = Vec::new();
+    let mut listed = Parenthesised { items: Vec::new(), close: parentheses.span.close(), has_last_comma: false };
     while !content.is_empty() {
-        arguments.push(parse(&content, arena)?);
+        listed.items.push(parse(&content, arena)?);
+        listed.has_last_comma = !content.is_empty();
         if content.is_empty() {
             break;
         }
         comma(&content)?;
     }
-    Ok((arguments, parentheses.span.close()))
+    Ok(listed)
 }
 
 fn comma(stream: ParseStream) -> syn::Result<()> {
@@ -192,12 +202,16 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
     }
     if let Ok(literal) = stream.fork().parse::<Lit>() {
         Lit::parse(stream)?;
-        return number(&literal, arena);
+        return number(stream, &literal, arena);
     }
     if stream.peek(syn::token::Paren) {
-        let (items, close) = arguments(stream, arena)?;
+        let Parenthesised { items, close, has_last_comma } = arguments(stream, arena)?;
         let region = Region::from(start).to(close.into());
         return match *items.as_slice() {
+            [_] if has_last_comma => {
+                arena.slip(region, "a vector has two components: write `(x, y)`, or `(x)` without the comma");
+                Ok(arena.push(Expression::Broken, region))
+            }
             [inner] => Ok(inner),
             [x, y] => Ok(arena.push(Expression::Vector(x, y), region)),
             _ => Err(syn::Error::new_spanned(region, "expected `(expression)` or a vector `(x, y)`")),
@@ -207,30 +221,52 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
     if name == "$crate" {
         return Err(missing());
     }
+    name_or_call(stream, name, arena)
+}
+
+/// A name, or the call of a function.
+fn name_or_call(stream: ParseStream, name: Ident, arena: &mut Expressions) -> syn::Result<ExpressionId> {
     if stream.peek(syn::token::Paren) {
-        let (arguments, close) = arguments(stream, arena)?;
+        let Parenthesised { items, close, .. } = arguments(stream, arena)?;
         let region = Region::from(name.span()).to(close.into());
-        return Ok(arena.push(Expression::Call(name, arguments), region));
+        return Ok(arena.push(Expression::Call(name, items), region));
     }
     let region = name.span().into();
     Ok(arena.push(Expression::Name(name), region))
 }
 
-fn number(literal: &Lit, arena: &mut Expressions) -> syn::Result<ExpressionId> {
-    let (digits, suffix) = match literal {
-        Lit::Int(integer) => (integer.base10_digits().to_owned(), integer.suffix().to_owned()),
-        Lit::Float(float) => (float.base10_digits().to_owned(), float.suffix().to_owned()),
+fn number(stream: ParseStream, literal: &Lit, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    let (digits, suffix, text) = match literal {
+        Lit::Int(integer) => (integer.base10_digits().to_owned(), integer.suffix().to_owned(), integer.to_string()),
+        Lit::Float(float) => (float.base10_digits().to_owned(), float.suffix().to_owned(), float.to_string()),
         other => return Err(foreign::not_a_number(other)),
     };
+    let region = Region::from(literal.span());
+    // The second point of `2.5.1`.
+    if stream.peek(Token![.]) && (stream.peek2(syn::LitInt) || stream.peek2(syn::LitFloat)) {
+        stream.parse::<TokenTree>()?;
+        let rest: TokenTree = stream.parse()?;
+        let region = region.to(rest.span().into());
+        return Err(syn::Error::new_spanned(
+            region,
+            format!("`{text}.{rest}` is not a number: write one decimal point"),
+        ));
+    }
     let unit = match Unit::ALL.iter().find(|(name, _)| *name == suffix) {
         Some((_, unit)) => *unit,
         None if suffix.is_empty() => Unit::None,
         None => {
-            arena.unit(&suffix, literal.span().into(), &digits);
-            if suffix.starts_with("deg") { Unit::Degrees } else { Unit::None }
+            let is_hexadecimal = text.to_lowercase().starts_with("0x");
+            let mut word: Ident = syn::parse::Parser::parse_str(Ident::parse_any, &suffix)?;
+            word.set_span(literal.span());
+            if stream.peek(syn::token::Paren) {
+                arena.slip(region, format!("expected an operator: write `{digits}*{word}(…)` for a product"));
+                return name_or_call(stream, word, arena);
+            }
+            return Ok(arena.push_suffixed(digits, Suffix { word, is_hexadecimal }, region));
         }
     };
-    Ok(arena.push(Expression::Number { digits, unit }, literal.span().into()))
+    Ok(arena.push(Expression::Number { digits, unit }, region))
 }
 
 /// Parses a sign before a factor, or another notation of it.
@@ -253,7 +289,8 @@ fn other_notation(stream: ParseStream, arena: &mut Expressions) -> syn::Result<O
     if stream.peek(Token![|]) {
         return bars(stream, arena);
     }
-    if stream.peek(Token![if]) || stream.peek(Token![match]) {
+    let is_name = stream.peek(Token![match]) && arena.keywords().any(|keyword| keyword == "match");
+    if stream.peek(Token![if]) || (stream.peek(Token![match]) && !is_name) {
         return foreign::condition(stream, arena).map(Some);
     }
     foreign::path(stream, arena)

@@ -188,6 +188,21 @@ fn names_with_places(tokens: &[TokenTree]) -> Vec<Unread> {
     names
 }
 
+/// Records the keywords of Rust in a statement with a syntax error: where one is meant as a name, its uses are the same
+/// mistake.
+pub(super) fn record_keywords(tokens: &[TokenTree], expressions: &mut Expressions) {
+    let mut levels = vec![tokens.to_vec()];
+    while let Some(tokens) = levels.pop() {
+        for token in &tokens {
+            match token {
+                TokenTree::Group(group) => levels.push(group.stream().into_iter().collect()),
+                TokenTree::Ident(word) if name(token).is_none() => expressions.add_keyword(word),
+                _ => {}
+            }
+        }
+    }
+}
+
 /// The token as a name, unless it is a Rust keyword.
 fn name(token: &TokenTree) -> Option<Ident> {
     match token {

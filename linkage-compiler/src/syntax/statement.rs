@@ -73,7 +73,9 @@ fn statement(stream: ParseStream, expressions: &mut Expressions, diagnostics: &m
                 diagnostics.push(error);
             }
             expressions.truncate(before);
-            recovery::of_keyword(&word, &statement_tokens(stream), expressions)
+            let tokens = statement_tokens(stream);
+            recovery::record_keywords(&tokens, expressions);
+            recovery::of_keyword(&word, &tokens, expressions)
         }
     }
 }

@@ -5,7 +5,7 @@ use syn::Token;
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 
-use super::identifier::{can_be_name, is_keyword, plain};
+use super::identifier::{KEYWORD_AS_NAME, can_be_name, is_keyword, plain};
 use crate::diagnostics::Region;
 
 pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
@@ -16,7 +16,7 @@ pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
     let text = name.to_string();
     if is_keyword(&text) || !can_be_name(&text) {
         let advice = if can_be_name(&text) { format!(", or write `r#{text}`") } else { String::new() };
-        return Err(syn::Error::new(name.span(), format!("`{text}` is a Rust keyword: choose another name{advice}")));
+        return Err(syn::Error::new(name.span(), format!("`{text}` {KEYWORD_AS_NAME}{advice}")));
     }
     Ok(plain(name))
 }

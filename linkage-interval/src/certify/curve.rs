@@ -173,7 +173,7 @@ impl<M: Certifiable> Certify<'_, M> {
     }
 }
 
-/// The error of a dead point ahead of a motion of which the input cannot go on.
+/// The error of a motion of which the input cannot go on: a dead point ahead, or tests spent before one is found.
 pub(super) fn dead_point_ahead<M: Certifiable>(motion: &Motion<'_, M>, direction: f64) -> Option<CertifyError> {
     // Where the motion stopped, the sign of the rate of the input is uncertain.
     let before = motion.tubes.iter().rev().nth(TUBES_BACK).or(motion.tubes.first());
@@ -183,7 +183,12 @@ pub(super) fn dead_point_ahead<M: Certifiable>(motion: &Motion<'_, M>, direction
     let mut along = vec![0.0; motion.joint.len()];
     *along.last_mut()? = direction;
     for _ in 0..TUBES_TO_DEAD_POINT {
-        along = advance(&mut ahead, &along).ok()?;
+        along = match advance(&mut ahead, &along) {
+            Ok(along) => along,
+            // The motion itself may go on.
+            Err(CertifyError::Exhausted { .. }) => return Some(motion.exhausted()),
+            Err(_) => return None,
+        };
         if let Some(DeadPoint { group, input, is_largest, .. }) = dead_points(motion.system, &ahead.tubes).ok()?.first()
         {
             let is_first = *is_largest == (direction > 0.0);

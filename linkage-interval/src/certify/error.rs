@@ -15,6 +15,11 @@ pub enum CertifyError {
         /// The name of the number.
         what: &'static str,
     },
+    /// The input has no turn: no sine or cosine takes it, and no vector has it as its angle.
+    NoTurn {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+    },
     /// Nothing is known of a user function over an interval.
     UserFunction {
         /// The mechanism, or the driver of one.
@@ -62,7 +67,7 @@ pub enum CertifyError {
         input: Interval,
     },
     /// Even the shortest step fails in this interval of the input, though no group is nearly singular there: the bounds
-    /// are too wide, as next to a pole, or of sines of angles beyond 1e5 rad.
+    /// are too wide, as next to a pole, of sines of angles beyond 1e5 rad, or with wide tolerances.
     Undecided {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
@@ -83,7 +88,8 @@ pub enum CertifyError {
         /// The difference: modes or dead points.
         what: &'static str,
     },
-    /// The bound of the work is reached.
+    /// The bound of the work, [`most_tests`](super::Certify::most_tests), is reached. A curve that never closes takes any
+    /// number of tests.
     Exhausted {
         /// The mechanism, or the driver of one.
         mechanism: &'static str,
@@ -100,6 +106,10 @@ impl fmt::Display for CertifyError {
             Self::Invalid { mechanism, what } => {
                 write!(f, "{what} of {mechanism} is invalid: not finite or out of range")
             }
+            Self::NoTurn { mechanism } => write!(
+                f,
+                "the input of {mechanism} is used as no angle, so that it has no turn: certify a range of it with `range`"
+            ),
             Self::UserFunction { mechanism, group, function } => write!(
                 f,
                 "group {group} of {mechanism} has the user function {function}, which has no values over intervals"
@@ -145,7 +155,8 @@ impl fmt::Display for CertifyError {
             Self::Exhausted { mechanism, boxes, input } => {
                 write!(
                     f,
-                    "the motion of {mechanism} is certified up to the input {input} by {boxes} boxes, the most allowed"
+                    "the motion of {mechanism} is certified up to the input {input} by {boxes} boxes, which took all tests \
+                     allowed: raise `most_tests`"
                 )
             }
         }

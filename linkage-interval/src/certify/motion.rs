@@ -85,8 +85,7 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         let floor: Vec<f64> = self.joint.iter().zip(&expansion.w).map(width).collect();
         loop {
             if self.tests == self.most_tests {
-                let boxes = self.tubes.len();
-                return Err(CertifyError::Exhausted { mechanism: M::NAME, boxes, input: self.input().middle() });
+                return Err(self.exhausted());
             }
             self.tests += 1;
             let start = if direction > 0.0 { from.most() } else { from.least() };
@@ -126,6 +125,11 @@ impl<'a, M: Certifiable> Motion<'a, M> {
                 rate.is_some_and(|rate| !rate.contains(0.0) && rate.middle().signum() == before * direction)
             }
         }
+    }
+
+    /// The error of a motion that has no tests left.
+    pub(super) fn exhausted(&self) -> CertifyError {
+        CertifyError::Exhausted { mechanism: M::NAME, boxes: self.tubes.len(), input: self.input().middle() }
     }
 
     /// The error of a motion that cannot go on from its joint into a box.

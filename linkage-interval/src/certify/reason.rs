@@ -5,7 +5,7 @@ use linkage_runtime::{Certifiable, Group};
 use super::error::CertifyError;
 use super::system::{Dimensions, System};
 use crate::Interval;
-use crate::matrix::symmetric;
+use crate::matrix::{defect, norm, symmetric};
 
 /// The regularity below which a group is called singular or nearly so. Where no step can be certified it was at most 2e-5
 /// before dead points, and 1e-9 before change points; elsewhere it is that of the linkage.
@@ -24,11 +24,27 @@ pub(super) fn reason<M: Certifiable>(system: &System<M>, q: &[f64], within: &[In
         return error;
     }
     match nearest(system, q) {
-        Some((group, regularity)) if system.has_tolerances() || regularity < NEARLY_SINGULAR => {
+        Some((group, regularity)) if regularity < NEARLY_SINGULAR || may_be_singular(system, group, q, within) => {
             CertifyError::Singular { mechanism, group: group.name, input }
         }
         _ => CertifyError::Undecided { mechanism, input },
     }
+}
+
+/// True if the tolerances may make a group singular in a box: |I - Y J| < 1 with the inverse Y at a point excludes it.
+fn may_be_singular<M: Certifiable>(system: &System<M>, group: &Group, q: &[f64], within: &[Interval]) -> bool {
+    if !system.has_tolerances() {
+        return false;
+    }
+    let over = system.jacobian(Dimensions::All, within);
+    let entry = |column: usize, row: usize| Some(*over.get(column)?.get(row)? * scale_of(system, column).into());
+    let column = |&column: &usize| group.equations.iter().filter_map(|&row| entry(column, row)).collect();
+    let block: Vec<Vec<Interval>> = group.unknowns.iter().map(column).collect();
+    let columns: Vec<&[Interval]> = block.iter().map(Vec::as_slice).collect();
+    let (inverse, _) = inverse_of(system, group, &system.float_jacobian(q));
+    let scales = vec![1.0; group.unknowns.len()];
+    let is_regular = inverse.is_some_and(|inverse| norm(&defect(&inverse, &columns), &scales) < 1.0);
+    !is_regular
 }
 
 /// The error of a start that has no certificate.
@@ -58,17 +74,7 @@ pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> &'
 fn nearest<M: Certifiable>(system: &System<M>, q: &[f64]) -> Option<(&'static Group, f64)> {
     let columns = system.float_jacobian(q);
     let regularity = |group: &Group| {
-        let block: Vec<Vec<f64>> = group
-            .unknowns
-            .iter()
-            .map(|&column| {
-                let scale = system.scales.get(column).copied().unwrap_or(1.0);
-                group.equations.iter().filter_map(|&row| Some(columns.get(column)?.get(row)? * scale)).collect()
-            })
-            .collect();
-        let rows: Vec<f64> = group.equations.iter().filter_map(|&row| system.rows.get(row).copied()).collect();
-        let square: Vec<&[f64]> = block.iter().map(Vec::as_slice).collect();
-        let inverse = crate::matrix::inverse(&square, &rows);
+        let (inverse, rows) = inverse_of(system, group, &columns);
         let largest = inverse.map(|inverse| {
             let entries = inverse.iter().flat_map(|row| row.iter().zip(&rows).map(|(entry, row)| (entry * row).abs()));
             entries.fold(0.0, f64::max)
@@ -76,4 +82,23 @@ fn nearest<M: Certifiable>(system: &System<M>, q: &[f64]) -> Option<(&'static Gr
         largest.map_or(0.0, |largest| 1.0 / largest)
     };
     M::GROUPS.iter().map(|group| (group, regularity(group))).min_by(|one, other| one.1.total_cmp(&other.1))
+}
+
+/// The inverse of the block of a group, with the columns relative to the scales of its unknowns, and the scales of its
+/// rows.
+fn inverse_of<M: Certifiable>(
+    system: &System<M>,
+    group: &Group,
+    columns: &[Vec<f64>],
+) -> (Option<Vec<Vec<f64>>>, Vec<f64>) {
+    let entry = |column: usize, row: usize| Some(columns.get(column)?.get(row)? * scale_of(system, column));
+    let column = |&column: &usize| group.equations.iter().filter_map(|&row| entry(column, row)).collect();
+    let block: Vec<Vec<f64>> = group.unknowns.iter().map(column).collect();
+    let rows: Vec<f64> = group.equations.iter().filter_map(|&row| system.rows.get(row).copied()).collect();
+    let square: Vec<&[f64]> = block.iter().map(Vec::as_slice).collect();
+    (crate::matrix::inverse(&square, &rows), rows)
+}
+
+fn scale_of<M: Certifiable>(system: &System<M>, column: usize) -> f64 {
+    system.scales.get(column).copied().unwrap_or(1.0)
 }

@@ -16,8 +16,11 @@ impl<M: Certifiable> Certify<'_, M> {
     /// # Errors
     /// [`CertifyError::DeadPoint`] if the input turns back, and the others of [`CertifyError`].
     pub fn turn(&self, start: &M::Coordinates) -> Result<Certificate<M>, CertifyError> {
-        if M::INPUT_ANGLES.get(self.input) != Some(&true) || self.turns == 0 {
-            return Err(self.invalid("a turn of the input"));
+        if self.turns == 0 {
+            return Err(self.invalid("the number of turns"));
+        }
+        if M::INPUT_ANGLES.get(self.input) == Some(&false) {
+            return Err(CertifyError::NoTurn { mechanism: M::NAME });
         }
         let from = self.start_input(start)?;
         let turns = i64::from(self.turns);

@@ -79,3 +79,54 @@ fn the_work_is_bounded() {
     let error = Certify::new(&four_bar).most_tests(5).turn(&start).err();
     assert!(matches!(error, Some(CertifyError::Exhausted { boxes: 1..=5, input, .. }) if input > 0.7), "{error:?}");
 }
+
+/// The crank of this four-bar turns back, and the search for the dead point ahead takes tests, too: whatever their number,
+/// a search without tests left says so, and calls no group singular.
+#[test]
+fn tests_that_are_spent_are_no_singularity() {
+    let lengths = [4.0, 3.0, 2.0, 2.5];
+    let four_bar = Loops::<FourBar, f64>::new(lengths);
+    let start = Loops::<FourBar, f64>::at(crate::random::four_bar(lengths, 1.0, 0.5).unwrap(), 0.5);
+    let (mut spent, mut before) = (0, 0.0);
+    for most in 1..200 {
+        match Certify::new(&four_bar).most_tests(most).turn(&start).err() {
+            Some(CertifyError::Exhausted { boxes, input, .. }) => {
+                assert!(boxes <= most && input >= before, "{most}: {boxes} {input}");
+                (spent, before) = (most, input);
+            }
+            Some(CertifyError::DeadPoint { .. }) => assert!(spent > 5 && most > spent, "{most}"),
+            other => panic!("{most}: {other:?}"),
+        }
+    }
+    assert!(spent < 199, "{spent}");
+}
+
+/// Tolerances make the bounds too wide long before a group may be singular.
+#[test]
+fn wide_tolerances_are_no_singularity() {
+    let four_bar = Loops::<FourBar, f64>::new(LENGTHS);
+    let start = Loops::<FourBar, f64>::at([0.35, 1.0], 0.7);
+    for tolerance in [0.7e-2, 0.8e-2, 0.9e-2, 1e-2, 1.1e-2] {
+        let error = Certify::new(&four_bar).tolerance(tolerance).turn(&start).err();
+        assert!(matches!(error, Some(CertifyError::Undecided { .. })), "{tolerance}: {error:?}");
+    }
+}
+
+/// A turn of an input that is no angle is another mistake than a number that is not finite.
+#[test]
+fn messages_say_what_is_wrong() {
+    let no_turn = CertifyError::NoTurn { mechanism: "Wheels" };
+    assert_eq!(
+        no_turn.to_string(),
+        "the input of Wheels is used as no angle, so that it has no turn: certify a range of it with `range`"
+    );
+    let exhausted = CertifyError::Exhausted { mechanism: "Wheels", boxes: 7, input: 2.5 };
+    assert_eq!(
+        exhausted.to_string(),
+        "the motion of Wheels is certified up to the input 2.5 by 7 boxes, which took all tests allowed: raise `most_tests`"
+    );
+    let four_bar = Loops::<FourBar, f64>::new(LENGTHS);
+    let start = Loops::<FourBar, f64>::at([0.35, 1.0], 0.7);
+    let error = Certify::new(&four_bar).turns(0).turn(&start).err();
+    assert_eq!(error, Some(CertifyError::Invalid { mechanism: "Loops", what: "the number of turns" }));
+}

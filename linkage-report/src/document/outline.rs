@@ -140,6 +140,12 @@ pub(crate) mod words {
     pub(crate) const LEAD_MOTION: &str = "The velocity ratios reduce all inertia and all forces to the inputs:";
     pub(crate) const LEAD_MASS_MATRIX: &str = "with the reduced mass matrix";
     pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of the following; the bias of an unknown is its acceleration if no input accelerates:";
+    pub(crate) const LEAD_ONLY_CONTACTS: &str = "and the generalised forces of frictions and stops only.";
+    pub(crate) const LEAD_NO_FORCES: &str = "and no generalised forces.";
+    pub(crate) const LEAD_CONTACTS: &str =
+        "Frictions and stops act along scalars s. Their laws determine their forces f, which add to Q:";
+    pub(crate) const LEAD_REBOUND: &str = "At an impact the rate of s is multiplied by";
+    pub(crate) const LEAD_DRIVES: &str = "The driven inputs move by";
     pub(crate) const LEAD_JOINTS: &str =
         "The force of each joint on a link along x and y; of a guide the normal force and the moment.";
     pub(crate) const LEAD_MULTIPLIERS: &str =
@@ -301,10 +307,31 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
         pen.lead(words::LEAD_MASS_MATRIX)?;
         equations(pen, &mut number, scene.mass_matrix)?;
     }
-    pen.lead(words::LEAD_FORCES)?;
+    pen.lead(lead_of_forces(scene))?;
     for effect in scene.forces {
         pen.lead(effect.name)?;
         equations(pen, &mut number, effect.forces)?;
+    }
+    if !scene.frictions_and_stops.is_empty() {
+        pen.lead(words::LEAD_CONTACTS)?;
+    }
+    for contact in scene.frictions_and_stops {
+        pen.lead(contact.name)?;
+        equations(pen, &mut number, &[contact.along])?;
+        pen.display(&contact.bound)?;
+        if let Some(joint) = &contact.bearing {
+            pen.lead(&bearing(joint))?;
+            pen.display(&joint.formula)?;
+        }
+        if let Some(factor) = &contact.rebound {
+            pen.lead(words::LEAD_REBOUND)?;
+            pen.display(factor)?;
+        }
+        equations(pen, &mut number, contact.forces)?;
+    }
+    if !scene.drives.is_empty() {
+        pen.lead(words::LEAD_DRIVES)?;
+        equations(pen, &mut number, scene.drives)?;
     }
     if let Some(potential) = scene.potential {
         pen.heading(words::POTENTIAL)?;
@@ -331,6 +358,20 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
         pen.kernels(scene.kernels)?;
     }
     Ok(())
+}
+
+/// The sentence before the generalised forces.
+pub(crate) fn lead_of_forces(scene: &SceneDerivation) -> &'static str {
+    match scene.forces {
+        [] if scene.frictions_and_stops.is_empty() => words::LEAD_NO_FORCES,
+        [] => words::LEAD_ONLY_CONTACTS,
+        _ => words::LEAD_FORCES,
+    }
+}
+
+/// The sentence before the force in the joint that limits a friction.
+pub(crate) fn bearing(joint: &Symbol) -> String {
+    format!("with the force of {}:", joint.name)
 }
 
 /// The name of the force of a friction or a stop.

@@ -2,7 +2,7 @@
 
 use crate::document::outline::{self, GeneralEquation, words};
 use linkage_runtime::derivation::{
-    Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation, Symbol,
+    ContactEffect, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation, Symbol,
 };
 
 use super::html::{display, escape, inline, matrix, svg_address};
@@ -286,11 +286,16 @@ impl Page {
                 page.lead(words::LEAD_MASS_MATRIX);
                 page.equations(scene.mass_matrix);
             }
-            page.lead(words::LEAD_FORCES);
+            page.lead(outline::lead_of_forces(scene));
             for effect in scene.forces {
                 page.push(&format!("<article>\n<h3>{}</h3>", escape(effect.name)));
                 page.equations(effect.forces);
                 page.push("</article>");
+            }
+            page.frictions_and_stops(scene.frictions_and_stops);
+            if !scene.drives.is_empty() {
+                page.lead(words::LEAD_DRIVES);
+                page.equations(scene.drives);
             }
             if let Some(potential) = scene.potential {
                 page.lead(words::POTENTIAL);
@@ -299,6 +304,26 @@ impl Page {
         });
         if !scene.joints.is_empty() {
             self.joints(scene);
+        }
+    }
+
+    fn frictions_and_stops(&mut self, all: &[ContactEffect]) {
+        if !all.is_empty() {
+            self.lead(words::LEAD_CONTACTS);
+        }
+        for contact in all {
+            self.push(&format!("<article>\n<h3>{}</h3>", escape(contact.name)));
+            self.equations(&[contact.along]);
+            let joint = contact
+                .bearing
+                .as_ref()
+                .map(|joint| format!(", {} {}", escape(&outline::bearing(joint)), inline(&joint.formula)));
+            self.push(&format!("<p>{}{}</p>", inline(&contact.bound), joint.unwrap_or_default()));
+            if let Some(factor) = &contact.rebound {
+                self.push(&format!("<p>{} {}.</p>", words::LEAD_REBOUND, inline(factor)));
+            }
+            self.equations(contact.forces);
+            self.push("</article>");
         }
     }
 

@@ -235,7 +235,7 @@ where
                         return Ok(self.here(step.event));
                     }
                     if is_onward {
-                        return Err(PathError::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
+                        return Err(self.dead_point(group, input));
                     }
                 }
                 Some(Event::ChangePoint { groups, .. }) => {
@@ -246,8 +246,7 @@ where
                     }
                     // Where all groups are singular at once, the motions cross at a limit of the input.
                     if !is_target && is_onward && self.place.tangent.inputs[0].abs() <= nearly_zero() {
-                        let left = self.curve.input_distance(input - self.input()).abs();
-                        return Err(PathError::DeadPoint { mechanism: M::NAME, group, gap: to_f64(left) });
+                        return Err(self.dead_point(group, input));
                     }
                 }
                 _ => {}
@@ -257,6 +256,12 @@ where
             }
         }
         Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
+    }
+
+    /// The error of a dead point before an input.
+    fn dead_point(&self, group: &'static str, input: M::Scalar) -> PathError {
+        let gap = to_f64((input - self.input()).abs());
+        PathError::DeadPoint { mechanism: M::NAME, group, gap }
     }
 
     fn input(&self) -> M::Scalar {

@@ -6,7 +6,7 @@ mod scene;
 
 use core::fmt;
 
-pub use scene::{Effect, JointForce, SceneDerivation};
+pub use scene::{ContactEffect, Effect, JointForce, SceneDerivation};
 
 /// A formula. Its [`Display`](fmt::Display) is the text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

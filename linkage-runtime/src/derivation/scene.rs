@@ -15,8 +15,13 @@ pub struct SceneDerivation {
     /// The mass matrix reduced to the inputs, M = Σ m·W_Gᵀ·W_G + j·wᵀ·w: its upper triangle, row by row; empty without
     /// inertia.
     pub mass_matrix: &'static [Equation],
-    /// The generalised forces of the inputs, each the sum of the contributions of the bodies and effects.
+    /// The generalised forces of the inputs, each the sum of the contributions of the bodies and effects, and of those of
+    /// `frictions_and_stops`.
     pub forces: &'static [Effect],
+    /// The frictions and stops, each of which adds to the generalised forces.
+    pub frictions_and_stops: &'static [ContactEffect],
+    /// The driven inputs as functions of time.
+    pub drives: &'static [Equation],
     /// The potential energy of gravity, springs and potentials, if there are any.
     pub potential: Option<Equation>,
     /// The forces in the joints that `reaction` statements name.
@@ -36,6 +41,26 @@ pub struct Effect {
     /// The name in error messages: "spring on theta3".
     pub name: &'static str,
     /// The contribution to each Q, without those that are zero; for a body including the quadratic velocity terms.
+    pub forces: &'static [Equation],
+}
+
+/// A friction or a stop: a force f along a scalar s(q), which its law determines from the motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ContactEffect {
+    /// The name in error messages: "friction on theta3".
+    pub name: &'static str,
+    /// Its force: f₁.
+    pub force: Formula,
+    /// The scalar along which it acts: s₁ = θ₃.
+    pub along: Equation,
+    /// The bound of its force if it is a friction, |f₁| ≤ μ·N; of its scalar if it is a stop, a ≤ s₁ ≤ b.
+    pub bound: Formula,
+    /// The joint whose force is in the bound.
+    pub bearing: Option<Symbol>,
+    /// The factor by which the rate of s changes at an impact on a stop: −e.
+    pub rebound: Option<Formula>,
+    /// The contribution to each Q, f₁·∂s₁/∂v, without those that are zero.
     pub forces: &'static [Equation],
 }
 

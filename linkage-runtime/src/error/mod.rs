@@ -1,8 +1,11 @@
 //! Errors: an enum each for positions, for paths and for invalid input.
 
+mod digits;
 mod input;
 mod path;
 mod position;
+
+use core::iter::Empty;
 
 use nalgebra::SMatrix;
 
@@ -31,6 +34,22 @@ pub fn finite<T: Real, const N: usize>(
 /// [`PositionError::NoClosedForm`].
 pub const fn no_closed_form<P>(mechanism: &'static str, group: &'static str) -> Result<P, PositionError> {
     Err(PositionError::NoClosedForm { mechanism, group })
+}
+
+/// The list of positions of a mechanism with a group that has none.
+///
+/// # Errors
+/// [`PositionError::NoClosedForm`].
+pub const fn no_list<P>(mechanism: &'static str, group: &'static str) -> Result<Empty<P>, PositionError> {
+    Err(PositionError::NoClosedForm { mechanism, group })
+}
+
+/// The list of positions of a mechanism with more branches than a list can have.
+///
+/// # Errors
+/// [`PositionError::TooManyBranches`].
+pub const fn too_many_branches<P>(mechanism: &'static str) -> Result<Empty<P>, PositionError> {
+    Err(PositionError::TooManyBranches { mechanism })
 }
 
 /// Returns an error if an entry of the matrix is infinite or NaN.

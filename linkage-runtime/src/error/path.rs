@@ -2,10 +2,11 @@
 
 use core::fmt;
 
+use super::digits::Digits;
 use super::{InputError, PositionError};
 
-/// The reason why a mechanism cannot be followed along its motion. All measures are nondimensional: scaling all lengths
-/// of a mechanism changes none of them.
+/// The reason why a mechanism cannot be followed along its motion. All measures but the distance to an input are
+/// nondimensional: scaling all lengths of a mechanism changes none of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -16,7 +17,7 @@ pub enum PathError {
         mechanism: &'static str,
         /// The unknowns of the group that locks.
         group: &'static str,
-        /// The distance from the input to the requested value, in radians or divided by the lengths of its loops.
+        /// The distance from the input to the requested value, in the unit of the input: radians, if it is an angle.
         gap: f64,
     },
     /// The path is at a change point, where motions of the mechanism cross, and none of them has been chosen.
@@ -62,7 +63,7 @@ impl fmt::Display for PathError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::DeadPoint { mechanism, group, gap } => {
-                write!(f, "{mechanism} locks {gap:.1e} before this input: group {group} is at a dead point")
+                write!(f, "{mechanism} locks {} before this input: group {group} is at a dead point", Digits(*gap))
             }
             Self::ChangePoint { mechanism, group } => {
                 write!(

@@ -82,6 +82,11 @@ pub enum PositionError {
         /// The unknowns of the first group without a closed form.
         group: &'static str,
     },
+    /// The mechanism has more branches than a list of its positions can have.
+    TooManyBranches {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+    },
     /// A group has fewer positions at this input than the number of the one asked for.
     NoMode {
         /// The mechanism, or the driver of one.
@@ -158,6 +163,9 @@ impl fmt::Display for PositionError {
                     f,
                     "group {group} of {mechanism} has no closed form: use `assemble_near` with a guess, or `solve`"
                 )
+            }
+            Self::TooManyBranches { mechanism } => {
+                write!(f, "{mechanism} has too many branches to list its positions: use `assemble` with one of them")
             }
             Self::NoMode { mechanism, group, number, count } => write!(
                 f,

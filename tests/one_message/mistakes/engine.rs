@@ -25,6 +25,8 @@ pub const ENGINE: &[Mistake] = &[
     ("with_for_by", "drive Engine by x;", "drive Engine «with» x;"),
     ("drive_without_semicolon", "drive Engine by x;\n\n        derive", "drive Engine by x\n\n        «derive»"),
     ("drive_t", "drive Engine by x;", "drive Engine by x; drive «T» by psi;"),
+    ("drive_with_keyword", "drive Engine by x;", "drive Engine by x; drive «type» by psi;"),
+    ("driver_as_value", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1) + «Engine»;"),
     ("coordinates", "coordinate phi", "«coordinates» phi"),
     ("coordinate_misspelt", "coordinate phi", "«cordinate» phi"),
     ("variable_for_coordinate", "coordinate phi", "«variable» phi"),
@@ -57,6 +59,14 @@ pub const ENGINE: &[Mistake] = &[
     ("function_of_a_moving_parameter", "= lift(phi, 0.1)", "= «lift(phi, x)»"),
     ("function_with_prime", "= lift(phi, 0.1)", "= lift(phi, 0.1) + «lfit»(phi, 0.1)"),
     ("rust_call", "= lift(phi, 0.1)", "= «crate::rise»(phi, 0.1)"),
+    ("keyword_as_function", "(lift, slope, bend, change);\n        let rod = l@psi;\n        loop r@phi + rod = (x, 0);\n\n        point Middle = r@phi + rod / 2;\n        output valve = lift(phi, 0.1);", "(«match», slope, bend, change);\n        let rod = l@psi;\n        loop r@phi + rod = (x, 0);\n\n        point Middle = r@phi + rod / 2;\n        output valve = match(phi, 0.1);"),
+    // Units of sums.
+    ("length_plus_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = x + «phi»;"),
+    ("length_minus_half_an_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1) + 2*x - «2*phi»;"),
+    ("length_that_is_an_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); implied equation x = «psi»;"),
+    ("length_plus_angle_by_a_number", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = x + 0.5*phi;"),
+    ("length_plus_arc", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = x + r*phi;"),
+    ("angle_plus_angle", "output valve = lift(phi, 0.1);", "output valve = lift(phi, 0.1); output sum = phi + psi;"),
     // Requests.
     ("misspelt_request", "derive limits,", "derive «limit»,"),
     ("request_in_capitals", "derive limits,", "derive «LIMITS»,"),

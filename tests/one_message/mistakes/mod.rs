@@ -2,10 +2,12 @@
 
 mod engine;
 mod four_bar;
+mod pendulum;
 mod press;
 
 pub use engine::ENGINE;
 pub use four_bar::FOUR_BAR;
+pub use pendulum::PENDULUM;
 pub use press::PRESS;
 
 /// A mistake: its name, the text of the program that is replaced, and the replacement, with `«` and `»` around the token

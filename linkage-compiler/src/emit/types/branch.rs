@@ -93,7 +93,7 @@ pub(super) fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream
         }
     });
     let every = every(&program.position, &zeros, root);
-    let all = program.position.has_few_branches().then(|| {
+    let all = program.position.has_counted_branches().then(|| {
         let text = if !modes.is_empty() {
             " All branches with a number for each group without closed form, numbers fastest; some may not exist at a given input."
         } else if turns.is_empty() {

@@ -1,7 +1,7 @@
 //! Products of powers, and sums of their magnitudes.
 
 use super::angle::{AngleId, Angles};
-use crate::graph::SymbolId;
+use crate::graph::{LARGEST_EXPONENT, SymbolId};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Factor {
@@ -41,7 +41,7 @@ impl Monomial {
         }
         match self.factors.binary_search_by_key(&factor, |(other, _)| *other) {
             Ok(place) => {
-                self.factors[place].1 += exponent;
+                self.factors[place].1 = self.factors[place].1.saturating_add(exponent);
                 if self.factors[place].1 == 0 {
                     self.factors.remove(place);
                 }
@@ -58,13 +58,18 @@ impl Monomial {
 
     pub(super) fn inverse(mut self) -> Self {
         self.coefficient = 1.0 / self.coefficient;
-        self.factors.iter_mut().for_each(|(_, exponent)| *exponent = -*exponent);
+        self.factors.iter_mut().for_each(|(_, exponent)| *exponent = exponent.saturating_neg());
         self
     }
 
     /// The sine or cosine that this is.
     pub(super) fn only_factor(&self) -> Option<Factor> {
         self.factors.first().map(|(factor, _)| *factor)
+    }
+
+    /// True if no exponent is beyond those of formulas: those of a product of two such are in the range of `i32`.
+    pub(super) fn is_moderate(&self) -> bool {
+        self.factors.iter().all(|(_, exponent)| exponent.unsigned_abs() <= LARGEST_EXPONENT.unsigned_abs())
     }
 
     pub(super) fn magnitude(mut self) -> Self {

@@ -173,6 +173,7 @@ impl Tracked {
 
     fn readable(self) -> Option<Self> {
         let is_short = |count: &Count| count.amplified.len() <= MOST_AMPLIFIERS;
-        (is_short(&self.relative) && is_short(&self.scattered)).then_some(self)
+        let is_moderate = self.exact.iter().chain(&self.size.0).all(Monomial::is_moderate);
+        (is_moderate && is_short(&self.relative) && is_short(&self.scattered)).then_some(self)
     }
 }

@@ -1,6 +1,6 @@
 //! Analysis of scenes and their effects.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 use rustc_hash::FxHashMap;
@@ -11,6 +11,30 @@ use crate::graph::{Function, Node, NodeId, Number, SymbolId};
 use crate::model::expression::Lowering;
 use crate::model::scope::Value;
 use crate::syntax::{self, EffectKind, Expression, ExpressionId, Place};
+
+impl Draft {
+    /// Numbers the effects with equal names: `stop 1 on an expression`, `stop 2 on an expression`. `begins` has the first law
+    /// and the first contact of each effect.
+    fn number_labels(&mut self, begins: &[[usize; 2]]) {
+        let effect_of = |axis: usize, place: usize| begins.partition_point(|begin| begin[axis] <= place);
+        let laws = self.laws.iter_mut().enumerate().map(|(place, law)| (effect_of(0, place), &mut law.label));
+        let contacts = self.contacts.iter_mut().enumerate();
+        let contacts = contacts.map(|(place, contact)| (effect_of(1, place), &mut contact.label));
+        let labels: Vec<(usize, &mut String)> = laws.chain(contacts).collect();
+        let mut effects: BTreeMap<String, BTreeSet<usize>> = BTreeMap::new();
+        for (effect, label) in &labels {
+            effects.entry((*label).clone()).or_default().insert(*effect);
+        }
+        for (effect, label) in labels {
+            let same = &effects[label.as_str()];
+            if same.len() > 1 {
+                let number = same.range(..=effect).count();
+                let (word, rest) = label.split_once(' ').unwrap_or((label.as_str(), ""));
+                *label = format!("{word} {number} {rest}").trim_end().to_owned();
+            }
+        }
+    }
+}
 
 impl Lowering<'_> {
     pub(in crate::model) fn scene(&mut self, tree: &syntax::Scene, attributes: &[Attribute], reading: &mut Reading) {
@@ -30,10 +54,14 @@ impl Lowering<'_> {
             is_complete: tree.is_complete,
         };
         let (before, messages) = (self.scope.uses(), self.diagnostics.len());
+        let mut begins = Vec::new();
         for effect in &tree.effects {
+            begins.push([scene.laws.len(), scene.contacts.len()]);
+            self.scope.begin_statement();
             self.effect(effect, &mut scene);
             self.report_fault(effect.keyword.span());
         }
+        scene.number_labels(&begins);
         scene.mentions = self.scope.used_since(before);
         scene.is_complete &= self.diagnostics.len() == messages;
         if !scene.is_complete {

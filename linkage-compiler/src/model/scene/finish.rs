@@ -150,8 +150,12 @@ impl Lowering<'_> {
                 Some(index) => found.push(index),
                 None if may_be_misnamed => {}
                 None => {
-                    let hint = suggestion(&text, result.bodies.iter().map(|body| body.name.text.as_str()));
-                    self.diagnostics.error(name.span(), format_args!("unknown body `{text}`{hint}"));
+                    let names: Vec<&str> = result.bodies.iter().map(|body| body.name.text.as_str()).collect();
+                    let message = match self.scope.is_declared(name) && !names.is_empty() {
+                        true => format!("`{text}` is not a body: write a name of `{}`", names.join("`, `")),
+                        false => format!("unknown body `{text}`{}", suggestion(&text, names)),
+                    };
+                    self.diagnostics.error(name.span(), message);
                 }
             }
         }

@@ -29,11 +29,11 @@ impl Signatures<'_> {
     pub fn assemblies(&self, position: &Position) -> Vec<Function<Body>> {
         if position.is_listed() {
             let mut all = vec![self.assemble_near(), self.assemble_remembering(position), self.assemble()];
-            all.extend(position.has_few_branches().then(|| self.branches()));
+            all.push(self.branches(position));
             return all;
         }
         if !position.is_closed {
-            return vec![self.assemble_near(), self.no_assemble(position)];
+            return vec![self.assemble_near(), self.no_assemble(position), self.branches(position)];
         }
         let mut all = Vec::new();
         if !position.turns.is_empty() {
@@ -43,8 +43,8 @@ impl Signatures<'_> {
         if !position.turns.is_empty() {
             all.push(self.assemble_near());
         }
-        if position.has_few_branches() && !self.is_open() {
-            all.push(self.branches());
+        if !self.is_open() {
+            all.push(self.branches(position));
         }
         all
     }
@@ -86,9 +86,20 @@ impl Signatures<'_> {
         inlined(fallible("assemble_in_turns", [inputs, self.branch(), turn], self.pose_type()))
     }
 
-    pub fn branches(&self) -> Function<Body> {
+    /// `branches`; where the positions cannot be listed it returns an error, and a call of it is a warning that says why.
+    pub fn branches(&self, position: &Position) -> Function<Body> {
         let of = Type::Branches { branch: self.types.branch.clone(), pose: self.types.pose.clone() };
-        fallible("branches", [self.inputs_by(Order::Value)], of)
+        let itself = fallible("branches", [self.inputs_by(Order::Value)], of);
+        let mut doc = position.obstacles();
+        if !doc.is_empty() {
+            doc.push("Its positions cannot be listed: use `assemble_near` with a guess, or `solve`.".to_owned());
+        } else if !position.has_few_branches() {
+            let most = Position::MOST_BRANCHES;
+            doc.push(format!("It has more than {most} branches: use `assemble` with one of them."));
+        } else {
+            return itself;
+        }
+        Function { access: Access::Deprecated, doc, ..itself }
     }
 
     pub fn branch_of(&self) -> Function<Body> {
