@@ -114,6 +114,7 @@ impl Plan<'_, '_> {
             dyads,
             failure,
             conclusive: of_pose + columns.len()..of_motion,
+            external: self.of_functions(of_pose),
             ..self.kernel(sources, steps, outputs)
         };
         let all = results(of_motion..of_motion + 2 * determinants.len() + implied.len());

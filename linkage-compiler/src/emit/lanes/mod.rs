@@ -11,7 +11,7 @@ use super::expression::{argument, literal};
 use super::names::ident;
 use crate::derivation::Derivation;
 use crate::lower::Code;
-use crate::program::{Access, Family, Program};
+use crate::program::{Access, Program};
 use columns::{Column, Columns};
 use given::Given;
 
@@ -144,50 +144,40 @@ fn quantities_in_lane(columns: &Columns) -> TokenStream {
     stored_in_lane(values, columns.coordinates.len() + columns.angles.len())
 }
 
-/// The body of the function for one lane that calls `kinematics` or `full_kinematics`.
+/// The body of the function for one lane that calls `kinematics`, and the function for points and outputs.
 fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStream {
-    let (types, bound) = (&program.signatures.types, given.bound(&TokenStream::new()));
-    let [kinematics, full_kinematics] = [&types.kinematics, &types.full_kinematics].map(|name| ident(name));
-    let (names, start) = match program.position.is_closed {
-        true => (["kinematics", "full_kinematics"], quote!(start)),
-        false => (["kinematics_near", "full_kinematics_near"], quote!(&start)),
+    let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound(&TokenStream::new()));
+    let (function, start) = match program.position.is_closed {
+        true => (ident("kinematics"), quote!(start)),
+        false => (ident("kinematics_near"), quote!(&start)),
     };
-    let [function, full_function] = names.map(ident);
-    let is_open = program.signatures.is_open();
-    let plain = match is_open {
-        true => quote!(self.#function(#start, branch, rates, accelerations)?;),
-        false => quote! {
-            let #kinematics { pose, rates, accelerations } = self.#function(#start, branch, rates, accelerations)?;
-        },
-    };
-    let families = [(Family::Points, "points"), (Family::Outputs, "outputs")];
-    let families = families.into_iter().filter(|(family, _)| program.signatures.has(*family));
-    let families: Vec<Ident> = families.map(|(_, word)| ident(word)).collect();
-    let full = match families.as_slice() {
-        [] => plain.clone(),
-        families if is_open => quote! {
-            let #full_kinematics { #(#families,)* .. } = self.#full_function(#start, branch, rates, accelerations)?;
-        },
-        families => quote! {
-            let #full_kinematics { pose, rates, accelerations, #(#families),* } =
-                self.#full_function(#start, branch, rates, accelerations)?;
-        },
-    };
+    let call = quote!(self.#function(#start, branch, rates, accelerations)?;);
     let store =
         |columns: &[Column], from| stored(columns.iter().map(|column| column.value.clone()), from, &TokenStream::new());
     let store_coordinates = store(&columns.coordinates, 0);
     let store_angles = store(&columns.angles, columns.coordinates.len());
-    let store_quantities = store(&columns.quantities, columns.coordinates.len() + columns.angles.len());
+    let from = columns.coordinates.len() + columns.angles.len();
+    // A stub has no such function.
+    let has_quantities = program.functions.iter().any(|function| function.name == "motion_of_quantities");
+    let quantities = has_quantities.then(|| {
+        let places = (0..columns.quantities.len()).map(literal).map(|place| quote!(quantities[#place]));
+        let store = stored(places, from, &TokenStream::new());
+        quote! {
+            let quantities = self.motion_of_quantities(pose, rates, accelerations);
+            #store
+        }
+    });
+    // The coordinates of an open chain are given.
+    if program.signatures.is_open() && quantities.is_none() {
+        return quote!(#bound #call);
+    }
     quote! {
         #bound
+        let #kinematics { pose, rates, accelerations } = #call
+        #store_coordinates
         if QUANTITIES {
-            #full
-            #store_coordinates
             #store_angles
-            #store_quantities
-        } else {
-            #plain
-            #store_coordinates
+            #quantities
         }
     }
 }
