@@ -4,8 +4,8 @@
 //! vectorises. The function also says whether its results are those of the function for one position; if not, that
 //! function computes the lane.
 //!
-//! A lane is accepted if its position, its rates and its accelerations exist, whichever columns are asked for. It then has
-//! the bits of `kinematics`. A rejected lane is one for which `kinematics` returns an error, which [`Batch::lane`] returns;
+//! A lane is accepted if its position, its rates and its accelerations exist, with any columns asked for. It then has the
+//! bits of `kinematics`. A rejected lane is one for which `kinematics` returns an error, which [`Batch::lane`] returns;
 //! all its found columns are NaN.
 //!
 //! A point, an output or a derivative of one that does not exist in an accepted lane, as the square root of a negative

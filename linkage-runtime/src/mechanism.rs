@@ -75,7 +75,7 @@ pub trait Mechanism {
     fn rate_parts(rates: &Self::Rates) -> (PerUnknown<Self>, PerInput<Self>);
     /// Computes the pose at these coordinates.
     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
-    /// True if every number of a pose is finite, values of user functions aside.
+    /// True if every number of a pose is finite.
     fn is_finite(pose: &Self::Pose) -> bool;
     /// The residuals Psi of the constraints.
     fn residual(&self, pose: &Self::Pose) -> PerUnknown<Self>;

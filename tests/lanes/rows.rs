@@ -1,4 +1,4 @@
-//! A lane is accepted if its position, its rates and its accelerations exist, whichever columns are asked for. A quantity
+//! A lane is accepted if its position, its rates and its accelerations exist, with any columns asked for. A quantity
 //! that does not exist is missing in its own column, and nowhere else.
 
 use linkage::lanes::{Batch, Given, Lanes, Values};
@@ -220,7 +220,7 @@ fn a_function_of_the_user_rejects_no_lane_if_only_an_output_reads_it() {
     assert_eq!(check(&Cam::default(), CamBranch {}, exists), angles::<f64>().len());
 }
 
-/// Where a position does not exist, no column does, and the error is that of `kinematics`.
+/// A lane without a position has no number in any column, and its error is that of `kinematics`.
 #[test]
 fn a_rejected_lane_is_missing_in_all_columns() {
     let angles = [0.0, 1.5, 0.2];

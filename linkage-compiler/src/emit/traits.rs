@@ -29,8 +29,7 @@ pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) 
     };
     quote! {
         impl<T: __rt::Real> #pose<T> {
-            #[doc = " Returns true if every number of this position is finite. Values of user functions need not be: the"]
-            #[doc = " functions that read them return an error."]
+            #[doc = " Returns true if every number of this position is finite."]
             #[must_use]
             pub fn is_finite(&self) -> bool {
                 #is_finite
@@ -46,12 +45,13 @@ pub(super) fn of_pose(program: &Program<Code>, derivation: Option<&Derivation>) 
     }
 }
 
-/// Expressions for every number of a pose that has to be finite.
+/// Expressions for every number of a pose.
 fn numbers_of(pose: &crate::program::PosePlan) -> Vec<TokenStream> {
     let directions = pose.directions.values().map(|field| ident(field));
     let parts = directions.flat_map(|field| [quote!(self.#field.re), quote!(self.#field.im)]);
     let values = pose.values.iter().map(|(_, field, _)| field);
     let values = values.chain(pose.determinants.iter().map(|(_, field, _)| field));
+    let values = values.chain(pose.externals.iter().map(|(_, field, _)| field));
     let values = values.map(|field| {
         let field = ident(field);
         quote!(self.#field)

@@ -154,8 +154,8 @@ pub struct Kernel {
     pub failure: Failure,
     /// Results that are checked, and are finite only if everything that they are computed from is: that needs no check.
     pub conclusive: Range<usize>,
-    /// Results that may be not finite: values of user functions. A coordinate, a rate or an acceleration that needs one is
-    /// then not finite either, and a quantity that needs one is checked by its own function.
+    /// Results that may be not finite: the values of user functions, for a lane alone. A coordinate, a rate or an
+    /// acceleration that needs one is then not finite either, and a quantity that needs one is missing in its column.
     pub external: Range<usize>,
     /// For each result the RRR dyad, if any, whose well-conditioned triangle guarantees that it is finite.
     pub dyads: Vec<Option<BlockId>>,

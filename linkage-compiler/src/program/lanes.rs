@@ -14,15 +14,20 @@ impl Plan<'_, '_> {
     /// A kernel of a lane has the results of the other function, and none of them has a name: names decide where the sign
     /// of a difference is written, and with it the sign of a zero.
     pub(super) fn lanes(&mut self) {
+        if !self.pose.externals.is_empty() {
+            self.kinematics_alone();
+        }
         let has_quantities = self.signatures.has_quantities();
         if has_quantities {
             let kernel = self.quantities_kernel(Failure::Error);
+            let is_method = self.reads_parameters(&kernel);
             let values = Expression::List(results(0..kernel.results.len()));
             let doc = lines([
                 "Value, rate and acceleration of each point and output, those of `full_kinematics`; not finite where they do not",
                 "exist.",
             ]);
-            self.add(self.signatures.motion_of_quantities(), doc, Body::of(kernel, values));
+            let signature = self.signatures.motion_of_quantities();
+            self.add(Function { is_method, ..signature }, doc, Body::of(kernel, values));
         }
         if !self.position.is_closed {
             return;
@@ -38,14 +43,35 @@ impl Plan<'_, '_> {
         self.add(Function { is_method, ..self.signatures.kinematics_in_lane() }, doc, body);
         if has_quantities {
             let kernel = self.quantities_kernel(Failure::Flag);
+            let is_method = self.reads_parameters(&kernel);
             let values = results(0..kernel.results.len());
             let mut body = flagged(kernel, vec![Expression::List(values)], "is_right");
             body.after.push(Statement::LetPassed(Pattern::Local(0)));
             let doc = lines(["`motion_of_quantities` without branches; false if that takes another way."]);
-            self.add(self.signatures.quantities_in_lane(), doc, body);
+            self.add(Function { is_method, ..self.signatures.quantities_in_lane() }, doc, body);
         }
     }
+
+    /// `kinematics` for a lane alone: a user function that only points and outputs read need not have a value.
+    fn kinematics_alone(&mut self) {
+        let mut body = self.kinematics_body();
+        if let Some(kernel) = &mut body.kernel {
+            // The values of user functions are the last results of a position.
+            let of_pose = kernel.conclusive.start - kernel.conclusive.len();
+            kernel.external = of_pose - self.pose.externals.len()..of_pose;
+        }
+        let doc = lines([
+            "`kinematics`, whose position need not have the values of user functions: a quantity that needs one that is not finite",
+            "is not finite either.",
+        ]);
+        let signature = self.signatures.kinematics(&self.position);
+        let itself = Function { name: ALONE.to_owned(), access: Access::LaneAlone, ..signature };
+        self.add(itself, doc, body);
+    }
 }
+
+/// The function for the position of a lane alone, if there are user functions.
+const ALONE: &str = "kinematics_alone";
 
 /// A body that returns these values and the flag.
 fn flagged(kernel: Kernel, mut values: Vec<Expression>, flag: &str) -> Body {

@@ -1,7 +1,5 @@
 //! Functions for the position: from coordinates, near a guess, and group by group in closed form.
 
-use std::ops::Range;
-
 use super::branch::Position;
 use super::doc::{lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type};
@@ -156,7 +154,6 @@ impl Plan<'_, '_> {
         let kernel = Kernel {
             turns: turns.map(|(place, turn)| (turn.symbol, place)).collect(),
             dyads: self.dyads(),
-            external: self.of_functions(results.len()),
             ..self.kernel(vec![source], steps, results)
         };
         let mut body = Body::of(kernel, self.pose_of_results());
@@ -191,8 +188,7 @@ impl Plan<'_, '_> {
         let steps = needed_names(&self.derivation.graph, steps, &nodes);
         let Arguments { inputs, branch, .. } = self.signatures.arguments.clone();
         let source = Source { from: Expression::name(&inputs), ..self.inputs(Order::Value) };
-        let (dyads, external) = (self.dyads(), self.of_functions(results.len()));
-        let kernel = Kernel { dyads, external, ..self.kernel(vec![source], steps, results) };
+        let kernel = Kernel { dyads: self.dyads(), ..self.kernel(vec![source], steps, results) };
         let mut body = Body::of(kernel, self.pose_of_results());
         body.after.push(Statement::CheckPosition);
         self.with_implied(&mut body);
@@ -343,11 +339,6 @@ impl Plan<'_, '_> {
         dyads.extend(self.pose.values.iter().map(|(_, _, symbol)| dyad_of(Some(*symbol))));
         dyads.extend(self.pose.externals.iter().map(|_| None));
         dyads
-    }
-
-    /// The results that are values of user functions, the last of those of a position.
-    pub(super) fn of_functions(&self, of_pose: usize) -> Range<usize> {
-        of_pose - self.pose.externals.len()..of_pose
     }
 
     /// `branches`: the positions on all branches.

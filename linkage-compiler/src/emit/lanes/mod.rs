@@ -80,9 +80,7 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         return None;
     }
     let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound(&quote!([lane])));
-    let is_method =
-        program.functions.iter().any(|function| function.name == "kinematics_in_lane" && function.is_method);
-    let on = if is_method { quote!(self.) } else { quote!(Self::) };
+    let on = on(program, "kinematics_in_lane");
     // The coordinates of an open chain are given: only points and outputs read its kinematics.
     let (found, taken) = match is_without_results(program) {
         true => (quote!(_), TokenStream::new()),
@@ -97,9 +95,10 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         }
         false => {
             let ((angles, flags), store_quantities) = (angles_in_lane(columns), quantities_in_lane(columns));
+            let on = self::on(program, "quantities_in_lane");
             quote! {
                 #angles
-                let (quantities, are_accepted) = self.quantities_in_lane(pose, rates, accelerations);
+                let (quantities, are_accepted) = #on quantities_in_lane(pose, rates, accelerations);
                 #store_quantities
                 is_accepted & are_accepted #(& #flags)*
             }
@@ -112,6 +111,12 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         #store_coordinates
         if QUANTITIES { #quantities } else { is_accepted }
     })
+}
+
+/// The part of a call before the name of a function: some read no parameters and take no `self`.
+fn on(program: &Program<Code>, name: &str) -> TokenStream {
+    let is_method = program.functions.iter().any(|function| function.name == name && function.is_method);
+    if is_method { quote!(self.) } else { quote!(Self::) }
 }
 
 /// True for an open chain whose points and outputs are not computed in lanes: its coordinates are given.
@@ -151,6 +156,9 @@ fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStre
         true => (ident("kinematics"), quote!(start)),
         false => (ident("kinematics_near"), quote!(&start)),
     };
+    // User functions need not have values.
+    let has = |name: &str| program.functions.iter().any(|function| function.name == name);
+    let function = if has("kinematics_alone") { ident("kinematics_alone") } else { function };
     let call = quote!(self.#function(#start, branch, rates, accelerations)?;);
     let store =
         |columns: &[Column], from| stored(columns.iter().map(|column| column.value.clone()), from, &TokenStream::new());
@@ -158,12 +166,12 @@ fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStre
     let store_angles = store(&columns.angles, columns.coordinates.len());
     let from = columns.coordinates.len() + columns.angles.len();
     // A stub has no such function.
-    let has_quantities = program.functions.iter().any(|function| function.name == "motion_of_quantities");
-    let quantities = has_quantities.then(|| {
+    let quantities = has("motion_of_quantities").then(|| {
         let places = (0..columns.quantities.len()).map(literal).map(|place| quote!(quantities[#place]));
         let store = stored(places, from, &TokenStream::new());
+        let on = on(program, "motion_of_quantities");
         quote! {
-            let quantities = self.motion_of_quantities(pose, rates, accelerations);
+            let quantities = #on motion_of_quantities(pose, rates, accelerations);
             #store
         }
     });
