@@ -57,7 +57,12 @@ impl<'a, M: Lanes> Block<'a, M> {
     pub fn accepted(&self, place: Place) -> impl Iterator<Item = (u64, M::Scalar)> + 'a {
         let values = self.chunk.column(place).unwrap_or_default().iter().zip(self.chunk.accepted());
         let rows = values.zip(self.chunk.first_row()..);
-        rows.filter_map(|((value, is_accepted), row)| (*is_accepted && value.is_finite()).then_some((row, *value)))
+        // The found numbers of rejected rows are NaN too.
+        let is_found = matches!(place, Place::Found(_));
+        rows.filter_map(move |((value, is_accepted), row)| {
+            let exists = if is_found { value.is_finite() } else { *is_accepted };
+            exists.then_some((row, *value))
+        })
     }
 
     /// The rejected rows in the sweep, with their reasons.

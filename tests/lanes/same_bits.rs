@@ -21,7 +21,7 @@ use crate::by_name::{Bits, S, is_full, same_bits};
 /// Lanes of one batch: not a multiple of the width of a block.
 const LANES: usize = 1003;
 
-/// Pairs of batches of each mechanism and scalar. `LANE_BATCHES=2100` is the full size: 1e8 lanes, half of them in `f32`.
+/// Batches of each kind for each mechanism and scalar. `LANE_BATCHES=930` is the full size: 1e8 lanes, half of them in `f32`.
 fn batches() -> usize {
     env::var("LANE_BATCHES").ok().and_then(|text| text.parse().ok()).unwrap_or(4)
 }
