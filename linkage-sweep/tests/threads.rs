@@ -27,6 +27,7 @@ fn any_number_of_threads_may_be_asked_for() {
     let reducers = (Rejected, Extremes::of(found("s")));
     let sweep = |plan: Plan| Sweep::<Crank<f64>>::new(&crank(), (), plan).unwrap().with_rows_per_chunk(100).unwrap();
     let alone = sweep(plan()).with_threads(1).unwrap().reduce(&reducers, go_on).unwrap();
+    settled(before);
     for count in [2, 1000, 1 << 20, 1 << 40, usize::MAX] {
         // Three chunks, 22 chunks, and more than there can be threads.
         for (plan, most) in
