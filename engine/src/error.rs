@@ -80,7 +80,7 @@ pub enum EngineError {
     /// A function of the user panicked.
     Panic(String),
     /// A part of a query that DataFusion would ignore.
-    Refused {
+    Unsupported {
         /// The part.
         part: &'static str,
         /// The thing to write instead.
@@ -148,7 +148,7 @@ impl fmt::Display for EngineError {
             Self::Table { function, mechanism, source } => write!(f, "{function}('{mechanism}'): {source}"),
             Self::Chunk { mechanism, number, source } => write!(f, "chunk {number} of {mechanism}: {source}"),
             Self::Panic(message) => write!(f, "a function panicked: {message}"),
-            Self::Refused { part, instead } => write!(f, "{part} is not supported: write {instead}"),
+            Self::Unsupported { part, instead } => write!(f, "{part} is not supported: write {instead}"),
             Self::NoStore { place } => write!(f, "there is no store for {place}: COPY writes files of this machine"),
             Self::Place { path, source } => write!(f, "cannot create a file in {path}: {source}"),
             Self::Cancelled => f.write_str("the query was cancelled before its result was complete"),

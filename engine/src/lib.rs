@@ -44,13 +44,13 @@ mod nearest;
 mod positions;
 mod print;
 mod progress;
-mod refused;
 mod registry;
 mod request;
 mod scan;
 mod session;
 mod spec;
 mod table;
+mod unsupported;
 mod write;
 
 pub use error::EngineError;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use crate::EngineError;
 
-/// Prints a line. If its reader has gone, as `head` does, the process ends: nobody reads the rest.
+/// Prints a line. If its reader has gone, as `head` does, the process ends.
 ///
 /// # Errors
 /// [`EngineError::Sweep`], if the line cannot be written for another reason.

@@ -80,7 +80,7 @@ async fn columns() {
 
 /// DataFusion reads these and answers as if they were not there.
 #[tokio::test]
-async fn what_would_be_ignored_is_refused() {
+async fn what_would_be_ignored_is_an_error() {
     let context = context(mechanisms(), 2, 8192);
     let all = table("sweep", &request());
     let sample = "TABLESAMPLE is not supported: write a sample of the plan, or WHERE random() < 0.1";

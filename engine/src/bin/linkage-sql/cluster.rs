@@ -65,7 +65,7 @@ pub async fn scheduler(arguments: SchedulerArguments) -> Result<(), ClusterError
     let SchedulerArguments { bind, port, advertise, executors, timeout } = arguments;
     let options = SchedulerOptions { bind, port, advertise, executors, timeout };
     let scheduler = Scheduler::bind(options).await?;
-    // A scheduler serves on if nobody reads its address.
+    // A scheduler serves on without a reader of its address.
     let _ = writeln!(std::io::stdout(), "{}", scheduler.address());
     let mut terminate = signal(SignalKind::terminate()).map_err(ClusterError::Folder)?;
     tokio::select! {

@@ -1,4 +1,4 @@
-//! SQL that DataFusion ignores or does not survive: refused with a sentence.
+//! SQL that DataFusion would ignore, or never answer: an error with a sentence.
 
 use std::fmt::{self, Debug};
 use std::fs;
@@ -17,28 +17,28 @@ use datafusion::sql::sqlparser::ast::TableFactor;
 
 use crate::EngineError;
 
-/// Refuses parts of a `FROM` that DataFusion reads and drops, as if they were not there.
+/// Rejects parts of a `FROM` that DataFusion reads and drops, as if they were not there.
 #[derive(Debug)]
 pub struct Dropped;
 
 impl RelationPlanner for Dropped {
     fn plan_relation(&self, relation: TableFactor, _: &mut dyn RelationPlannerContext) -> Result<RelationPlanning> {
-        let refused = |part, instead| Err(EngineError::Refused { part, instead }.into());
+        let rejected = |part, instead| Err(EngineError::Unsupported { part, instead }.into());
         match &relation {
             TableFactor::Table { sample: Some(_), .. } | TableFactor::Derived { sample: Some(_), .. } => {
-                refused("TABLESAMPLE", "a sample of the plan, or WHERE random() < 0.1")
+                rejected("TABLESAMPLE", "a sample of the plan, or WHERE random() < 0.1")
             }
-            TableFactor::Table { version: Some(_), .. } => refused("a version of a table", "the table alone"),
+            TableFactor::Table { version: Some(_), .. } => rejected("a version of a table", "the table alone"),
             TableFactor::Table { with_ordinality: true, .. } | TableFactor::Function { with_ordinality: true, .. } => {
-                refused("WITH ORDINALITY", "the column row or case_number")
+                rejected("WITH ORDINALITY", "the column row or case_number")
             }
-            TableFactor::Table { partitions, .. } if !partitions.is_empty() => refused("PARTITION", "WHERE"),
+            TableFactor::Table { partitions, .. } if !partitions.is_empty() => rejected("PARTITION", "WHERE"),
             _ => Ok(RelationPlanning::Original(Box::new(relation))),
         }
     }
 }
 
-/// Refuses `COPY` to a place that cannot be written. The writer of DataFusion 55 tries some of these again without end.
+/// Rejects `COPY` to a place that cannot be written. The writer of DataFusion 55 tries some of these again without end.
 pub struct Places(pub Arc<RuntimeEnv>);
 
 impl Debug for Places {
