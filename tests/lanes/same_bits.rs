@@ -132,7 +132,7 @@ where
                     let (coordinates, quantities) = in_lane.split_at(M::COORDINATES);
                     same_bits(&in_lane, &alone.as_ref()[..asked])
                         && coordinates.iter().all(ComplexField::is_finite)
-                        && is_full == !quantities.iter().any(|value| value.is_nan())
+                        && is_full != quantities.iter().any(|value| value.is_nan())
                 }
                 (Err(_), false) => {
                     tally.rejected += 1;
