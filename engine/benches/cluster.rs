@@ -8,7 +8,7 @@
 #[path = "../tests/cluster/processes.rs"]
 mod processes;
 
-use std::error::Error;
+use std::io::{Error, ErrorKind, Write};
 use std::time::{Duration, Instant};
 
 use datafusion::physical_plan::common::collect;
@@ -18,7 +18,7 @@ use linkage_engine::{Mechanisms, Request, session};
 use linkage_sweep::Plan;
 use processes::{Process, until};
 
-type Result<T> = std::result::Result<T, Box<dyn Error>>;
+type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// The positions of a turn.
 const TURN: u64 = 500;
@@ -69,8 +69,21 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
+/// Writes a line, or returns the error that it cannot be written.
+macro_rules! line {
+    ($($text:tt)*) => { writeln!(std::io::stdout(), $($text)*)? };
+}
+
 #[tokio::main]
 async fn main() -> Result<()> {
+    match measured().await {
+        // The reader has gone, as `head` does. The processes of the clusters have ended.
+        Err(error) if error.downcast_ref().is_some_and(|error: &Error| error.kind() == ErrorKind::BrokenPipe) => Ok(()),
+        measured => measured,
+    }
+}
+
+async fn measured() -> Result<()> {
     let numbers: Vec<u64> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let (positions, rounds) = (numbers.first().copied().unwrap_or(20_000_000), numbers.get(1).copied().unwrap_or(5));
     let cores = std::thread::available_parallelism()?.get();
@@ -94,16 +107,16 @@ async fn main() -> Result<()> {
                 times.push(time.as_secs_f64());
             }
         }
-        println!("{positions} positions, {cores} cores, median of {rounds}");
+        line!("{positions} positions, {cores} cores, median of {rounds}");
         let row: Vec<f64> = times.into_iter().map(median).collect();
         for ((name, _), time) in places.iter().zip(&row) {
-            println!("  {name}: {time:.3} s, {:.3e} positions/s", positions as f64 / time);
+            line!("  {name}: {time:.3} s, {:.3e} positions/s", positions as f64 / time);
         }
         medians.push(row);
     }
     if let [start, all] = medians.as_slice() {
         let rate = positions as f64 / all[0];
-        println!("a second machine pays from {:.1e} positions on", 2.0 * rate * (start[3] - start[0]));
+        line!("a second machine pays from {:.1e} positions on", 2.0 * rate * (start[3] - start[0]));
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Time and memory of queries of one found column, by `linkage-sweep` alone and by SQL.
 //!
 //! Run it with `--release`. `cost overhead ROUNDS` takes fifty million positions, in chunks of 100 000, on one thread and on
-//! all: the number of positions that exist, which costs next to nothing to reduce, then the extremes. Rounds of both take
+//! all: the number of positions in which the column exists, which costs next to nothing to reduce, then the extremes. Rounds of both take
 //! turns, and the median is that of the ratio within a round. `cost memory POSITIONS` answers
 //! one query of that many positions, and prints the largest memory at a tenth of the chunks and at the end.
 
@@ -18,7 +18,7 @@ use datafusion::prelude::SessionContext;
 use linkage::Elbow;
 use linkage::lanes::Lanes;
 use linkage_engine::mechanisms::{FourBar, FourBarBranch};
-use linkage_engine::{Mechanisms, Request, progress, register, session};
+use linkage_engine::{Mechanisms, Request, print, progress, register, session};
 use linkage_sweep::{Block, Column, Extremes, Place, Plan, Reducer, Sweep, SweepError, found};
 
 const ROWS_PER_CHUNK: usize = 100_000;
@@ -54,10 +54,10 @@ fn numbers(batches: &[RecordBatch]) -> Vec<u64> {
     columns.map(number).collect()
 }
 
-/// Counts the accepted rows.
-struct Accepted(Column);
+/// Counts the rows in which a column exists.
+struct Existing(Column);
 
-impl<M: Lanes> Reducer<M> for Accepted {
+impl<M: Lanes> Reducer<M> for Existing {
     type Part = (Place, u64);
     type Output = u64;
 
@@ -115,13 +115,13 @@ fn overhead(threads: usize, rounds: usize) -> Result<()> {
         }
         let speed = |times: Vec<f64>| sweep.rows() as f64 / median(times) / 1e6;
         let (by_sweep, by_sql, ratio) = (speed(by_sweep), speed(by_sql), median(ratio));
-        println!(
+        print(format_args!(
             "{threads} threads, {what}: {by_sweep:.2} million rows/s alone, {by_sql:.2} by SQL, {ratio:.3} of the time"
-        );
+        ))?;
         Ok(())
     };
     let go_on = |_| ControlFlow::Continue(());
-    compare("count(mu)", &|| Ok(vec![sweep.reduce(&Accepted(found("mu")), go_on)?]))?;
+    compare("count(mu)", &|| Ok(vec![sweep.reduce(&Existing(found("mu")), go_on)?]))?;
     compare("min(mu), max(mu)", &|| {
         let range = sweep.reduce(&Extremes::of(found("mu")), go_on)?;
         Ok([range.least, range.most].into_iter().flatten().map(|extreme| extreme.value.to_bits()).collect())
@@ -142,7 +142,9 @@ fn memory(positions: u64) -> Result<()> {
     let rows = plan.factors.iter().map(linkage_sweep::Factor::count).product::<u64>();
     let query = query("min(mu), max(mu)", plan)?;
     let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(threads).build()?;
-    let print = |part, seconds: f64| println!("{part}: {seconds:.1} s, at most {:.1} MB", peak().unwrap_or(f64::NAN));
+    let report = |part, seconds: f64| {
+        print(format_args!("{part}: {seconds:.1} s, at most {:.1} MB", peak().unwrap_or(f64::NAN)))
+    };
     let start = Instant::now();
     let plan = runtime.block_on(async { context.sql(&query).await?.create_physical_plan().await })?;
     let answer = runtime.spawn(collect(Arc::clone(&plan), context.task_ctx()));
@@ -150,13 +152,12 @@ fn memory(positions: u64) -> Result<()> {
     while !answer.is_finished() && progress(&plan).chunks_done * 10 < progress(&plan).chunks {
         std::thread::sleep(Duration::from_millis(10));
     }
-    print("a tenth", start.elapsed().as_secs_f64());
+    report("a tenth", start.elapsed().as_secs_f64())?;
     let batches = runtime.block_on(answer)??;
     let seconds = start.elapsed().as_secs_f64();
-    print("all", seconds);
-    println!("{rows} rows, {:.2} million rows/s", rows as f64 / seconds / 1e6);
-    println!("{}", datafusion::arrow::util::pretty::pretty_format_batches(&batches)?);
-    Ok(())
+    report("all", seconds)?;
+    print(format_args!("{rows} rows, {:.2} million rows/s", rows as f64 / seconds / 1e6))?;
+    Ok(print(datafusion::arrow::util::pretty::pretty_format_batches(&batches)?)?)
 }
 
 fn main() -> Result<()> {

@@ -1,6 +1,7 @@
 //! The error of tables and queries.
 
 use std::fmt;
+use std::io;
 
 use datafusion::arrow::error::ArrowError;
 use datafusion::common::SchemaError;
@@ -78,6 +79,27 @@ pub enum EngineError {
     },
     /// A function of the user panicked.
     Panic(String),
+    /// A part of a query that DataFusion would ignore.
+    Unsupported {
+        /// The part.
+        part: &'static str,
+        /// The thing to write instead.
+        instead: &'static str,
+    },
+    /// A place of `COPY`, or of a table, for which there is no store.
+    NoStore {
+        /// The place.
+        place: String,
+    },
+    /// A folder in which `COPY` cannot make a file.
+    Place {
+        /// The folder.
+        path: String,
+        /// The reason.
+        source: io::Error,
+    },
+    /// The result of a query was given up before it was complete.
+    Cancelled,
     /// An index of a column or partition that a scan from another process has, and this one does not.
     OutOfRange {
         /// "column" or "partition".
@@ -126,6 +148,10 @@ impl fmt::Display for EngineError {
             Self::Table { function, mechanism, source } => write!(f, "{function}('{mechanism}'): {source}"),
             Self::Chunk { mechanism, number, source } => write!(f, "chunk {number} of {mechanism}: {source}"),
             Self::Panic(message) => write!(f, "a function panicked: {message}"),
+            Self::Unsupported { part, instead } => write!(f, "{part} is not supported: write {instead}"),
+            Self::NoStore { place } => write!(f, "there is no store for {place}: COPY writes files of this machine"),
+            Self::Place { path, source } => write!(f, "cannot create a file in {path}: {source}"),
+            Self::Cancelled => f.write_str("the query was cancelled before its result was complete"),
             Self::OutOfRange { quantity, index, count } => {
                 write!(f, "there is no {quantity} of index {index}: there are {count}")
             }
@@ -170,6 +196,7 @@ impl std::error::Error for EngineError {
             Self::Request(error) => Some(error),
             Self::Table { source, .. } | Self::Chunk { source, .. } => Some(source.as_ref()),
             Self::Sweep(error) => std::error::Error::source(error),
+            Self::Place { source, .. } => Some(source),
             Self::Query(error) => Some(error),
             _ => None,
         }

@@ -85,8 +85,8 @@ impl<M: Lanes> Family<M> {
         self
     }
 
-    /// Adds a column of the table function `cases`: a number of each case, computed from these columns of its rows.
-    /// `None` becomes null.
+    /// Adds a column of the table function `cases`: a number of each case, computed from these columns of its rows, in which
+    /// a number that does not exist is NaN. `None` and NaN become null.
     ///
     /// The number must depend on the case alone: cases are computed in any order, and more than once if a query asks for
     /// that.
@@ -103,7 +103,7 @@ impl<M: Lanes> Family<M> {
             for (place, column) in places.iter_mut().zip(&columns) {
                 *place = column.place::<M>()?;
             }
-            Ok(block.cases(places).map(|case| value(&case)).collect())
+            Ok(block.cases(places).map(|case| value(&case).filter(|value| !value.is_nan())).collect())
         };
         self.case_columns.push(CaseColumn { name: name.into(), columns: needed, values: Arc::new(values) });
         self

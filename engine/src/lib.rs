@@ -19,8 +19,9 @@
 //! Two table functions take the name of a mechanism and a [request](Request) in JSON, which is a plan of
 //! [`linkage_sweep`] and a few settings:
 //!
-//! - `sweep` has a row for each position: its number `row`, the given and the found columns, and `accepted`. Found
-//!   numbers of rejected rows are null.
+//! - `sweep` has a row for each position: its number `row`, the given and the found columns, and `accepted`, which is true
+//!   if the position, its rates and its accelerations exist, with any columns in the query. Found numbers of rejected rows
+//!   are null; so is a point or an output that does not exist in an accepted row, in its own column.
 //! - `cases` has a row for each case, for example for each design: its `case_number`, its `first_row`, the given
 //!   numbers of that row, `accepted` if all its rows are, and the [case columns](Family::case_column) of the mechanism.
 //!
@@ -41,6 +42,7 @@ mod handout;
 pub mod mechanisms;
 mod nearest;
 mod positions;
+mod print;
 mod progress;
 mod registry;
 mod request;
@@ -48,10 +50,14 @@ mod scan;
 mod session;
 mod spec;
 mod table;
+mod unsupported;
 mod write;
 
 pub use error::EngineError;
 pub use family::Family;
+// For binaries and examples.
+#[doc(hidden)]
+pub use print::print;
 pub use progress::{ScanProgress, progress};
 pub use registry::Mechanisms;
 pub use request::Request;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use datafusion::prelude::{SessionConfig, SessionContext};
 
 use crate::function::SweepFunction;
+use crate::unsupported::{Dropped, Places};
 use crate::{Mechanisms, TableKind};
 
 /// A session of DataFusion with the table functions `sweep` and `cases`, and a partition for each core.
@@ -20,7 +21,13 @@ pub fn session(mechanisms: Mechanisms) -> SessionContext {
 }
 
 /// Adds the table functions `sweep` and `cases` to a session.
+///
+/// Queries that DataFusion would answer wrongly or never are then errors: `TABLESAMPLE`, which it ignores, and `COPY` to a
+/// place that cannot be written.
 pub fn register(context: &SessionContext, mechanisms: Mechanisms) {
+    context.add_analyzer_rule(Arc::new(Places(context.runtime_env())));
+    // It fails only in a build without SQL.
+    let _ = context.register_relation_planner(Arc::new(Dropped));
     let mechanisms = Arc::new(mechanisms);
     for kind in [TableKind::Sweep, TableKind::Cases] {
         let mechanisms = Arc::clone(&mechanisms);

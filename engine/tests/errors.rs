@@ -78,6 +78,30 @@ async fn columns() {
     assert!(message(&context, "SELEC").await.contains("Line: 1, Column: 1"));
 }
 
+/// DataFusion reads these and answers as if they were not there.
+#[tokio::test]
+async fn what_would_be_ignored_is_an_error() {
+    let context = context(mechanisms(), 2, 8192);
+    let all = table("sweep", &request());
+    let sample = "TABLESAMPLE is not supported: write a sample of the plan, or WHERE random() < 0.1";
+    let ordinality = "WITH ORDINALITY is not supported: write the column row or case_number";
+    for (query, expected) in [
+        ("SELECT count(*) FROM @ TABLESAMPLE (10 PERCENT)", sample),
+        ("SELECT count(*) FROM @ TABLESAMPLE BERNOULLI (10)", sample),
+        ("SELECT count(*) FROM @ t TABLESAMPLE SYSTEM (10) REPEATABLE (3)", sample),
+        ("SELECT count(*) FROM @ TABLESAMPLE (5 ROWS)", sample),
+        ("SELECT count(*) FROM (SELECT * FROM @) TABLESAMPLE (10 PERCENT)", sample),
+        ("WITH t AS (SELECT * FROM @) SELECT count(*) FROM t TABLESAMPLE (5)", sample),
+        ("SELECT count(*) FROM @ a JOIN @ b TABLESAMPLE (5) ON a.row = b.row", sample),
+        ("SELECT 1 WHERE EXISTS (SELECT 1 FROM @ TABLESAMPLE (5))", sample),
+        ("SELECT * FROM @ WITH ORDINALITY", ordinality),
+    ] {
+        assert_eq!(message(&context, &query.replace('@', &all)).await, expected, "{query}");
+    }
+    let query = format!("SELECT count(*) FROM {all} WHERE random() < 0.1");
+    assert!((1..2184).contains(&common::number(&context, &query).await));
+}
+
 #[tokio::test]
 async fn a_panic_of_a_function_is_an_error_of_its_chunk() {
     let family = Family::new(common::Rocker::<f64>::default(), left()).case_column("fifth", [found("mu")], |case| {

@@ -38,7 +38,8 @@ pub struct Table {
 
 impl Table {
     /// A turn of the input of a mechanism with `derive lanes;`, in equal steps from 0, at a constant input rate: the
-    /// input, then all coordinates, rates, accelerations, points and outputs. Inputs without a position have no row.
+    /// input, then all coordinates, rates, accelerations, points and outputs. Inputs without a position, rates and
+    /// accelerations have no row; a point or an output that does not exist is NaN in its own column.
     ///
     /// # Errors
     /// [`InputError::ColumnLength`] if the mechanism has several inputs, or groups without closed form.

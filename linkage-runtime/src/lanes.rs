@@ -2,8 +2,15 @@
 //!
 //! A mechanism with `derive lanes;` computes each position by a function without branches, in a loop that the compiler
 //! vectorises. The function also says whether its results are those of the function for one position; if not, that
-//! function computes the lane. So an accepted lane has the bits of `kinematics`, and a rejected lane is one for which
-//! `kinematics` returns an error, which [`Batch::lane`] returns.
+//! function computes the lane.
+//!
+//! A lane is accepted if its position, its rates and its accelerations exist, with any columns asked for. It then has the
+//! bits of `kinematics`. A rejected lane is one for which `kinematics` returns an error, which [`Batch::lane`] returns;
+//! all its found columns are NaN.
+//!
+//! A point, an output or a derivative of one that does not exist in an accepted lane, as the square root of a negative
+//! number, is NaN in its own column and in no other. All other numbers of accepted lanes are finite and have the bits of
+//! `full_kinematics`.
 
 use core::fmt::Debug;
 
@@ -76,7 +83,8 @@ pub trait Lanes: Sized {
     /// The parameters of one lane of a block.
     fn design<const W: usize>(given: &Given<Self, [Self::Scalar; W]>, lane: usize) -> Self;
     /// Computes one lane of a block without branches, with angles, points and outputs if `QUANTITIES`. False if
-    /// [`exact`](Self::exact) has to compute it: always, if a formula needs iteration or a function of a library.
+    /// [`exact`](Self::exact) has to compute it: always, if a formula needs iteration or a function of a library. A point or
+    /// an output that is not finite is no reason for it.
     fn lane<const W: usize, const QUANTITIES: bool>(
         &self,
         given: &Given<Self, [Self::Scalar; W]>,
@@ -84,11 +92,11 @@ pub trait Lanes: Sized {
         lane: usize,
         found: &mut Found<Self, [Self::Scalar; W]>,
     ) -> bool;
-    /// Computes one lane by the function for one position: `kinematics`, or `full_kinematics` if `QUANTITIES`. Without
-    /// them angles, points and outputs are zero.
+    /// Computes one lane by the functions for one position: `kinematics`, and if `QUANTITIES` those of angles, points and
+    /// outputs, which are zero otherwise. A point or an output that is not finite is no error.
     ///
     /// # Errors
-    /// Those of that function.
+    /// Those of `kinematics`.
     fn exact<const QUANTITIES: bool>(
         &self,
         given: &Given<Self, Self::Scalar>,
@@ -140,6 +148,8 @@ impl<'a, M: Lanes> Batch<'a, M> {
     /// `found` is in the order of [`Lanes::FOUND`]; columns that are `None` are not stored, and if no column of a point
     /// or an output is asked for, these are not computed. `accepted` gets false for each lane without a position with
     /// finite rates and accelerations; the found columns of such a lane are NaN. [`lane`](Self::lane) returns its error.
+    /// In an accepted lane a column is NaN only where its own number is not finite. So neither the mask nor a column
+    /// depends on the other columns asked for.
     ///
     /// # Errors
     /// [`InputError::ColumnLength`] if a column differs in length from the given ones, or if `found` has not one entry
@@ -193,8 +203,8 @@ impl<'a, M: Lanes> Batch<'a, M> {
         })
     }
 
-    /// Computes one lane by the function for one position, with angles, points and outputs, in the order of
-    /// [`Lanes::FOUND`].
+    /// Computes one lane by the functions for one position, with angles, points and outputs, in the order of
+    /// [`Lanes::FOUND`]. A point or an output that does not exist is NaN.
     ///
     /// # Errors
     /// [`PositionError`], the reason for which a lane is rejected. [`InputError::OutOfRange`] if there is no such lane.
@@ -205,7 +215,7 @@ impl<'a, M: Lanes> Batch<'a, M> {
     /// Computes one lane as [`lane`](Self::lane), without angles, points and outputs, which are zero.
     ///
     /// # Errors
-    /// Those of `lane`, except that a point or an output that is not finite is none.
+    /// Those of `lane`.
     pub fn lane_of_coordinates(&self, lane: usize) -> Result<Found<M, M::Scalar>, PositionError> {
         self.alone::<false>(lane)
     }
@@ -276,11 +286,13 @@ impl<'a, M: Lanes> Batch<'a, M> {
                 }
             }
             accepted.iter_mut().zip(is_found).for_each(|(accepted, is_found)| *accepted = is_found);
-            for (column, values) in found.iter_mut().zip(values.as_ref()) {
+            for (number, (column, values)) in found.iter_mut().zip(values.as_ref()).enumerate() {
                 if let Some(column) = column.as_mut().and_then(|column| column.get_mut(from..)) {
+                    // The coordinates of an accepted lane are finite.
+                    let values = if number < M::COORDINATES { *values } else { values.map(existing) };
                     match column.first_chunk_mut::<W>() {
-                        Some(column) => *column = *values,
-                        None => column.iter_mut().zip(values).for_each(|(place, value)| *place = *value),
+                        Some(column) => *column = values,
+                        None => column.iter_mut().zip(values).for_each(|(place, value)| *place = value),
                     }
                 }
             }
@@ -310,13 +322,20 @@ impl<'a, M: Lanes> Batch<'a, M> {
     }
 }
 
-/// One lane by the function for one position.
+/// One lane by the functions for one position.
 fn exact<M: Lanes, const QUANTITIES: bool>(
     given: Given<M, [M::Scalar; 1]>,
     branch: M::Branch,
 ) -> Result<Found<M, M::Scalar>, PositionError> {
     let design = M::design(&given, 0);
-    design.exact::<QUANTITIES>(&<M::Given as Dim>::map(given, |[value]| value), branch)
+    let found = design.exact::<QUANTITIES>(&<M::Given as Dim>::map(given, |[value]| value), branch)?;
+    Ok(<M::Found as Dim>::map(found, existing))
+}
+
+/// A number, or NaN if it is not finite: what does not exist is the same in all columns.
+#[inline(always)]
+fn existing<T: Real>(value: T) -> T {
+    if value.is_finite() { value } else { real(f64::NAN) }
 }
 
 /// Runs a loop with the vector instructions that the machine has.

@@ -4,6 +4,7 @@
 
 use std::error::Error;
 use std::fs;
+use std::io::{self, ErrorKind, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
@@ -27,6 +28,11 @@ linkage! {
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
+/// Writes a line, or returns the error that it cannot be written.
+macro_rules! line {
+    ($($text:tt)*) => { writeln!(io::stdout(), $($text)*)? };
+}
+
 /// Runs something three times and prints the least time per row, and the size of the file if there is one.
 fn measure(name: &str, rows: u64, path: &Path, mut run: impl FnMut() -> Result<()>) -> Result<()> {
     let mut least = f64::INFINITY;
@@ -37,12 +43,7 @@ fn measure(name: &str, rows: u64, path: &Path, mut run: impl FnMut() -> Result<(
     }
     let size = fs::metadata(path).map_or(0, |metadata| metadata.len());
     let rows = rows as f64;
-    println!(
-        "{name:<22} {:7.3} s {:8.2} million rows/s {:7.2} bytes/row",
-        least,
-        rows / least / 1e6,
-        size as f64 / rows
-    );
+    line!("{name:<22} {:7.3} s {:8.2} million rows/s {:7.2} bytes/row", least, rows / least / 1e6, size as f64 / rows);
     if path.exists() {
         fs::remove_file(path)?;
     }
@@ -50,6 +51,16 @@ fn measure(name: &str, rows: u64, path: &Path, mut run: impl FnMut() -> Result<(
 }
 
 fn main() -> Result<()> {
+    match measured() {
+        // The reader has gone, as `head` does.
+        Err(error) if error.downcast_ref().is_some_and(|error: &io::Error| error.kind() == ErrorKind::BrokenPipe) => {
+            Ok(())
+        }
+        measured => measured,
+    }
+}
+
+fn measured() -> Result<()> {
     let designs = std::env::args().nth(1).map_or(Ok(5000), |text| text.parse())?;
     let lengths = ["a", "b", "c", "d"].into_iter().zip([40.0, 120.0, 80.0, 100.0]);
     let lengths = lengths.map(|(name, mean)| (name, Distribution::Normal { mean, deviation: 5.0 }));
@@ -63,7 +74,7 @@ fn main() -> Result<()> {
     for (title, columns) in
         [("five given and three found columns", some), ("all columns", Column::all::<FourBar<f64>>())]
     {
-        println!("{title} ({}), {rows} rows", columns.len());
+        line!("{title} ({}), {rows} rows", columns.len());
         measure("chunks", rows, &path, || {
             Ok(sweep.for_each_chunk(&columns, go_on, |_| Ok::<(), linkage_sweep::SweepError>(()))?)
         })?;

@@ -6,12 +6,14 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, BooleanArray, PrimitiveArray, RecordBatch};
 use arrow_buffer::{BooleanBuffer, NullBuffer};
 use arrow_schema::{Schema, SchemaRef};
+use linkage_runtime::Real;
 use linkage_runtime::lanes::Lanes;
 use linkage_sweep::{Chunk, Column, Place, Progress, Sweep, SweepError};
 
 use crate::{Error, Scalar, schema};
 
-/// The rows of a chunk, with the [schema](schema()) of its columns. Found numbers of rejected rows are null.
+/// The rows of a chunk, with the [schema](schema()) of its columns. A found number is null where it does not exist: in
+/// rejected rows, and where the quantity itself has no value.
 ///
 /// # Errors
 /// [`Error::Schema`] and [`Error::Arrow`], if the schema is of other columns.
@@ -26,13 +28,24 @@ where
     let accepted = if is_whole { BooleanBuffer::new_set(flags.len()) } else { BooleanBuffer::from(flags) };
     let nulls = (!is_whole).then(|| NullBuffer::new(accepted.clone()));
     let array = |place: Place, values: &[M::Scalar]| {
-        let nulls = nulls.clone().filter(|_| matches!(place, Place::Found(_)));
+        let nulls = match place {
+            Place::Given(_) => None,
+            // The coordinates of an accepted row exist.
+            Place::Found(column) if column < M::COORDINATES => nulls.clone(),
+            Place::Found(_) => existing(values),
+        };
         let values = values.to_vec().into();
         PrimitiveArray::<<M::Scalar as Scalar>::Arrow>::try_new(values, nulls).map(|array| Arc::new(array) as ArrayRef)
     };
     let mut arrays = chunk.columns().map(|(place, _, values)| array(place, values)).collect::<Result<Vec<_>, _>>()?;
     arrays.push(Arc::new(BooleanArray::new(accepted, None)));
     Ok(RecordBatch::try_new(Arc::clone(schema), arrays)?)
+}
+
+/// The mask of a column; none if all its numbers exist.
+fn existing<T: Real>(values: &[T]) -> Option<NullBuffer> {
+    let exists: BooleanBuffer = values.iter().map(T::is_finite).collect();
+    Some(NullBuffer::new(exists)).filter(|nulls| nulls.null_count() > 0)
 }
 
 /// An error if the schema has another column where the chunk has one.

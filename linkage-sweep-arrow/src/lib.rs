@@ -6,8 +6,9 @@
 //! - [record batches](for_each_record_batch) in order, for any other user of Arrow;
 //! - or single [record batches](record_batch) of chunks.
 //!
-//! All have the same [schema](schema()): the columns asked for, then a Boolean column `accepted`. Found numbers of
-//! rejected rows are null, never NaN.
+//! All have the same [schema](schema()): the columns asked for, then a Boolean column `accepted`. A row is accepted if its
+//! position, its rates and its accelerations exist, with any columns asked for. Found numbers of rejected rows are null, and
+//! so is a point or an output that does not exist in an accepted row, in its own column; none is NaN.
 //!
 //! ```
 //! use std::ops::ControlFlow;

@@ -17,7 +17,7 @@ pub const SEED: &str = "linkage.seed";
 
 /// The schema of these columns, named as in CSV, then a Boolean column `accepted`.
 ///
-/// Found columns are nullable, as they are null in rejected rows; given columns are not. The metadata has the name of the
+/// Found columns are nullable, as they are null where they do not exist; given columns are not. The metadata has the name of the
 /// mechanism at [`MECHANISM`] and the seed of the plan at [`SEED`].
 ///
 /// # Errors

@@ -1,7 +1,8 @@
 //! Chunks as reducers see them: with cases and the reasons of rejected rows.
 
-use linkage_runtime::PositionError;
 use linkage_runtime::lanes::Lanes;
+use linkage_runtime::nalgebra::ComplexField;
+use linkage_runtime::{PositionError, Real};
 
 use crate::{Chunk, Place, Sweep};
 
@@ -21,8 +22,24 @@ pub struct Case<'a, T, const N: usize> {
     pub first_row: u64,
     /// Its columns, in the order asked for.
     pub columns: [&'a [T]; N],
-    /// False for each row without a position; its found columns are NaN.
+    /// False for each row without a position, rates and accelerations; its found columns are NaN. In the other rows a
+    /// number is NaN if it does not exist, as the square root of a negative number.
     pub accepted: &'a [bool],
+}
+
+impl<T: Real, const N: usize> Case<'_, T, N> {
+    /// The numbers of a column that exist, in the order of their rows; none if there is no such column.
+    pub fn numbers(&self, column: usize) -> impl Iterator<Item = T> {
+        let values = self.columns.get(column).copied().unwrap_or_default().iter().zip(self.accepted);
+        values.filter(|(value, is_accepted)| **is_accepted && value.is_finite()).map(|(value, _)| *value)
+    }
+
+    /// True if all rows are accepted and all their numbers exist.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        let values = self.columns.iter().copied().flatten();
+        self.accepted.iter().all(|is_accepted| *is_accepted) && values.into_iter().all(T::is_finite)
+    }
 }
 
 impl<'a, M: Lanes> Block<'a, M> {
@@ -36,11 +53,16 @@ impl<'a, M: Lanes> Block<'a, M> {
         self.chunk
     }
 
-    /// The accepted numbers of a column with their rows in the sweep; none if it was not asked for.
+    /// The numbers of a column that exist in accepted rows, with these rows in the sweep; none if it was not asked for.
     pub fn accepted(&self, place: Place) -> impl Iterator<Item = (u64, M::Scalar)> + 'a {
         let values = self.chunk.column(place).unwrap_or_default().iter().zip(self.chunk.accepted());
         let rows = values.zip(self.chunk.first_row()..);
-        rows.filter_map(|((value, is_accepted), row)| is_accepted.then_some((row, *value)))
+        // The found numbers of rejected rows are NaN too.
+        let is_found = matches!(place, Place::Found(_));
+        rows.filter_map(move |((value, is_accepted), row)| {
+            let exists = if is_found { value.is_finite() } else { *is_accepted };
+            exists.then_some((row, *value))
+        })
     }
 
     /// The rejected rows in the sweep, with their reasons.

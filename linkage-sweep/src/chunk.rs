@@ -1,12 +1,16 @@
 //! Chunks: consecutive rows of a sweep as columns.
 
 use linkage_runtime::lanes::{Batch, Lanes, Values};
+use linkage_runtime::nalgebra::ComplexField;
 use linkage_runtime::{Dim, real};
 
 use crate::source::Source;
 use crate::{Place, SweepError};
 
 /// Consecutive rows of a sweep: the columns asked for, each as a slice, and the mask of accepted rows.
+///
+/// A row is accepted if its position, its rates and its accelerations exist, with any columns asked for. A point or an
+/// output that does not exist in an accepted row is missing in its own column, which has a [mask](Self::mask) of its own.
 #[derive(Debug)]
 pub struct Chunk<M: Lanes> {
     number: u64,
@@ -59,7 +63,7 @@ impl<M: Lanes> Chunk<M> {
         self.accepted.len()
     }
 
-    /// False for each row without a position; its found columns are NaN.
+    /// False for each row without a position, rates and accelerations; its found columns are NaN.
     #[must_use]
     pub fn accepted(&self) -> &[bool] {
         &self.accepted
@@ -76,10 +80,16 @@ impl<M: Lanes> Chunk<M> {
         self.places.iter().map(|&place| (place, place.name::<M>(), self.at(place)))
     }
 
-    /// A column, or `None` if it was not asked for.
+    /// A column, or `None` if it was not asked for. A found number that does not exist is NaN.
     #[must_use]
     pub fn column(&self, place: Place) -> Option<&[M::Scalar]> {
         self.places.contains(&place).then(|| self.at(place))
+    }
+
+    /// The mask of a column, or `None` if it was not asked for: false for each row in which the number does not exist. A
+    /// given number exists in all rows, a found one at most in the accepted ones.
+    pub fn mask(&self, place: Place) -> Option<impl Iterator<Item = bool>> {
+        self.column(place).map(|values| values.iter().map(ComplexField::is_finite))
     }
 
     /// A column; empty if it was not computed.

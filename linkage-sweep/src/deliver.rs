@@ -45,8 +45,8 @@ where
         mut take: impl FnMut(&Chunk<M>, &mut B) -> Result<(), E>,
     ) -> Result<(), E> {
         let places = places::<M>(columns)?;
-        let threads = Threads::new(self.threads)?;
         let chunks = self.chunks();
+        let threads = Threads::new(self.threads, chunks)?;
         let window = usize::try_from(chunks).map_or(usize::MAX, |chunks| chunks.min(2 * threads.count()));
         let slot = || Slot { chunk: Chunk::new(&places), buffer: B::default(), result: Ok(()) };
         let slots = || (0..window).map(|_| slot()).collect::<Vec<_>>();

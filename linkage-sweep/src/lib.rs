@@ -12,6 +12,9 @@
 //! A chunk is a pure function of design, plan and chunk number. Thus no result depends on the number of threads, and
 //! that of a [reducer](Reducer) does not depend on the rows per chunk either: it has the same bits.
 //!
+//! A row is accepted if its position, its rates and its accelerations exist; it does not depend on the columns asked for. A
+//! point or an output that does not exist in an accepted row is missing in its own column, and nowhere else.
+//!
 //! A sweep needs a mechanism with `derive lanes;`, which implements [`Lanes`](linkage_runtime::lanes::Lanes).
 //!
 //! ```
@@ -96,7 +99,7 @@ pub use column::{Column, Key, Place, found, given};
 pub use error::SweepError;
 // For other formats of files.
 #[doc(hidden)]
-pub use file::write_whole;
+pub use file::{remove_unfinished, write_whole};
 #[doc(hidden)]
 pub use names::names;
 pub use plan::{Distribution, Factor, Plan, Sequence};

@@ -69,7 +69,8 @@ impl<M: Lanes> Sweep<M> {
         Ok(self)
     }
 
-    /// Sets the number of threads. Otherwise a sweep runs on rayon's current pool, which has a thread for each core.
+    /// Sets the number of threads. Otherwise a sweep runs on rayon's current pool, which has a thread for each core. There
+    /// are at most as many threads as chunks, and at most eight for each core: more have nothing to do and take memory.
     ///
     /// # Errors
     /// [`SweepError::Zero`].
@@ -121,7 +122,8 @@ impl<M: Lanes> Sweep<M> {
         Ok(M::GIVEN.iter().copied().zip(numbers).collect())
     }
 
-    /// The reason why a row is rejected, or `None` if it is accepted with all points and outputs.
+    /// The reason why a row is rejected, or `None` if it is accepted: if its position, its rates and its accelerations exist.
+    /// Points and outputs that do not exist are no reason.
     ///
     /// # Errors
     /// [`SweepError::OutOfRange`].
@@ -130,8 +132,8 @@ impl<M: Lanes> Sweep<M> {
         Ok(self.reason(|column| numbers.get(column).copied()))
     }
 
-    /// Computes a chunk: these columns and the mask of accepted rows. A chunk depends on the sweep and its number
-    /// only.
+    /// Computes a chunk: these columns and the mask of accepted rows. A column and the mask depend on the sweep and the
+    /// number of the chunk only, not on the other columns.
     ///
     /// # Errors
     /// [`SweepError::OutOfRange`], [`UnknownColumn`](SweepError::UnknownColumn),
@@ -192,7 +194,7 @@ impl<M: Lanes> Sweep<M> {
             _ => Values::Same(number(column).unwrap_or_else(|| real(f64::NAN))),
         });
         match Batch::<M>::new(given, self.branch) {
-            Ok(batch) => batch.lane(0).err(),
+            Ok(batch) => batch.lane_of_coordinates(0).err(),
             Err(error) => Some(error.into()),
         }
     }

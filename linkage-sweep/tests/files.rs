@@ -120,6 +120,45 @@ fn a_device_is_not_replaced() {
     assert!(path.is_symlink());
 }
 
+/// A link stays a link, and the file that it leads to is replaced: in its own folder, also if it is not there yet.
+#[cfg(unix)]
+#[test]
+fn a_symbolic_link_keeps_its_target() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let (links, files) = (folder.path().join("links"), folder.path().join("files"));
+    fs::create_dir(&links).unwrap();
+    fs::create_dir(&files).unwrap();
+    let [one, two, first, second, absolute] =
+        ["one", "two", "first", "second", "absolute"].map(|name| links.join(name));
+    fs::write(files.join("there.csv"), "older").unwrap();
+    symlink("../files/there.csv", &one).unwrap();
+    symlink("../files/new.csv", &two).unwrap();
+    symlink("second", &first).unwrap();
+    symlink("one", &second).unwrap();
+    symlink(files.join("other.csv"), &absolute).unwrap();
+    for (link, file) in [(&one, "there.csv"), (&two, "new.csv"), (&first, "there.csv"), (&absolute, "other.csv")] {
+        for rows in [5, 7] {
+            let plan = Plan::new().turn("theta", rows);
+            let sweep = Sweep::new(&crank::<f64>(), (), plan).unwrap();
+            sweep.write_csv(link, &[found("s")], go_on).unwrap();
+            assert!(link.is_symlink() && fs::symlink_metadata(files.join(file)).unwrap().is_file());
+            assert_eq!(fs::read_to_string(files.join(file)).unwrap().lines().count() as u64, rows + 1);
+        }
+    }
+    // Nothing else is in the folders: neither a temporary file nor a link that became a file.
+    assert_eq!((names(&links).len(), names(&files).len()), (5, 3));
+    // Around in a circle, and into a folder that is not there.
+    let [circle, nowhere] = ["circle", "nowhere"].map(|name| links.join(name));
+    symlink("circle", &circle).unwrap();
+    symlink("../none/a.csv", &nowhere).unwrap();
+    for link in [circle, nowhere] {
+        let error = sweep::<f64>().write_csv(&link, &[], go_on).unwrap_err();
+        assert!(matches!(error, SweepError::Io { path: Some(_), .. }), "{error:?}");
+        assert!(link.is_symlink());
+    }
+}
+
 #[test]
 fn a_full_disk_is_an_error() {
     if let Ok(full) = fs::OpenOptions::new().write(true).open("/dev/full") {

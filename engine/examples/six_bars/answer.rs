@@ -1,7 +1,7 @@
 //! The answer to a query, from this process or a cluster.
 
 use std::error::Error;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
@@ -60,8 +60,9 @@ fn print(done: u64, all: u64, parts: &str, time: Duration) {
         done => format!(", {:.0} s to go", time.as_secs_f64() * (all as f64 / done as f64 - 1.0)),
     };
     let text = format!("{done} of {all} {parts}{rest}");
-    match std::io::stderr().is_terminal() {
-        true => eprint!("\r{text}    "),
-        false => eprintln!("{text}"),
-    }
+    // The stream may have lost its reader.
+    let _ = match std::io::stderr().is_terminal() {
+        true => write!(std::io::stderr(), "\r{text}    "),
+        false => writeln!(std::io::stderr(), "{text}"),
+    };
 }

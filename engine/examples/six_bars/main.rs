@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use clap::Parser;
 use linkage_engine::mechanisms::six_bar::FootPath;
+use linkage_engine::print;
 
 mod answer;
 mod legs;
@@ -51,7 +52,7 @@ async fn main() -> Result<(), Box<dyn Error>> {
     let curve = FootPath::new()?;
     let legs = rows.into_iter().map(|row| Leg::new(&curve, row)).collect::<Result<Vec<_>, _>>()?;
     for (place, Leg { row, .. }) in legs.iter().enumerate().take(10) {
-        println!("{:3}. {}", place + 1, line(row));
+        print(format_args!("{:3}. {}", place + 1, line(row)))?;
     }
     let positions = designs.saturating_mul(POSITIONS as u64);
     let numbers = [
@@ -62,11 +63,11 @@ async fn main() -> Result<(), Box<dyn Error>> {
     ];
     let numbers = numbers.map(|(name, value)| [name.to_owned(), value]);
     for [name, value] in &numbers {
-        println!("{name:24} {value}");
+        print(format_args!("{name:24} {value}"))?;
     }
     let html = page::html(&legs, &curve, designs, &query, &numbers)?;
-    println!("Page: {}, {} kB", output::write(&path, &html)?, html.len() / 1000);
-    println!("Table: {}", output::write(path.with_extension("csv"), &page::csv(&legs))?);
+    print(format_args!("Page: {}, {} kB", output::write(&path, &html)?, html.len() / 1000))?;
+    print(format_args!("Table: {}", output::write(path.with_extension("csv"), &page::csv(&legs))?))?;
     Ok(())
 }
 

@@ -33,6 +33,8 @@ pub struct Cluster {
 impl Cluster {
     /// The partitions of a scan, each a task, unless set otherwise.
     pub const PARTITIONS: usize = 32;
+    /// The most partitions of a scan. A task takes milliseconds to send, and the scheduler keeps all of them.
+    pub const MOST_PARTITIONS: usize = 4096;
 
     /// The cluster of a scheduler at `HOST:PORT`, with the mechanisms of its executors.
     ///
@@ -53,11 +55,12 @@ impl Cluster {
         Ok(Self { scheduler, context, wait: Duration::from_secs(30), reports: None })
     }
 
-    /// Sets the number of partitions of a scan.
+    /// Sets the number of partitions of a scan: at least one, and at most [`MOST_PARTITIONS`](Self::MOST_PARTITIONS).
     #[must_use]
     pub fn with_partitions(self, partitions: usize) -> Self {
         let state = self.context.state_ref();
-        state.write().config_mut().options_mut().execution.target_partitions = partitions.max(1);
+        let partitions = partitions.clamp(1, Self::MOST_PARTITIONS);
+        state.write().config_mut().options_mut().execution.target_partitions = partitions;
         self
     }
 

@@ -35,13 +35,14 @@ pub(super) async fn answers(scheduler: &str) -> Result<(), ClusterError> {
 
 /// Waits until a scheduler has executors.
 pub(super) async fn ready(scheduler: &str, wait: Duration) -> Result<(), ClusterError> {
-    let end = Instant::now() + wait;
+    // A time that no clock has is never over.
+    let end = Instant::now().checked_add(wait);
     loop {
         let answer = ask(scheduler, "/readyz").await?;
         if answer.split(' ').nth(1) == Some("200") {
             return Ok(());
         }
-        if Instant::now() >= end {
+        if end.is_some_and(|end| Instant::now() >= end) {
             let answer = answer.lines().last().unwrap_or_default().to_owned();
             return Err(ClusterError::NotReady { address: scheduler.to_owned(), seconds: wait.as_secs(), answer });
         }

@@ -49,9 +49,7 @@ fn watt_six_bar() -> Family<WattSixBar<f64>> {
     )
 }
 
-/// The least number of a column, of a case whose rows are all accepted.
+/// The least number of a column, of a case in which all of them exist.
 fn least(case: &Case<'_, f64, 1>) -> Option<f64> {
-    let [numbers] = case.columns;
-    let least = || numbers.iter().copied().reduce(f64::min);
-    if case.accepted.iter().all(|accepted| *accepted) { least() } else { None }
+    if case.is_complete() { case.numbers(0).reduce(f64::min) } else { None }
 }

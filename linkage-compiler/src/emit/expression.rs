@@ -77,6 +77,7 @@ fn written(value: &Expression) -> TokenStream {
             let others = arguments.iter().skip(1);
             quote!(#first.#name(#(#others),*))
         }
+        Expression::All(conditions) if conditions.is_empty() => quote!(true),
         Expression::All(conditions) => quote!(#(#conditions)&*),
         Expression::Text(text) => string(text).into_token_stream(),
         Expression::Count(count) => literal(*count).into_token_stream(),
@@ -217,6 +218,7 @@ impl ToTokens for Statement {
             | Self::CheckPosition
             | Self::CheckKinematics { .. }
             | Self::LetAccepted(..)
+            | Self::LetPassed(_)
             | Self::Refine(..) => TokenStream::new(),
         });
     }

@@ -44,7 +44,7 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
             quote!(#[deprecated(note = #note)] pub)
         }
         Access::PublicLayer => quote!(#[inline(always)] #[must_use] pub),
-        Access::Inlined => quote!(#[inline]),
+        Access::Inlined | Access::LaneAlone => quote!(#[inline]),
         Access::Layer | Access::Lane => quote!(#[inline(always)]),
         Access::Cold => quote!(#[cold]),
         Access::OfTrait => TokenStream::new(),

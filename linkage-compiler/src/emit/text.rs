@@ -22,7 +22,7 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
         let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
         let access = match function.access {
             Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
-            Access::Inlined | Access::Layer | Access::Lane => "inlined ",
+            Access::Inlined | Access::Layer | Access::Lane | Access::LaneAlone => "inlined ",
             Access::Cold => "cold ",
             Access::OfTrait => "of a trait ",
             Access::Deprecated => "deprecated ",
@@ -63,7 +63,7 @@ fn statement(statement: &Statement) -> String {
             format!("{} = {}, or {}", pattern(to), expression(rough), expression(precise))
         }
         Statement::CheckPosition => "check the position".to_owned(),
-        Statement::LetAccepted(to, _) => format!("{} = all checks", pattern(to)),
+        Statement::LetAccepted(to, _) | Statement::LetPassed(to) => format!("{} = all checks", pattern(to)),
         Statement::CheckKinematics { otherwise, .. } => format!("check all, else return {}", expression(otherwise)),
     }
 }

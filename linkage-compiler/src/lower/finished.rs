@@ -47,22 +47,9 @@ impl Finished<'_> {
             Statement::LetAccepted(to, checks) => {
                 let mut conditions = formulas.flags.clone();
                 conditions.extend(self.conditions(checks, formulas));
-                if let [only] = conditions.as_slice() {
-                    out.push(Statement::Let(self.pattern(to), only.clone()));
-                    return;
-                }
-                let mut taken = formulas.taken.clone();
-                let names = conditions.into_iter().map(|condition| match condition {
-                    Expression::Name(_) => condition,
-                    call => {
-                        let name = taken.unique(condition_name(&call));
-                        out.push(Statement::Let(Pattern::Name(name.clone()), call));
-                        Expression::Name(name)
-                    }
-                });
-                let all = names.collect();
-                out.push(Statement::Let(self.pattern(to), Expression::All(all)));
+                self.let_all(to, conditions, formulas, out);
             }
+            Statement::LetPassed(to) => self.let_all(to, formulas.flags.clone(), formulas, out),
             Statement::Return(value) => out.push(Statement::Return(self.expression(value))),
             Statement::LetElse(pattern, value, otherwise) => {
                 let otherwise = self.expression(otherwise);
@@ -76,6 +63,25 @@ impl Finished<'_> {
                 out.push(Statement::Unless(self.expressions(conditions), lines));
             }
         }
+    }
+
+    /// Binds true if all conditions are true. Each has a name, so that none of them is skipped by a branch.
+    fn let_all(&self, to: Pattern, conditions: Vec<Expression>, formulas: &Formulas, out: &mut Vec<Statement>) {
+        if let [only] = conditions.as_slice() {
+            out.push(Statement::Let(self.pattern(to), only.clone()));
+            return;
+        }
+        let mut taken = formulas.taken.clone();
+        let names = conditions.into_iter().map(|condition| match condition {
+            Expression::Name(_) => condition,
+            call => {
+                let name = taken.unique(condition_name(&call));
+                out.push(Statement::Let(Pattern::Name(name.clone()), call));
+                Expression::Name(name)
+            }
+        });
+        let all = names.collect();
+        out.push(Statement::Let(self.pattern(to), Expression::All(all)));
     }
 
     /// Adds the checks of a position; numbers of dyads are checked only if a triangle is not well conditioned.

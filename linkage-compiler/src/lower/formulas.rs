@@ -12,7 +12,7 @@ use crate::program::{Expression, Statement, Taken};
 pub(super) struct Formulas<'a> {
     pub(super) statements: Vec<Statement>,
     pub(super) results: Vec<Expression>,
-    /// For each result, true if it is finite if the checks before it pass.
+    /// For each result, true if it needs no check: it is finite if the checks before it pass, or need not be finite.
     pub(super) is_proven: Vec<bool>,
     pub(super) dyads: Vec<Option<BlockId>>,
     /// The names of the flags that are true if the triangle of a dyad is well conditioned.

@@ -201,7 +201,12 @@ impl<'a> Formulas<'a> {
         let named: Vec<(NodeId, String)> = results.chain(context.named.iter().cloned()).collect();
         let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named, is_layer);
         let bound = has_bound.then(|| self::bound(kernel, &schedule, context)).flatten();
-        let is_proven = schedule.proven(kernel.conclusive.clone());
+        let mut is_proven = schedule.proven(kernel.conclusive.clone());
+        is_proven
+            .iter_mut()
+            .skip(kernel.external.start)
+            .take(kernel.external.len())
+            .for_each(|is_proven| *is_proven = true);
         let mut names = Names::new(&derivation.graph, context.reserved);
         // The symbols of the user are named first, so that they keep their names.
         let own: BTreeSet<SymbolId> = kernel.steps.iter().flat_map(|step| step.introduced()).collect();

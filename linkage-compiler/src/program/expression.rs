@@ -93,6 +93,8 @@ pub enum Statement {
     CheckKinematics { conditions: Vec<Expression>, otherwise: Expression },
     /// Binds true if these conditions are true, the results are finite, and all checks of the kernel passed.
     LetAccepted(Pattern, Vec<Expression>),
+    /// Binds true if all checks of the kernel passed.
+    LetPassed(Pattern),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -416,7 +418,7 @@ impl Statement {
             Self::LetAccepted(_, conditions) => {
                 conditions.iter().for_each(|value| value.each_name(visit));
             }
-            Self::CheckPosition => {}
+            Self::CheckPosition | Self::LetPassed(_) => {}
         }
     }
 }

@@ -47,6 +47,8 @@ pub enum Access {
     PublicLayer,
     /// Private, `#[inline(always)]`: called in a loop that the compiler vectorises.
     Lane,
+    /// Private, `#[inline]`: called for a lane alone, by the implementation of a trait.
+    LaneAlone,
     /// Private, called only after an error: `#[cold]`.
     Cold,
     /// A function of a trait.
@@ -56,7 +58,7 @@ pub enum Access {
 impl Access {
     /// True if the callers are not functions of the program.
     pub fn is_called_from_outside(self) -> bool {
-        self.is_public() || self == Self::Lane
+        self.is_public() || matches!(self, Self::Lane | Self::LaneAlone)
     }
 
     pub fn is_public(self) -> bool {
@@ -152,6 +154,9 @@ pub struct Kernel {
     pub failure: Failure,
     /// Results that are checked, and are finite only if everything that they are computed from is: that needs no check.
     pub conclusive: Range<usize>,
+    /// Results that may be not finite: the values of user functions, for a lane alone. A coordinate, a rate or an
+    /// acceleration that needs one is then not finite either, and a quantity that needs one is missing in its column.
+    pub external: Range<usize>,
     /// For each result the RRR dyad, if any, whose well-conditioned triangle guarantees that it is finite.
     pub dyads: Vec<Option<BlockId>>,
 }

@@ -21,6 +21,23 @@ impl Plan<'_, '_> {
     /// `kinematics`, or `kinematics_near` from a guess, and the same with points and outputs.
     pub(super) fn kinematics(&mut self) {
         self.kinematics_by_parts();
+        let body = self.kinematics_body();
+        if body.kernel.as_ref().is_some_and(Kernel::is_factorised) {
+            self.precise_kinematics();
+        }
+        let doc = lines([
+            "The position, the rates q' and the accelerations q'' of all coordinates in one computation, from the inputs, their",
+            "rates v' and their accelerations v''.",
+        ]);
+        let doc = doc.into_iter().chain(lines(ERRORS)).collect();
+        self.add(self.signatures.kinematics(&self.position), doc, body);
+        if self.signatures.has_quantities() {
+            self.full_kinematics();
+        }
+    }
+
+    /// The body of `kinematics`.
+    pub(super) fn kinematics_body(&mut self) -> Body {
         let names = &self.signatures.arguments;
         let from = if self.position.is_closed { &names.inputs } else { &names.guess };
         let arguments = [from, &names.branch, &names.input_rates, &names.input_accelerations];
@@ -40,20 +57,11 @@ impl Plan<'_, '_> {
         if is_factorised {
             self.refine_kinematics(&mut body);
         }
-        let doc = lines([
-            "The position, the rates q' and the accelerations q'' of all coordinates in one computation, from the inputs, their",
-            "rates v' and their accelerations v''.",
-        ]);
-        let doc = doc.into_iter().chain(lines(ERRORS)).collect();
-        self.add(self.signatures.kinematics(&self.position), doc, body);
-        if self.signatures.has_quantities() {
-            self.full_kinematics();
-        }
+        body
     }
 
     /// Refines the rates and accelerations of `kinematics`.
-    fn refine_kinematics(&mut self, body: &mut Body) {
-        self.precise_kinematics();
+    fn refine_kinematics(&self, body: &mut Body) {
         let names = &self.signatures.arguments;
         let Value::Plain(Expression::Struct(of, members, _)) = &body.value else { return };
         let [(_, pose), (_, rates), (_, accelerations)] = members.as_slice() else { return };

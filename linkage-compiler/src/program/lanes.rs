@@ -2,68 +2,81 @@
 
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
-use super::function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, results};
+use super::function::{Access, Argument, Body, Failure, Function, Kernel, Passed, results};
 use super::names::Order;
-use super::plan::{ENDINGS, Plan};
-use super::signatures::{Family, Signatures, total};
+use super::plan::Plan;
+use super::signatures::{Signatures, total};
 
 impl Plan<'_, '_> {
     /// The formulas of `kinematics`, and those that `full_kinematics` adds. A failed check is flagged, and the lane is
-    /// then computed by these functions themselves.
+    /// then computed by other functions: `kinematics`, and `motion_of_quantities` on its position.
+    ///
+    /// A kernel of a lane has the results of the other function, and none of them has a name: names decide where the sign
+    /// of a difference is written, and with it the sign of a zero.
     pub(super) fn lanes(&mut self) {
+        if !self.pose.externals.is_empty() {
+            self.kinematics_alone();
+        }
+        let has_quantities = self.signatures.has_quantities();
+        if has_quantities {
+            let kernel = self.quantities_kernel(Failure::Error);
+            let is_method = self.reads_parameters(&kernel);
+            let values = Expression::List(results(0..kernel.results.len()));
+            let doc = lines([
+                "Value, rate and acceleration of each point and output, those of `full_kinematics`; not finite where they do not",
+                "exist.",
+            ]);
+            let signature = self.signatures.motion_of_quantities();
+            self.add(Function { is_method, ..signature }, doc, Body::of(kernel, values));
+        }
         if !self.position.is_closed {
             return;
         }
         let (kernel, conditions) = self.kinematics_kernel(Failure::Flag);
         let value = self.kinematics_of_results(&kernel);
         let is_method = !self.signatures.is_open() || self.reads_parameters(&kernel);
-        let mut body = flagged(kernel, vec![value]);
+        let mut body = flagged(kernel, vec![value], "is_accepted");
         body.before = self.turns_of_branch();
-        body.after.extend(accepted(conditions));
+        body.after.push(Statement::LetAccepted(Pattern::Local(0), conditions));
         let doc =
             lines(["`kinematics` without branches; false if `kinematics` takes another way or returns an error."]);
         self.add(Function { is_method, ..self.signatures.kinematics_in_lane() }, doc, body);
-        if self.signatures.has_quantities() {
+        if has_quantities {
             let kernel = self.quantities_kernel(Failure::Flag);
-            let count = kernel.results.len();
-            let named = kernel.results.iter().zip(self.quantity_names());
-            let named = named.map(|(output, name)| Output::named(output.node, name)).collect();
-            let kernel = Kernel { results: named, dyads: vec![None; count], ..kernel };
-            let values = results(0..count);
-            let mut body = flagged(kernel, vec![Expression::List(values)]);
-            body.after.extend(accepted(Vec::new()));
-            let doc = lines([
-                "Value, rate and acceleration of each point and output without branches; false if `full_kinematics` takes",
-                "another way or returns an error.",
-            ]);
-            self.add(self.signatures.quantities_in_lane(), doc, body);
+            let is_method = self.reads_parameters(&kernel);
+            let values = results(0..kernel.results.len());
+            let mut body = flagged(kernel, vec![Expression::List(values)], "is_right");
+            body.after.push(Statement::LetPassed(Pattern::Local(0)));
+            let doc = lines(["`motion_of_quantities` without branches; false if that takes another way."]);
+            self.add(Function { is_method, ..self.signatures.quantities_in_lane() }, doc, body);
         }
     }
 
-    /// The names of points and outputs and of their derivatives, in the order of the kernel.
-    fn quantity_names(&self) -> Vec<String> {
-        let mechanism = self.signatures.mechanism;
-        let mut names = Vec::new();
-        for family in [Family::Points, Family::Outputs] {
-            for name in family.names(mechanism) {
-                for ending in ENDINGS.into_iter().take(3) {
-                    names.extend(family.axes().iter().map(|axis| format!("{name}{axis}{ending}")));
-                }
-            }
+    /// `kinematics` for a lane alone: a user function that only points and outputs read need not have a value.
+    fn kinematics_alone(&mut self) {
+        let mut body = self.kinematics_body();
+        if let Some(kernel) = &mut body.kernel {
+            // The values of user functions are the last results of a position.
+            let of_pose = kernel.conclusive.start - kernel.conclusive.len();
+            kernel.external = of_pose - self.pose.externals.len()..of_pose;
         }
-        names
+        let doc = lines([
+            "`kinematics`, whose position need not have the values of user functions: a quantity that needs one that is not finite",
+            "is not finite either.",
+        ]);
+        let signature = self.signatures.kinematics(&self.position);
+        let itself = Function { name: ALONE.to_owned(), access: Access::LaneAlone, ..signature };
+        self.add(itself, doc, body);
     }
 }
+
+/// The function for the position of a lane alone, if there are user functions.
+const ALONE: &str = "kinematics_alone";
 
 /// A body that returns these values and the flag.
-fn flagged(kernel: Kernel, mut values: Vec<Expression>) -> Body {
+fn flagged(kernel: Kernel, mut values: Vec<Expression>, flag: &str) -> Body {
     values.push(Expression::Local(0));
-    Body { locals: vec!["is_accepted".to_owned()], ..Body::of(kernel, Expression::Tuple(values)) }
-}
-
-/// The statement that binds the flag.
-fn accepted(conditions: Vec<Expression>) -> [Statement; 1] {
-    [Statement::LetAccepted(Pattern::Local(0), conditions)]
+    Body { locals: vec![flag.to_owned()], ..Body::of(kernel, Expression::Tuple(values)) }
 }
 
 impl Signatures<'_> {
@@ -81,14 +94,21 @@ impl Signatures<'_> {
 
     /// Points and outputs without branches.
     pub fn quantities_in_lane(&self) -> Function<Body> {
+        let itself = self.motion_of_quantities();
+        let returns = Type::Tuple(vec![itself.returns, Type::Flag]);
+        Function { name: "quantities_in_lane".to_owned(), access: Access::Lane, returns, ..itself }
+    }
+
+    /// Points and outputs with their derivatives, finite or not.
+    pub fn motion_of_quantities(&self) -> Function<Body> {
         let pose = Argument { name: self.arguments.pose.clone(), passed: Passed::ByValue(self.pose_type()) };
         let moving = [Order::Rate, Order::Acceleration].map(|order| {
             let passed = Passed::ByValue(self.coordinates_type(order));
             Argument { name: self.arguments.of(order).to_owned(), passed }
         });
         let count = 6 * self.mechanism.points.len() + 3 * self.mechanism.outputs.len();
-        let returns = Type::Tuple(vec![Type::List(Box::new(Type::Scalar), count), Type::Flag]);
-        let itself = total("quantities_in_lane", [pose].into_iter().chain(moving), returns);
-        Function { access: Access::Lane, ..itself }
+        let returns = Type::List(Box::new(Type::Scalar), count);
+        let itself = total("motion_of_quantities", [pose].into_iter().chain(moving), returns);
+        Function { access: Access::LaneAlone, ..itself }
     }
 }

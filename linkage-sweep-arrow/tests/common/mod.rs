@@ -7,6 +7,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use linkage::lanes::Lanes;
+use linkage::nalgebra::ComplexField;
 use linkage::{Elbow, Real, linkage, real};
 use linkage_sweep::{Column, Distribution, Plan, Progress, Sequence, Sweep, found, given};
 use linkage_sweep_arrow::Scalar;
@@ -23,6 +24,7 @@ linkage! {
         loop a@theta2 + b@theta3 = c@theta4 + d@0;
         point P = a@theta2 + (b/2, 30)@theta3;
         output mu = theta4 - theta3;
+        output lift = sqrt(sin(theta4));
         derive lanes;
     }
 }
@@ -47,7 +49,7 @@ pub fn sweep<T: Real>() -> Sweep<FourBar<T>> {
 }
 
 pub fn columns() -> Vec<Column> {
-    vec![given("theta2"), found("theta4"), given("a"), given("d"), found("mu")]
+    vec![given("theta2"), found("theta4"), given("a"), given("d"), found("lift"), found("mu")]
 }
 
 pub fn go_on(_: Progress) -> ControlFlow<()> {
@@ -76,8 +78,9 @@ impl Bits for f32 {
     }
 }
 
-/// Compares batches with the chunk of all rows: the same bits, and null exactly where a row is rejected.
-pub fn compare<M: Lanes>(batches: &[RecordBatch], sweep: &Sweep<M>, columns: &[Column])
+/// Compares batches with the chunk of all rows: the same bits, and null exactly where a row is rejected or a number does
+/// not exist. Returns how many of these there are in accepted rows.
+pub fn compare<M: Lanes>(batches: &[RecordBatch], sweep: &Sweep<M>, columns: &[Column]) -> usize
 where
     M::Scalar: Bits + Debug,
     Sweep<M>: Clone,
@@ -85,7 +88,7 @@ where
     let chunk = sweep.clone().with_rows_per_chunk(usize::MAX).unwrap().chunk(0, columns).unwrap();
     assert!(chunk.rejected() > 100 && chunk.rejected() < chunk.rows() - 100, "{}", chunk.rejected());
     assert_eq!(batches.iter().map(RecordBatch::num_rows).sum::<usize>(), chunk.rows());
-    let mut row = 0;
+    let (mut row, mut missing) = (0, 0);
     for batch in batches {
         assert_eq!(batch.num_columns(), columns.len() + 1);
         let accepted = batch.column(columns.len()).as_boolean();
@@ -95,7 +98,11 @@ where
             for ((place, name, values), array) in chunk.columns().zip(batch.columns()) {
                 let array = array.as_primitive::<<M::Scalar as Scalar>::Arrow>();
                 let is_found = matches!(place, linkage_sweep::Place::Found(_));
-                assert_eq!(array.is_valid(line), !is_found || chunk.accepted()[row], "{name} of row {row}");
+                let exists = values[row].is_finite();
+                missing += usize::from(chunk.accepted()[row] && !exists);
+                assert!(exists || is_found, "{name} of row {row}");
+                assert!(!is_found || !exists || chunk.accepted()[row], "{name} of row {row}");
+                assert_eq!(array.is_valid(line), exists, "{name} of row {row}");
                 if array.is_valid(line) {
                     assert_eq!(array.value(line).bits(), values[row].bits(), "{name} of row {row}");
                 }
@@ -103,4 +110,5 @@ where
             row += 1;
         }
     }
+    missing
 }

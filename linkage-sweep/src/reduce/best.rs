@@ -10,8 +10,9 @@ use super::Reducer;
 use crate::count::positive;
 use crate::{Block, Case, Column, Place, SweepError};
 
-/// Keeps the cases with the largest scores. The score of a case is computed from the columns asked for; a case without
-/// a score, or with NaN, is not ranked.
+/// Keeps the cases with the largest scores. The score of a case is computed from the columns asked for, in which a number
+/// that does not exist is NaN: see [`Case::numbers`] and [`Case::is_complete`]. A case without a score, or with NaN, is not
+/// ranked.
 pub struct Best<F, const N: usize> {
     count: usize,
     columns: [Column; N],

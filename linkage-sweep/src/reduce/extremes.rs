@@ -5,13 +5,13 @@ use linkage_runtime::lanes::Lanes;
 use super::Reducer;
 use crate::{Block, Column, Place, SweepError};
 
-/// Finds the least and the largest number of a column in the accepted rows.
+/// Finds the least and the largest number of a column in the accepted rows in which it exists.
 #[derive(Debug, Clone)]
 pub struct Extremes {
     column: Column,
 }
 
-/// The least and the largest number of a column; none if no row is accepted.
+/// The least and the largest number of a column; none if it exists in no row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bounds<T> {

@@ -7,7 +7,7 @@ use super::Reducer;
 use crate::count::{filled, positive};
 use crate::{Block, Column, Place, SweepError, bind};
 
-/// Counts the numbers of a column in the accepted rows, in bins of equal width.
+/// Counts the numbers of a column in the accepted rows in which it exists, in bins of equal width.
 #[derive(Debug, Clone)]
 pub struct Histogram {
     column: Column,
@@ -52,7 +52,7 @@ impl Bins {
         }
     }
 
-    /// The number of counted rows.
+    /// The number of counted rows: those in which the column exists.
     #[must_use]
     pub fn total(&self) -> u64 {
         self.below + self.above + self.counts.iter().sum::<u64>()

@@ -72,7 +72,7 @@ where
     /// Computes all chunks on all cores and reduces them. The result has the same bits for any number of threads and
     /// any number of rows per chunk.
     ///
-    /// Only the columns that the reducer needs are computed. After each chunk the callback is called, which cancels the
+    /// Only the columns that the reducer needs are computed; a reducer gives the same in a tuple as alone. After each chunk the callback is called, which cancels the
     /// sweep by `ControlFlow::Break(())`.
     ///
     /// # Errors
@@ -87,10 +87,10 @@ where
         places.sort_unstable();
         places.dedup();
         let part = Some(reducer.start()?);
-        let threads = Threads::new(self.threads)?;
+        let threads = Threads::new(self.threads, self.chunks())?;
         let shared = Mutex::new(Shared { next: 0, progress: self.start(), callback: progress, part, error: None });
         threads.scope(|scope| {
-            for _ in 0..threads.count() {
+            for _ in 0..threads.count_for(self.chunks()) {
                 scope.spawn(|_| {
                     let _stop = StopOnPanic(&shared);
                     if let Err(error) = self.reduce_chunks(reducer, &places, &shared) {

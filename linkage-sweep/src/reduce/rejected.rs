@@ -8,7 +8,8 @@ use linkage_runtime::lanes::Lanes;
 use super::Reducer;
 use crate::{Block, Column, SweepError};
 
-/// Counts the rejected rows by the kind of their error.
+/// Counts the rejected rows by the kind of their error: those without a position, rates and accelerations. Points and
+/// outputs that do not exist reject no row.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Rejected;
 

@@ -1,12 +1,13 @@
 //! The commands of clusters.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::physical_plan::common::collect;
 use linkage_engine::cluster::{Cluster, ClusterError, ExecutorOptions, Scheduler, SchedulerOptions};
-use linkage_engine::{Mechanisms, write_parquet};
+use linkage_engine::{Mechanisms, print, write_parquet};
 use tokio::signal::unix::{SignalKind, signal};
 
 /// The arguments of a scheduler.
@@ -64,7 +65,8 @@ pub async fn scheduler(arguments: SchedulerArguments) -> Result<(), ClusterError
     let SchedulerArguments { bind, port, advertise, executors, timeout } = arguments;
     let options = SchedulerOptions { bind, port, advertise, executors, timeout };
     let scheduler = Scheduler::bind(options).await?;
-    println!("{}", scheduler.address());
+    // A scheduler serves on without a reader of its address.
+    let _ = writeln!(std::io::stdout(), "{}", scheduler.address());
     let mut terminate = signal(SignalKind::terminate()).map_err(ClusterError::Folder)?;
     tokio::select! {
         result = scheduler.serve() => result,
@@ -87,11 +89,11 @@ pub async fn answer(cluster: &Cluster, query: &str, parquet: Option<PathBuf>) ->
     match parquet {
         Some(path) => {
             let rows = cluster.answer(query, |rows| write_parquet(rows, &path)).await?;
-            println!("{rows} rows in {}", path.display());
+            print(format_args!("{rows} rows in {}", path.display()))?;
         }
         None => {
             let batches = cluster.answer(query, |rows| async { Ok(collect(rows).await?) }).await?;
-            println!("{}", pretty_format_batches(&batches).map_err(linkage_engine::EngineError::from)?);
+            print(pretty_format_batches(&batches).map_err(linkage_engine::EngineError::from)?)?;
         }
     }
     Ok(())

@@ -1,5 +1,8 @@
 //! The log on the standard error stream.
 
+use std::fmt::Display;
+use std::io::Write;
+
 use log::{LevelFilter, Log, Metadata, Record};
 
 /// The lines of this crate, and those of all others from a level on.
@@ -14,11 +17,16 @@ impl Log for Lines {
 
     fn log(&self, record: &Record<'_>) {
         if self.enabled(record.metadata()) {
-            eprintln!("{}: {}", record.level().as_str().to_lowercase(), record.args());
+            say(format_args!("{}: {}", record.level().as_str().to_lowercase(), record.args()));
         }
     }
 
     fn flush(&self) {}
+}
+
+/// Writes a line to the standard error stream, if that has a reader.
+pub fn say(line: impl Display) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// The log of a client: Ballista would write the errors that it returns.

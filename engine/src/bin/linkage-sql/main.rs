@@ -1,6 +1,7 @@
 //! The command line: SQL on sweeps of the built-in mechanisms.
 
 mod cluster;
+mod interrupt;
 mod log;
 
 use std::path::PathBuf;
@@ -13,7 +14,9 @@ use datafusion::arrow::util::pretty::pretty_format_batches;
 use datafusion::physical_plan::{ExecutionPlan, collect, execute_stream};
 use datafusion::prelude::SessionContext;
 use linkage_engine::cluster::{Cluster, ClusterError, ClusterProgress};
-use linkage_engine::{EngineError, Mechanisms, progress, session, write_parquet};
+use linkage_engine::{EngineError, Mechanisms, print, progress, session, write_parquet};
+
+use self::log::say;
 
 /// SQL on sweeps of planar linkages.
 #[derive(Parser)]
@@ -55,7 +58,7 @@ async fn main() -> ExitCode {
     match run(Arguments::parse().command).await {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            say(format_args!("error: {error}"));
             ExitCode::FAILURE
         }
     }
@@ -63,12 +66,15 @@ async fn main() -> ExitCode {
 
 async fn run(command: Command) -> Result<(), ClusterError> {
     let mechanisms = Mechanisms::built_in()?;
+    if matches!(&command, Command::Sql { parquet: Some(_), .. }) {
+        interrupt::leave_no_part();
+    }
     match command {
         Command::Sql { query, parquet, progress, scheduler: Some(scheduler), partitions, wait } => {
             let cluster = Cluster::new(scheduler, mechanisms)?;
             let cluster = cluster.with_partitions(partitions).with_wait(Duration::from_secs(wait));
             let print = |ClusterProgress { partitions_done, partitions }| {
-                eprintln!("{partitions_done} of {partitions} partitions");
+                say(format_args!("{partitions_done} of {partitions} partitions"));
             };
             let cluster = if progress { cluster.with_progress(Duration::from_secs(1), print) } else { cluster };
             cluster::answer(&cluster, &query, parquet).await
@@ -97,9 +103,9 @@ async fn answer(
     match parquet {
         Some(path) => {
             let rows = write_parquet(execute_stream(plan, context.task_ctx())?, &path).await?;
-            println!("{rows} rows in {}", path.display());
+            print(format_args!("{rows} rows in {}", path.display()))?;
         }
-        None => println!("{}", pretty_format_batches(&collect(plan, context.task_ctx()).await?)?),
+        None => print(pretty_format_batches(&collect(plan, context.task_ctx()).await?)?)?,
     }
     Ok(())
 }
@@ -109,6 +115,6 @@ fn print_progress(plan: &Arc<dyn ExecutionPlan>) {
     loop {
         std::thread::sleep(Duration::from_secs(1));
         let done = progress(plan);
-        eprintln!("{} of {} chunks", done.chunks_done, done.chunks);
+        say(format_args!("{} of {} chunks", done.chunks_done, done.chunks));
     }
 }

@@ -68,7 +68,7 @@ pub fn clearance(curve: &FootPath, case: &Case<'_, f64, 16>) -> Option<f64> {
 }
 
 fn assembles<const N: usize>(case: &Case<'_, f64, N>) -> bool {
-    case.accepted.iter().all(|accepted| *accepted)
+    case.is_complete()
 }
 
 fn complex(x: &[f64], y: &[f64]) -> Vec<Complex<f64>> {

@@ -125,6 +125,7 @@ impl Run {
             | Statement::CheckPosition
             | Statement::CheckKinematics { .. }
             | Statement::LetAccepted(..)
+            | Statement::LetPassed(_)
             | Statement::Refine(..) => {}
         }
         true

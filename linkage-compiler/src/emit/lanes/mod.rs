@@ -11,7 +11,7 @@ use super::expression::{argument, literal};
 use super::names::ident;
 use crate::derivation::Derivation;
 use crate::lower::Code;
-use crate::program::{Access, Family, Program};
+use crate::program::{Access, Program};
 use columns::{Column, Columns};
 use given::Given;
 
@@ -80,9 +80,7 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         return None;
     }
     let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound(&quote!([lane])));
-    let is_method =
-        program.functions.iter().any(|function| function.name == "kinematics_in_lane" && function.is_method);
-    let on = if is_method { quote!(self.) } else { quote!(Self::) };
+    let on = on(program, "kinematics_in_lane");
     // The coordinates of an open chain are given: only points and outputs read its kinematics.
     let (found, taken) = match is_without_results(program) {
         true => (quote!(_), TokenStream::new()),
@@ -97,9 +95,10 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         }
         false => {
             let ((angles, flags), store_quantities) = (angles_in_lane(columns), quantities_in_lane(columns));
+            let on = self::on(program, "quantities_in_lane");
             quote! {
                 #angles
-                let (quantities, are_accepted) = self.quantities_in_lane(pose, rates, accelerations);
+                let (quantities, are_accepted) = #on quantities_in_lane(pose, rates, accelerations);
                 #store_quantities
                 is_accepted & are_accepted #(& #flags)*
             }
@@ -112,6 +111,12 @@ fn in_lane(program: &Program<Code>, columns: &Columns, given: &Given) -> Option<
         #store_coordinates
         if QUANTITIES { #quantities } else { is_accepted }
     })
+}
+
+/// The part of a call before the name of a function: some read no parameters and take no `self`.
+fn on(program: &Program<Code>, name: &str) -> TokenStream {
+    let is_method = program.functions.iter().any(|function| function.name == name && function.is_method);
+    if is_method { quote!(self.) } else { quote!(Self::) }
 }
 
 /// True for an open chain whose points and outputs are not computed in lanes: its coordinates are given.
@@ -144,50 +149,43 @@ fn quantities_in_lane(columns: &Columns) -> TokenStream {
     stored_in_lane(values, columns.coordinates.len() + columns.angles.len())
 }
 
-/// The body of the function for one lane that calls `kinematics` or `full_kinematics`.
+/// The body of the function for one lane that calls `kinematics`, and the function for points and outputs.
 fn exact(program: &Program<Code>, columns: &Columns, given: &Given) -> TokenStream {
-    let (types, bound) = (&program.signatures.types, given.bound(&TokenStream::new()));
-    let [kinematics, full_kinematics] = [&types.kinematics, &types.full_kinematics].map(|name| ident(name));
-    let (names, start) = match program.position.is_closed {
-        true => (["kinematics", "full_kinematics"], quote!(start)),
-        false => (["kinematics_near", "full_kinematics_near"], quote!(&start)),
+    let (kinematics, bound) = (ident(&program.signatures.types.kinematics), given.bound(&TokenStream::new()));
+    let (function, start) = match program.position.is_closed {
+        true => (ident("kinematics"), quote!(start)),
+        false => (ident("kinematics_near"), quote!(&start)),
     };
-    let [function, full_function] = names.map(ident);
-    let is_open = program.signatures.is_open();
-    let plain = match is_open {
-        true => quote!(self.#function(#start, branch, rates, accelerations)?;),
-        false => quote! {
-            let #kinematics { pose, rates, accelerations } = self.#function(#start, branch, rates, accelerations)?;
-        },
-    };
-    let families = [(Family::Points, "points"), (Family::Outputs, "outputs")];
-    let families = families.into_iter().filter(|(family, _)| program.signatures.has(*family));
-    let families: Vec<Ident> = families.map(|(_, word)| ident(word)).collect();
-    let full = match families.as_slice() {
-        [] => plain.clone(),
-        families if is_open => quote! {
-            let #full_kinematics { #(#families,)* .. } = self.#full_function(#start, branch, rates, accelerations)?;
-        },
-        families => quote! {
-            let #full_kinematics { pose, rates, accelerations, #(#families),* } =
-                self.#full_function(#start, branch, rates, accelerations)?;
-        },
-    };
+    // User functions need not have values.
+    let has = |name: &str| program.functions.iter().any(|function| function.name == name);
+    let function = if has("kinematics_alone") { ident("kinematics_alone") } else { function };
+    let call = quote!(self.#function(#start, branch, rates, accelerations)?;);
     let store =
         |columns: &[Column], from| stored(columns.iter().map(|column| column.value.clone()), from, &TokenStream::new());
     let store_coordinates = store(&columns.coordinates, 0);
     let store_angles = store(&columns.angles, columns.coordinates.len());
-    let store_quantities = store(&columns.quantities, columns.coordinates.len() + columns.angles.len());
+    let from = columns.coordinates.len() + columns.angles.len();
+    // A stub has no such function.
+    let quantities = has("motion_of_quantities").then(|| {
+        let places = (0..columns.quantities.len()).map(literal).map(|place| quote!(quantities[#place]));
+        let store = stored(places, from, &TokenStream::new());
+        let on = on(program, "motion_of_quantities");
+        quote! {
+            let quantities = #on motion_of_quantities(pose, rates, accelerations);
+            #store
+        }
+    });
+    // The coordinates of an open chain are given.
+    if program.signatures.is_open() && quantities.is_none() {
+        return quote!(#bound #call);
+    }
     quote! {
         #bound
+        let #kinematics { pose, rates, accelerations } = #call
+        #store_coordinates
         if QUANTITIES {
-            #full
-            #store_coordinates
             #store_angles
-            #store_quantities
-        } else {
-            #plain
-            #store_coordinates
+            #quantities
         }
     }
 }
