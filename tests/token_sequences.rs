@@ -99,6 +99,8 @@ fn no_sequence_makes_the_macro_panic_run_away_or_repeat_itself() {
         }
         let mut all = messages(expansion, &input);
         assert!(!all.is_empty(), "{input}");
+        // What is missing before a token is missing at each place.
+        all.retain(|message| !message.contains("before this"));
         all.sort_unstable();
         if let Some(pair) = all.windows(2).find(|pair| pair[0] == pair[1]) {
             repeated.push(format!("{input}\n    {}", pair[0]));

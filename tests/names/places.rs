@@ -19,6 +19,8 @@ fn sum(names: &[String], part: impl Fn(&str) -> String) -> String {
 pub struct Template {
     pub what: &'static str,
     pub places: usize,
+    /// The names of one place of a mechanism.
+    pub most: usize,
     /// The mechanism with a list of names for each place.
     pub mechanism: fn(&[&[String]]) -> String,
 }
@@ -33,10 +35,10 @@ impl Template {
 }
 
 pub const TEMPLATES: [Template; 4] = [
-    Template { what: "kinematic", places: 8, mechanism: kinematic },
-    Template { what: "dynamic", places: 7, mechanism: dynamic },
-    Template { what: "driven", places: 1, mechanism: |lists| driven(lists[0]) },
-    Template { what: "joints", places: 2, mechanism: |lists| joints(lists[0], lists[1]) },
+    Template { what: "kinematic", places: 8, most: 16, mechanism: kinematic },
+    Template { what: "dynamic", places: 7, most: 16, mechanism: dynamic },
+    Template { what: "driven", places: 1, most: 6, mechanism: |lists| driven(lists[0]) },
+    Template { what: "joints", places: 2, most: 4, mechanism: |lists| joints(lists[0], lists[1]) },
 ];
 
 /// A slider-crank, and all that can be derived of it.
@@ -49,13 +51,11 @@ fn kinematic(lists: &[&[String]]) -> String {
         format!("output a0 = x0{};", sum(parameters, |name| format!("{name} * v0"))),
     ];
     let unknowns = [
-        each(unknowns, |name| format!("unknown {name}; equation {name} = 2 * v0 + u0;")),
+        each(unknowns, |name| format!("unknown {name}; equation {name} = 2 * v0;")),
         format!("output b0 = x0{};", sum(unknowns, str::to_owned)),
     ];
-    let lets = [
-        each(lets, |name| format!("let {name} = x0 * sin(v0 + u0);")),
-        format!("output c0 = x0{};", sum(lets, str::to_owned)),
-    ];
+    let lets =
+        [each(lets, |name| format!("let {name} = sin(u0);")), format!("output c0 = x0{};", sum(lets, str::to_owned))];
     let functions = [
         numbered(functions, |name, of| format!("extern fn {name}(x, p) -> ({name}, f0{of}, g0{of}, h0{of}, i0{of});")),
         format!("output d0 = x0{};", sum(functions, |name| format!("{name}(v0, 2)"))),
@@ -64,17 +64,17 @@ fn kinematic(lists: &[&[String]]) -> String {
         numbered(derivatives, |name, of| {
             format!("extern fn of1{of}0(x, p) -> (f1{of}0, {name}, g1{of}0, h1{of}0, i1{of}0);")
         }),
-        format!("output e0 = x0{};", sum(derivatives, |name| format!("{name}(v0, 2)"))),
+        format!("output e0 = x0{};", sum(derivatives, |name| format!("{name}(1, 2)"))),
     ];
     let arguments = [
         numbered(arguments, |name, of| {
             format!("extern fn of2{of}0({name}, p0) -> (f2{of}0, g2{of}0, h2{of}0, i2{of}0, j2{of}0);")
         }),
-        format!("output g0 = x0{};", numbered(arguments, |_, of| format!(" + f2{of}0(v0, 2)"))),
+        format!("output g0 = x0{};", numbered(arguments, |_, of| format!(" + f2{of}0(1, 2)"))),
     ];
     let named = [
-        each(points, |name| format!("point {name} = r0@v0 + (1, x0)@u0;")),
-        each(outputs, |name| format!("output {name} = x0 * sin(v0);")),
+        each(points, |name| format!("point {name} = (2 * u0, 1);")),
+        each(outputs, |name| format!("output {name} = 2 * u0;")),
     ];
     let own = [parameters, unknowns, lets, functions, derivatives, arguments, named].concat().concat();
     format!(
@@ -98,16 +98,16 @@ fn dynamic(lists: &[&[String]]) -> String {
         each(parameters, |name| format!("param {name} = 1;")),
         format!("output a0 = x0{};", sum(parameters, |name| format!("{name} * v0"))),
         each(of_scenes, |name| format!("param {name} = 1;")),
-        each(unknowns, |name| format!("coordinate {name}; equation {name} = 2 * v0 + u0;")),
-        each(lets, |name| format!("let {name} = x0 * sin(v0 + u0);")),
-        each(points, |name| format!("point {name} = r0@v0 + (1, x0)@u0;")),
+        each(unknowns, |name| format!("coordinate {name}; equation {name} = 2 * v0;")),
+        each(lets, |name| format!("let {name} = sin(u0);")),
+        each(points, |name| format!("point {name} = (2 * u0, 1);")),
         each(bodies, |name| format!("body {name} {{ mass 1; center P0; }}")),
         numbered(functions, |name, of| format!("extern fn {name}(x, p) -> ({name}, f0{of}, g0{of}, h0{of}, i0{of});")),
     ];
     let effects = [
         each(of_scenes, |name| format!("spring {name} on x0;")),
         format!("stop u0 in -3..1{}, restitution 0.1;", sum(of_scenes, str::to_owned)),
-        each(unknowns, |name| format!("torque rate({name}) on {name} + u0;")),
+        each(unknowns, |name| format!("torque rate({name}) on {name};")),
         each(points, |name| format!("force (1, t) at {name};")),
         format!("potential x0{};", sum(lets, str::to_owned)),
         format!("potential x0{};", sum(functions, |name| format!("{name}(v0, 2)"))),
@@ -198,7 +198,6 @@ fn joints(guides: &[String], pins: &[String]) -> String {
     .concat();
     let shown =
         [each(guides, |name| format!("reaction on {name};")), each(pins, |name| format!("reaction at {name};"))];
-    let rough = each(guides, |name| format!("friction 0.1, reaction on {name};"));
     format!(
         "pub mechanism M0 {{
             param r0 = 1;
@@ -210,8 +209,7 @@ fn joints(guides: &[String], pins: &[String]) -> String {
             body crank0 {{ mass 2; inertia 0.5; center 0.5 * r0@v0; angle v0; }}
             scene S0 {{
                 inertia;
-                reactions; }}
-            scene R0 {{ inertia; {rough} torque t on v0; {} }}
+                torque t on v0; {} }}
         }}",
         shown.concat()
     )
@@ -247,8 +245,31 @@ pub fn small_types([mechanism, driver, scene]: [&str; 3]) -> String {
     )
 }
 
+/// Guides of one coordinate, and coordinates and points with the names of the forces that are numbered.
+pub const GUIDES: &str = "pub mechanism M0 {
+    input v;
+    unknown r, a, b, c, d, e, r_2, g, v_rate;
+    loop 1@v + r@a = (3, 0);
+    loop (0, 3) + r@b = 5@c;
+    loop (4, 0) + r@d = 5@e;
+    loop 1@v + r_2@g = (0, 2);
+    equation v_rate = 2 * v;
+    point P = 1@v;
+    point P_on_bar = 5@c;
+    output o0 = v_rate + r_2;
+    body crank { mass 1; inertia 1; center 0.5@v; angle v; }
+    body bar { mass 1; inertia 1; center 2@c; angle c; }
+    body bar_on_bar { mass 1; inertia 1; center 2@e; angle e; }
+    scene S0 {
+        inertia;
+        reactions; }
+    scene R0 { inertia; reaction on r; reaction on r_2; reaction at P_on_bar; }
+}";
+
 /// Mechanisms that are mistakes: without coordinates, or without anything.
-pub const EMPTY: [&str; 6] = [
+pub const EMPTY: [&str; 8] = [
+    "pub mechanism M0 { coordinate a; point P = 1@a; }",
+    "pub mechanism M0 { coordinate a; point P = 1@a; body b { mass 1; center P; } scene S0 { inertia; energy; } }",
     "pub mechanism M0 {}",
     "pub mechanism M0 { param a = 1; }",
     "pub mechanism M0 { param a = 1; derive limits, lanes, jerk, sensitivity, velocity_ratio_derivatives, intervals; }",

@@ -11,7 +11,7 @@ use super::scope::{Scope, Undeclared};
 use crate::diagnostics::nearest;
 use crate::graph::SymbolId;
 use crate::ids::{CoordinateId, Id, InputId, Table};
-use crate::syntax::{Statement, StatementKind, is_keyword};
+use crate::syntax::{Statement, StatementKind, can_be_name, is_keyword};
 
 /// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
 /// names.
@@ -147,7 +147,8 @@ fn missing(mechanism: &Mechanism, statements: &[Statement], scope: &Scope) -> Ve
     let parameters = mechanism.parameters.iter().map(|parameter| &parameter.name);
     let names = parameters.chain(mechanism.coordinates.iter().map(|coordinate| &coordinate.name));
     let mut taken: BTreeSet<String> = names.map(|name| name.text.clone()).collect();
-    listed.chain(undeclared).filter(|name| taken.insert(name.to_string())).cloned().collect()
+    let may_be_declared = |name: &&Ident| can_be_name(&name.to_string());
+    listed.chain(undeclared).filter(may_be_declared).filter(|name| taken.insert(name.to_string())).cloned().collect()
 }
 
 /// Finds the order of solution if all equations could be read.

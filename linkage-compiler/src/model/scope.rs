@@ -179,7 +179,7 @@ impl Scope {
             undeclared.uses += 1;
             return;
         }
-        let is_excused = self.excused.contains(&name.to_string()) || self.may_be_duplicate(&name.to_string());
+        let is_excused = self.is_excused(&name.to_string()) || self.may_be_duplicate(&name.to_string());
         let message = (!is_excused).then(|| {
             // It is completed when all names are known.
             diagnostics.error(name.span(), format_args!("unknown name `{name}`"));

@@ -27,7 +27,7 @@ pub(crate) use expression::unknown_unit;
 pub use expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;
 pub use head::Mechanism;
-pub(crate) use identifier::{KEYWORD_AS_NAME, identifier, is_keyword};
+pub(crate) use identifier::{KEYWORD_AS_NAME, can_be_name, identifier, is_keyword};
 pub use kind::{KEYWORDS, StatementKind};
 pub use scene::{Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Place, Scene};
 pub use statement::Statement;

@@ -218,9 +218,6 @@ fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expressi
         };
     }
     let name = plain(stream.call(Ident::parse_any).map_err(|_| missing())?);
-    if name == "$crate" {
-        return Err(missing());
-    }
     name_or_call(stream, name, arena)
 }
 

@@ -73,12 +73,8 @@ pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> State
     let [TokenTree::Ident(keyword), rest @ ..] = tokens else { return unread(tokens) };
     let first = rest.first().and_then(name);
     match first {
-        Some(_) if is_punct(rest.get(1), '=') && matches!(rest.get(2), Some(TokenTree::Literal(_))) => {
-            parameters(rest, expressions)
-        }
-        None if is_punct(rest.first(), '=') && matches!(rest.get(1), Some(TokenTree::Literal(_))) => {
-            parameters(tokens, expressions)
-        }
+        Some(_) if is_punct(rest.get(1), '=') && begins_with_number(&rest[2..]) => parameters(rest, expressions),
+        None if is_punct(rest.first(), '=') && begins_with_number(&rest[1..]) => parameters(tokens, expressions),
         Some(name) if is_punct(rest.get(1), '=') => {
             StatementKind::Quantity { name, value: unread_value(rest, keyword.span(), expressions) }
         }
@@ -91,6 +87,11 @@ pub(super) fn kind(tokens: &[TokenTree], expressions: &mut Expressions) -> State
         }
         _ => unread(rest),
     }
+}
+
+/// True for a number alone or with others after a comma, as parameters have; `2 * P` may be a point.
+fn begins_with_number(tokens: &[TokenTree]) -> bool {
+    matches!(tokens.first(), Some(TokenTree::Literal(_))) && (tokens.len() == 1 || is_punct(tokens.get(1), ','))
 }
 
 /// Guesses a statement with a syntax error from its keyword and the tokens after it.

@@ -121,6 +121,8 @@ impl Columns {
         let fields: Vec<Ident> = self.all().map(|column| ident(&column.name)).collect();
         let docs = self.all().map(|column| comment(&format!(" {}", column.text)));
         let (count, entry) = (literal(fields.len()), other_scalar(mechanism));
+        // The stub of a mechanism without coordinates has none.
+        let none = fields.is_empty().then(|| quote!(scalar: ::core::marker::PhantomData<#entry>));
         let title = comment(&format!(
             " One entry for each column of a batch of [`{driver}`]: `Option<&mut [T]>` for the columns to find."
         ));
@@ -129,6 +131,7 @@ impl Columns {
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default)]
             #visibility struct #name<#entry> {
                 #(#[doc = #docs] pub #fields: #entry,)*
+                #none
             }
             impl<#entry> #name<#entry> {
                 #[doc = " The columns in order, as `Batch::run` takes them."]

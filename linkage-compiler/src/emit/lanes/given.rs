@@ -8,7 +8,7 @@ use quote::quote;
 
 use crate::emit::expression::{argument, literal};
 use crate::emit::names::ident;
-use crate::emit::types::field;
+use crate::emit::types::{field, mark};
 use crate::lower::Code;
 use crate::model::{Name, TypeName};
 use crate::program::{Program, Taken};
@@ -59,14 +59,15 @@ impl Given {
 
     /// Statements that bind the start, the rates and the accelerations of one lane; `index` follows the column.
     pub fn bound(&self, index: &TokenStream) -> TokenStream {
+        let (no_start, no_inputs) = (mark(&self.start), mark(&self.inputs));
         let Self { parameters, start, inputs, of_start, of_inputs, .. } = self;
         let (p, s, v) = (parameters.len(), start.len(), inputs.len());
         let at_start = at(p..p + s, index);
         let [at_rates, at_accelerations] = [p + s, p + s + v].map(|from| at(from..from + v, index));
         quote! {
-            let start = #of_start { #(#start: #at_start),* };
-            let rates = #of_inputs { #(#inputs: #at_rates),* };
-            let accelerations = #of_inputs { #(#inputs: #at_accelerations),* };
+            let start = #of_start { #(#start: #at_start,)* #no_start };
+            let rates = #of_inputs { #(#inputs: #at_rates,)* #no_inputs };
+            let accelerations = #of_inputs { #(#inputs: #at_accelerations,)* #no_inputs };
         }
     }
 

@@ -148,7 +148,8 @@ impl Lowering<'_> {
                     self.diagnostics.error(name.span(), format_args!("`{text}` is named twice; remove one"));
                 }
                 Some(index) => found.push(index),
-                None if may_be_misnamed => {}
+                // Each unknown name is one mistake, and none is the name of a body that could not be read.
+                None if may_be_misnamed || self.scope.is_excused(&text) => {}
                 None => {
                     let names: Vec<&str> = result.bodies.iter().map(|body| body.name.text.as_str()).collect();
                     let message = match self.scope.is_declared(name) && !names.is_empty() {
@@ -156,6 +157,7 @@ impl Lowering<'_> {
                         false => format!("unknown body `{text}`{}", suggestion(&text, names)),
                     };
                     self.diagnostics.error(name.span(), message);
+                    self.scope.excuse(text);
                 }
             }
         }
