@@ -180,7 +180,7 @@ fn every_effect_is_in_its_document() {
             let document = tokens.windows(3).find_map(|tokens| match tokens {
                 [TokenTree::Ident(word), TokenTree::Ident(name), TokenTree::Group(group)]
                     if word == "impl"
-                        && *name == scene.name
+                        && scene.name == *name
                         && group.stream().to_string().contains("SceneDerivation") =>
                 {
                     Some(group.stream())

@@ -171,7 +171,8 @@ fn each_name_compiles_or_is_rejected() {
     for (number, template @ Template { what, places, mechanism, .. }) in TEMPLATES.iter().enumerate() {
         let all: BTreeSet<&String> = of_expansions.iter().chain(of_rust.iter().filter(|_| number == 0)).collect();
         let is_accepted = |place: usize, name: &String| {
-            read(&template.with(place, &[name.clone()])).is_some_and(|tokens| linkage_compiler::read(tokens).is_ok())
+            read(&template.with(place, std::slice::from_ref(name)))
+                .is_some_and(|tokens| linkage_compiler::read(tokens).is_ok())
         };
         let mut of_places = vec![BTreeSet::new(); *places];
         for (place, accepted) in of_places.iter_mut().enumerate() {
