@@ -10,7 +10,7 @@ const OF_RUST: [&str; 53] = [
     "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "_",
 ];
 
-/// What is said of a keyword as a name, after the keyword.
+/// The message of a keyword as a name, after the keyword.
 pub(crate) const KEYWORD_AS_NAME: &str = "is a Rust keyword: choose another name";
 
 /// Words that Rust does not take as names, not even as `r#self`.
