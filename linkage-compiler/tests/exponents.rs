@@ -1,4 +1,4 @@
-//! Large exponents are messages or compile; none overflows in derivatives or in bounds of rounding errors.
+//! A large exponent is a message, or it compiles: derivatives and bounds of rounding errors overflow for none.
 
 use linkage_compiler::graph::LARGEST_EXPONENT;
 use linkage_compiler::{Facade, budget::Budget, expand_within};

@@ -17,7 +17,7 @@ impl Graph {
         }
         let numbers: Option<Vec<Number>> = arguments.iter().map(|&argument| self.as_number(argument)).collect();
         let numbers = numbers?;
-        // A float has rounding errors.
+        // A float is rounded already: no function of it is exact.
         if numbers.iter().any(|number| matches!(number, Number::Float(_))) {
             return None;
         }
@@ -110,7 +110,7 @@ fn square_root(value: Number) -> Option<Number> {
 mod tests {
     use super::*;
 
-    /// Each function of these numbers has the value of the function of `f64`, to rounding.
+    /// The exact value of each function agrees with the value that `f64` computes.
     #[test]
     fn exact_values_are_those_of_the_functions() {
         let mut g = Graph::default();

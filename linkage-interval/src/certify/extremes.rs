@@ -142,7 +142,7 @@ impl<M: Certifiable> Search<'_, M> {
                 return true;
             }
         }
-        // In a narrower interval the rounding error of a position is as large.
+        // A narrower interval gives no better bounds: positions are known to a few ulp only.
         let parameter = self.tubes.get(tube).map_or(0, |tube| tube.expansion.parameter);
         let rounding = f64::EPSILON * self.system.scales.get(parameter).copied().unwrap_or(1.0);
         if middle <= c.least() || middle >= c.most() || c.width() <= rounding {

@@ -12,8 +12,8 @@ use crate::scalar::arithmetic::*;
 use crate::{Column, Dim, Matrix, Mechanism, PerUnknown, PositionError, Real, real};
 
 /// The distances of positions from the input at which the motion stops, in the order in which they are found, divided by the
-/// range of the search. They are mirrored at the touch. The interpolation through all of them has an error in the eighth
-/// derivative, which is less than the rounding error.
+/// range of the search. They are mirrored at the touch. The interpolation through all eight is exact up to the
+/// eighth derivative; what it leaves out is smaller than an ulp of the position.
 const DISTANCES: [f64; 4] = [27.0 / 32768.0, 18.0 / 32768.0, 12.0 / 32768.0, 8.0 / 32768.0];
 
 /// The positions before a touch.
@@ -24,7 +24,7 @@ impl<M: Mechanism> Searched<'_, M> {
     /// the input `end`. `None` if there is no touch.
     ///
     /// Motions that only come close to each other turn back, and leave a gap: in its middle the equations leave a
-    /// residual that is larger than its rounding error.
+    /// residual that rounding cannot explain.
     pub(super) fn beyond_touch(
         &self,
         (mut position, at): (M::Coordinates, M::Scalar),
@@ -66,7 +66,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// True if there is a position at these inputs near `q`. J has lost one rank there, so that Newton's method corrects Psi
-    /// but for N Psi, with the left null vector N: this may be no larger than its rounding error.
+    /// but for N Psi, with the left null vector N. It is a position if N Psi is zero, up to what rounding can make of zero.
     fn is_position(&self, q: &M::Coordinates) -> bool {
         let pose = self.mechanism.pose_at(q);
         let jacobian = Jacobian { unknowns: self.mechanism.jacobian_unknowns(&pose), inputs: Matrix::zeros() };

@@ -75,8 +75,8 @@ pub struct TrigonometricPolynomial<const TERMS: usize> {
 
 impl<const TERMS: usize> TrigonometricPolynomial<TERMS> {
     /// The polynomial of this degree that is `value` on the unit circle, up to a factor 1 or i, and `bounded` with a
-    /// bound of its error; `None` if it is not real, or if its coefficients are no larger than their
-    /// rounding errors.
+    /// bound of its error; `None` if it is not real, or if its coefficients may be zero within their
+    /// bounds.
     pub fn of(
         degree: usize,
         value: impl Fn(Number) -> Number,

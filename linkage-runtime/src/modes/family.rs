@@ -15,8 +15,8 @@ const MOST_STEPS: usize = 8;
 
 impl System {
     /// True if more positions than `most`, the number of those that can be apart from each other, are found next to each
-    /// other near these angles, each closed up to its rounding error, or if a length is free: the group then has infinitely
-    /// many.
+    /// other near these angles, or if a length is free: the group then has infinitely many. At each of them the loops close
+    /// as well as rounding allows.
     pub fn has_family(&self, near: &PerAngle, most: usize) -> bool {
         let Some(start) = self.closed(near, None).filter(|_| self.shows_all_links()) else { return false };
         if self.has_free_length {
