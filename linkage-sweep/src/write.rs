@@ -17,8 +17,9 @@ where
     /// Writes the columns asked for as CSV, then a column `accepted` of `true` and `false`.
     ///
     /// Numbers have all digits, so that they read back to the same bits. A number that does not exist is `NaN`, as are all
-    /// found numbers of rejected rows. A given column with the name of a found column in the same file gets the prefix "given ". The file appears when it
-    /// is complete: on an error or after a cancellation there is none, and one that was there before remains.
+    /// found numbers of rejected rows. A given column with the name of a found column in the same file gets the prefix
+    /// "given ". The file appears when it is complete: on an error or after a cancellation there is none, and one that was
+    /// there before remains.
     ///
     /// # Errors
     /// [`SweepError::Io`], [`NotAFile`](SweepError::NotAFile), [`Twice`](SweepError::Twice), and those of

@@ -72,6 +72,18 @@ linkage! {
         output lift = h * value(th);
         derive lanes;
     }
+
+    /// A four-bar with the turns of an angle, and a function of the user that only an output reads.
+    pub mechanism Lifter {
+        param l1 = 6, l2 = 2, l3 = 5, l4 = 7;
+        input th;
+        unknown a, b, psi;
+        extern fn bell(th) -> (value, slope, bend);
+        loop l2@th + l3@a + l4@b = l1@0;
+        equation psi = 2 * a;
+        output lift = value(th) + psi;
+        derive lanes;
+    }
 }
 
 /// A bell whose value exists up to 2, its slope up to 1 and its second derivative up to 0.
@@ -218,6 +230,11 @@ fn a_function_of_the_user_rejects_no_lane_if_only_an_output_reads_it() {
         _ => true,
     };
     assert_eq!(check(&Cam::default(), CamBranch {}, exists), angles::<f64>().len());
+    // The squares of small lengths underflow: the separate calls find these positions.
+    for scale in [1.0, 1e150, 1e-150, 1e-152] {
+        let lifter = Lifter::default().map(|length| scale * length);
+        assert_eq!(check(&lifter, LifterBranch::all().next().unwrap(), exists), angles::<f64>().len(), "{scale}");
+    }
 }
 
 /// A lane without a position has no number in any column, and its error is that of `kinematics`.

@@ -20,8 +20,17 @@ const ERRORS: [&str; 3] =
 impl Plan<'_, '_> {
     /// `kinematics`, or `kinematics_near` from a guess, and the same with points and outputs.
     pub(super) fn kinematics(&mut self) {
-        self.kinematics_by_parts();
-        let body = self.kinematics_body();
+        let (assemble, from) = match self.position.is_closed {
+            true => ("assemble", self.signatures.arguments.inputs.clone()),
+            false => ("assemble_near", self.signatures.arguments.guess.clone()),
+        };
+        let arguments = [&from, &self.signatures.arguments.branch].map(Expression::name);
+        let body = self.by_parts(Expression::call(assemble, arguments));
+        let doc = lines(["The same by separate calls, which say what is wrong."]);
+        let by_parts = self.signatures.kinematics_by_parts(&self.position);
+        let otherwise = by_parts.name.clone();
+        self.add(by_parts, doc, body);
+        let body = self.kinematics_body(&otherwise);
         if body.kernel.as_ref().is_some_and(Kernel::is_factorised) {
             self.precise_kinematics();
         }
@@ -36,13 +45,13 @@ impl Plan<'_, '_> {
         }
     }
 
-    /// The body of `kinematics`.
-    pub(super) fn kinematics_body(&mut self) -> Body {
+    /// The body of `kinematics`, which calls another function where its kernel fails.
+    pub(super) fn kinematics_body(&mut self, otherwise: &str) -> Body {
         let names = &self.signatures.arguments;
         let from = if self.position.is_closed { &names.inputs } else { &names.guess };
         let arguments = [from, &names.branch, &names.input_rates, &names.input_accelerations];
-        let otherwise = Expression::call("kinematics_by_parts", arguments.map(Expression::name));
-        let (kernel, conditions) = self.kinematics_kernel(Failure::Return(otherwise.clone()));
+        let call = Expression::call(otherwise, arguments.map(Expression::name));
+        let (kernel, conditions) = self.kinematics_kernel(Failure::Return(call.clone()));
         let is_factorised = kernel.is_factorised();
         let is_chord = |step: &&Step| matches!(step, Step::Chord { .. });
         let is_long = kernel.steps.iter().filter(is_chord).count() > 1;
@@ -52,8 +61,8 @@ impl Plan<'_, '_> {
         if is_long {
             body = body.stored_in("kinematics");
         }
-        body.calls.push("kinematics_by_parts".to_owned());
-        body.after.push(Statement::CheckKinematics { conditions, otherwise });
+        body.calls.push(otherwise.to_owned());
+        body.after.push(Statement::CheckKinematics { conditions, otherwise: call });
         if is_factorised {
             self.refine_kinematics(&mut body);
         }
@@ -186,13 +195,10 @@ impl Plan<'_, '_> {
         vec![Statement::Let(Pattern::Name(names.turn.clone()), turns)]
     }
 
-    /// `kinematics_by_parts`: the same by separate calls, which find the error.
-    fn kinematics_by_parts(&mut self) {
-        let names = self.signatures.arguments.clone();
+    /// The position by this call, then the rates and the accelerations, each by a call that finds its error.
+    pub(super) fn by_parts(&self, pose: Expression) -> Body {
+        let names = &self.signatures.arguments;
         let name = |name: &String| Expression::name(name);
-        let (assemble, from) =
-            if self.position.is_closed { ("assemble", &names.inputs) } else { ("assemble_near", &names.guess) };
-        let pose = Expression::call(assemble, [name(from), name(&names.branch)]);
         let [at_pose, at_rates] = [&names.pose, &names.rates].map(|argument| name(argument).borrowed());
         let rates = Expression::call("velocity", [at_pose.clone(), name(&names.input_rates)]);
         let accelerations = Expression::call("acceleration", [at_pose, at_rates, name(&names.input_accelerations)]);
@@ -201,9 +207,7 @@ impl Plan<'_, '_> {
         let members = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
         let members = members.map(|(field, value)| (field.to_owned(), name(value)));
         let of = Type::Bare(self.signatures.types.kinematics.clone());
-        let body = Body { before: before.to_vec(), ..Body::plain(Expression::structure(of, members)) };
-        let doc = lines(["The same by separate calls, which say what is wrong."]);
-        self.add(self.signatures.kinematics_by_parts(&self.position), doc, body);
+        Body { before: before.to_vec(), ..Body::plain(Expression::structure(of, members)) }
     }
 
     /// `full_kinematics`: with points and outputs.

@@ -6,6 +6,7 @@ use super::function::{Access, Argument, Body, Failure, Function, Kernel, Passed,
 use super::names::Order;
 use super::plan::Plan;
 use super::signatures::{Signatures, total};
+use crate::model::Request;
 
 impl Plan<'_, '_> {
     /// The formulas of `kinematics`, and those that `full_kinematics` adds. A failed check is flagged, and the lane is
@@ -14,7 +15,7 @@ impl Plan<'_, '_> {
     /// A kernel of a lane has the results of the other function, and none of them has a name: names decide where the sign
     /// of a difference is written, and with it the sign of a zero.
     pub(super) fn lanes(&mut self) {
-        if !self.pose.externals.is_empty() {
+        if self.has_lanes_alone() {
             self.kinematics_alone();
         }
         let has_quantities = self.signatures.has_quantities();
@@ -52,9 +53,48 @@ impl Plan<'_, '_> {
         }
     }
 
+    /// True if a lane alone has functions of its own, for positions without the values of user functions.
+    fn has_lanes_alone(&self) -> bool {
+        self.signatures.mechanism.requests.contains(&Request::Lanes) && !self.pose.externals.is_empty()
+    }
+
+    /// The position for a lane alone, by the body of `assemble`.
+    pub(super) fn position_alone(&mut self, body: &Body) {
+        if !self.has_lanes_alone() {
+            return;
+        }
+        let signature = match (self.position.is_closed, self.position.turns.is_empty()) {
+            (false, _) => self.signatures.assemble_near(),
+            (true, true) => self.signatures.assemble(),
+            (true, false) => self.signatures.assemble_in_turns(),
+        };
+        // The values of user functions are the last numbers of a position.
+        let (_, numbers) = self.position_steps();
+        let mut body = body.clone();
+        if let Some(kernel) = &mut body.kernel {
+            kernel.external = numbers.len() - self.pose.externals.len()..numbers.len();
+        }
+        let doc = lines(["`assemble` of a position that need not have the values of user functions."]);
+        self.add(Function { name: POSITION_ALONE.to_owned(), access: Access::Cold, ..signature }, doc, body);
+    }
+
     /// `kinematics` for a lane alone: a user function that only points and outputs read need not have a value.
     fn kinematics_alone(&mut self) {
-        let mut body = self.kinematics_body();
+        let names = self.signatures.arguments.clone();
+        let from = if self.position.is_closed { &names.inputs } else { &names.guess };
+        let mut arguments = vec![Expression::name(from), Expression::name(&names.branch)];
+        let mut before = Vec::new();
+        if self.position.is_closed && !self.position.turns.is_empty() {
+            before = self.turns_of_branch();
+            arguments.push(Expression::name(&names.turn).borrowed());
+        }
+        let mut body = self.by_parts(Expression::call(POSITION_ALONE, arguments));
+        body.before.splice(0..0, before);
+        body.calls.push(POSITION_ALONE.to_owned());
+        let doc = lines(["The same by separate calls, which say what is wrong."]);
+        let signature = self.signatures.kinematics_by_parts(&self.position);
+        self.add(Function { name: BY_PARTS_ALONE.to_owned(), ..signature }, doc, body);
+        let mut body = self.kinematics_body(BY_PARTS_ALONE);
         if let Some(kernel) = &mut body.kernel {
             // The values of user functions are the last results of a position.
             let of_pose = kernel.conclusive.start - kernel.conclusive.len();
@@ -70,8 +110,10 @@ impl Plan<'_, '_> {
     }
 }
 
-/// The function for the position of a lane alone, if there are user functions.
+/// The functions for the position of a lane alone, if there are user functions.
 const ALONE: &str = "kinematics_alone";
+const BY_PARTS_ALONE: &str = "kinematics_alone_by_parts";
+const POSITION_ALONE: &str = "assemble_alone";
 
 /// A body that returns these values and the flag.
 fn flagged(kernel: Kernel, mut values: Vec<Expression>, flag: &str) -> Body {

@@ -157,10 +157,11 @@ impl Plan<'_, '_> {
         let mut body = Body::of(kernel, self.pose_of_results());
         body.after.push(Statement::CheckPosition);
         self.with_implied(&mut body);
+        if !self.position.is_closed && !self.position.turns.is_empty() {
+            body.before = self.nearest_turns(&guess, &turn);
+        }
+        self.position_alone(&body);
         if !self.position.is_closed {
-            if !self.position.turns.is_empty() {
-                body.before = self.nearest_turns(&guess, &turn);
-            }
             let doc = self.near_doc();
             self.add(self.signatures.assemble_near(), doc, body);
             match self.position.is_listed() {

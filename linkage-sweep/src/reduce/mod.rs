@@ -72,8 +72,8 @@ where
     /// Computes all chunks on all cores and reduces them. The result has the same bits for any number of threads and
     /// any number of rows per chunk.
     ///
-    /// Only the columns that the reducer needs are computed; a reducer gives the same in a tuple as alone. After each chunk the callback is called, which cancels the
-    /// sweep by `ControlFlow::Break(())`.
+    /// Only the columns that the reducer needs are computed; a reducer gives the same in a tuple as alone. After each chunk
+    /// the callback is called, which cancels the sweep by `ControlFlow::Break(())`.
     ///
     /// # Errors
     /// Those of the reducer, [`SweepError::Cancelled`], [`Memory`](SweepError::Memory),
