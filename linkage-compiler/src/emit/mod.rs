@@ -17,6 +17,7 @@ mod pose;
 mod reactions;
 mod scene;
 mod scene_document;
+mod scene_traits;
 mod text;
 mod traits;
 mod types;
@@ -92,7 +93,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let kinks =
             derivation.and_then(|derivation| derivation.scenes.get(number)).map(|derived| derived.kinks.as_slice());
         let kinks = kinks.unwrap_or_default();
-        let implemented = traits::of_scene(&scene.signatures, driver, (&fields, kinks)).unwrap_or_default();
+        let implemented = scene_traits::of_scene(&scene.signatures, driver, (&fields, kinks)).unwrap_or_default();
         let text = "The name of the scene in errors.";
         let implemented = places::located(implemented, place, 1);
         tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| place, root, &implemented));
