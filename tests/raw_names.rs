@@ -1,4 +1,4 @@
-//! What the macro reads of other macros and of Rust: keywords as names, `r#type`, and fragments of `macro_rules`.
+//! Tokens of Rust and of other macros: keywords as names, `r#type`, and fragments of `macro_rules`.
 
 /// Names that are keywords of Rust, in all places; `r#l` is `l`.
 mod keywords {
