@@ -1,5 +1,6 @@
 //! Writes what the compiler makes of every mechanism of the repository, for a comparison before and after a change:
-//! `cargo run --release -p linkage-compiler --example expansions -- FOLDER`, and `diff -r` of two folders.
+//! `cargo run --release -p linkage-compiler --example expansions -- FOLDER [PART]`, and `diff -r` of two folders. With `PART`
+//! only files with this part in their path are read.
 //!
 //! Each mechanism is expanded as it is written and with all `derive` requests. Its file has the expansion, the programs
 //! and the FPCore of both, and the stub; `DERIVATION` has a file of its own. The last line is a hash of each kind.
@@ -18,11 +19,16 @@ use quote::quote;
 const SOURCES: [&str; 4] = ["dev/gallery/src/mechanisms", "examples", "tests", "benches"];
 
 fn main() {
-    let out = PathBuf::from(env::args().nth(1).expect("a folder to write to"));
+    let mut arguments = env::args().skip(1);
+    let out = PathBuf::from(arguments.next().expect("a folder to write to"));
+    let part = arguments.next().unwrap_or_default();
     fs::create_dir_all(&out).expect("a folder to write to");
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut hashes: BTreeMap<&str, (usize, DefaultHasher)> = BTreeMap::new();
     for path in SOURCES.iter().flat_map(|source| files(&root.join(source))) {
+        if !path.to_string_lossy().contains(&part) {
+            continue;
+        }
         let Ok(tokens) = fs::read_to_string(&path).unwrap().parse::<TokenStream>() else { continue };
         let mut bodies = Vec::new();
         invocations(tokens, &mut bodies);

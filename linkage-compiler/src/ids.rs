@@ -74,6 +74,8 @@ ids! {
     ParameterId
     /// A parameter that only scenes use.
     SceneParameterId
+    /// A function of the program of a driver, or of a scene.
+    FunctionId
 }
 
 /// A list that is indexed by the ids of one space.

@@ -133,7 +133,7 @@ fn printed(mechanism: &Mechanism, budget: &Budget, root: &TokenStream, diagnosti
             let mut derivation = derivation::derive(mechanism, driver);
             if !budget.is_spent() && derivation::check(mechanism, driver, &mut derivation, diagnostics) {
                 let planned = program::plan(mechanism, driver, &mut derivation);
-                let lowered = lower::program(planned, &derivation);
+                let lowered = lower::program(planned, &derivation).expect("temporary");
                 drivers.push(emit::driver(&lowered, Some(&derivation), root));
                 derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
             }
@@ -173,7 +173,8 @@ pub struct Expansion {
 pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Expansion {
     let (mut nodes, mut operations, mut drivers) = (0, Operations::default(), Vec::new());
     for (driver, mut derivation) in mechanism.drivers.iter().zip(derive(mechanism)) {
-        let lowered = lower::program(program::plan(mechanism, driver, &mut derivation), &derivation);
+        let lowered =
+            lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary");
         nodes += derivation.graph.len();
         operations = operations.plus(emit::operations(&lowered));
         drivers.push(emit::driver(&lowered, Some(&derivation), root));
@@ -192,7 +193,7 @@ pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
 pub fn programs(mechanism: &Mechanism) -> Vec<String> {
     let drivers = mechanism.drivers.iter().map(|driver| {
         let mut derivation = derivation::derive(mechanism, driver);
-        emit::text(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation))
+        emit::text(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary"))
     });
     drivers.collect()
 }
@@ -203,7 +204,9 @@ pub fn programs(mechanism: &Mechanism) -> Vec<String> {
 pub fn formulas(mechanism: &Mechanism) -> Vec<[String; 3]> {
     let drivers = mechanism.drivers.iter().flat_map(|driver| {
         let mut derivation = derivation::derive(mechanism, driver);
-        emit::formulas(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation))
+        emit::formulas(
+            &lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary"),
+        )
     });
     drivers.collect()
 }
@@ -224,7 +227,8 @@ pub struct Bounds {
 pub fn bounds(mechanism: &Mechanism) -> Vec<Bounds> {
     let drivers = mechanism.drivers.iter().map(|driver| {
         let mut derivation = derivation::derive(mechanism, driver);
-        let lowered = lower::program(program::plan(mechanism, driver, &mut derivation), &derivation);
+        let lowered =
+            lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary");
         let name = |symbol| derivation.graph.symbol_name(symbol).to_owned();
         let parameters = mechanism.parameters.iter().map(|parameter| name(parameter.symbol)).collect();
         let coordinates = derivation.coordinates.iter().map(|one| [one.value, one.rate, one.acceleration].map(name));

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use linkage_compiler::lower::Code;
-use linkage_compiler::program::{self, Access, Function, Position};
+use linkage_compiler::program::{self, Access, Function, Functions, Position};
 use proc_macro2::{TokenStream, TokenTree};
 
 /// The tokens in the one `linkage! { … }` of a file.
@@ -22,7 +22,7 @@ fn tokens_of(path: &Path) -> Option<TokenStream> {
 }
 
 /// The public functions as text, without doc comment and body, sorted by name, since plan and stub differ in order.
-fn signatures<B>(functions: &[Function<B>]) -> Vec<String> {
+fn signatures<B>(functions: &Functions<B>) -> Vec<String> {
     let public = functions.iter().filter(|function| matches!(function.access, Access::Public | Access::Hidden));
     // These follow from the vectors of a finished mechanism.
     let public = public.filter(|function| !["joints", "length_scale"].contains(&function.name.as_str()));

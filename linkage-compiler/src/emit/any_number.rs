@@ -3,9 +3,9 @@
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
-use super::expression::literal;
 use super::functions;
 use super::names::{ident, string};
+use super::rust::literal;
 use super::types::other_scalar;
 use crate::lower::Code;
 use crate::program::{Family, Program};

@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::expression::literal;
 use super::names::string;
+use super::rust::literal;
 use crate::derivation::{Derivation, Part};
 use crate::lower::Code;
 use crate::program::Program;

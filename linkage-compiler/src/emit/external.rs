@@ -10,13 +10,13 @@ use super::names::ident;
 use crate::graph::ExternalId;
 use crate::lower::Code;
 use crate::model::{ExternalFunction, Mechanism, TypeName};
-use crate::program::{Function, Taken, call_of};
+use crate::program::{Functions, Taken, call_of};
 use crate::syntax::identifier;
 
 /// Emits the user functions that some functions call, as associated functions of `of`.
 pub(super) fn calls(
     mechanism: &Mechanism,
-    functions: &[Function<Code>],
+    functions: &Functions<Code>,
     of: &TypeName,
     root: &TokenStream,
 ) -> Option<TokenStream> {

@@ -3,11 +3,12 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
-use super::expression::argument;
 use super::names::comment;
 use super::places;
-use crate::lower::Code;
-use crate::program::{Access, Argument, Function, Operations, Passed, Type, Value, count};
+use super::printer::Printer;
+use super::rust::{Rust, argument};
+use crate::lower::{Code, Returned};
+use crate::program::{Access, Argument, Function, Operations, Passed, Type, count};
 use crate::syntax::identifier;
 
 /// Emits a function with its doc comment, at a place; `error` is its error type. Without a body it is a stub.
@@ -19,8 +20,8 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
     let doc = description(doc, work.unwrap_or_default(), bound);
     let name = identifier(name, place);
     let itself = is_method.then(|| quote!(&self));
-    let arguments = arguments.iter().map(|Argument { name, passed }| {
-        let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(name)));
+    let arguments = arguments.iter().enumerate().map(|(place, Argument { name, passed })| {
+        let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(&place)));
         match passed {
             Passed::ByValue(of) => quote!(#name: #of),
             Passed::ByReference(of) => quote!(#name: &#of),
@@ -50,13 +51,12 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
         Access::OfTrait => TokenStream::new(),
     };
     let body = match body {
-        Some(Code { statements, value, .. }) => {
-            let value = match value {
-                Value::Plain(value) if *is_fallible => quote!(__rt::Ok(#value)),
-                value => {
-                    let value = value.returned();
-                    quote!(#value)
-                }
+        Some(code) => {
+            let printer = Printer { code, style: Rust };
+            let (statements, value) = (printer.statements(&code.statements), printer.value(code.value.returned()));
+            let value = match code.value {
+                Returned::Plain(_) if *is_fallible => quote!(__rt::Ok(#value)),
+                _ => value,
             };
             quote!(#(#statements)* #value)
         }

@@ -4,7 +4,7 @@ mod any_number;
 mod document;
 mod drawing;
 mod drives;
-mod expression;
+
 mod external;
 mod fpcore;
 mod functions;
@@ -14,7 +14,9 @@ mod motion;
 mod names;
 mod places;
 mod pose;
+mod printer;
 mod reactions;
+mod rust;
 mod scene;
 mod scene_document;
 mod scene_traits;
@@ -29,7 +31,7 @@ use quote::{quote, quote_spanned};
 use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::{Mechanism, Request, TypeName};
-use crate::program::{self, Function, Operations, Program};
+use crate::program::{self, Function, Functions, Operations, Program};
 use fpcore::Straight;
 use names::string;
 pub use text::text;
@@ -113,7 +115,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
 fn block(
     of: &TypeName,
     (text, error): (&str, &str),
-    functions: &[Function<Code>],
+    functions: &Functions<Code>,
     place_of: &dyn Fn(&Function<Code>) -> Span,
     root: &TokenStream,
     implemented: &TokenStream,
@@ -153,7 +155,7 @@ pub fn formulas(program: &Program<Code>) -> Vec<[String; 3]> {
 /// The operations of all functions of a driver and of its scenes, each called once.
 #[must_use]
 pub fn operations(program: &Program<Code>) -> Operations {
-    let scenes = program.scenes.iter().flat_map(|scene| &scene.functions);
+    let scenes = program.scenes.iter().flat_map(|scene| scene.functions.iter());
     let bodies = program.functions.iter().chain(scenes).filter_map(|function| function.body.as_ref());
     bodies.fold(Operations::default(), |sum, body| sum.plus(body.operations))
 }

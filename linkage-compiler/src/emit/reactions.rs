@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::expression::literal;
 use super::names::{comment, ident};
+use super::rust::literal;
 use super::types::derives;
 use crate::model::LoadKind;
 use crate::program::{MULTIPLIERS, SceneSignatures};

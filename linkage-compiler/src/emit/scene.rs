@@ -4,8 +4,8 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use syn::Attribute;
 
-use super::expression::literal;
 use super::names::ident;
+use super::rust::literal;
 use super::types::{MOST_ARGUMENTS, default_of, docs, docs_of_parameter, field, other_scalar, serde_of_parameters};
 use crate::model::Parameter;
 use crate::program::SceneSignatures;

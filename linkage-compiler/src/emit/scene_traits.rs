@@ -4,8 +4,8 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use syn::ext::IdentExt;
 
-use super::expression::{argument, literal};
 use super::names::{ident, string};
+use super::rust::{argument, literal};
 use super::traits::Members;
 use super::types::mark;
 use crate::derivation::Kink;

@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::graph::Number;
+use super::printer::{Binding, Member, On, Printer, Style};
+use crate::graph::{Function as Elementary, Number};
 use crate::lower::{Bound, Code};
-use crate::program::{Access, Expression, Function, Operations, Pattern, Program, Statement, Type, count};
+use crate::program::{Access, Constant, Functions, Intrinsic, Operations, Program, Type, count};
 
 /// The functions of a driver and of its scenes.
 #[must_use]
@@ -16,7 +17,7 @@ pub fn text(program: &Program<Code>) -> String {
     text
 }
 
-fn functions(of: &str, functions: &[Function<Code>]) -> String {
+fn functions(of: &str, functions: &Functions<Code>) -> String {
     let mut text = format!("{of}\n");
     for function in functions {
         let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
@@ -36,131 +37,221 @@ fn functions(of: &str, functions: &[Function<Code>]) -> String {
         if let Some(bound) = code.bound.as_ref().and_then(Bound::sentence) {
             let _ = writeln!(text, "    # {bound}");
         }
-        for statement in &code.statements {
-            let _ = writeln!(text, "    {}", self::statement(statement));
-        }
-        let value = code.value.returned();
-        let _ = writeln!(text, "    {}", expression(value));
+        let printer = Printer { code, style: Plain };
+        let lines = printer.statements(&code.statements).into_iter().chain([printer.value(code.value.returned())]);
+        lines.for_each(|line| {
+            let _ = writeln!(text, "    {line}");
+        });
     }
     text + "\n"
 }
 
-fn statement(statement: &Statement) -> String {
-    match statement {
-        Statement::Let(pattern, value) => format!("{} = {}", self::pattern(pattern), expression(value)),
-        Statement::Do(value) => expression(value),
-        Statement::Assign(place, value) => format!("{} := {}", expression(place), expression(value)),
-        Statement::Return(value) => format!("return {}", expression(value)),
-        Statement::LetElse(pattern, value, otherwise) => {
-            format!("{} = {}, else return {}", self::pattern(pattern), expression(value), expression(otherwise))
+/// Text without types and references.
+struct Plain;
+
+impl Style for Plain {
+    type Text = String;
+
+    fn brackets(&self, inside: String) -> String {
+        format!("({inside})")
+    }
+
+    fn name(&self, name: &str) -> String {
+        name.to_owned()
+    }
+
+    fn number(&self, number: Number) -> String {
+        match number {
+            Number::Ratio(n, 1) => n.to_string(),
+            Number::Ratio(n, d) => format!("({n}/{d})"),
+            Number::Float(value) => value.to_string(),
         }
-        Statement::Unless(conditions, inside) => {
-            let inside: Vec<String> = inside.iter().map(self::statement).collect();
-            format!("unless {}: {}", expressions(conditions), inside.join("; "))
+    }
+
+    fn number_binding(&self, _number: Number) -> Binding {
+        Binding::Atom
+    }
+
+    fn exact(&self, number: Number) -> String {
+        format!("exactly {number}")
+    }
+
+    fn exact_binding(&self, _number: Number) -> Binding {
+        Binding::Atom
+    }
+
+    fn sum(&self, terms: Vec<(bool, String)>) -> String {
+        let terms = terms.into_iter().enumerate().map(|(place, (is_negative, term))| match (place, is_negative) {
+            (0, false) => term,
+            (0, true) => format!("-{term}"),
+            (_, false) => format!(" + {term}"),
+            (_, true) => format!(" - {term}"),
+        });
+        terms.collect()
+    }
+
+    fn product(&self, factors: Vec<String>) -> String {
+        // Two signs side by side are hard to read.
+        let apart = |(place, factor): (usize, String)| match place > 0 && factor.starts_with('-') {
+            true => self.brackets(factor),
+            false => factor,
+        };
+        factors.into_iter().enumerate().map(apart).collect::<Vec<_>>().join("*")
+    }
+
+    fn quotient(&self, above: String, below: String) -> String {
+        format!("{above}/{below}")
+    }
+
+    fn square(&self, first: String, _later: String) -> String {
+        format!("{first}^2")
+    }
+
+    fn negative(&self, inside: String) -> String {
+        format!("-{inside}")
+    }
+
+    fn argument(&self, _binding: Binding, first: String) -> String {
+        first
+    }
+
+    fn elementary(&self, function: Elementary, first: Option<String>, others: Vec<String>) -> String {
+        let arguments: Vec<String> = first.into_iter().chain(others).collect();
+        format!("{}({})", function.operation().name, arguments.join(", "))
+    }
+
+    fn all(&self, conditions: Vec<String>) -> String {
+        conditions.join(" and ")
+    }
+
+    fn text(&self, text: &str) -> String {
+        format!("\"{text}\"")
+    }
+
+    fn count(&self, count: usize) -> String {
+        count.to_string()
+    }
+
+    fn constant(&self, constant: Constant) -> String {
+        constant.path().to_owned()
+    }
+
+    fn field(&self, of: String, name: &str) -> String {
+        format!("{of}.{name}")
+    }
+
+    fn index(&self, of: String, place: usize) -> String {
+        format!("{of}[{place}]")
+    }
+
+    fn list(&self, values: Vec<String>) -> String {
+        format!("[{}]", values.join(", "))
+    }
+
+    fn repeated(&self, value: String, count: usize) -> String {
+        format!("[{value}; {count}]")
+    }
+
+    fn tuple(&self, values: Vec<String>) -> String {
+        format!("({})", values.join(", "))
+    }
+
+    fn structure(&self, of: &Type, members: Vec<Member<String>>, rest: Option<String>) -> String {
+        let rest = rest.map(|rest| format!("..{rest}"));
+        let members: Vec<String> = members.into_iter().map(member).chain(rest).collect();
+        format!("{} {{{}}}", path(of), members.join(", "))
+    }
+
+    fn call(&self, on: On<String>, name: &str, arguments: Vec<String>) -> String {
+        let arguments = arguments.join(", ");
+        match on {
+            On::Value(of) => format!("{of}.{name}({arguments})"),
+            On::Type(of) => format!("{}::{name}({arguments})", path(&of)),
+            On::Runtime => format!("{name}({arguments})"),
         }
-        Statement::Check { what, values, .. } => format!("check {what}: {}", expressions(values)),
-        Statement::Refine(to, rough, precise) => {
-            format!("{} = {}, or {}", pattern(to), expression(rough), expression(precise))
-        }
-        Statement::CheckPosition => "check the position".to_owned(),
-        Statement::LetAccepted(to, _) | Statement::LetPassed(to) => format!("{} = all checks", pattern(to)),
-        Statement::CheckKinematics { otherwise, .. } => format!("check all, else return {}", expression(otherwise)),
+    }
+
+    fn function(&self, of: Option<&Type>, name: &str) -> String {
+        of.map_or_else(|| name.to_owned(), |of| format!("{}::{name}", path(of)))
+    }
+
+    fn tried(&self, value: String) -> String {
+        format!("{value}?")
+    }
+
+    fn borrowed(&self, value: String) -> String {
+        value
+    }
+
+    fn mutably_borrowed(&self, value: String) -> String {
+        value
+    }
+
+    fn dereferenced(&self, value: String) -> String {
+        value
+    }
+
+    fn closure(&self, arguments: Vec<String>, statements: Vec<String>, value: String, _moves: bool) -> String {
+        let statements: String = statements.iter().map(|line| format!("{line}; ")).collect();
+        format!("|{}| {statements}{value}", arguments.join(", "))
+    }
+
+    fn block(&self, statements: Vec<String>, value: Option<String>) -> String {
+        let statements: String = statements.iter().map(|line| format!("{line}; ")).collect();
+        format!("{{ {statements}{} }}", value.unwrap_or_else(|| "()".to_owned()))
+    }
+
+    fn let_statement(&self, pattern: String, value: String) -> String {
+        format!("{pattern} = {value}")
+    }
+
+    fn do_statement(&self, value: String) -> String {
+        value
+    }
+
+    fn assignment(&self, place: String, value: String) -> String {
+        format!("{place} := {value}")
+    }
+
+    fn return_statement(&self, value: String) -> String {
+        format!("return {value}")
+    }
+
+    fn let_else(&self, pattern: String, value: String, otherwise: String) -> String {
+        format!("{pattern} = {value}, else return {otherwise}")
+    }
+
+    fn unless(&self, conditions: Vec<String>, inside: Vec<String>) -> String {
+        format!("unless {}: {}", conditions.join(", "), inside.join("; "))
+    }
+
+    fn ignored(&self) -> String {
+        "_".to_owned()
+    }
+
+    fn mutable(&self, name: String) -> String {
+        name
+    }
+
+    fn case(&self, _case: Intrinsic, inside: String) -> String {
+        inside
+    }
+
+    fn typed(&self, name: String, _of: &Type) -> String {
+        name
+    }
+
+    fn struct_pattern(&self, _of: &Type, fields: Vec<Member<String>>, _is_whole: bool) -> String {
+        let fields: Vec<String> = fields.into_iter().map(member).collect();
+        format!("{{{}}}", fields.join(", "))
     }
 }
 
-fn pattern(pattern: &Pattern) -> String {
-    let all = |patterns: &[Pattern]| patterns.iter().map(self::pattern).collect::<Vec<_>>().join(", ");
-    match pattern {
-        Pattern::Name(name) | Pattern::Typed(name, _) => name.clone(),
-        Pattern::Mutable(inside) | Pattern::Case(_, inside) => self::pattern(inside),
-        Pattern::Ignored | Pattern::Local(_) => "_".to_owned(),
-        Pattern::List(patterns) => format!("[{}]", all(patterns)),
-        Pattern::Tuple(patterns) => format!("({})", all(patterns)),
-        Pattern::Struct { fields, .. } => {
-            let field = |(field, pattern): &(String, Pattern)| match pattern {
-                Pattern::Name(name) if name == field => field.clone(),
-                pattern => format!("{field}: {}", self::pattern(pattern)),
-            };
-            format!("{{{}}}", fields.iter().map(field).collect::<Vec<_>>().join(", "))
-        }
-    }
-}
-
-fn expressions(values: &[Expression]) -> String {
-    values.iter().map(expression).collect::<Vec<_>>().join(", ")
-}
-
-/// An operand: sums, quotients and negatives in brackets.
-fn part(value: &Expression) -> String {
+/// `name: value`, or the name alone.
+fn member((name, value): Member<String>) -> String {
     match value {
-        Expression::Sum(_) | Expression::Quotient(_) | Expression::Negative(_) => format!("({})", expression(value)),
-        _ => expression(value),
-    }
-}
-
-fn expression(value: &Expression) -> String {
-    match value {
-        Expression::Name(name) => name.clone(),
-        Expression::Number(Number::Ratio(n, 1)) => n.to_string(),
-        Expression::Number(Number::Ratio(n, d)) => format!("({n}/{d})"),
-        Expression::Number(Number::Float(value)) => value.to_string(),
-        Expression::Exact(number) => format!("exactly {number}"),
-        Expression::Sum(terms) => {
-            let mut text = String::new();
-            for (place, (is_negative, term)) in terms.iter().enumerate() {
-                text += match (place, is_negative) {
-                    (0, false) => "",
-                    (0, true) => "-",
-                    (_, false) => " + ",
-                    (_, true) => " - ",
-                };
-                text += &part(term);
-            }
-            text
-        }
-        Expression::Product(factors) => factors.iter().map(part).collect::<Vec<_>>().join("*"),
-        Expression::Quotient(parts) => format!("{}/{}", part(&parts[0]), part(&parts[1])),
-        Expression::Square(base) => format!("{}^2", part(base)),
-        Expression::Negative(inside) => format!("-{}", part(inside)),
-        Expression::Elementary(function, arguments) => {
-            format!("{}({})", function.operation().name, expressions(arguments))
-        }
-        Expression::All(conditions) => conditions.iter().map(expression).collect::<Vec<_>>().join(" and "),
-        Expression::Text(text) => format!("\"{text}\""),
-        Expression::Count(count) => count.to_string(),
-        Expression::Constant(path) => (*path).to_owned(),
-        Expression::Field(of, name) => format!("{}.{name}", expression(of)),
-        Expression::Index(of, place) => format!("{}[{place}]", expression(of)),
-        Expression::List(values) => format!("[{}]", expressions(values)),
-        Expression::Repeated(value, count) => format!("[{}; {count}]", expression(value)),
-        Expression::Tuple(values) => format!("({})", expressions(values)),
-        Expression::Struct(of, members, rest) => {
-            let member = |(field, value): &(String, Expression)| match value {
-                Expression::Name(name) if name == field => field.clone(),
-                value => format!("{field}: {}", expression(value)),
-            };
-            let mut members: Vec<String> = members.iter().map(member).collect();
-            members.extend(rest.iter().map(|rest| format!("..{}", expression(rest))));
-            format!("{} {{{}}}", path(of), members.join(", "))
-        }
-        Expression::Runtime(name, arguments) => format!("{name}({})", expressions(arguments)),
-        Expression::Associated(of, name, arguments) => format!("{}::{name}({})", path(of), expressions(arguments)),
-        Expression::Function(of, name) => format!("{}::{name}", path(of)),
-        Expression::Method(of, name, arguments) => format!("{}.{name}({})", part(of), expressions(arguments)),
-        Expression::Try(value) => format!("{}?", expression(value)),
-        Expression::Borrowed(value) | Expression::MutablyBorrowed(value) | Expression::Dereferenced(value) => {
-            expression(value)
-        }
-        Expression::Closure { arguments, statements, value, .. } => {
-            let arguments = arguments.iter().map(pattern).collect::<Vec<_>>().join(", ");
-            let statements: String = statements.iter().map(|line| format!("{}; ", statement(line))).collect();
-            format!("|{arguments}| {statements}{}", expression(value))
-        }
-        Expression::Block(statements, value) => {
-            let statements: String = statements.iter().map(|line| format!("{}; ", statement(line))).collect();
-            format!("{{ {statements}{} }}", expression(value))
-        }
-        Expression::Result(place) | Expression::Local(place) => format!("_{place}"),
+        Some(value) => format!("{name}: {value}"),
+        None => name,
     }
 }
 

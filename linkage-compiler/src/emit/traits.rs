@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::expression::{argument, literal};
 use super::names::{ident, string};
+use super::rust::{argument, literal};
 use super::types::{field, mark};
 use crate::derivation::{Block, Derivation};
 use crate::graph::SymbolId;

@@ -2,7 +2,7 @@
 
 use super::fpcore::Straight;
 use crate::lower::Code;
-use crate::program::{Function, Operations};
+use crate::program::{Functions, Operations};
 
 /// A public function of the program.
 pub(super) struct Work {
@@ -13,7 +13,7 @@ pub(super) struct Work {
 }
 
 /// The public functions with their operation counts, without those that compute nothing.
-pub(super) fn works(functions: &[Function<Code>], straight: Option<&Straight>) -> Vec<Work> {
+pub(super) fn works(functions: &Functions<Code>, straight: Option<&Straight>) -> Vec<Work> {
     let public = functions.iter().filter(|function| function.access.is_public());
     let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
     let works = works.filter(|(_, operations)| *operations != Operations::default());

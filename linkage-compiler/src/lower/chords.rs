@@ -1,124 +1,103 @@
 //! The half chords of groups with two solutions, as calls of the runtime.
 
-use super::lines::Writer;
-use super::value::Signed;
+use super::code::{Pattern, Statement};
+use super::naming::Hint;
+use super::schedule::Line;
+use super::value::{Value, ValueId};
+use super::writer::{Absorbed, Writer};
 use crate::derivation::ChordGeometry;
-use crate::graph::SymbolId;
 use crate::ids::{BlockId, Id};
-use crate::program::{Expression, Failure, Pattern, Statement, Type};
+use crate::program::{Intrinsic, LaneResult, Type};
 
-impl Writer<'_, '_> {
-    pub(super) fn chord(
-        &mut self,
-        (block, symbol): (BlockId, SymbolId),
-        factors: [Signed; 2],
-        size: Signed,
-        of: ChordGeometry<Signed>,
-    ) {
-        let factors = Expression::List(factors.map(|value| self.signed(value)).to_vec());
-        let size = self.signed(size);
-        let of = of.map(|value| self.signed(value));
-        let side = Expression::name(self.branch).field(self.derivation.blocks[block].branch(self.derivation));
+impl Writer<'_> {
+    pub(super) fn chord(&mut self, of: Absorbed<'_>, line: &Line) {
+        let Line::Chord { block, symbol, factors, size, of: geometry } = line else { return };
+        let factors = self.all_signed(of, factors);
+        let factors = self.list(factors);
+        let size = self.signed(of, *size);
+        let geometry = geometry.map(|value| self.signed(of, value));
+        let branch = self.variable(self.context.branch);
+        let side = self.field(branch, self.context.derivation.blocks[*block].branch(self.context.derivation));
+        let (function, arguments) = self.chord_call(*block, (factors, size, side), geometry);
         if self.is_flagged() {
-            self.flagged_chord(symbol, factors, size, of, side);
+            let Some(form) = function.row().in_lane.filter(|form| form.result == LaneResult::Flagged) else {
+                self.dangle(|| format!("the form of `{}` over lanes", function.row().name));
+                return;
+            };
+            let call = self.call(form.function, form.takes.iter().map(|&place| arguments[place]));
+            let name = self.introduce(of, *symbol);
+            let flag = self.values.bound();
+            self.hint(flag, Hint::Regular(name));
+            self.let_value(Pattern::Tuple(vec![Pattern::Bound(name), Pattern::Bound(flag)]), call);
+            self.flags.push(flag);
             return;
         }
-        let name = Pattern::Name(self.names.introduce(symbol));
-        let otherwise = match &self.kernel.failure {
-            Failure::Return(otherwise) => Some(otherwise.clone()),
-            _ => None,
+        let call = self.call(function, arguments);
+        let name = Pattern::Bound(self.introduce(of, *symbol));
+        // The check of a triangle says how well it is conditioned.
+        let pattern = match function {
+            Intrinsic::ElbowChord => Pattern::Tuple(vec![name, self.well_conditioned(*block)]),
+            _ => name,
         };
-        let (pattern, call) = match of {
-            ChordGeometry::Triangle { links, line, distance_squared, scale } => {
-                let triangle = triangle(links, line, scale, size, distance_squared, factors);
-                match otherwise {
-                    Some(_) => (name, Expression::runtime("regular_elbow_chord", [triangle, side])),
-                    None => {
-                        let pattern = Pattern::Tuple(vec![name, self.well_conditioned(block)]);
-                        (pattern, self.group_call("elbow_chord", block, [triangle, side]))
-                    }
-                }
-            }
-            ChordGeometry::Circle { scales, may_cancel } => {
-                let chord = if may_cancel { "reach_chord" } else { "chord" };
-                (name, self.group_call(chord, block, [factors, size, list(scales), side]))
-            }
-            ChordGeometry::RegularCircle { scale: None } => {
-                (name, Expression::runtime("regular_chord", [factors, size, side]))
-            }
-            ChordGeometry::RegularCircle { scale: Some(scale) } => {
-                (name, Expression::runtime("regular_reach_chord", [factors, size, scale, side]))
-            }
-        };
-        match otherwise {
+        match self.otherwise {
             Some(otherwise) => {
-                let found = Pattern::Case("Some", Box::new(pattern));
+                let found = Pattern::Case(Intrinsic::Some, Box::new(pattern));
                 self.statements.push(Statement::LetElse(found, call, otherwise));
             }
-            None => self.let_pattern(pattern, call.tried()),
+            None => {
+                let call = self.tried(call);
+                self.let_value(pattern, call);
+            }
         }
     }
 
-    /// A chord without branches, and the flag that is true if it is regular and needs no other units or extra precision.
-    fn flagged_chord(
+    /// The function of the runtime that computes a chord, and its arguments.
+    fn chord_call(
         &mut self,
-        symbol: SymbolId,
-        factors: Expression,
-        size: Expression,
-        of: ChordGeometry<Expression>,
-        side: Expression,
-    ) {
-        let call = match of {
+        block: BlockId,
+        (factors, size, side): (ValueId, ValueId, ValueId),
+        of: ChordGeometry<ValueId>,
+    ) -> (Intrinsic, Vec<ValueId>) {
+        // One that returns no error is called where another function finds it.
+        let is_regular = self.otherwise.is_some() || self.is_flagged();
+        match of {
             ChordGeometry::Triangle { links, line, distance_squared, scale } => {
-                let triangle = triangle(links, line, scale, size, distance_squared, factors);
-                Expression::runtime("lane::elbow_chord", [triangle, side])
+                let [links, line] = [links, line].map(|pair| self.list(pair));
+                let members = [
+                    ("links", links),
+                    ("line", line),
+                    ("scale", scale),
+                    ("reach_squared", size),
+                    ("distance_squared", distance_squared),
+                    ("factors", factors),
+                ];
+                let members = members.map(|(name, value)| (name.to_owned(), value)).to_vec();
+                let triangle = self.add(Value::Struct(Type::Runtime("Triangle", Vec::new()), members, None));
+                if is_regular {
+                    (Intrinsic::RegularElbowChord, vec![triangle, side])
+                } else {
+                    (Intrinsic::ElbowChord, vec![self.error_name(), self.group(block), triangle, side])
+                }
             }
-            ChordGeometry::RegularCircle { scale: None } | ChordGeometry::Circle { may_cancel: false, .. } => {
-                Expression::runtime("lane::chord", [factors, side])
+            ChordGeometry::Circle { scales, may_cancel } => {
+                let chord = if may_cancel { Intrinsic::ReachChord } else { Intrinsic::Chord };
+                let scales = self.list(scales);
+                (chord, vec![self.error_name(), self.group(block), factors, size, scales, side])
             }
-            ChordGeometry::RegularCircle { scale: Some(scale) }
-            | ChordGeometry::Circle { scales: [scale, _], may_cancel: true } => {
-                Expression::runtime("lane::reach_chord", [factors, size, scale, side])
+            ChordGeometry::RegularCircle { scale: None } => (Intrinsic::RegularChord, vec![factors, size, side]),
+            ChordGeometry::RegularCircle { scale: Some(scale) } => {
+                (Intrinsic::RegularReachChord, vec![factors, size, scale, side])
             }
-        };
-        let name = self.names.introduce(symbol);
-        let flag = self.names.taken.unique(&format!("is_regular_{name}"));
-        self.let_pattern(Pattern::Tuple(vec![Pattern::Name(name), Pattern::Name(flag.clone())]), call);
-        self.flags.push(Expression::Name(flag));
+        }
     }
 
     /// The pattern of the flag that is true if the triangle of a dyad is well conditioned.
     fn well_conditioned(&mut self, block: BlockId) -> Pattern {
-        match self.well_conditioned.get_mut(&block) {
-            Some(well_conditioned) => {
-                let name = self.names.taken.unique(&format!("is_well_conditioned_{}", block.number()));
-                Pattern::Name(well_conditioned.insert(name).clone())
-            }
-            None => Pattern::Ignored,
+        if !self.well_conditioned.contains_key(&block) {
+            return Pattern::Ignored;
         }
+        let flag = self.bound(format!("is_well_conditioned_{}", block.number()));
+        self.well_conditioned.insert(block, Some(flag));
+        Pattern::Bound(flag)
     }
-}
-
-fn list(values: [Expression; 2]) -> Expression {
-    Expression::List(values.to_vec())
-}
-
-fn triangle(
-    links: [Expression; 2],
-    line: [Expression; 2],
-    scale: Expression,
-    reach_squared: Expression,
-    distance_squared: Expression,
-    factors: Expression,
-) -> Expression {
-    let members = [
-        ("links", list(links)),
-        ("line", list(line)),
-        ("scale", scale),
-        ("reach_squared", reach_squared),
-        ("distance_squared", distance_squared),
-        ("factors", factors),
-    ];
-    let members = members.map(|(name, value)| (name.to_owned(), value));
-    Expression::structure(Type::Runtime("Triangle", Vec::new()), members)
 }

@@ -49,7 +49,6 @@ fn settle(values: &[Value], kinds: &mut [Option<Kind>], root: ValueId) {
             Value::Constant(_) => Kind::Number,
             Value::Symbol(symbol) => Kind::Symbol(*symbol),
             Value::Direction(..) => Kind::Direction,
-            Value::Call(..) | Value::External(..) => Kind::Function,
             Value::Sum(_) => Kind::Sum,
             Value::Quotient(..) => Kind::Quotient,
             Value::Product(_) | Value::Square(_) => {
@@ -59,6 +58,7 @@ fn settle(values: &[Value], kinds: &mut [Option<Kind>], root: ValueId) {
                     first => first.unwrap_or(Kind::Number),
                 }
             }
+            _ => Kind::Function,
         });
     }
 }

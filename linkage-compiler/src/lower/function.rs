@@ -1,24 +1,26 @@
-//! Lowering of a planned function to statements.
+//! Lowering of a planned function: translate, order, write, check, place, name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::finished::Finished;
-use super::formulas::{Formulas, is_formula};
-use super::lines::{Writer, direction_name};
-use super::names::Names;
+use rustc_hash::FxHashSet;
+
+use super::checks::Checked;
+use super::code::{Callee, Code, Returned};
+use super::naming::{self, Hint};
 use super::rounding::{Bound, DIRECTION, Roundings};
 use super::schedule::Schedule;
 use super::scheduling::schedule;
 use super::value::{Value, ValueId};
 use super::works::{Work, Works};
-use super::{stored, stretches};
+use super::writer::Writer;
+use super::{reads, stored, stretches, unneeded};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
-use crate::ids::BlockId;
-use crate::program::{
-    Access, Body, Expression, Function, Given, Kernel, Operations, Output, Pattern, PosePlan, Shape, Source, Statement,
-    Stored, Type, Value as Returned,
-};
+use crate::ids::{BlockId, FunctionId};
+use crate::program::{self, Access, Body, Failure, Function, Given, Kernel, Output, PosePlan, Source, Taken, call_of};
+
+/// The functions of a type by their names in planned code.
+pub(super) type FunctionIds = BTreeMap<String, FunctionId>;
 
 /// The data that the functions of one driver or scene share.
 pub struct Context<'a> {
@@ -33,165 +35,117 @@ pub struct Context<'a> {
     pub branch: &'a str,
     pub turn: &'a str,
     pub memory: &'a str,
-    /// The operations of the functions lowered so far.
-    pub(super) works: Works,
-    /// The rounding errors of a pose.
-    pub roundings: Roundings,
+    /// The functions of the type, and those of the driver.
+    pub(super) own: &'a FunctionIds,
+    pub(super) of_driver: &'a FunctionIds,
 }
 
-/// The lowered body of a function.
-#[derive(Debug, Clone)]
-pub struct Code {
-    pub statements: Vec<Statement>,
-    pub value: Returned,
-    pub operations: Operations,
-    /// The arguments that it uses.
-    pub uses: BTreeSet<String>,
-    /// The user functions that it calls.
-    pub externals: BTreeSet<ExternalId>,
-    /// True if its formulas need no iteration, no pivoting and no function of the user or of a library.
-    pub is_branch_free: bool,
-    /// The largest rounding errors that its results can have, if they are known.
-    pub bound: Option<Bound>,
+/// What is known of the functions lowered so far.
+pub(super) struct Lowered {
+    /// Their operations.
+    pub(super) works: Works,
+    /// The rounding errors of a pose.
+    pub(super) roundings: Roundings,
+}
+
+/// A reference of planned code to something that does not exist: a mistake of the compiler.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Dangling {
+    pub function: String,
+    /// What it refers to.
+    pub what: String,
 }
 
 /// Lowers a function.
-pub fn function(planned: Function<Body>, context: &mut Context) -> Function<Code> {
+pub(super) fn function(
+    planned: Function<Body>,
+    context: &Context,
+    lowered: &mut Lowered,
+) -> Result<Function<Code>, Dangling> {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = planned;
-    let is_layer = matches!(access, Access::Layer | Access::PublicLayer);
-    let is_stored = |source: &Source| match source.from.stored() {
-        Some(name) => name == "self" || arguments.iter().any(|of| of.name == name),
-        None => source.shape.symbols().iter().all(|symbol| context.roundings.knows(*symbol)),
+    let signature = Signature {
+        is_layer: matches!(access, Access::Layer | Access::PublicLayer),
+        has_bound: access.is_public() && access != Access::Hidden,
+        arguments: arguments.iter().map(|argument| argument.name.as_str()).collect(),
     };
-    let has_bound = access.is_public()
-        && access != Access::Hidden
-        && body.as_ref().is_some_and(|body| match (&body.kernel, &body.value) {
-            (Some(kernel), value) => kernel.sources.iter().all(is_stored) && value.literal().is_of_results(),
-            _ => false,
-        });
-    let body = body.map(|body| {
-        let (code, work) = self::body(body, (is_layer, has_bound), context);
+    let code = body.map(|body| {
+        let (code, work) = signature.body(body, context, lowered)?;
         // A cold function is called only after an error.
         let work = if access == Access::Cold { Work::default() } else { work };
         let operations = work.total();
-        context.works.insert(name.clone(), work);
-        Code { operations, ..code }
+        lowered.works.insert(name.clone(), work);
+        Ok(Code { operations, ..code })
     });
-    Function { name, doc, access, is_method, arguments, returns, is_fallible, body }
+    let body = code.transpose().map_err(|what| Dangling { function: name.clone(), what })?;
+    Ok(Function { name, doc, access, is_method, arguments, returns, is_fallible, body })
 }
 
-fn body(body: Body, (is_layer, has_bound): (bool, bool), context: &mut Context) -> (Code, Work) {
-    let Body { before, kernel, after, value, locals, calls, operations } = body;
-    let mut formulas = match kernel {
-        Some(kernel) => Formulas::of(&kernel, (is_layer, has_bound), context),
-        None => Formulas::none(context.reserved),
-    };
-    let work = context.works.work(formulas.schedule.as_ref(), is_layer, &calls, operations);
-    let locals: Vec<String> = locals.iter().map(|preferred| formulas.taken.unique(preferred)).collect();
-    let computed = std::mem::take(&mut formulas.statements);
-    let finished = Finished { results: &formulas.results, locals: &locals };
-    let all = |planned: Vec<Statement>| {
-        let mut statements = Vec::new();
-        planned.into_iter().for_each(|statement| finished.statement(statement, &formulas, &mut statements));
-        statements
-    };
-    let (before, after) = (all(before), all(after));
-    let value = match value {
-        Returned::Plain(value) => Returned::Plain(finished.expression(value)),
-        Returned::Result(value) => Returned::Result(finished.expression(value)),
-        Returned::Stored(stored) => {
-            let Stored { result, members, literal } = *stored;
-            let [result, literal] = [result, literal].map(|value| finished.expression(value));
-            let finish = |(member, value)| (finished.expression(member), finished.expression(value));
-            let members = members.into_iter().map(finish);
-            Returned::Stored(Box::new(Stored { result, members: members.collect(), literal }))
-        }
-    };
-    let computed = match &value {
-        Returned::Stored(stored) => stored::stored(computed, stored.members.clone()),
-        _ => computed,
-    };
-    let mut uses = BTreeSet::new();
-    let mut use_name = |name: &str| uses.extend([name.to_owned()]);
-    value.returned().each_name(&mut use_name);
-    after.iter().for_each(|statement| statement.each_name(&mut use_name));
-    let computed = stretches::divided(computed, uses.iter().map(String::as_str));
-    computed.iter().for_each(|statement| statement.each_name(&mut |name| uses.extend([name.to_owned()])));
-    let before = needed(before, &mut uses);
-    let statements = before.into_iter().chain(computed).chain(after).collect();
-    let mut statements = taken_apart_at_once(statements, &value);
-    let value = unnamed(&mut statements, value);
-    let Formulas { externals, is_branch_free, bound, .. } = formulas;
-    let operations = work.total();
-    (Code { statements, value, operations, uses, externals, is_branch_free, bound }, work)
+/// What a body depends on of its function.
+struct Signature<'f> {
+    is_layer: bool,
+    /// True if the rounding errors of its results are of interest.
+    has_bound: bool,
+    arguments: Vec<&'f str>,
 }
 
-/// Returns the value of the last `let` instead of its name, if the function returns that name.
-fn unnamed(statements: &mut Vec<Statement>, value: Returned) -> Returned {
-    let is_named = |statement: &mut Statement| match (statement, &value) {
-        (Statement::Let(Pattern::Name(last), _), Returned::Plain(Expression::Name(name))) => last == name,
-        _ => false,
-    };
-    match statements.pop_if(is_named) {
-        Some(Statement::Let(_, last)) => Returned::Plain(last),
-        _ => value,
-    }
-}
-
-/// Takes the value of a call apart where it is computed, if nothing else uses its name:
-/// `let Rates { theta3, .. } = coordinate_rates(…);`.
-fn taken_apart_at_once(statements: Vec<Statement>, value: &Returned) -> Vec<Statement> {
-    let mut uses: BTreeMap<&str, usize> = BTreeMap::new();
-    let mut count = |name| *uses.entry(name).or_default() += 1;
-    value.returned().each_name(&mut count);
-    statements.iter().for_each(|statement| statement.each_name(&mut count));
-    let apart = statements.iter().filter_map(|statement| match statement {
-        Statement::Let(
-            pattern @ (Pattern::Struct { .. } | Pattern::List(_) | Pattern::Tuple(_)),
-            Expression::Name(name),
-        ) if uses[name.as_str()] == 1 => Some((name.clone(), pattern.clone())),
-        _ => None,
-    });
-    let mut apart: BTreeMap<String, Pattern> = apart.collect();
-    // Arguments are taken apart in a statement of their own.
-    let bound = statements.iter().filter_map(|statement| match statement {
-        Statement::Let(Pattern::Name(name), _) => Some(name.as_str()),
-        _ => None,
-    });
-    let bound: BTreeSet<&str> = bound.collect();
-    apart.retain(|name, _| bound.contains(name.as_str()));
-    let statements = statements.into_iter().filter_map(|statement| match statement {
-        Statement::Let(Pattern::Name(name), value) => {
-            Some(Statement::Let(apart.get(&name).cloned().unwrap_or(Pattern::Name(name)), value))
-        }
-        Statement::Let(_, Expression::Name(name)) if apart.contains_key(&name) => None,
-        statement => Some(statement),
-    });
-    statements.collect()
-}
-
-/// Removes `let`s with unused names, unless they may fail; adds the names that the others use.
-fn needed(statements: Vec<Statement>, uses: &mut BTreeSet<String>) -> Vec<Statement> {
-    let mut kept = Vec::new();
-    for statement in statements.into_iter().rev() {
-        let is_unused = match &statement {
-            Statement::Let(Pattern::Typed(name, _) | Pattern::Name(name), value) => {
-                !matches!(value, Expression::Try(_)) && !uses.contains(name)
-            }
-            _ => false,
+impl Signature<'_> {
+    /// The code of a body and its operations; otherwise what the body refers to and does not exist.
+    fn body(&self, body: Body, context: &Context, lowered: &mut Lowered) -> Result<(Code, Work), String> {
+        let Body { before, kernel, after, value, locals, calls, operations } = body;
+        let schedule = kernel.as_ref().map(|kernel| self.scheduled(kernel, context));
+        let work = lowered.works.work(schedule.as_ref(), self.is_layer, &calls, operations);
+        let bound = kernel.as_ref().zip(schedule.as_ref()).and_then(|(kernel, schedule)| {
+            self.has_bound(kernel, &value, lowered).then(|| bound(kernel, schedule, context, lowered)).flatten()
+        });
+        let none = Kernel::default();
+        let mut writer = Writer::new(context, kernel.as_ref().unwrap_or(&none));
+        writer.arguments(&self.arguments);
+        writer.locals = locals.iter().map(|_| writer.values.bound()).collect();
+        writer.planned(&before, &Checked::default());
+        let before = std::mem::take(&mut writer.statements);
+        let checked = match (&kernel, &schedule) {
+            (Some(kernel), Some(schedule)) => writer.kernel(kernel, schedule),
+            _ => Checked::default(),
         };
-        if !is_unused {
-            statement.each_name(&mut |name| uses.extend([name.to_owned()]));
-            kept.push(statement);
+        let computed = std::mem::take(&mut writer.statements);
+        for (id, preferred) in writer.locals.clone().into_iter().zip(locals) {
+            writer.hint(id, Hint::Preferred(preferred));
         }
+        writer.planned(&after, &checked);
+        let after = std::mem::take(&mut writer.statements);
+        let (value, members) = writer.returned(&value, &checked);
+        let Writer { mut values, hints, externals, dangling, .. } = writer;
+        if let Some(what) = dangling {
+            return Err(what);
+        }
+        let computed = stored::stored(&values, computed, members);
+        let mut later = Vec::new();
+        values.uses().value(value.returned(), &mut |id| later.push(id));
+        values.uses().statements(&after, &mut |id| later.push(id));
+        let computed = stretches::divided(&mut values, computed, &later);
+        let mut used: FxHashSet<ValueId> = later.into_iter().collect();
+        values.uses().statements(&computed, &mut |id| {
+            used.insert(id);
+        });
+        let before = unneeded::needed(&values, before, &mut used);
+        let statements = before.into_iter().chain(computed).chain(after).collect();
+        let mut statements = unneeded::taken_apart_at_once(&mut values, statements, value);
+        let value = unneeded::unnamed(&mut values, &mut statements, value);
+        let uses = used.iter().filter_map(|id| match values.get(*id) {
+            Value::Argument(place) => Some(*place),
+            _ => None,
+        });
+        let uses = uses.collect();
+        let functions = callees(context, &externals);
+        let graph = &context.derivation.graph;
+        let names = naming::names(&hints, &values, graph, Taken::new(context.reserved), functions);
+        let is_branch_free = schedule.as_ref().is_none_or(Schedule::is_branch_free);
+        let operations = work.total();
+        let values = values.all;
+        Ok((Code { values, statements, value, operations, uses, externals, is_branch_free, bound, names }, work))
     }
-    kept.reverse();
-    kept
-}
 
-impl<'a> Formulas<'a> {
-    fn of(kernel: &Kernel, (is_layer, has_bound): (bool, bool), context: &mut Context<'a>) -> Self {
-        let derivation = context.derivation;
+    fn scheduled(&self, kernel: &Kernel, context: &Context) -> Schedule {
         let nothing = Given::default();
         let of_pose = if kernel.is_on_pose { &context.pose.given } else { &nothing };
         let given = kernel.any_number.as_ref().unwrap_or(of_pose);
@@ -199,70 +153,102 @@ impl<'a> Formulas<'a> {
         // Preferred names of values: those of results, then those given by the user.
         let results = kernel.results.iter().filter_map(|output| Some((output.node, output.name.clone()?)));
         let named: Vec<(NodeId, String)> = results.chain(context.named.iter().cloned()).collect();
-        let schedule = schedule(&derivation.graph, &kernel.steps, &nodes, given, &named, is_layer);
-        let bound = has_bound.then(|| self::bound(kernel, &schedule, context)).flatten();
-        let mut is_proven = schedule.proven(kernel.conclusive.clone());
-        is_proven
-            .iter_mut()
-            .skip(kernel.external.start)
-            .take(kernel.external.len())
-            .for_each(|is_proven| *is_proven = true);
-        let mut names = Names::new(&derivation.graph, context.reserved);
-        // The symbols of the user are named first, so that they keep their names.
-        let own: BTreeSet<SymbolId> = kernel.steps.iter().flat_map(|step| step.introduced()).collect();
-        let symbols: BTreeSet<SymbolId> = schedule.symbols().filter(|symbol| !own.contains(symbol)).collect();
-        for &symbol in &symbols {
-            names.introduce(symbol);
+        schedule(&context.derivation.graph, &kernel.steps, &nodes, given, &named, self.is_layer)
+    }
+
+    /// True if the rounding errors of the results are of interest, and the arguments of the kernel are stored.
+    fn has_bound(&self, kernel: &Kernel, value: &program::Value, lowered: &Lowered) -> bool {
+        let is_stored = |source: &Source| match source.from.stored() {
+            Some(name) => name == "self" || self.arguments.contains(&name),
+            None => source.shape.symbols().iter().all(|symbol| lowered.roundings.knows(*symbol)),
+        };
+        self.has_bound && kernel.sources.iter().all(is_stored) && value.literal().is_of_results()
+    }
+}
+
+/// The names of all functions that code can call.
+fn callees(context: &Context, externals: &BTreeSet<ExternalId>) -> Vec<(Callee, String)> {
+    let own = context.own.iter().map(|(name, id)| (Callee::Own(*id), name.clone()));
+    let of_driver = context.of_driver.iter().map(|(name, id)| (Callee::OfDriver(*id), name.clone()));
+    let graph = &context.derivation.graph;
+    let users = externals.iter().map(|&id| (Callee::User(id), call_of(graph.external_names(id))));
+    own.chain(of_driver).chain(users).collect()
+}
+
+impl Writer<'_> {
+    /// Gives the arguments their meaning.
+    fn arguments(&mut self, names: &[&str]) {
+        let own = self.values.add(Value::Itself);
+        self.variables.insert("self".to_owned(), own);
+        self.hint(own, Hint::Fixed("self".to_owned()));
+        for (place, name) in names.iter().enumerate() {
+            let id = self.values.add(Value::Argument(place));
+            self.variables.insert((*name).to_owned(), id);
+            self.hint(id, Hint::Fixed((*name).to_owned()));
         }
-        let sources = kernel.sources.iter();
-        let mut statements: Vec<Statement> =
-            sources.filter_map(|source| taken_apart(source, &symbols, &names)).collect();
-        if kernel.is_on_pose {
-            directions(&mut statements, context, &schedule, &mut names);
+    }
+
+    /// Writes a kernel, and returns its results.
+    fn kernel(&mut self, kernel: &Kernel, schedule: &Schedule) -> Checked {
+        if let Failure::Return(otherwise) = &kernel.failure {
+            self.otherwise = Some(self.expression(otherwise, &Checked::default()));
         }
-        let arguments = [context.branch, context.turn, context.memory];
-        let mut writer = Writer::new((derivation, kernel), arguments, &schedule, names);
-        writer.statements = statements;
+        let of = self.absorb(schedule, &[]);
+        let is_proven = proven(kernel, schedule);
+        self.sources(of);
         let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
-        writer.well_conditioned = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
-        writer.write();
-        let mut results = writer.all_signed(&schedule.results);
-        let Writer { mut statements, names, externals, well_conditioned, flags, factors, .. } = writer;
-        parameters_where_used(&mut statements);
-        if flags.is_empty() {
-            passed_on(&mut statements, &mut results);
+        self.well_conditioned = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
+        self.write(of);
+        let mut results = self.all_signed(of, &schedule.results);
+        reads::parameters_where_used(&self.values, &mut self.statements);
+        if self.flags.is_empty() {
+            reads::passed_on(&mut self.values, &mut self.statements, &mut results);
         }
-        let mut taken = names.taken;
-        let results = kernel.results.iter().zip(results).map(|(output, result)| match &output.name {
-            Some(preferred) if is_formula(&result) => {
-                let name = taken.unique(preferred);
-                statements.push(Statement::Let(Pattern::Name(name.clone()), result));
-                Expression::Name(name)
-            }
+        let results = results.into_iter().zip(&kernel.results).map(|(result, output)| self.result(result, output));
+        Checked { results: results.collect(), is_proven, dyads: kernel.dyads.clone() }
+    }
+
+    /// Binds a result to its name, if it has one and is no variable.
+    fn result(&mut self, result: ValueId, output: &Output) -> ValueId {
+        let Some(preferred) = output.name.as_ref().filter(|_| self.values.is_formula(result)) else { return result };
+        // Numbers are shared: one with a name is a value of its own.
+        let result = match self.values.get(result) {
+            number @ (Value::Constant(_) | Value::Exact(_)) => self.values.add(number.clone()),
             _ => result,
-        });
-        let results = results.collect();
-        let (dyads, well_conditioned) = (kernel.dyads.clone(), well_conditioned.into_values().flatten().collect());
-        let is_branch_free = schedule.is_branch_free();
-        Self {
-            statements,
-            results,
-            is_proven,
-            dyads,
-            well_conditioned,
-            factors: factors.into_values().collect(),
-            flags,
-            is_branch_free,
-            bound,
-            taken,
-            externals,
-            schedule: Some(schedule),
+        };
+        self.values.bind(result, false);
+        self.hint(result, Hint::Preferred(preferred.clone()));
+        self.let_itself(result);
+        result
+    }
+
+    /// The value that a function returns, and the members that are assigned when they are known.
+    fn returned(&mut self, value: &program::Value, checked: &Checked) -> (Returned, Vec<(ValueId, ValueId)>) {
+        match value {
+            program::Value::Plain(value) => (Returned::Plain(self.expression(value, checked)), Vec::new()),
+            program::Value::Result(value) => (Returned::Result(self.expression(value, checked)), Vec::new()),
+            program::Value::Stored(stored) => {
+                let [result, literal] = [&stored.result, &stored.literal].map(|value| self.expression(value, checked));
+                let members = stored.members.iter();
+                let members =
+                    members.map(|(member, value)| (self.expression(member, checked), self.expression(value, checked)));
+                let members = members.collect();
+                (Returned::Stored { result, literal }, members)
+            }
         }
     }
 }
 
+/// For each result, true if it needs no check.
+fn proven(kernel: &Kernel, schedule: &Schedule) -> Vec<bool> {
+    let mut is_proven = schedule.proven(kernel.conclusive.clone());
+    let external = is_proven.iter_mut().skip(kernel.external.start).take(kernel.external.len());
+    external.for_each(|is_proven| *is_proven = true);
+    is_proven
+}
+
 /// The largest rounding errors of a kernel whose arguments are stored.
-fn bound(kernel: &Kernel, schedule: &Schedule, context: &mut Context) -> Option<Bound> {
+fn bound(kernel: &Kernel, schedule: &Schedule, context: &Context, lowered: &mut Lowered) -> Option<Bound> {
     let graph = &context.derivation.graph;
     let fields = taken_by_others(kernel, context);
     let results = kernel.results.iter().zip(&schedule.results).enumerate();
@@ -276,8 +262,8 @@ fn bound(kernel: &Kernel, schedule: &Schedule, context: &mut Context) -> Option<
         name.unwrap_or_default().to_owned()
     });
     let names = names.collect::<Vec<_>>();
-    context.roundings.keep_pose(graph, schedule, &fields);
-    context.roundings.bound(graph, schedule, &names)
+    lowered.roundings.keep_pose(graph, schedule, &fields);
+    lowered.roundings.bound(graph, schedule, &names)
 }
 
 /// The results that other functions take, with their symbols: the determinants of a pose, and velocity ratios.
@@ -294,119 +280,4 @@ fn taken_by_others(kernel: &Kernel, context: &Context) -> Vec<(usize, SymbolId)>
         Some((place, determinant.or(ratio)?))
     };
     places.filter_map(of).collect()
-}
-
-/// Reads a field that is only passed on, such as the position of a slider, where it is passed on: `q.s`.
-fn passed_on(statements: &mut Vec<Statement>, results: &mut [Expression]) {
-    let mut used = BTreeSet::new();
-    let mut uses = |name: &str| used.extend([name.to_owned()]);
-    statements.iter().for_each(|statement| statement.each_name(&mut uses));
-    let formulas = results.iter().filter(|result| is_formula(result));
-    formulas.for_each(|result| result.each_name(&mut uses));
-    statements.retain_mut(|statement| {
-        let Statement::Let(Pattern::Struct { fields, is_whole, .. }, Expression::Dereferenced(of)) = statement else {
-            return true;
-        };
-        let count = fields.len();
-        fields.retain(|(field, pattern)| {
-            let Pattern::Name(name) = pattern else { return true };
-            let is_used = used.contains(name);
-            if !is_used {
-                let passed =
-                    results.iter_mut().filter(|result| matches!(result, Expression::Name(other) if other == name));
-                passed.for_each(|result| *result = of.clone().field(field));
-            }
-            is_used
-        });
-        *is_whole &= fields.len() == count;
-        !fields.is_empty()
-    });
-}
-
-/// Moves the statement that reads the parameters to their first use: what is computed before, such as the sines of the
-/// inputs, then has the registers for itself.
-fn parameters_where_used(statements: &mut Vec<Statement>) {
-    let is_parameters =
-        |statement: &Statement| matches!(statement, Statement::Let(Pattern::Struct { of: Type::Itself, .. }, _));
-    let Some(place) = statements.iter().position(is_parameters) else { return };
-    let parameters = statements.remove(place);
-    let mut bound = BTreeSet::new();
-    if let Statement::Let(pattern, _) = &parameters {
-        pattern.each_name(&mut |name| bound.extend([name.to_owned()]));
-    }
-    let uses = |statement: &Statement| {
-        let mut is_used = false;
-        statement.each_name(&mut |name| is_used |= bound.contains(name));
-        is_used
-    };
-    let place = statements.iter().position(uses).unwrap_or(statements.len());
-    statements.insert(place, parameters);
-}
-
-/// `let Type { field, other: name, .. } = *value;` with the fields that are used; `None` if no field is used.
-fn taken_apart(source: &Source, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Statement> {
-    let pattern = match pattern(&source.shape, used, names) {
-        Some(pattern) => pattern,
-        // A call that may fail is kept.
-        None if may_fail(&source.from) => Pattern::Ignored,
-        None => return None,
-    };
-    Some(Statement::Let(pattern, source.from.clone()))
-}
-
-fn may_fail(value: &Expression) -> bool {
-    match value {
-        Expression::Try(_) => true,
-        Expression::Field(of, _) => may_fail(of),
-        _ => false,
-    }
-}
-
-/// The pattern of a shape with the symbols that are used; `None` if no symbol is used.
-fn pattern(shape: &Shape, used: &BTreeSet<SymbolId>, names: &Names) -> Option<Pattern> {
-    let all = |shapes: &[Shape]| {
-        let patterns: Vec<_> = shapes.iter().map(|shape| pattern(shape, used, names)).collect();
-        let is_used = patterns.iter().any(Option::is_some);
-        is_used.then(|| patterns.into_iter().map(|pattern| pattern.unwrap_or(Pattern::Ignored)).collect())
-    };
-    match shape {
-        Shape::Symbol(symbol) => used.contains(symbol).then(|| Pattern::Name(names.symbol(*symbol))),
-        Shape::Ignored => None,
-        Shape::List(shapes) => all(shapes).map(Pattern::List),
-        Shape::Tuple(shapes) => all(shapes).map(Pattern::Tuple),
-        Shape::Fields { of, fields, is_whole } => {
-            let named = fields.iter().filter_map(|(field, shape)| Some((field.clone(), pattern(shape, used, names)?)));
-            let named: Vec<(String, Pattern)> = named.collect();
-            let is_whole = *is_whole && named.len() == fields.len();
-            (!named.is_empty()).then(|| Pattern::Struct { of: of.clone(), fields: named, is_whole })
-        }
-    }
-}
-
-/// Adds `let (sin_theta, cos_theta) = (pose.theta.im, pose.theta.re);` for the directions that are used.
-fn directions(statements: &mut Vec<Statement>, context: &Context, schedule: &Schedule, names: &mut Names) {
-    let mut used: Vec<(NodeId, Elementary, ValueId)> = Vec::new();
-    for &id in schedule.used() {
-        if let Value::Direction(function, angle) = schedule.value(id) {
-            used.push((*angle, *function, id));
-        }
-    }
-    used.sort_unstable();
-    for parts in used.chunk_by(|one, other| one.0 == other.0) {
-        let field = context.pose.direction(parts[0].0);
-        let (mut patterns, mut values) = (Vec::new(), Vec::new());
-        for &(_, function, id) in parts {
-            patterns.push(Pattern::Name(names.give(id, &direction_name(function, field))));
-            let part = if function == Elementary::Sin { "im" } else { "re" };
-            values.push(Expression::name(context.pose_argument).field(field).field(part));
-        }
-        let (pattern, value) = match (patterns.pop(), values.pop()) {
-            (Some(pattern), Some(value)) if patterns.is_empty() => (pattern, value),
-            (pattern, value) => (
-                Pattern::Tuple(patterns.into_iter().chain(pattern).collect()),
-                Expression::Tuple(values.into_iter().chain(value).collect()),
-            ),
-        };
-        statements.push(Statement::Let(pattern, value));
-    }
 }

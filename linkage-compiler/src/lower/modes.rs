@@ -1,107 +1,135 @@
 //! The positions of a group of loops, as calls of the runtime.
 
-use super::lines::Writer;
+use super::code::{Block, Pattern};
+use super::naming::Hint;
 use super::schedule::Line;
-use super::value::Signed;
+use super::value::{Signed, Value, ValueId};
+use super::writer::{Absorbed, Writer};
 use crate::graph::Number;
 use crate::ids::BlockId;
-use crate::program::{Expression, Pattern, Type};
+use crate::program::{Constant, Intrinsic, Type};
 use crate::structure::Guide;
 
-impl<'a> Writer<'a, '_> {
+impl Writer<'_> {
     /// All positions of a group, and the unknowns of the one whose number the branch has.
-    pub(super) fn modes(&mut self, line: &'a Line) {
+    pub(super) fn modes(&mut self, of: Absorbed<'_>, line: &Line) {
         let Line::Modes { block, targets, constants, factors, unknowns, guides, system } = line else { return };
-        let common = || [self.error_name(), self.group(*block)].into_iter();
-        let loops = [
-            ("constants", constants.iter().map(|part| self.complex(part)).collect()),
-            ("factors", factors.iter().map(|all| list(all.iter().map(|part| self.complex(part)))).collect()),
-        ];
-        let loops = loops.map(|(field, values)| (field.to_owned(), Expression::List(values)));
-        let loops = Expression::structure(Type::Runtime("Loops", Vec::new()), loops);
-        let are = guides.iter().any(Option::is_some).then(|| list(guides.iter().map(|guide| self.unknown(guide))));
-        let method = if are.is_some() { "modes_with_lengths" } else { "modes" };
-        let (find, take) = (common().chain([loops]).chain(are).chain([of_directions(unknowns)]), common());
-        let mode = Expression::name(self.branch).field(self.derivation.blocks[*block].branch(self.derivation));
-        let (find, take): (Vec<_>, Vec<_>) = (find.collect(), take.chain([mode]).collect());
-        let evaluation = self.evaluation(targets, system);
-        let memory = self.kept(*block);
-        let all = memory.method(method, find.into_iter().chain([evaluation])).tried();
-        let name = self.names.taken.unique("modes");
-        self.let_pattern(Pattern::Name(name.clone()), all);
-        let taken = Expression::name(name).method("take", take).tried();
-        let targets = targets.iter().map(|&target| Pattern::Name(self.names.introduce(target))).collect();
-        self.let_pattern(Pattern::List(targets), taken);
+        let constants: Vec<ValueId> = constants.iter().map(|part| self.complex(of, part)).collect();
+        let constants = self.list(constants);
+        let factors: Vec<ValueId> = factors
+            .iter()
+            .map(|all| {
+                let all: Vec<ValueId> = all.iter().map(|part| self.complex(of, part)).collect();
+                self.list(all)
+            })
+            .collect();
+        let factors = self.list(factors);
+        let loops = self.structure("Loops", [("constants", constants), ("factors", factors)]);
+        let mut find = vec![self.kept(of, *block), self.error_name(), self.group(*block), loops];
+        let method = if guides.iter().any(Option::is_some) {
+            let are: Vec<ValueId> = guides.iter().map(|guide| self.unknown(of, guide)).collect();
+            find.push(self.list(are));
+            Intrinsic::ModesWithLengths
+        } else {
+            Intrinsic::Modes
+        };
+        find.push(self.of_directions(unknowns));
+        let take = [self.error_name(), self.group(*block)];
+        let branch = self.variable(self.context.branch);
+        let mode = self.field(branch, self.context.derivation.blocks[*block].branch(self.context.derivation));
+        find.push(self.evaluation(targets, system));
+        let all = self.call(method, find);
+        let all = self.tried(all);
+        let name = self.bound("modes");
+        self.let_value(Pattern::Bound(name), all);
+        let taken = self.call(Intrinsic::Take, [name].into_iter().chain(take).chain([mode]));
+        let taken = self.tried(taken);
+        let targets = self.all_introduced(of, targets);
+        self.let_value(targets, taken);
     }
 
     /// The place where the positions of a group are kept: the argument, or a part of it if there are several groups.
-    fn kept(&self, block: BlockId) -> Expression {
-        let blocks = self.schedule.lines.iter().filter_map(|line| match line {
+    fn kept(&mut self, of: Absorbed<'_>, block: BlockId) -> ValueId {
+        let blocks = of.schedule.lines.iter().filter_map(|line| match line {
             Line::Modes { block, .. } => Some(*block),
             _ => None,
         });
-        let memory = Expression::name(self.memory);
+        let memory = self.variable(self.context.memory);
         match blocks.clone().count() {
             1 => memory,
-            _ => memory.field(blocks.take_while(|other| *other != block).count().to_string()),
+            _ => self.field(memory, blocks.take_while(|other| *other != block).count().to_string()),
         }
     }
 
     /// An unknown as a value of the runtime: an angle, or a length along a guide.
-    fn unknown(&self, guide: &Option<Guide<Signed>>) -> Expression {
-        let Some(Guide { in_loop, along, with }) = guide else { return Expression::Constant("Unknown::Angle") };
-        let with =
-            with.map_or(Expression::Constant("None"), |place| Expression::runtime("Some", [Expression::Count(place)]));
-        let fields = [("in_loop", Expression::Count(*in_loop)), ("along", self.complex(along)), ("with", with)];
-        let fields = fields.map(|(field, value)| (field.to_owned(), value));
-        Expression::structure(Type::Runtime("Unknown::Length", Vec::new()), fields)
+    fn unknown(&mut self, of: Absorbed<'_>, guide: &Option<Guide<Signed>>) -> ValueId {
+        let Some(Guide { in_loop, along, with }) = guide else { return self.add(Value::Path(Constant::Angle)) };
+        let with = match with {
+            Some(place) => {
+                let place = self.add(Value::Count(*place));
+                self.call(Intrinsic::Some, [place])
+            }
+            None => self.add(Value::Path(Constant::None)),
+        };
+        let (in_loop, along) = (self.add(Value::Count(*in_loop)), self.complex(of, along));
+        self.structure("Unknown::Length", [("in_loop", in_loop), ("along", along), ("with", with)])
     }
 
-    fn complex(&self, parts: &[Signed; 2]) -> Expression {
-        Expression::List(self.all_signed(parts))
+    fn complex(&mut self, of: Absorbed<'_>, parts: &[Signed; 2]) -> ValueId {
+        let parts = self.all_signed(of, parts);
+        self.list(parts)
     }
-}
 
-fn list(values: impl Iterator<Item = Expression>) -> Expression {
-    Expression::List(values.collect())
-}
-
-/// The function from the directions to the unknowns, each an integer combination of them.
-fn of_directions(unknowns: &[Vec<i64>]) -> Expression {
-    let is_same = |(place, factors): (usize, &Vec<i64>)| {
-        factors.iter().enumerate().all(|(other, factor)| *factor == i64::from(other == place))
-    };
-    let (argument, value) = if unknowns.iter().enumerate().all(is_same) {
-        (Pattern::Name("directions".to_owned()), Expression::name("directions"))
-    } else {
-        let directions = (0..unknowns.len()).map(|place| Pattern::Name(direction(place)));
-        (Pattern::List(directions.collect()), list(unknowns.iter().map(|factors| combination(factors))))
-    };
-    Expression::Closure { arguments: vec![argument], statements: Vec::new(), value: Box::new(value), moves: false }
-}
-
-/// The sum of the directions with these factors.
-fn combination(factors: &[i64]) -> Expression {
-    let terms = factors.iter().enumerate().filter(|(_, factor)| **factor != 0);
-    let mut terms: Vec<(bool, Expression)> = terms.map(|(place, factor)| term(place, *factor)).collect();
-    terms.sort_by_key(|(is_negative, _)| *is_negative);
-    match terms.as_slice() {
-        [(false, only)] => only.clone(),
-        [(true, only)] => Expression::Negative(Box::new(only.clone())),
-        _ => Expression::Sum(terms),
+    /// A struct of the runtime.
+    fn structure<const N: usize>(&mut self, of: &'static str, members: [(&str, ValueId); N]) -> ValueId {
+        let members = members.map(|(name, value)| (name.to_owned(), value)).to_vec();
+        self.add(Value::Struct(Type::Runtime(of, Vec::new()), members, None))
     }
-}
 
-/// True if it is subtracted, and the magnitude.
-fn term(place: usize, factor: i64) -> (bool, Expression) {
-    let name = Expression::name(direction(place));
-    let value = match factor.abs() {
-        1 => name,
-        times => Expression::Product(vec![Expression::Number(Number::integer(times)), name]),
-    };
-    (factor < 0, value)
-}
+    /// The function from the directions to the unknowns, each an integer combination of them.
+    fn of_directions(&mut self, unknowns: &[Vec<i64>]) -> ValueId {
+        let is_same = |(place, factors): (usize, &Vec<i64>)| {
+            factors.iter().enumerate().all(|(other, factor)| *factor == i64::from(other == place))
+        };
+        let (argument, value) = if unknowns.iter().enumerate().all(is_same) {
+            let directions = self.fixed("directions");
+            (Pattern::Bound(directions), directions)
+        } else {
+            let directions: Vec<ValueId> =
+                (1..=unknowns.len()).map(|number| self.fixed(&format!("direction_{number}"))).collect();
+            let all: Vec<ValueId> = unknowns.iter().map(|factors| self.combination(factors, &directions)).collect();
+            (Pattern::List(directions.into_iter().map(Pattern::Bound).collect()), self.list(all))
+        };
+        let body = Block { statements: Vec::new(), value };
+        self.add(Value::Closure { arguments: vec![argument], body, moves: false })
+    }
 
-fn direction(place: usize) -> String {
-    format!("direction_{}", place + 1)
+    /// A bound value with exactly this name, in a scope of its own.
+    pub(super) fn fixed(&mut self, name: &str) -> ValueId {
+        let id = self.values.bound();
+        self.hint(id, Hint::Fixed(name.to_owned()));
+        id
+    }
+
+    /// The sum of the directions with these factors.
+    fn combination(&mut self, factors: &[i64], directions: &[ValueId]) -> ValueId {
+        let terms = factors.iter().zip(directions).filter(|(factor, _)| **factor != 0);
+        let mut terms: Vec<Signed> = terms.map(|(factor, direction)| self.multiple(*factor, *direction)).collect();
+        terms.sort_by_key(|term| term.negative);
+        match terms.as_slice() {
+            [only] => self.values.written(*only),
+            _ => self.add(Value::Sum(terms)),
+        }
+    }
+
+    fn multiple(&mut self, factor: i64, direction: ValueId) -> Signed {
+        let value = match factor.abs() {
+            1 => direction,
+            times => {
+                let times = self.values.number(Number::integer(times));
+                self.add(Value::Product(vec![times, direction]))
+            }
+        };
+        Signed { negative: factor < 0, value }
+    }
 }

@@ -18,7 +18,7 @@ impl Schedule {
                 Value::Square(_) => total.multiplications += 1,
                 Value::Call(Function::Abs | Function::IfNonzero, _) => {}
                 Value::Call(..) | Value::External(..) => total.functions += 1,
-                Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {}
+                _ => {}
             }
         }
         let chords = self.lines.iter().filter(|line| matches!(line, Line::Chord { .. })).count();

@@ -2,65 +2,101 @@
 
 use std::collections::BTreeSet;
 
-use super::function::{Code, Context, function};
+use super::code::Code;
+use super::function::{Context, Dangling, FunctionIds, Lowered, function};
 use super::rounding::Roundings;
 use super::works::Works;
 use crate::derivation::Derivation;
-use crate::program::{Access, Body, Derived, Function, Program, SceneProgram};
+use crate::ids::{FunctionId, Table};
+use crate::program::{Access, AnyNumber, Arguments, Body, Derived, Function, Functions, Program, SceneProgram};
 
 /// Lowers all functions of a driver and of its scenes.
-#[must_use]
-pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Program<'a, Code> {
+///
+/// # Errors
+/// If a function refers to something that does not exist: a mistake of the compiler.
+pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Result<Program<'a, Code>, Dangling> {
     let Program { signatures, position, functions, scenes, any_number, derived } = planned;
     let Some(derived) = derived else {
-        let functions = functions.into_iter().map(Function::without_body).collect();
+        let functions = functions.into_table().map(Function::without_body).into_iter().collect();
         let any_number = any_number.map(|any_number| any_number.map(Function::without_body));
-        return Program { signatures, position, functions, scenes: Vec::new(), any_number, derived: None };
+        return Ok(Program { signatures, position, functions, scenes: Vec::new(), any_number, derived: None });
     };
+    let of_driver = ids(&functions);
     let reserved = signatures.arguments.reserved();
-    let mut context = context(derivation, &derived, &reserved, &signatures.arguments, Works::default());
-    let functions: Vec<_> = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
-    let functions = without_branches(functions);
-    let functions = ordered(functions, &signatures.all(&position));
-    let works = context.works.renamed(|name| signatures.types.function(name));
-    let any_number = any_number.map(|any_number| any_number.map(|planned| function(planned, &mut context)));
-    let scenes = scenes.into_iter().map(|scene| {
-        let SceneProgram { signatures, functions } = scene;
+    let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &of_driver, of_driver: &of_driver };
+    let of = context(derivation, &derived, of);
+    let mut lowered = Lowered { works: Works::default(), roundings: Roundings::new(&derived.pose) };
+    let functions = all(functions, &of, &mut lowered)?;
+    let order = ordered(without_branches(&functions), &functions, &signatures.all(&position));
+    let functions = Functions::listed(functions, order);
+    let works = lowered.works.renamed(|name| signatures.types.function(name));
+    let any_number = any_number.map(|AnyNumber { functions, user_functions }| {
+        let functions = functions.into_iter().map(|planned| function(planned, &of, &mut lowered));
+        Ok(AnyNumber { functions: functions.collect::<Result<_, _>>()?, user_functions })
+    });
+    let any_number = any_number.transpose()?;
+    let scenes = scenes.into_iter().map(|SceneProgram { signatures, functions }| {
         let mut reserved = signatures.arguments.reserved();
         reserved.insert(signatures.field.clone());
-        let mut context = self::context(derivation, &derived, &reserved, &signatures.arguments, works.clone());
-        let functions = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
-        let functions = ordered(functions, &signatures.all());
-        SceneProgram { signatures, functions }
+        let own = ids(&functions);
+        let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &own, of_driver: &of_driver };
+        let of = context(derivation, &derived, of);
+        let mut lowered = Lowered { works: works.clone(), roundings: Roundings::new(&derived.pose) };
+        let functions = all(functions, &of, &mut lowered)?;
+        let order = ordered(functions.ids().collect(), &functions, &signatures.all());
+        Ok(SceneProgram { signatures, functions: Functions::listed(functions, order) })
     });
-    let scenes = scenes.collect();
-    Program { signatures, position, functions, scenes, any_number, derived: Some(derived) }
+    let scenes = scenes.collect::<Result<_, _>>()?;
+    Ok(Program { signatures, position, functions, scenes, any_number, derived: Some(derived) })
 }
 
-/// Removes the functions for a lane that have branches, and those after them: lanes are then computed one by one.
-fn without_branches(functions: Vec<Function<Code>>) -> Vec<Function<Code>> {
+/// The functions by name.
+fn ids(functions: &Functions<Body>) -> FunctionIds {
+    functions.by_id().enumerated().map(|(id, function)| (function.name.clone(), id)).collect()
+}
+
+fn all(
+    functions: Functions<Body>,
+    of: &Context,
+    lowered: &mut Lowered,
+) -> Result<Table<FunctionId, Function<Code>>, Dangling> {
+    functions.into_table().into_iter().map(|planned| function(planned, of, lowered)).collect()
+}
+
+/// All functions but those for a lane that have branches, and those for a lane after them: lanes are then computed one by
+/// one.
+fn without_branches(functions: &Table<FunctionId, Function<Code>>) -> Vec<FunctionId> {
+    let is_in_lane = |function: &Function<Code>| function.access == Access::Lane;
     let has_branches = |function: &Function<Code>| {
-        function.access == Access::Lane && function.body.as_ref().is_some_and(|code| !code.is_branch_free)
+        is_in_lane(function) && function.body.as_ref().is_some_and(|code| !code.is_branch_free)
     };
     let end = functions.iter().position(has_branches).unwrap_or(functions.len());
-    let is_kept = |(place, function): &(usize, Function<Code>)| *place < end || function.access != Access::Lane;
-    functions.into_iter().enumerate().filter(is_kept).map(|(_, function)| function).collect()
+    let kept =
+        functions.enumerated().enumerate().filter(|(place, (_, function))| *place < end || !is_in_lane(function));
+    kept.map(|(_, (id, _))| id).collect()
 }
 
 /// Sorts functions from the order of planning (callees first) to the order of their signatures; private ones come last.
-fn ordered(mut functions: Vec<Function<Code>>, order: &[Function<Body>]) -> Vec<Function<Code>> {
-    let place = |function: &Function<Code>| order.iter().position(|other| other.name == function.name);
-    functions.sort_by_key(|function| place(function).unwrap_or(order.len()));
-    functions
+fn ordered(
+    mut ids: Vec<FunctionId>,
+    functions: &Table<FunctionId, Function<Code>>,
+    order: &[Function<Body>],
+) -> Vec<FunctionId> {
+    let place = |id: &FunctionId| order.iter().position(|other| other.name == functions[*id].name);
+    ids.sort_by_key(|id| place(id).unwrap_or(order.len()));
+    ids
 }
 
-fn context<'c>(
-    derivation: &'c Derivation,
-    derived: &'c Derived,
+/// The names that the functions of a type have in common.
+struct Names<'c> {
     reserved: &'c BTreeSet<String>,
-    arguments: &'c crate::program::Arguments,
-    works: Works,
-) -> Context<'c> {
+    arguments: &'c Arguments,
+    own: &'c FunctionIds,
+    of_driver: &'c FunctionIds,
+}
+
+fn context<'c>(derivation: &'c Derivation, derived: &'c Derived, names: Names<'c>) -> Context<'c> {
+    let Names { reserved, arguments, own, of_driver } = names;
     Context {
         derivation,
         pose: &derived.pose,
@@ -70,7 +106,7 @@ fn context<'c>(
         branch: &arguments.branch,
         turn: &arguments.turn,
         memory: &arguments.memory,
-        works,
-        roundings: Roundings::new(&derived.pose),
+        own,
+        of_driver,
     }
 }

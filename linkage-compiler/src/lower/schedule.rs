@@ -120,11 +120,6 @@ impl Schedule {
         &self.values[id.0]
     }
 
-    /// True if a value is known before another one.
-    pub(super) fn is_earlier(&self, one: ValueId, other: ValueId) -> bool {
-        self.known[one.0] < self.known[other.0]
-    }
-
     /// The preferred name of a value, with true if it is the name of the negative of the value.
     #[must_use]
     pub fn name(&self, id: ValueId) -> Option<(&str, bool)> {

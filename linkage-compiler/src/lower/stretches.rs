@@ -8,7 +8,9 @@ use std::collections::BTreeSet;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::program::{Expression, Pattern, Statement};
+use super::code::{Block, Pattern, Statement};
+use super::value::{Value, ValueId};
+use super::values::Values;
 
 /// The largest number of `let`s that are not divided. The longest function of the mechanisms under test has 150
 /// (the sensitivities of Jansen's leg); one of 3050 statements compiles, one of 3240 does not. With half the limit,
@@ -28,16 +30,21 @@ const LEEWAY: usize = STRETCH / 4;
 /// is placed between stretches, since nearly all of its names are used later.
 const MOST_NAMES: usize = 16;
 
-/// Divides statements into stretches if more than [`MOST_LETS`] of them are `let`s; `later` are the names used after them.
-pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterator<Item = &'e str>) -> Vec<Statement> {
+/// Divides statements into stretches if more than [`MOST_LETS`] of them are `let`s; `later` are the values used after them.
+pub(super) fn divided(values: &mut Values, mut statements: Vec<Statement>, later: &[ValueId]) -> Vec<Statement> {
     if lets(&statements) <= MOST_LETS {
         return statements;
     }
-    let later: FxHashSet<String> = later.into_iter().map(str::to_owned).collect();
-    statements = read_late(statements);
+    let mut used: FxHashSet<ValueId> = FxHashSet::default();
+    for value in later {
+        values.uses().value(*value, &mut |id| {
+            used.insert(id);
+        });
+    }
+    statements = read_late(values, statements);
     while lets(&statements) > MOST_LETS {
         let before = statements.len();
-        statements = divided_once(statements, &later);
+        statements = divided_once(values, statements, &used);
         // Statements between stretches are not divided further.
         if statements.len() == before {
             break;
@@ -48,21 +55,21 @@ pub(super) fn divided<'e>(mut statements: Vec<Statement>, later: impl IntoIterat
 
 /// The number of statements that open a scope.
 fn lets(statements: &[Statement]) -> usize {
-    statements.iter().filter(|statement| matches!(statement, Statement::Let(..) | Statement::LetElse(..))).count()
+    statements.iter().filter(|statement| statement.pattern().is_some()).count()
 }
 
-/// Moves `let`s that only read fields to their first use, so that their names cross fewer stretches.
-fn read_late(statements: Vec<Statement>) -> Vec<Statement> {
+/// Moves `let`s that only read fields to their first use, so that their values cross fewer stretches.
+fn read_late(values: &Values, statements: Vec<Statement>) -> Vec<Statement> {
     let mut reads: Vec<Option<Statement>> = Vec::new();
-    let mut places: FxHashMap<String, usize> = FxHashMap::default();
+    let mut places: FxHashMap<ValueId, usize> = FxHashMap::default();
     let mut late = Vec::new();
     for statement in statements {
         let mut used: BTreeSet<usize> = BTreeSet::new();
-        statement.each_name(&mut |name| used.extend(places.get(name)));
+        values.uses().statement(&statement, &mut |id| used.extend(places.get(&id)));
         match &statement {
-            Statement::Let(pattern, value) if used.is_empty() && is_read(value) => {
-                pattern.each_name(&mut |name| {
-                    places.insert(name.to_owned(), reads.len());
+            Statement::Let(pattern, value) if used.is_empty() && is_read(values, *value) => {
+                pattern.each(&mut |bound| {
+                    places.insert(*bound, reads.len());
                 });
                 reads.push(Some(statement));
             }
@@ -77,17 +84,17 @@ fn read_late(statements: Vec<Statement>) -> Vec<Statement> {
 }
 
 /// True if a value is a field or a tuple of fields.
-fn is_read(value: &Expression) -> bool {
-    match value {
-        Expression::Field(of, _) => matches!(**of, Expression::Name(_)) || is_read(of),
-        Expression::Tuple(values) => !values.is_empty() && values.iter().all(is_read),
+fn is_read(values: &Values, id: ValueId) -> bool {
+    match values.get(id) {
+        Value::Field(of, _) => values.is_bound[of.0] || is_read(values, *of),
+        Value::Tuple(all) => !all.is_empty() && all.iter().all(|one| is_read(values, *one)),
         _ => false,
     }
 }
 
 /// Divides statements into stretches once; long sequences of stretches may be divided again.
-fn divided_once(statements: Vec<Statement>, later: &FxHashSet<String>) -> Vec<Statement> {
-    let liveness = Liveness::of(&statements, later);
+fn divided_once(values: &mut Values, statements: Vec<Statement>, later: &FxHashSet<ValueId>) -> Vec<Statement> {
+    let liveness = Liveness::of(values, &statements, later);
     let mut divided = Vec::new();
     let mut statements = statements.into_iter();
     let mut place = 0;
@@ -98,55 +105,56 @@ fn divided_once(statements: Vec<Statement>, later: &FxHashSet<String>) -> Vec<St
         if end - place < STRETCH - LEEWAY {
             divided.extend(inside);
         } else {
-            divided.push(stretch(inside.collect(), liveness.crossing(place..end)));
+            divided.push(stretch(values, inside.collect(), liveness.crossing(place..end)));
         }
         place = end;
     }
     divided
 }
 
-/// A statement that binds these names to the values that a block of statements returns.
-fn stretch(inside: Vec<Statement>, names: Vec<String>) -> Statement {
-    let block = |value| Expression::Block(inside, Box::new(value));
-    match names.as_slice() {
-        [] => Statement::Do(block(Expression::Tuple(Vec::new()))),
-        [only] => Statement::Let(Pattern::Name(only.clone()), block(Expression::name(only))),
-        _ => {
-            let pattern = Pattern::Tuple(names.iter().cloned().map(Pattern::Name).collect());
-            Statement::Let(pattern, block(Expression::Tuple(names.into_iter().map(Expression::Name).collect())))
-        }
+/// A statement that binds these values to those that a block of statements returns.
+fn stretch(values: &mut Values, statements: Vec<Statement>, crossing: Vec<ValueId>) -> Statement {
+    let value = match crossing.as_slice() {
+        &[only] => only,
+        all => values.add(Value::Tuple(all.to_vec())),
+    };
+    let block = values.add(Value::Block(Block { statements, value }));
+    match crossing.as_slice() {
+        [] => Statement::Do(block),
+        &[only] => Statement::Let(Pattern::Bound(only), block),
+        _ => Statement::Let(Pattern::Tuple(crossing.into_iter().map(Pattern::Bound).collect()), block),
     }
 }
 
-/// The liveness of names: where statements bind them, and where they are used last.
+/// The liveness of values: where statements bind them, and where they are used last.
 struct Liveness {
-    /// For each statement, the names that it binds.
-    bound: Vec<Vec<String>>,
-    /// For each statement, the names of which it is the last use.
-    used_last: Vec<Vec<String>>,
-    /// The last statement that uses each name; `usize::MAX` for names used after all of them.
-    last: FxHashMap<String, usize>,
+    /// For each statement, the values that it binds.
+    bound: Vec<Vec<ValueId>>,
+    /// For each statement, the values of which it is the last use.
+    used_last: Vec<Vec<ValueId>>,
+    /// The last statement that uses each value; `usize::MAX` for those used after all of them.
+    last: FxHashMap<ValueId, usize>,
     /// True for statements that are placed between stretches.
     is_separate: Vec<bool>,
 }
 
 impl Liveness {
-    fn of(statements: &[Statement], later: &FxHashSet<String>) -> Self {
-        let mut last: FxHashMap<String, usize> = FxHashMap::default();
+    fn of(values: &Values, statements: &[Statement], later: &FxHashSet<ValueId>) -> Self {
+        let mut last: FxHashMap<ValueId, usize> = FxHashMap::default();
         for (place, statement) in statements.iter().enumerate() {
-            statement.each_name(&mut |name| {
-                last.insert(name.to_owned(), place);
+            values.uses().statement(statement, &mut |id| {
+                last.insert(id, place);
             });
         }
-        last.extend(later.iter().map(|name| (name.clone(), usize::MAX)));
+        last.extend(later.iter().map(|id| (*id, usize::MAX)));
         let mut used_last = vec![Vec::new(); statements.len()];
-        for (name, &place) in &last {
+        for (id, &place) in &last {
             if let Some(used_last) = used_last.get_mut(place) {
-                used_last.push(name.clone());
+                used_last.push(*id);
             }
         }
-        let bound: Vec<Vec<String>> = statements.iter().map(bound_names).collect();
-        let is_separate = bound.iter().map(|names| names.len() > MOST_NAMES).collect();
+        let bound: Vec<Vec<ValueId>> = statements.iter().map(Statement::bound).collect();
+        let is_separate = bound.iter().map(|bound| bound.len() > MOST_NAMES).collect();
         Self { bound, used_last, last, is_separate }
     }
 
@@ -157,12 +165,12 @@ impl Liveness {
         if length < STRETCH + LEEWAY {
             return start + length.max(1);
         }
-        let mut alive: FxHashSet<&str> = FxHashSet::default();
+        let mut alive: FxHashSet<ValueId> = FxHashSet::default();
         let mut best = (usize::MAX, start + STRETCH);
         for place in start..start + length {
-            alive.extend(self.bound[place].iter().filter(|name| self.is_used_after(name, place)).map(String::as_str));
-            for name in &self.used_last[place] {
-                alive.remove(name.as_str());
+            alive.extend(self.bound[place].iter().filter(|id| self.is_used_after(**id, place)));
+            for id in &self.used_last[place] {
+                alive.remove(id);
             }
             if place + 1 >= start + STRETCH - LEEWAY {
                 best = best.min((alive.len(), place + 1));
@@ -171,23 +179,14 @@ impl Liveness {
         best.1
     }
 
-    fn is_used_after(&self, name: &str, place: usize) -> bool {
-        self.last.get(name).is_some_and(|&last| last > place)
+    fn is_used_after(&self, id: ValueId, place: usize) -> bool {
+        self.last.get(&id).is_some_and(|&last| last > place)
     }
 
-    /// The names of a stretch that are used after it.
-    fn crossing(&self, stretch: std::ops::Range<usize>) -> Vec<String> {
+    /// The values of a stretch that are used after it.
+    fn crossing(&self, stretch: std::ops::Range<usize>) -> Vec<ValueId> {
         let end = stretch.end;
-        let names = self.bound[stretch].iter().flatten();
-        names.filter(|name| self.is_used_after(name, end - 1)).cloned().collect()
+        let bound = self.bound[stretch].iter().flatten();
+        bound.filter(|id| self.is_used_after(**id, end - 1)).copied().collect()
     }
-}
-
-/// The names that a statement binds.
-fn bound_names(statement: &Statement) -> Vec<String> {
-    let mut names = Vec::new();
-    if let Statement::Let(pattern, _) | Statement::LetElse(pattern, ..) = statement {
-        pattern.each_name(&mut |name| names.push(name.to_owned()));
-    }
-    names
 }

@@ -21,17 +21,17 @@ pub(super) fn order(values: &mut [Value], steps: &[Step]) -> Vec<usize> {
     let known: Vec<usize> = known.into_iter().map(Option::unwrap_or_default).collect();
     for value in values {
         if let Value::Sum(terms) = value {
-            sort(terms, &known, |term| term.negative);
+            sort(terms, |id| known[id.0], |term| term.negative);
         }
     }
     known
 }
 
 /// Sorts terms by the last step that they depend on, but begins with a positive one, to avoid a leading minus.
-pub(super) fn sort(terms: &mut [Signed], known: &[usize], is_negative: impl Fn(&Signed) -> bool) {
+pub(super) fn sort(terms: &mut [Signed], known: impl Fn(ValueId) -> usize, is_negative: impl Fn(&Signed) -> bool) {
     // The order of two terms saves nothing.
     let is_long = terms.len() > 2;
-    terms.sort_by_key(|term| (is_long.then_some(known[term.value.0]), is_negative(term)));
+    terms.sort_by_key(|term| (is_long.then(|| known(term.value)), is_negative(term)));
     if let Some(first) = terms.iter().position(|term| !is_negative(term)) {
         terms[..=first].rotate_right(1);
     }

@@ -164,9 +164,7 @@ impl Works {
             Value::External(external, arguments) => {
                 self.numbered(Operator::External(external.clone()), arguments.iter().map(signed).collect(), none, work)
             }
-            Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => {
-                self.numbered(Operator::Leaf(value.clone()), Vec::new(), none, work)
-            }
+            _ => self.numbered(Operator::Leaf(value.clone()), Vec::new(), none, work),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::doc::{fenced, lines};
 use super::expression::{Expression, Type};
 use super::function::{Access, Argument, Body, Function, Kernel, Output, Passed, Shape, Source, results};
+use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::pose::Given;
@@ -129,7 +130,7 @@ impl Plan<'_, '_> {
         let symbols: Vec<SymbolId> =
             columns.iter().map(|&column| order.symbol(&self.derivation.coordinates[column])).collect();
         let list = Type::List(Box::new(Type::Scalar), symbols.len());
-        let from = Expression::associated(list, "from", [Expression::name(argument).dereferenced()]);
+        let from = Expression::of_type(list, Intrinsic::From, [Expression::name(argument).dereferenced()]);
         Source { from, shape: Shape::list(&symbols) }
     }
 
@@ -141,15 +142,15 @@ impl Plan<'_, '_> {
         let (mut given, mut sources) = (Given { is_exact: true, ..Given::default() }, Vec::new());
         for id in reached {
             let (name, function) = match graph.node(id) {
-                Node::Pi => ("pi".to_owned(), "pi"),
+                Node::Pi => ("pi".to_owned(), Intrinsic::Pi),
                 Node::External(external, _) => {
-                    (graph.external_name(external).unwrap_or("unknown").to_owned(), "unknown")
+                    (graph.external_name(external).unwrap_or("unknown").to_owned(), Intrinsic::Unknown)
                 }
                 _ => continue,
             };
             let symbol = graph.symbol(name);
             given.values.insert(id, symbol);
-            let from = Expression::associated(Type::Scalar, function, []);
+            let from = Expression::of_type(Type::Scalar, function, []);
             sources.push(Source { from, shape: Shape::Symbol(symbol) });
         }
         (given, sources)

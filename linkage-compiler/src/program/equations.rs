@@ -1,7 +1,7 @@
 //! Psi and its Jacobians.
 
 use super::doc::{fenced, lines, without_result};
-use super::expression::{Expression, Pattern, Statement};
+use super::expression::{Expression, Pattern, Statement, Variable};
 use super::function::{Body, results};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Row, Step};
@@ -76,8 +76,8 @@ impl Plan<'_, '_> {
             places.iter().map(|&place| self.signatures.mechanism.coordinates[place].name.field.clone()).collect()
         };
         let part = |places: &[CoordinateId], function: &str| {
-            let columns = Pattern::List(names(places).into_iter().map(Pattern::Name).collect());
-            Statement::Let(columns, Expression::call(function, [Expression::name(pose)]).columns())
+            let columns = Pattern::List(names(places).into_iter().map(Pattern::name).collect());
+            Statement::Let(columns, Expression::own_call(function, [Expression::name(pose)]).columns())
         };
         let all = Expression::List(names(&order).into_iter().map(Expression::Name).collect());
         let mut body = Body::plain(Expression::made("SMatrix", all));
@@ -203,7 +203,7 @@ impl Body {
         let Expression::Local(place) = matrix else { return matrix };
         let zeros = Expression::Repeated(Box::new(Expression::zero()), rows);
         let zeros = Expression::Repeated(Box::new(zeros), columns);
-        self.after.push(Statement::Let(Pattern::Mutable(Box::new(Pattern::Local(place))), zeros));
+        self.after.push(Statement::Let(Pattern::Mutable(Variable::Local(place)), zeros));
         for (row, column, value) in entries {
             let entry = Expression::Index(Box::new(matrix.clone()), *column);
             let entry = Expression::Index(Box::new(entry), *row);

@@ -1,36 +1,28 @@
-//! Expressions, patterns and types of the emitted program.
+//! Planned code: expressions, statements and patterns, before they are lowered.
 
-use crate::graph::{Function, Number};
+use super::intrinsics::{Constant, Form, Intrinsic};
+use crate::graph::Number;
 
-/// An expression.
+/// A planned expression.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expression {
-    /// `self`, an argument, or a local value.
+    /// `self`, an argument, or a variable of the plan.
     Name(String),
     /// A result of the kernel, by its index.
     Result(usize),
     /// A local value, by its index; lowering gives it a name.
     Local(usize),
 
-    // Arithmetic.
+    // Arithmetic of results and of values that other functions return.
     Number(Number),
-    /// A number of any kind, to which no double is close enough.
-    Exact(Number),
-    /// The terms, each with true if it is subtracted.
-    Sum(Vec<(bool, Expression)>),
+    Sum(Vec<Expression>),
     Product(Vec<Expression>),
-    Quotient(Box<[Expression; 2]>),
-    Square(Box<Expression>),
     Negative(Box<Expression>),
-    Elementary(Function, Vec<Expression>),
-    /// `a & b`: all conditions, none of them left out.
-    All(Vec<Expression>),
 
     // Data.
     Text(String),
     Count(usize),
-    /// A constant of the program, such as `Self::NAME`.
-    Constant(&'static str),
+    Constant(Constant),
     Field(Box<Expression>, String),
     Index(Box<Expression>, usize),
     List(Vec<Expression>),
@@ -41,14 +33,12 @@ pub enum Expression {
     Struct(Type, Vec<(String, Expression)>, Option<Box<Expression>>),
 
     // Calls.
-    /// A call of a function of the runtime.
-    Runtime(&'static str, Vec<Expression>),
-    /// A call of an associated function of a type.
-    Associated(Type, String, Vec<Expression>),
-    /// A function of a type as a value.
-    Function(Type, &'static str),
-    /// A method call.
-    Method(Box<Expression>, String, Vec<Expression>),
+    /// A call of a function that the program does not define; an associated one belongs to a type.
+    Intrinsic(Intrinsic, Option<Type>, Vec<Expression>),
+    /// Such a function as a value.
+    Function(Intrinsic, Option<Type>),
+    /// A call of a function of the program, by its name.
+    Own(Box<Receiver<Expression>>, String, Vec<Expression>),
     /// `value?`
     Try(Box<Expression>),
     /// `&value`
@@ -59,31 +49,39 @@ pub enum Expression {
     Dereferenced(Box<Expression>),
     /// `|arguments| { statements value }`, with `move` if `moves`.
     Closure {
-        arguments: Vec<Pattern>,
+        arguments: Vec<Pattern<Variable>>,
         statements: Vec<Statement>,
         value: Box<Expression>,
         moves: bool,
     },
-    /// `{ statements value }`
-    Block(Vec<Statement>, Box<Expression>),
 }
 
+/// What a function of the program is called on.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Receiver<E> {
+    /// `self.f()`
+    Itself,
+    /// `Self::f()`
+    ItsType,
+    /// `value.f()`, a function of the driver.
+    Value(E),
+    /// `Type::f()`, a function of the driver.
+    Type(Type),
+}
+
+/// A planned statement.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Statement {
     /// `let pattern = value;`
-    Let(Pattern, Expression),
+    Let(Pattern<Variable>, Expression),
     /// `value;`
     Do(Expression),
     /// `place = value;`
     Assign(Expression, Expression),
-    /// `return value;`
-    Return(Expression),
     /// `let pattern = value else { return otherwise; };`
-    LetElse(Pattern, Expression, Expression),
-    /// `if !(all conditions) { … }`
-    Unless(Vec<Expression>, Vec<Statement>),
+    LetElse(Pattern<Variable>, Expression, Expression),
     /// Binds a value, or a precise one if the factorisation of a group loses digits.
-    Refine(Pattern, Expression, Expression),
+    Refine(Pattern<Variable>, Expression, Expression),
     /// Returns an error if a value is not finite; `detail` is a function that finds a more precise error.
     Check { what: String, values: Vec<Expression>, detail: Option<Expression> },
     /// Returns an error if a number of a position is not finite; numbers that a well-conditioned triangle guarantees
@@ -92,32 +90,41 @@ pub enum Statement {
     /// Returns another value if a condition is false, or a result is not finite.
     CheckKinematics { conditions: Vec<Expression>, otherwise: Expression },
     /// Binds true if these conditions are true, the results are finite, and all checks of the kernel passed.
-    LetAccepted(Pattern, Vec<Expression>),
+    LetAccepted(Pattern<Variable>, Vec<Expression>),
     /// Binds true if all checks of the kernel passed.
-    LetPassed(Pattern),
+    LetPassed(Pattern<Variable>),
 }
 
-#[derive(Debug, Clone, PartialEq)]
-pub enum Pattern {
+/// A variable of planned code.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Variable {
+    /// One with this name.
     Name(String),
+    /// A local value, by its index; lowering gives it a name.
     Local(usize),
-    Mutable(Box<Pattern>),
+}
+
+/// A pattern that binds variables.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Pattern<V> {
+    Bound(V),
+    Mutable(V),
     /// `Some(pattern)` or `Ok(pattern)`
-    Case(&'static str, Box<Pattern>),
-    Typed(String, Type),
+    Case(Intrinsic, Box<Pattern<V>>),
+    Typed(V, Type),
     Ignored,
-    List(Vec<Pattern>),
-    Tuple(Vec<Pattern>),
+    List(Vec<Pattern<V>>),
+    Tuple(Vec<Pattern<V>>),
     /// `Type { field: pattern, .. }`
     Struct {
         of: Type,
-        fields: Vec<(String, Pattern)>,
+        fields: Vec<(String, Pattern<V>)>,
         is_whole: bool,
     },
 }
 
 /// A type.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Type {
     /// The scalar `T`.
     Scalar,
@@ -181,7 +188,7 @@ impl Expression {
 
     /// The name of the mechanism or scene for errors, `Self::NAME`.
     pub fn mechanism() -> Self {
-        Self::Constant("Self::NAME")
+        Self::Constant(Constant::Name)
     }
 
     pub fn text(text: impl Into<String>) -> Self {
@@ -193,14 +200,10 @@ impl Expression {
         Self::Field(Box::new(self), name.into())
     }
 
+    /// `value.into()`
     #[must_use]
-    pub fn method(self, name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
-        Self::Method(Box::new(self), name.into(), arguments.into_iter().collect())
-    }
-
-    /// True if all values are finite: a sum is finite only if all its terms are. Where finite terms overflow, it is false.
-    pub fn all_finite(values: Vec<Self>) -> Self {
-        Self::Sum(values.into_iter().map(|value| (false, value)).collect()).method("is_finite", [])
+    pub fn converted(self) -> Self {
+        Self::call(Intrinsic::Into, [self])
     }
 
     #[must_use]
@@ -225,20 +228,10 @@ impl Expression {
 
     /// True if its numbers are results of the kernel and arguments, unchanged.
     pub fn is_of_results(&self) -> bool {
-        const UNCHANGED: [&str; 7] = [
-            "unit",
-            "finite_points",
-            "finite_vectors",
-            "finite_outputs",
-            "finite_matrices",
-            "point_motions",
-            "output_motions",
-        ];
         match self {
             Self::Result(_) | Self::Name(_) | Self::Number(_) | Self::Constant(_) | Self::Text(_) => true,
             Self::List(all) | Self::Tuple(all) => all.iter().all(Self::is_of_results),
-            Self::Associated(_, name, all) => name == "from" && all.iter().all(Self::is_of_results),
-            Self::Runtime(name, all) => UNCHANGED.contains(name) && all.iter().all(Self::is_of_results),
+            Self::Intrinsic(of, _, all) => of.row().is_unchanged && all.iter().all(Self::is_of_results),
             Self::Struct(_, members, None) => members.iter().all(|(_, value)| value.is_of_results()),
             Self::Dereferenced(inside) | Self::Borrowed(inside) | Self::Try(inside) => inside.is_of_results(),
             _ => false,
@@ -250,23 +243,40 @@ impl Expression {
         match self {
             Self::Name(name) => Some(name),
             Self::Dereferenced(inside) | Self::Borrowed(inside) => inside.stored(),
-            Self::Method(inside, name, arguments) if name == "into" && arguments.is_empty() => inside.stored(),
+            Self::Intrinsic(Intrinsic::Into, _, inside) => inside.first()?.stored(),
             _ => None,
         }
     }
 
-    pub fn runtime(name: &'static str, arguments: impl IntoIterator<Item = Self>) -> Self {
-        Self::Runtime(name, arguments.into_iter().collect())
+    /// A call of a function of the runtime, or of a method that the program does not define.
+    pub fn call(of: Intrinsic, arguments: impl IntoIterator<Item = Self>) -> Self {
+        debug_assert_ne!(of.row().form, Form::Associated, "{of:?}");
+        Self::Intrinsic(of, None, arguments.into_iter().collect())
     }
 
-    /// A call of an associated function.
-    pub fn associated(of: Type, name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
-        Self::Associated(of, name.into(), arguments.into_iter().collect())
+    /// A call of an associated function of a type.
+    pub fn of_type(of: Type, function: Intrinsic, arguments: impl IntoIterator<Item = Self>) -> Self {
+        debug_assert_eq!(function.row().form, Form::Associated, "{function:?}");
+        Self::Intrinsic(function, Some(of), arguments.into_iter().collect())
     }
 
-    /// A call of another function of the same type.
-    pub fn call(name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
-        Self::own().method(name, arguments)
+    /// A call of another function of the same type, `self.name()`.
+    pub fn own_call(name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
+        Self::called_on(Receiver::Itself, name, arguments)
+    }
+
+    /// A call of a function of the driver, `self.name()`.
+    #[must_use]
+    pub fn driver_call(self, name: impl Into<String>, arguments: impl IntoIterator<Item = Self>) -> Self {
+        Self::called_on(Receiver::Value(self), name, arguments)
+    }
+
+    pub fn called_on(
+        receiver: Receiver<Self>,
+        name: impl Into<String>,
+        arguments: impl IntoIterator<Item = Self>,
+    ) -> Self {
+        Self::Own(Box::new(receiver), name.into(), arguments.into_iter().collect())
     }
 
     pub fn structure(of: Type, members: impl IntoIterator<Item = (String, Self)>) -> Self {
@@ -275,7 +285,7 @@ impl Expression {
 
     /// `Type::from(value)` for a type of the runtime.
     pub fn made(of: &'static str, from: Self) -> Self {
-        Self::associated(Type::Runtime(of, Vec::new()), "from", [from])
+        Self::of_type(Type::Runtime(of, Vec::new()), Intrinsic::From, [from])
     }
 
     /// A column vector.
@@ -300,7 +310,7 @@ impl Expression {
 
     /// The zero matrix of a type of the runtime.
     pub fn zeros(of: &'static str) -> Self {
-        Self::associated(Type::Runtime(of, Vec::new()), "zeros", [])
+        Self::of_type(Type::Runtime(of, Vec::new()), Intrinsic::Zeros, [])
     }
 
     /// The columns, as lists of `rows` entries each.
@@ -318,53 +328,6 @@ impl Expression {
         Self::Number(Number::ZERO)
     }
 
-    /// Visits every name that is used.
-    pub fn each_name<'e>(&'e self, visit: &mut dyn FnMut(&'e str)) {
-        match self {
-            Self::Name(name) => visit(name),
-            Self::Sum(terms) => terms.iter().for_each(|(_, term)| term.each_name(visit)),
-            Self::Product(all)
-            | Self::Elementary(_, all)
-            | Self::All(all)
-            | Self::List(all)
-            | Self::Tuple(all)
-            | Self::Runtime(_, all)
-            | Self::Associated(_, _, all) => all.iter().for_each(|value| value.each_name(visit)),
-            Self::Quotient(parts) => parts.iter().for_each(|part| part.each_name(visit)),
-            Self::Square(inside)
-            | Self::Negative(inside)
-            | Self::Field(inside, _)
-            | Self::Index(inside, _)
-            | Self::Repeated(inside, _)
-            | Self::Try(inside)
-            | Self::Borrowed(inside)
-            | Self::MutablyBorrowed(inside)
-            | Self::Dereferenced(inside) => {
-                inside.each_name(visit);
-            }
-            Self::Struct(_, members, rest) => {
-                members.iter().for_each(|(_, value)| value.each_name(visit));
-                rest.iter().for_each(|rest| rest.each_name(visit));
-            }
-            Self::Method(of, _, arguments) => {
-                of.each_name(visit);
-                arguments.iter().for_each(|argument| argument.each_name(visit));
-            }
-            Self::Closure { statements, value, .. } | Self::Block(statements, value) => {
-                statements.iter().for_each(|statement| statement.each_name(visit));
-                value.each_name(visit);
-            }
-            Self::Result(_)
-            | Self::Local(_)
-            | Self::Number(_)
-            | Self::Exact(_)
-            | Self::Text(_)
-            | Self::Count(_)
-            | Self::Constant(_)
-            | Self::Function(..) => {}
-        }
-    }
-
     /// Expressions in nested lists; `sizes` are the lengths of the inner lists, outermost first.
     pub fn nested(values: Vec<Self>, sizes: &[usize]) -> Vec<Self> {
         let Some((_, inner)) = sizes.split_first() else { return values };
@@ -378,47 +341,47 @@ impl Expression {
     }
 }
 
-impl Pattern {
-    /// Visits every name that the pattern binds.
-    pub fn each_name<'p>(&'p self, visit: &mut dyn FnMut(&'p str)) {
-        match self {
-            Self::Name(name) | Self::Typed(name, _) => visit(name),
-            Self::Mutable(inside) | Self::Case(_, inside) => inside.each_name(visit),
-            Self::List(all) | Self::Tuple(all) => all.iter().for_each(|pattern| pattern.each_name(visit)),
-            Self::Struct { fields, .. } => fields.iter().for_each(|(_, pattern)| pattern.each_name(visit)),
-            Self::Local(_) | Self::Ignored => {}
-        }
+impl Pattern<Variable> {
+    pub fn name(name: impl Into<String>) -> Self {
+        Self::Bound(Variable::Name(name.into()))
+    }
+
+    pub fn local(place: usize) -> Self {
+        Self::Bound(Variable::Local(place))
+    }
+
+    /// `name: Type`
+    pub fn typed(name: impl Into<String>, of: Type) -> Self {
+        Self::Typed(Variable::Name(name.into()), of)
     }
 }
 
-impl Statement {
-    /// Visits every name that is used.
-    pub fn each_name<'e>(&'e self, visit: &mut dyn FnMut(&'e str)) {
+impl<V> Pattern<V> {
+    /// Visits every variable that the pattern binds.
+    pub fn each<'p>(&'p self, visit: &mut dyn FnMut(&'p V)) {
         match self {
-            Self::Let(_, value) | Self::Do(value) | Self::Return(value) => value.each_name(visit),
-            Self::LetElse(_, value, otherwise) | Self::Refine(_, value, otherwise) => {
-                value.each_name(visit);
-                otherwise.each_name(visit);
+            Self::Bound(variable) | Self::Mutable(variable) | Self::Typed(variable, _) => visit(variable),
+            Self::Case(_, inside) => inside.each(visit),
+            Self::List(all) | Self::Tuple(all) => all.iter().for_each(|pattern| pattern.each(visit)),
+            Self::Struct { fields, .. } => fields.iter().for_each(|(_, pattern)| pattern.each(visit)),
+            Self::Ignored => {}
+        }
+    }
+
+    /// The pattern with other variables.
+    pub fn map<W>(self, to: &mut dyn FnMut(V) -> W) -> Pattern<W> {
+        match self {
+            Self::Bound(variable) => Pattern::Bound(to(variable)),
+            Self::Mutable(variable) => Pattern::Mutable(to(variable)),
+            Self::Typed(variable, of) => Pattern::Typed(to(variable), of),
+            Self::Case(case, inside) => Pattern::Case(case, Box::new(inside.map(to))),
+            Self::List(all) => Pattern::List(all.into_iter().map(|pattern| pattern.map(to)).collect()),
+            Self::Tuple(all) => Pattern::Tuple(all.into_iter().map(|pattern| pattern.map(to)).collect()),
+            Self::Struct { of, fields, is_whole } => {
+                let fields = fields.into_iter().map(|(field, pattern)| (field, pattern.map(to))).collect();
+                Pattern::Struct { of, fields, is_whole }
             }
-            Self::Assign(place, value) => {
-                place.each_name(visit);
-                value.each_name(visit);
-            }
-            Self::Unless(conditions, inside) => {
-                conditions.iter().for_each(|condition| condition.each_name(visit));
-                inside.iter().for_each(|statement| statement.each_name(visit));
-            }
-            Self::Check { values, detail, .. } => {
-                values.iter().chain(detail).for_each(|value| value.each_name(visit));
-            }
-            Self::CheckKinematics { conditions, otherwise } => {
-                conditions.iter().for_each(|value| value.each_name(visit));
-                otherwise.each_name(visit);
-            }
-            Self::LetAccepted(_, conditions) => {
-                conditions.iter().for_each(|value| value.each_name(visit));
-            }
-            Self::CheckPosition | Self::LetPassed(_) => {}
+            Self::Ignored => Pattern::Ignored,
         }
     }
 }

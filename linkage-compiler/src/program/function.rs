@@ -285,7 +285,7 @@ impl Body {
     pub fn bound(&mut self, preferred: impl Into<String>, value: Expression) -> Expression {
         self.locals.push(preferred.into());
         let place = self.locals.len() - 1;
-        self.after.push(Statement::Let(Pattern::Local(place), value));
+        self.after.push(Statement::Let(Pattern::local(place), value));
         Expression::Local(place)
     }
 }

@@ -3,6 +3,7 @@
 use super::doc::{fenced, lines};
 use super::expression::{Expression, Statement};
 use super::function::{Body, Function, Value, results};
+use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use super::signatures::{Signatures, fallible};
 use crate::graph::NodeId;
@@ -41,7 +42,7 @@ impl Plan<'_, '_> {
         let count = names.len();
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(residuals.into_iter().chain(scales)));
         let all = [names, results(0..count), results(count..2 * count)].map(Expression::List);
-        let check = Expression::runtime("implied", std::iter::once(Expression::mechanism()).chain(all));
+        let check = Expression::call(Intrinsic::Implied, std::iter::once(Expression::mechanism()).chain(all));
         let body = Body { kernel: Some(kernel), value: Value::Result(check), ..Body::default() };
         self.add(self.signatures.check_implied(), doc, body);
     }
@@ -53,7 +54,7 @@ impl Plan<'_, '_> {
         }
         let Value::Plain(pose) = std::mem::take(&mut body.value) else { return };
         let pose = body.bound(self.signatures.arguments.pose.clone(), pose);
-        let check = Expression::call("check_implied", [pose.clone().borrowed()]);
+        let check = Expression::own_call("check_implied", [pose.clone().borrowed()]);
         body.after.push(Statement::Do(check.tried()));
         body.calls.push("check_implied".to_owned());
         body.value = Value::Plain(pose);

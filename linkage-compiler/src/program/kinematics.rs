@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Failure, Kernel, Source, Value, results};
+use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::precise::ROUGH;
@@ -25,7 +26,7 @@ impl Plan<'_, '_> {
             false => ("assemble_near", self.signatures.arguments.guess.clone()),
         };
         let arguments = [&from, &self.signatures.arguments.branch].map(Expression::name);
-        let body = self.by_parts(Expression::call(assemble, arguments));
+        let body = self.by_parts(Expression::own_call(assemble, arguments));
         let doc = lines(["The same by separate calls, which say what is wrong."]);
         let by_parts = self.signatures.kinematics_by_parts(&self.position);
         let otherwise = by_parts.name.clone();
@@ -50,7 +51,7 @@ impl Plan<'_, '_> {
         let names = &self.signatures.arguments;
         let from = if self.position.is_closed { &names.inputs } else { &names.guess };
         let arguments = [from, &names.branch, &names.input_rates, &names.input_accelerations];
-        let call = Expression::call(otherwise, arguments.map(Expression::name));
+        let call = Expression::own_call(otherwise, arguments.map(Expression::name));
         let (kernel, conditions) = self.kinematics_kernel(Failure::Return(call.clone()));
         let is_factorised = kernel.is_factorised();
         let is_chord = |step: &&Step| matches!(step, Step::Chord { .. });
@@ -77,10 +78,10 @@ impl Plan<'_, '_> {
         let name = |name: &String| Expression::name(name);
         let precise = [name(&names.pose).borrowed(), name(&names.input_rates), name(&names.input_accelerations)];
         let precise = precise.into_iter().chain([Expression::name(ROUGH)]);
-        let precise = Expression::call("precise_kinematics", precise);
-        let both = [&names.rates, &names.accelerations].map(|name| Pattern::Name(name.clone()));
+        let precise = Expression::own_call("precise_kinematics", precise);
+        let both = [&names.rates, &names.accelerations].map(|name| Pattern::name(name.clone()));
         let rough = Expression::Tuple(vec![rates.clone(), accelerations.clone()]);
-        body.after.push(Statement::Let(Pattern::Name(names.pose.clone()), pose.clone()));
+        body.after.push(Statement::Let(Pattern::name(names.pose.clone()), pose.clone()));
         body.after.push(Statement::Refine(Pattern::Tuple(both.to_vec()), rough, precise));
         let of_names = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
         let of_names = of_names.map(|(field, value)| (field.to_owned(), name(value)));
@@ -135,9 +136,9 @@ impl Plan<'_, '_> {
         };
         let all = results(of_motion..of_motion + 2 * determinants.len() + implied.len());
         let (determinants, implied) = all.split_at(2 * determinants.len());
-        let conditions = [("is_nonzero", determinants), ("closes", implied)].into_iter().flat_map(|(check, pairs)| {
-            pairs.chunks_exact(2).map(move |pair| Expression::runtime(check, pair.to_vec()))
-        });
+        let conditions = [(Intrinsic::IsNonzero, determinants), (Intrinsic::Closes, implied)]
+            .into_iter()
+            .flat_map(|(check, pairs)| pairs.chunks_exact(2).map(move |pair| Expression::call(check, pair.to_vec())));
         (kernel, conditions.collect())
     }
 
@@ -171,9 +172,8 @@ impl Plan<'_, '_> {
         let value = self.position.is_closed.then_some(&names.inputs);
         let all = value.into_iter().chain([&names.input_rates, &names.input_accelerations]);
         let of = Type::Own(self.signatures.types.inputs.clone());
-        let converted = all.map(|name| {
-            Statement::Let(Pattern::Typed(name.clone(), of.clone()), Expression::name(name).method("into", []))
-        });
+        let converted = all
+            .map(|name| Statement::Let(Pattern::typed(name.clone(), of.clone()), Expression::name(name).converted()));
         let mut statements: Vec<Statement> = converted.collect();
         if self.position.is_closed {
             statements.extend(self.turns_of_branch());
@@ -191,8 +191,8 @@ impl Plan<'_, '_> {
         let names = &self.signatures.arguments;
         let branch = Expression::name(&names.branch);
         let fields = self.position.turns.iter().map(|turn| branch.clone().field(&turn.field));
-        let turns = Expression::runtime("Turns", [Expression::List(fields.collect())]);
-        vec![Statement::Let(Pattern::Name(names.turn.clone()), turns)]
+        let turns = Expression::call(Intrinsic::Turns, [Expression::List(fields.collect())]);
+        vec![Statement::Let(Pattern::name(names.turn.clone()), turns)]
     }
 
     /// The position by this call, then the rates and the accelerations, each by a call that finds its error.
@@ -200,10 +200,10 @@ impl Plan<'_, '_> {
         let names = &self.signatures.arguments;
         let name = |name: &String| Expression::name(name);
         let [at_pose, at_rates] = [&names.pose, &names.rates].map(|argument| name(argument).borrowed());
-        let rates = Expression::call("velocity", [at_pose.clone(), name(&names.input_rates)]);
-        let accelerations = Expression::call("acceleration", [at_pose, at_rates, name(&names.input_accelerations)]);
+        let rates = Expression::own_call("velocity", [at_pose.clone(), name(&names.input_rates)]);
+        let accelerations = Expression::own_call("acceleration", [at_pose, at_rates, name(&names.input_accelerations)]);
         let before = [(&names.pose, pose), (&names.rates, rates), (&names.accelerations, accelerations)];
-        let before = before.map(|(name, call)| Statement::Let(Pattern::Name(name.clone()), call.tried()));
+        let before = before.map(|(name, call)| Statement::Let(Pattern::name(name.clone()), call.tried()));
         let members = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
         let members = members.map(|(field, value)| (field.to_owned(), name(value)));
         let of = Type::Bare(self.signatures.types.kinematics.clone());
@@ -215,9 +215,9 @@ impl Plan<'_, '_> {
         let names = self.signatures.arguments.clone();
         let own = self.signatures.kinematics(&self.position);
         let arguments = own.arguments.iter().map(|argument| Expression::name(&argument.name));
-        let call = Expression::call(&own.name, arguments).tried();
+        let call = Expression::own_call(&own.name, arguments).tried();
         let parts = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
-        let fields = parts.map(|(field, name)| (field.to_owned(), Pattern::Name(name.clone())));
+        let fields = parts.map(|(field, name)| (field.to_owned(), Pattern::name(name.clone())));
         let of = Type::Bare(self.signatures.types.kinematics.clone());
         let pattern = Pattern::Struct { of, fields: fields.to_vec(), is_whole: true };
         let kernel = self.quantities_kernel(Failure::Error);
@@ -260,12 +260,12 @@ impl Plan<'_, '_> {
         let points = from + 6 * self.derivation.points.len();
         let mut members = Vec::new();
         for (family, function, values, sizes) in [
-            (Family::Points, "point_motions", results(from..points), &[3, 2][..]),
-            (Family::Outputs, "output_motions", results(points..from + nodes.len()), &[3][..]),
+            (Family::Points, Intrinsic::PointMotions, results(from..points), &[3, 2][..]),
+            (Family::Outputs, Intrinsic::OutputMotions, results(points..from + nodes.len()), &[3][..]),
         ] {
             if self.signatures.has(family) {
                 let values = Expression::List(Expression::nested(values, sizes));
-                let motions = Expression::runtime(function, [Expression::mechanism(), values]).tried();
+                let motions = Expression::call(function, [Expression::mechanism(), values]).tried();
                 members.push((format!("{}s", family.word()), motions));
             }
         }

@@ -38,7 +38,7 @@ impl Plan<'_, '_> {
         let is_method = !self.signatures.is_open() || self.reads_parameters(&kernel);
         let mut body = flagged(kernel, vec![value], "is_accepted");
         body.before = self.turns_of_branch();
-        body.after.push(Statement::LetAccepted(Pattern::Local(0), conditions));
+        body.after.push(Statement::LetAccepted(Pattern::local(0), conditions));
         let doc =
             lines(["`kinematics` without branches; false if `kinematics` takes another way or returns an error."]);
         self.add(Function { is_method, ..self.signatures.kinematics_in_lane() }, doc, body);
@@ -47,7 +47,7 @@ impl Plan<'_, '_> {
             let is_method = self.reads_parameters(&kernel);
             let values = results(0..kernel.results.len());
             let mut body = flagged(kernel, vec![Expression::List(values)], "is_right");
-            body.after.push(Statement::LetPassed(Pattern::Local(0)));
+            body.after.push(Statement::LetPassed(Pattern::local(0)));
             let doc = lines(["`motion_of_quantities` without branches; false if that takes another way."]);
             self.add(Function { is_method, ..self.signatures.quantities_in_lane() }, doc, body);
         }
@@ -88,7 +88,7 @@ impl Plan<'_, '_> {
             before = self.turns_of_branch();
             arguments.push(Expression::name(&names.turn).borrowed());
         }
-        let mut body = self.by_parts(Expression::call(POSITION_ALONE, arguments));
+        let mut body = self.by_parts(Expression::own_call(POSITION_ALONE, arguments));
         body.before.splice(0..0, before);
         body.calls.push(POSITION_ALONE.to_owned());
         let doc = lines(["The same by separate calls, which say what is wrong."]);

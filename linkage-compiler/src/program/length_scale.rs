@@ -3,6 +3,7 @@
 use super::doc::{lines, without_result};
 use super::expression::Expression;
 use super::function::{Body, results};
+use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use crate::ids::ColumnId;
 use crate::model::Kind;
@@ -23,7 +24,7 @@ impl Plan<'_, '_> {
         }
         let all = Expression::List(results(0..nodes.len()));
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
-        let body = Body::of(kernel, Expression::runtime("largest", [all]));
+        let body = Body::of(kernel, Expression::call(Intrinsic::Largest, [all]));
         let doc = lines(["The largest derivative that a point can have by an angle at these lengths."]);
         self.add(self.signatures.length_scale(), without_result(doc), body);
     }

@@ -3,6 +3,7 @@
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Source};
+use super::intrinsics::{Constant, Intrinsic};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::ids::{Id, InputId};
@@ -37,21 +38,22 @@ impl Plan<'_, '_> {
             let mut arguments = vec![group, Expression::List((0..3).map(result).collect())];
             let kind = if bound.rate.is_some() {
                 arguments.push(result(3));
-                "Bound::Angle"
+                Intrinsic::LimitOfAngle
             } else {
-                "Bound::Length"
+                Intrinsic::LimitOfLength
             };
-            Expression::runtime(kind, arguments)
+            Expression::call(kind, arguments)
         });
         let bounds = Expression::List(bounds.collect());
         let position = || Expression::name(&position_name);
         let search = match kind {
-            _ if !is_searched => Expression::Constant("Search::ClosedFormOnly"),
-            Kind::Angle => Expression::Constant("Search::Turn"),
+            _ if !is_searched => Expression::Constant(Constant::NoSearch),
+            Kind::Angle => Expression::Constant(Constant::SearchTurn),
             _ => {
-                let scales = Expression::call("residual_scales", [position().borrowed()]).method("sum", []);
+                let scales = Expression::own_call("residual_scales", [position().borrowed()]);
+                let scales = Expression::call(Intrinsic::Sum, [scales]);
                 let four = Expression::Number(crate::graph::Number::integer(4));
-                Expression::runtime("Search::Length", [Expression::Product(vec![four, scales])])
+                Expression::call(Intrinsic::SearchLength, [Expression::Product(vec![four, scales])])
             }
         };
         let branch_argument = Expression::name(&branch);
@@ -59,31 +61,32 @@ impl Plan<'_, '_> {
         // `assemble_near` starts at the previous position, whose turns it keeps.
         let needs_guess = !self.position.is_closed || !self.position.turns.is_empty();
         let assembled = if needs_guess {
-            Expression::call("assemble_near", [position(), branch_argument.clone()])
+            Expression::own_call("assemble_near", [position(), branch_argument.clone()])
         } else {
-            let inputs = Expression::associated(inputs_type.clone(), "from", [position()]);
-            Expression::call("assemble", [inputs, branch_argument.clone()])
+            let inputs = Expression::of_type(inputs_type.clone(), Intrinsic::From, [position()]);
+            Expression::own_call("assemble", [inputs, branch_argument.clone()])
         };
         let assemble = Expression::Closure {
-            arguments: vec![Pattern::Name(position_name.clone())],
+            arguments: vec![Pattern::name(position_name.clone())],
             statements: Vec::new(),
             value: Box::new(assembled),
             moves: false,
         };
-        let coordinates = Expression::Function(Type::Bare(self.signatures.types.pose.clone()), "coordinates");
+        let coordinates =
+            Expression::Function(Intrinsic::Coordinates, Some(Type::Bare(self.signatures.types.pose.clone())));
         let (start, start_position) = if self.position.is_closed {
-            let start = Expression::name(&inputs).method("into", []);
-            (start, Expression::call("assemble", [Expression::name(&inputs), branch_argument]))
+            let start = Expression::name(&inputs).converted();
+            (start, Expression::own_call("assemble", [Expression::name(&inputs), branch_argument]))
         } else {
-            let start = Expression::associated(inputs_type, "from", [Expression::name(&guess)]);
-            (start, Expression::call("assemble_near", [Expression::name(&guess), branch_argument]))
+            let start = Expression::of_type(inputs_type, Intrinsic::From, [Expression::name(&guess)]);
+            (start, Expression::own_call("assemble_near", [Expression::name(&guess), branch_argument]))
         };
         let number = Expression::Count(place.index());
         let arguments = [Expression::own(), number, position().borrowed(), bounds, search, assemble, coordinates];
-        let mut body = Body::result(Expression::runtime("limits", arguments));
+        let mut body = Body::result(Expression::call(Intrinsic::Limits, arguments));
         body.before = vec![
-            Statement::Let(Pattern::Name(inputs), start),
-            Statement::Let(Pattern::Name(position_name.clone()), start_position.tried()),
+            Statement::Let(Pattern::name(inputs), start),
+            Statement::Let(Pattern::name(position_name.clone()), start_position.tried()),
         ];
         body.kernel = Some(kernel);
         let others = if self.signatures.inputs() == 1 { "" } else { ", with the other inputs fixed" };

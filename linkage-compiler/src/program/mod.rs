@@ -9,7 +9,9 @@ mod doc;
 mod equations;
 mod expression;
 mod function;
+mod functions;
 mod implied;
+mod intrinsics;
 mod kinematics;
 mod lanes;
 mod length_scale;
@@ -33,8 +35,10 @@ use std::collections::BTreeSet;
 pub use any_number::AnyNumber;
 pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
-pub use expression::{Expression, Pattern, Statement, Type};
+pub use expression::{Expression, Pattern, Receiver, Statement, Type, Variable};
 pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};
+pub use functions::Functions;
+pub use intrinsics::{Constant, Entry, Finite, Form, InLane, Intrinsic, LaneResult, Meaning, Role, Row};
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
@@ -54,7 +58,7 @@ use scene::ScenePlan;
 pub struct Program<'a, B> {
     pub signatures: Signatures<'a>,
     pub position: Position,
-    pub functions: Vec<Function<B>>,
+    pub functions: Functions<B>,
     pub scenes: Vec<SceneProgram<'a, B>>,
     /// The formulas over numbers of any kind, on request.
     pub any_number: Option<AnyNumber<B>>,
@@ -98,7 +102,7 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
         }
     }
     kept.reverse();
-    let functions = kept;
+    let functions = kept.into_iter().collect();
     let derived = Some(Derived { pose, formulas, closed_forms, named });
     Program { signatures, position, functions, scenes, any_number, derived }
 }

@@ -224,7 +224,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         let coordinates = self.derivation.inputs.iter().map(|&index| &self.derivation.coordinates[index]);
         let fields = coordinates.map(|c| (c.name.clone(), order.symbol(c)));
         Source {
-            from: Expression::name(self.signatures.arguments.of_inputs(order)).method("into", []),
+            from: Expression::name(self.signatures.arguments.of_inputs(order)).converted(),
             shape: Shape::fields(Type::Own(self.signatures.types.inputs.clone()), fields, true),
         }
     }
@@ -233,7 +233,7 @@ impl<'d, 'a> Plan<'d, 'a> {
     pub(super) fn columns(&self, function: &str, symbols: &[SymbolId]) -> Source {
         let pose = &self.signatures.arguments.pose;
         Source {
-            from: Expression::call(function, [Expression::name(pose)]).tried().columns(),
+            from: Expression::own_call(function, [Expression::name(pose)]).tried().columns(),
             shape: Shape::columns(self.signatures.unknowns(), symbols),
         }
     }

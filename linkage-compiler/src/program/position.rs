@@ -2,8 +2,9 @@
 
 use super::branch::Position;
 use super::doc::{lines, without_result};
-use super::expression::{Expression, Pattern, Statement, Type};
+use super::expression::{Expression, Pattern, Statement, Type, Variable};
 use super::function::{Access, Body, Kernel, Output, Shape, Source, Value};
+use super::intrinsics::{Constant, Intrinsic};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Step, needed_names};
@@ -84,7 +85,7 @@ impl Plan<'_, '_> {
 
     fn solve(&mut self) {
         let guess = self.signatures.arguments.guess.clone();
-        let newton = |name| Body::result(Expression::runtime(name, [Expression::own(), Expression::name(&guess)]));
+        let newton = |name| Body::result(Expression::call(name, [Expression::own(), Expression::name(&guess)]));
         let doc = lines([
             "The position near `guess` at the inputs of `guess`, by Newton's method.",
             "",
@@ -92,14 +93,14 @@ impl Plan<'_, '_> {
             "`PositionError::NotConverged` if no position is found, `PositionError::OtherBranch` if the determinant of a group differs",
             "in sign from that at the guess, `PositionError::NotFinite` if a number is not finite.",
         ]);
-        self.add(self.signatures.solve(), doc, newton("newton"));
+        self.add(self.signatures.solve(), doc, newton(Intrinsic::Newton));
         let doc = lines([
             "The position near `guess` at the inputs of `guess`, by Newton's method, on any branch.",
             "",
             "# Errors",
             "`PositionError::NotConverged` if no position is found, `PositionError::NotFinite` if a number is not finite.",
         ]);
-        self.add(self.signatures.solve_any_branch(), doc, newton("newton_any_branch"));
+        self.add(self.signatures.solve_any_branch(), doc, newton(Intrinsic::NewtonAnyBranch));
     }
 
     /// Cosine and sine of each angle of a pose.
@@ -119,7 +120,7 @@ impl Plan<'_, '_> {
             members.push((field.clone(), take()));
         }
         for field in self.pose.directions.values() {
-            members.push((field.clone(), Expression::runtime("unit", [take(), take()])));
+            members.push((field.clone(), Expression::call(Intrinsic::Unit, [take(), take()])));
         }
         let numbers = self.pose.values.iter().map(|(_, field, _)| field);
         for field in numbers.chain(self.pose.externals.iter().map(|(_, field, _)| field)) {
@@ -196,7 +197,7 @@ impl Plan<'_, '_> {
         ]);
         self.add(self.signatures.assemble_remembering(&self.position), doc, body);
 
-        let at = [Expression::name(&inputs).method("into", []), Expression::name(&branch)];
+        let at = [Expression::name(&inputs).converted(), Expression::name(&branch)];
         let call = self.remembering(at, self.no_memory());
         let body = Body { calls: vec![REMEMBERING.to_owned()], ..Body::result(call) };
         let listed: Vec<String> =
@@ -211,12 +212,12 @@ impl Plan<'_, '_> {
 
     /// The call that assembles a position and keeps those of its groups.
     fn remembering(&self, at: [Expression; 2], memory: Expression) -> Expression {
-        Expression::call(REMEMBERING, at.into_iter().chain([memory.mutably_borrowed()]))
+        Expression::own_call(REMEMBERING, at.into_iter().chain([memory.mutably_borrowed()]))
     }
 
     /// A memory without positions.
     fn no_memory(&self) -> Expression {
-        let empty = Expression::associated(Type::Runtime("Memory", Vec::new()), "default", []);
+        let empty = Expression::of_type(Type::Runtime("Memory", Vec::new()), Intrinsic::Default, []);
         match self.position.modes.as_slice() {
             [_] => empty,
             several => Expression::Tuple(several.iter().map(|_| empty.clone()).collect()),
@@ -227,7 +228,7 @@ impl Plan<'_, '_> {
     fn no_assemble(&mut self) {
         let signature = self.signatures.no_assemble(&self.position);
         let group = self.position.open.first().map_or("", |(names, _)| names.as_str());
-        let error = Expression::runtime("no_closed_form", [Expression::mechanism(), Expression::text(group)]);
+        let error = Expression::call(Intrinsic::NoClosedForm, [Expression::mechanism(), Expression::text(group)]);
         let mut doc = signature.doc.clone();
         doc.extend(lines(["", "# Errors", "`PositionError::NoClosedForm`, always."]));
         self.add(signature, doc, Body::result(error));
@@ -238,8 +239,8 @@ impl Plan<'_, '_> {
         let Arguments { inputs, branch, turn, guess, .. } = self.signatures.arguments.clone();
         let [v, on, near] = [&inputs, &branch, &guess].map(Expression::name);
         let fields = self.position.turns.iter().map(|turn| on.clone().field(&turn.field));
-        let turns = Expression::runtime("Turns", [Expression::List(fields.collect())]).borrowed();
-        let call = Expression::call("assemble_in_turns", [v.method("into", []), on.clone(), turns]);
+        let turns = Expression::call(Intrinsic::Turns, [Expression::List(fields.collect())]).borrowed();
+        let call = Expression::own_call("assemble_in_turns", [v.converted(), on.clone(), turns]);
         let body = Body { calls: vec!["assemble_in_turns".to_owned()], ..Body::result(call) };
         self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
 
@@ -252,8 +253,8 @@ impl Plan<'_, '_> {
             "Those of `assemble`, and `InputError::OutOfRange` if a turn of the guess is out of the range of `i32`.",
         ]);
         let inputs = Type::Bare(self.signatures.types.inputs.clone());
-        let inputs = Expression::associated(inputs, "from", [near]);
-        let call = Expression::call("assemble_in_turns", [inputs, on, Expression::name(&turn).borrowed()]);
+        let inputs = Expression::of_type(inputs, Intrinsic::From, [near]);
+        let call = Expression::own_call("assemble_in_turns", [inputs, on, Expression::name(&turn).borrowed()]);
         let mut body = Body::result(call);
         body.before = self.nearest_turns(&guess, &turn);
         self.add(self.signatures.assemble_near(), doc, body);
@@ -263,10 +264,10 @@ impl Plan<'_, '_> {
     pub(super) fn nearest_turns(&self, guess: &str, turn: &str) -> Vec<Statement> {
         let near = self.position.turns.iter().map(|turn| Expression::name(guess).field(&turn.coordinate));
         let near = Expression::List(near.collect());
-        let countable = Expression::runtime("countable", [Expression::mechanism(), near.clone()]);
+        let countable = Expression::call(Intrinsic::Countable, [Expression::mechanism(), near.clone()]);
         let nearest = Type::Runtime("NearestTurns", Vec::new());
-        let nearest = Expression::associated(nearest, "new", [near]);
-        vec![Statement::Do(countable.tried()), Statement::Let(Pattern::Name(turn.to_owned()), nearest)]
+        let nearest = Expression::of_type(nearest, Intrinsic::New, [near]);
+        vec![Statement::Do(countable.tried()), Statement::Let(Pattern::name(turn.to_owned()), nearest)]
     }
 
     /// The inputs of a guess, and the guesses of the unknowns without closed form.
@@ -346,11 +347,11 @@ impl Plan<'_, '_> {
         if signature.access == Access::Deprecated {
             let (function, error) = match self.position.open.first() {
                 Some((group, _)) => (
-                    Expression::runtime("no_list", [Expression::mechanism(), Expression::text(group)]),
+                    Expression::call(Intrinsic::NoList, [Expression::mechanism(), Expression::text(group)]),
                     "`PositionError::NoClosedForm`",
                 ),
                 None => (
-                    Expression::runtime("too_many_branches", [Expression::mechanism()]),
+                    Expression::call(Intrinsic::TooManyBranches, [Expression::mechanism()]),
                     "`PositionError::TooManyBranches`",
                 ),
             };
@@ -360,25 +361,25 @@ impl Plan<'_, '_> {
             return;
         }
         let Arguments { inputs, branch, memory, .. } = self.signatures.arguments.clone();
-        let all = Expression::associated(Type::Bare(self.signatures.types.branch.clone()), "all", []);
+        let all = Expression::of_type(Type::Bare(self.signatures.types.branch.clone()), Intrinsic::All, []);
         let is_listed = self.position.is_listed();
         let at = [&inputs, &branch].map(Expression::name);
         let assemble = match is_listed {
             true => self.remembering(at, Expression::name(&memory)),
-            false => Expression::call("assemble", at),
+            false => Expression::own_call("assemble", at),
         };
         let assemble = Expression::Closure {
-            arguments: vec![Pattern::Name(branch)],
+            arguments: vec![Pattern::name(branch)],
             statements: Vec::new(),
             value: Box::new(assemble),
             moves: true,
         };
-        let mut body = Body::result(Expression::runtime("existing", [all, assemble]));
-        let converted = Expression::name(&inputs).method("into", []);
-        body.before = vec![Statement::Let(Pattern::Name(inputs), converted)];
+        let mut body = Body::result(Expression::call(Intrinsic::Existing, [all, assemble]));
+        let converted = Expression::name(&inputs).converted();
+        body.before = vec![Statement::Let(Pattern::name(inputs), converted)];
         if is_listed {
             body.calls.push(REMEMBERING.to_owned());
-            body.before.push(Statement::Let(Pattern::Mutable(Box::new(Pattern::Name(memory))), self.no_memory()));
+            body.before.push(Statement::Let(Pattern::Mutable(Variable::Name(memory)), self.no_memory()));
             self.add(signature, lines(BRANCHES_BY_NUMBER), body);
             return;
         }
@@ -394,11 +395,11 @@ impl Plan<'_, '_> {
 
     fn branch_near(&mut self) {
         let Arguments { guess, .. } = self.signatures.arguments.clone();
-        let pose = Expression::call("pose_at", [Expression::name(&guess)]).borrowed();
+        let pose = Expression::own_call("pose_at", [Expression::name(&guess)]).borrowed();
         let doc = without_result(lines([
             "The branch of a rough position, such as one read off a drawing: its coordinates need not satisfy the loop equations.",
         ]));
-        let body = Body::plain(Expression::call("branch_of", [pose]));
+        let body = Body::plain(Expression::own_call("branch_of", [pose]));
         self.add(
             self.signatures.branch_near(),
             doc,
@@ -416,10 +417,10 @@ impl Plan<'_, '_> {
             let (_, field, _) = self.pose.determinants.iter().find(|(block, ..)| *block == chord.block)?;
             let determinant = on.clone().field(field);
             let determinant = if chord.is_opposite { Expression::Negative(Box::new(determinant)) } else { determinant };
-            Some((side.field.clone(), Expression::runtime("side_of", [determinant])))
+            Some((side.field.clone(), Expression::call(Intrinsic::SideOf, [determinant])))
         });
         let zeros = turns.iter().map(|turn| (turn.field.clone(), Expression::Count(0)));
-        let of_guess = Expression::Constant("AssemblyMode::OfGuess");
+        let of_guess = Expression::Constant(Constant::OfGuess);
         let modes = self.position.modes.iter().map(|group| (group.field.clone(), of_guess.clone()));
         let members = Expression::structure(of.clone(), sides.chain(modes).chain(zeros));
         let mut doc = lines([
@@ -439,15 +440,15 @@ impl Plan<'_, '_> {
             let inputs = Expression::structure(Type::Bare(self.signatures.types.inputs.clone()), given);
             let numbers = Expression::List(turns.iter().map(|turn| on.clone().field(&turn.number)).collect());
             let nearest = Type::Runtime("NearestTurns", Vec::new());
-            let nearest = Expression::associated(nearest, "new", [numbers]);
+            let nearest = Expression::of_type(nearest, Intrinsic::New, [numbers]);
             let at = [inputs, Expression::name(&branch), Expression::name(&turn).borrowed()];
-            let counted = Pattern::List(turns.iter().map(|turn| Pattern::Name(turn.field.clone())).collect());
+            let counted = Pattern::List(turns.iter().map(|turn| Pattern::name(turn.field.clone())).collect());
             body.before = vec![
-                Statement::Let(Pattern::Name(branch.clone()), members),
-                Statement::Let(Pattern::Name(turn.clone()), nearest),
+                Statement::Let(Pattern::name(branch.clone()), members),
+                Statement::Let(Pattern::name(turn.clone()), nearest),
                 // If the assembly fails, the turns are those of the angles alone.
-                Statement::Let(Pattern::Ignored, Expression::call("assemble_in_turns", at)),
-                Statement::Let(counted, Expression::name(&turn).method("turns", [])),
+                Statement::Let(Pattern::Ignored, Expression::own_call("assemble_in_turns", at)),
+                Statement::Let(counted, Expression::call(Intrinsic::TurnsFound, [Expression::name(&turn)])),
             ];
             let turns = turns.iter().map(|turn| (turn.field.clone(), Expression::name(&turn.field))).collect();
             body.value = Value::Plain(Expression::Struct(of, turns, Some(Box::new(Expression::name(&branch)))));

@@ -2,8 +2,9 @@
 //! function itself over a scalar of twice the precision, from the angles of the pose as numbers.
 
 use super::doc::lines;
-use super::expression::{Expression, Pattern, Statement, Type};
+use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Access, Argument, Body, Failure, Function, Kernel, Passed, Source, Value};
+use super::intrinsics::Intrinsic;
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use super::signatures::{Family, Signatures, total};
@@ -48,9 +49,9 @@ impl Plan<'_, '_> {
         }
         let (rough, precise) = (rough.clone(), format!("precise_{}", signature.name));
         let arguments = signature.arguments.iter().map(|argument| Expression::name(&argument.name));
-        let call = Expression::call(&precise, arguments.chain([Expression::name(ROUGH)]));
+        let call = Expression::own_call(&precise, arguments.chain([Expression::name(ROUGH)]));
         let value = body.local("refined");
-        body.after.push(Statement::Refine(Pattern::Local(body.locals.len() - 1), rough, call));
+        body.after.push(Statement::Refine(Pattern::local(body.locals.len() - 1), rough, call));
         body.value = Value::Plain(value);
         body.calls.push(precise.clone());
         self.precise(precise, signature);
@@ -65,13 +66,14 @@ impl Plan<'_, '_> {
             Passed::ByReference(_) => Expression::name(name).borrowed(),
             _ => Expression::name(name),
         });
-        let wide = Expression::name(MECHANISM).method(&of.name, arguments).method("ok", []).tried();
+        let wide = Expression::name(MECHANISM).driver_call(&of.name, arguments);
+        let wide = Expression::call(Intrinsic::ValueOf, [wide]).tried();
         let value = match &of.returns {
             Type::Own(motion) if *motion == self.signatures.types.motion => {
-                before.push(Statement::Let(Pattern::Name(MOTION.to_owned()), wide));
+                before.push(Statement::Let(Pattern::name(MOTION.to_owned()), wide));
                 self.rounded_motion(&Expression::name(MOTION))
             }
-            returns => Expression::runtime(rounding(returns), [wide, Expression::name(ROUGH)]),
+            returns => Expression::call(rounding(returns), [wide, Expression::name(ROUGH)]),
         };
         let calls = [WIDENED, WIDENED_POSE, AT_NUMBERS].map(str::to_owned).to_vec();
         let body = Body { before, calls, ..Body::plain(value) };
@@ -84,17 +86,18 @@ impl Plan<'_, '_> {
 
     /// The result of `motion` rounded, in `Some`.
     fn rounded_motion(&self, wide: &Expression) -> Expression {
-        let of_coordinates = ["position", "rates", "accelerations"].map(|field| (field.to_owned(), "rounded_by_name"));
+        let of_coordinates =
+            ["position", "rates", "accelerations"].map(|field| (field.to_owned(), Intrinsic::RoundedByName));
         let families = [Family::Points, Family::Outputs].into_iter().filter(|family| self.signatures.has(*family));
-        let of_quantities = families.map(|family| (format!("{}s", family.word()), "rounded_each"));
+        let of_quantities = families.map(|family| (format!("{}s", family.word()), Intrinsic::RoundedEach));
         let members = of_coordinates.into_iter().chain(of_quantities);
         let members = members.map(|(field, rounded)| {
             let parts = [wide, &Expression::name(ROUGH)].map(|whole| whole.clone().field(&field));
-            let value = Expression::runtime(rounded, parts).tried();
+            let value = Expression::call(rounded, parts).tried();
             (field, value)
         });
         let motion = Type::Bare(self.signatures.types.motion.clone());
-        Expression::runtime("Some", [Expression::structure(motion, members)])
+        Expression::call(Intrinsic::Some, [Expression::structure(motion, members)])
     }
 
     /// The rates and accelerations at a pose in twice the precision.
@@ -111,19 +114,20 @@ impl Plan<'_, '_> {
         for (name, function, arguments) in
             [(&rates, "velocity", of_velocity), (&accelerations, "acceleration", of_acceleration)]
         {
-            let wide = Expression::name(MECHANISM).method(function, arguments).method("ok", []).tried();
-            before.push(Statement::Let(Pattern::Name(name.clone()), wide));
+            let wide = Expression::name(MECHANISM).driver_call(function, arguments);
+            let wide = Expression::call(Intrinsic::ValueOf, [wide]).tried();
+            before.push(Statement::Let(Pattern::name(name.clone()), wide));
         }
         let parts = [&rates, &accelerations].map(|name| format!("{ROUGH}_{name}"));
-        let pattern = Pattern::Tuple(parts.iter().cloned().map(Pattern::Name).collect());
+        let pattern = Pattern::Tuple(parts.iter().cloned().map(Pattern::name).collect());
         before.push(Statement::Let(pattern, Expression::name(ROUGH)));
         let rounded = |(name, part)| {
             let pair = [Expression::name(name), Expression::name(part)];
-            Expression::runtime("rounded_by_name", pair).tried()
+            Expression::call(Intrinsic::RoundedByName, pair).tried()
         };
         let both = Expression::Tuple([&rates, &accelerations].into_iter().zip(&parts).map(rounded).collect());
         let calls = [WIDENED, WIDENED_POSE, AT_NUMBERS].map(str::to_owned).to_vec();
-        let body = Body { before, calls, ..Body::plain(Expression::runtime("Some", [both])) };
+        let body = Body { before, calls, ..Body::plain(Expression::call(Intrinsic::Some, [both])) };
         let doc = lines([
             "The rates q' and the accelerations q'' in twice the precision, rounded once; `None` if a number is not finite.",
         ]);
@@ -132,7 +136,7 @@ impl Plan<'_, '_> {
 
     /// `let mechanism = self.widened();`
     fn let_widened(&self) -> Statement {
-        Statement::Let(Pattern::Name(MECHANISM.to_owned()), Expression::call(WIDENED, []))
+        Statement::Let(Pattern::name(MECHANISM.to_owned()), Expression::own_call(WIDENED, []))
     }
 
     /// The statement that widens an argument.
@@ -140,23 +144,25 @@ impl Plan<'_, '_> {
         let value = Expression::name(name);
         let value = match passed {
             _ if *name == self.signatures.arguments.pose => {
-                let wide = Expression::associated(Type::Itself, WIDENED_POSE, [value]);
+                let wide = Expression::called_on(Receiver::ItsType, WIDENED_POSE, [value]);
                 match self.at_numbers_is_method() {
-                    true => Expression::name(MECHANISM).method(AT_NUMBERS, [wide]),
-                    false => {
-                        Expression::associated(Type::Bare(self.signatures.types.driver.clone()), AT_NUMBERS, [wide])
-                    }
+                    true => Expression::name(MECHANISM).driver_call(AT_NUMBERS, [wide]),
+                    false => Expression::called_on(
+                        Receiver::Type(Type::Bare(self.signatures.types.driver.clone())),
+                        AT_NUMBERS,
+                        [wide],
+                    ),
                 }
             }
-            Passed::ByReference(Type::Own(_)) => Expression::runtime("widened_by_name", [value.dereferenced()]),
-            Passed::ByReference(_) => Expression::runtime("widened_matrix", [value]),
-            _ => Expression::runtime("widened_by_name", [value]),
+            Passed::ByReference(Type::Own(_)) => Expression::call(Intrinsic::WidenedByName, [value.dereferenced()]),
+            Passed::ByReference(_) => Expression::call(Intrinsic::WidenedMatrix, [value]),
+            _ => Expression::call(Intrinsic::WidenedByName, [value]),
         };
         let pattern = match passed {
             Passed::ByReference(Type::Own(of)) | Passed::ByValue(Type::Own(of)) | Passed::Converted(Type::Own(of)) => {
-                Pattern::Typed(name.clone(), Type::Wide(of.clone()))
+                Pattern::typed(name.clone(), Type::Wide(of.clone()))
             }
-            _ => Pattern::Name(name.clone()),
+            _ => Pattern::name(name.clone()),
         };
         Statement::Let(pattern, value)
     }
@@ -174,9 +180,10 @@ impl Plan<'_, '_> {
     fn widened(&mut self) {
         let parameters = &self.signatures.mechanism.parameters;
         let parameters = parameters.iter().map(|parameter| Expression::own().field(&parameter.name.field)).collect();
-        let parameters = Expression::List(parameters).method("map", [Expression::Constant("widened")]);
+        let widened = Expression::Function(Intrinsic::Widened, None);
+        let parameters = Expression::call(Intrinsic::Map, [Expression::List(parameters), widened]);
         let driver = self.signatures.types.driver.clone();
-        let value = Expression::associated(Type::Bare(driver.clone()), "from", [parameters]);
+        let value = Expression::of_type(Type::Bare(driver.clone()), Intrinsic::From, [parameters]);
         let signature = Function { access: Access::Cold, ..total(WIDENED, [], Type::Wide(driver)) };
         self.add(signature, lines(["This mechanism in twice the precision."]), Body::plain(value));
     }
@@ -184,11 +191,12 @@ impl Plan<'_, '_> {
     fn widened_pose(&mut self) {
         let pose = &self.signatures.arguments.pose;
         let of_pose = |field: &String| Expression::name(pose).field(field);
-        let widened = |function| move |field: &String| (field.clone(), Expression::runtime(function, [of_pose(field)]));
-        let directions = self.pose.directions.values().map(widened("widened_direction"));
+        let widened = |function| move |field: &String| (field.clone(), Expression::call(function, [of_pose(field)]));
+        let directions = self.pose.directions.values().map(widened(Intrinsic::WidenedDirection));
         let numbers = self.pose.values.iter().map(|(_, field, _)| field);
         let numbers = numbers.chain(self.pose.determinants.iter().map(|(_, field, _)| field));
-        let numbers = numbers.chain(self.pose.externals.iter().map(|(_, field, _)| field)).map(widened("widened"));
+        let numbers =
+            numbers.chain(self.pose.externals.iter().map(|(_, field, _)| field)).map(widened(Intrinsic::Widened));
         let of = self.signatures.types.pose.clone();
         let value = Expression::structure(Type::Bare(of.clone()), directions.chain(numbers));
         let signature = total(WIDENED_POSE, [self.signatures.pose()], Type::Wide(of));
@@ -225,7 +233,7 @@ impl Plan<'_, '_> {
         }
         let members = angles.iter().enumerate().map(|(place, &angle)| {
             let parts = [2 * place, 2 * place + 1].map(Expression::Result);
-            (self.pose.direction(angle).to_owned(), Expression::runtime("unit", parts))
+            (self.pose.direction(angle).to_owned(), Expression::call(Intrinsic::Unit, parts))
         });
         let pose = self.signatures.arguments.pose.clone();
         let rest = Some(Box::new(Expression::name(&pose)));
@@ -262,18 +270,18 @@ fn rough(of: Type) -> Argument {
 }
 
 /// The function of the runtime that rounds a result of this type.
-fn rounding(of: &Type) -> &'static str {
+fn rounding(of: &Type) -> Intrinsic {
     match of {
-        Type::Own(_) => "rounded_by_name",
-        Type::Each(..) => "rounded_each",
-        _ => "rounded",
+        Type::Own(_) => Intrinsic::RoundedByName,
+        Type::Each(..) => Intrinsic::RoundedEach,
+        _ => Intrinsic::Rounded,
     }
 }
 
 /// `let argument: Type = argument.into();` for an argument that is `impl Into<Type>`.
 fn converted(Argument { name, passed }: &Argument) -> Option<Statement> {
     let Passed::Converted(of) = passed else { return None };
-    Some(Statement::Let(Pattern::Typed(name.clone(), of.clone()), Expression::name(name).method("into", [])))
+    Some(Statement::Let(Pattern::typed(name.clone(), of.clone()), Expression::name(name).converted()))
 }
 
 /// The argument after its conversion.

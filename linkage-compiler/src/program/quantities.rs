@@ -3,6 +3,7 @@
 use super::doc::{fenced, lines};
 use super::expression::Expression;
 use super::function::{Body, Output, results};
+use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{ENDINGS, Plan, unnamed};
 use super::signatures::{Family, ORDERS};
@@ -75,13 +76,13 @@ impl Plan<'_, '_> {
         let outputs = nodes.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
         let kernel = self.on_pose(sources, Vec::new(), outputs);
         let (finite, sizes): (_, &[usize]) = match (family, order) {
-            (Family::Points, 0) => ("finite_points", &[2]),
-            (Family::Points, _) => ("finite_vectors", &[2]),
-            (Family::Outputs, _) => ("finite_outputs", &[]),
+            (Family::Points, 0) => (Intrinsic::FinitePoints, &[2]),
+            (Family::Points, _) => (Intrinsic::FiniteVectors, &[2]),
+            (Family::Outputs, _) => (Intrinsic::FiniteOutputs, &[]),
         };
         let values = Expression::List(Expression::nested(results(0..count), sizes));
         let name = Expression::text(format!("{word}{}", ORDERS[order]));
-        let value = Expression::runtime(finite, [Expression::mechanism(), name, values]);
+        let value = Expression::call(finite, [Expression::mechanism(), name, values]);
         let body = Body { kernel: Some(kernel), ..Body::result(value) };
         self.add(self.signatures.quantities(family, order), doc, body);
     }
@@ -120,7 +121,8 @@ impl Plan<'_, '_> {
         let sources = called.iter().map(|function| self.columns(function, &ratios)).collect();
         let kernel = self.on_pose(sources, Vec::new(), unnamed(nodes));
         let values = Expression::List(Expression::nested(results(0..count), &[v, dimension]));
-        let value = Expression::runtime("finite_matrices", [Expression::mechanism(), Expression::text(word), values]);
+        let value =
+            Expression::call(Intrinsic::FiniteMatrices, [Expression::mechanism(), Expression::text(word), values]);
         let calls = called.into_iter().map(str::to_owned).collect();
         let body = Body { kernel: Some(kernel), calls, ..Body::result(value) };
         self.add(self.signatures.quantity_ratios(family), doc, body);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::doc::{fenced, lines, without_result};
-use super::expression::{Expression, Pattern, Statement, Type};
+use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
@@ -159,17 +159,17 @@ impl Plan<'_, '_> {
         let mut on = vec![name(&pose).borrowed()];
         on.extend(is_fallible.then(|| name(&error_name)));
         let ratios_at = match is_method {
-            true => Expression::call("ratio_columns", on),
-            false => Expression::associated(Type::Itself, "ratio_columns", on),
+            true => Expression::own_call("ratio_columns", on),
+            false => Expression::called_on(Receiver::ItsType, "ratio_columns", on),
         };
         let ratios_at = if is_fallible { ratios_at.tried() } else { ratios_at };
         let moving = [name(&ratios).borrowed(), name(&input_rates)];
         let before = [
-            (&pose, Expression::call("pose_at", [name(&q)])),
+            (&pose, Expression::own_call("pose_at", [name(&q)])),
             (&ratios, ratios_at),
-            (&rates, Expression::associated(Type::Itself, "coordinate_rates", moving)),
+            (&rates, Expression::called_on(Receiver::ItsType, "coordinate_rates", moving)),
         ];
-        let before = before.map(|(name, value)| Statement::Let(Pattern::Name(name.clone()), value));
+        let before = before.map(|(name, value)| Statement::Let(Pattern::name(name.clone()), value));
         let moving = Source { from: name(&rates), ..self.coordinates(Order::Rate) };
         let at_pose = Source { from: name(&pose), ..self.pose_source() };
         let sources = vec![self.parameters(), at_pose, moving];

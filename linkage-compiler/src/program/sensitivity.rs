@@ -4,6 +4,7 @@ use super::doc::{fenced, lines};
 use super::equations::places;
 use super::expression::{Expression, Statement};
 use super::function::{Body, Value};
+use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
 use crate::algebra::simplify;
@@ -126,7 +127,7 @@ impl Body {
     fn finite_matrix(&mut self, preferred: &str, what: &str, matrix: Expression) -> Expression {
         let name = self.bound(preferred, matrix);
         let check = [Expression::mechanism(), Expression::text(what), name.clone().borrowed()];
-        self.after.push(Statement::Do(Expression::runtime("finite_matrix", check).tried()));
+        self.after.push(Statement::Do(Expression::call(Intrinsic::FiniteMatrix, check).tried()));
         name
     }
 }

@@ -1,7 +1,8 @@
 //! Results that a function stores as they become known: the variable that it returns, and what it assigns to its members.
 
-use super::expression::{Expression, Pattern, Statement};
+use super::expression::{Expression, Pattern, Statement, Variable};
 use super::function::{Body, Kernel, Value};
+use super::intrinsics::{Form, Intrinsic};
 
 /// A literal in the `Ok` of a variable, with zero in place of each result of the kernel. Lowering assigns a result to its
 /// member as soon as it is known.
@@ -25,12 +26,13 @@ impl Body {
             _ => return self,
         };
         let [result, place] = ["result", place].map(|name| self.local(name));
-        let [to_result, to_place] = [2, 1].map(|back| Box::new(Pattern::Local(self.locals.len() - back)));
+        let [to_result, to_place] = [2, 1].map(|back| Variable::Local(self.locals.len() - back));
+        let to_place = Box::new(Pattern::Bound(to_place));
         // The literal stands here and not in a function: LLVM copies the value that a function returns.
-        let start = Expression::runtime("Ok", [zeroed(&literal)]);
+        let start = Expression::call(Intrinsic::Ok, [zeroed(&literal)]);
         self.before.push(Statement::Let(Pattern::Mutable(to_result), start));
         let borrowed = result.clone().mutably_borrowed();
-        self.before.push(Statement::LetElse(Pattern::Case("Ok", to_place), borrowed, result.clone()));
+        self.before.push(Statement::LetElse(Pattern::Case(Intrinsic::Ok, to_place), borrowed, result.clone()));
         let mut members = Vec::new();
         assigned(place, &literal, &mut members);
         // Points and outputs are checked, after all else.
@@ -47,13 +49,15 @@ fn zeroed(value: &Expression) -> Expression {
         Expression::Struct(of, members, _) => {
             Expression::structure(of.clone(), members.iter().map(|(name, value)| (name.clone(), zeroed(value))))
         }
-        Expression::Runtime(function, arguments) => Expression::runtime(function, arguments.iter().map(zeroed)),
+        Expression::Intrinsic(of, None, arguments) if of.row().form == Form::Function => {
+            Expression::call(*of, arguments.iter().map(zeroed))
+        }
         Expression::Try(inside) => zeroed(inside).tried(),
         Expression::List(all) => {
             let one = all.first().map_or_else(Expression::zero, zeroed);
             Expression::Repeated(Box::new(one), all.len())
         }
-        Expression::Constant(name) => Expression::Constant(name),
+        Expression::Constant(constant) => Expression::Constant(*constant),
         argument if argument.stored().is_some() => argument.clone(),
         _ => Expression::zero(),
     }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::name::{ascii, reserved, symbol};
 use super::operations::{Check, Operation, Operations, Place};
 use super::value::{Role, Value};
-use crate::emit::expression::parts_of_pi;
+use crate::emit::rust::parts_of_pi;
 use crate::graph::Number;
 use crate::model::Mechanism;
 use crate::program::{Order, Taken};

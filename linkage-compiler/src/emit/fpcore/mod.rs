@@ -5,15 +5,15 @@
 //! the order of the code (`operations`), which are written one line each (`lines`). Newton's method, pivoting and user
 //! functions have no formula: nor have the results that depend on them.
 
+mod inline;
 mod lines;
 mod name;
 mod operations;
-mod run;
 mod value;
 
 use crate::lower::Code;
-use crate::program::{Program, SceneProgram, SceneSignatures};
-use run::{Owner, Run};
+use crate::program::{Program, SceneProgram};
+use inline::{Inlined, Owner};
 
 /// The functions of a driver, or of a scene on a driver.
 pub(super) struct Straight<'a> {
@@ -28,15 +28,15 @@ impl<'a> Straight<'a> {
 
     /// The functions of a scene on this driver.
     pub(super) fn within(&'a self, scene: &'a SceneProgram<Code>) -> Self {
-        let SceneSignatures { arguments, field, .. } = &scene.signatures;
-        Self { owner: Owner::new(&scene.functions, arguments, self.owner.mechanism, Some((field, &self.owner))) }
+        let arguments = &scene.signatures.arguments;
+        Self { owner: Owner::new(&scene.functions, arguments, self.owner.mechanism, Some(&self.owner)) }
     }
 
     /// The formulas of the function with this name, line by line; empty if it has none.
     pub(super) fn lines(&self, name: &str) -> String {
-        let Some(function) = self.owner.functions.get(name) else { return String::new() };
-        let mut run = Run::default();
-        let value = run.result(&self.owner, function);
-        lines::written(self.owner.mechanism, &run.operations, &run.checks, &value)
+        let Some(function) = self.owner.functions.named(name) else { return String::new() };
+        let mut inlined = Inlined::default();
+        let value = inlined.result(&self.owner, function);
+        lines::written(self.owner.mechanism, &inlined.operations, &inlined.checks, &value)
     }
 }

@@ -6,8 +6,8 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::derivation::Derivation;
-use crate::emit::expression::literal;
 use crate::emit::names::{comment, ident};
+use crate::emit::rust::literal;
 use crate::emit::types::{field, other_scalar};
 use crate::graph::SymbolId;
 use crate::ids::{ColumnId, CoordinateId};

@@ -6,8 +6,8 @@ use std::ops::Range;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use crate::emit::expression::{argument, literal};
 use crate::emit::names::ident;
+use crate::emit::rust::{argument, literal};
 use crate::emit::types::{field, mark};
 use crate::lower::Code;
 use crate::model::{Name, TypeName};

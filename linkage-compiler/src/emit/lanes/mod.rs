@@ -7,8 +7,8 @@ mod given;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::expression::{argument, literal};
 use super::names::ident;
+use super::rust::{argument, literal};
 use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::program::{Access, Program};

@@ -5,8 +5,8 @@ use quote::quote;
 
 use super::derives::derives;
 use super::parameters::MOST_ARGUMENTS;
-use crate::emit::expression::literal;
 use crate::emit::names::{comment, ident};
+use crate::emit::rust::literal;
 use crate::lower::Code;
 use crate::program::{Modes, Position, Program, Side};
 

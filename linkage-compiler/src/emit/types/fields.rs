@@ -4,8 +4,8 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use syn::Attribute;
 
-use crate::emit::expression::{self, literal};
 use crate::emit::names::comment;
+use crate::emit::rust::{self, literal};
 use crate::model::Name;
 
 /// A field name with the user's span, so that editors link the field to its declaration.
@@ -38,7 +38,7 @@ impl<'a> Fields<'a> {
 
     /// The name of an argument, with an underscore if there are no fields to use it.
     pub(super) fn argument(&self, name: &str) -> Ident {
-        expression::argument(name, !self.names.is_empty())
+        rust::argument(name, !self.names.is_empty())
     }
 
     pub(super) fn count(&self) -> Literal {

@@ -106,7 +106,7 @@ impl<'a> Following<'a> {
             }
             Value::Call(Function::Sqrt, inside) => self.known(*inside.first()?)?.root(),
             Value::Call(Function::Abs, inside) => Some(self.known(*inside.first()?)?.magnitude()),
-            Value::Call(..) | Value::External(..) => None,
+            _ => None,
         }
     }
 

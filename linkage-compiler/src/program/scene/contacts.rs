@@ -7,6 +7,7 @@ use crate::ids::ColumnId;
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Value, results};
+use crate::program::intrinsics::Intrinsic;
 use crate::program::names::Order;
 use crate::program::plan::unnamed;
 
@@ -76,7 +77,8 @@ impl ScenePlan<'_, '_, '_> {
         }
         let sources = vec![self.plan.coordinates(Order::Rate)];
         let body = self.on_coordinates(sources, Vec::new(), unnamed(nodes));
-        let valid = Expression::runtime("validate_contacts", [Expression::mechanism(), Expression::List(contacts)]);
+        let valid =
+            Expression::call(Intrinsic::ValidateContacts, [Expression::mechanism(), Expression::List(contacts)]);
         let body = Body { value: Value::Result(valid), ..body };
         self.add(self.signatures.contacts(), doc, body);
     }

@@ -7,6 +7,7 @@ use crate::ids::InputId;
 use crate::program::doc::{lines, without_result};
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
+use crate::program::intrinsics::Intrinsic;
 use crate::program::names::Arguments;
 use crate::program::operations::Operations;
 use crate::program::plan::unnamed;
@@ -55,9 +56,9 @@ impl ScenePlan<'_, '_, '_> {
             doc.extend(lines(ERRORS));
             let Arguments { time, q, input_rates, .. } = &self.signatures.arguments;
             let at = |name: &String| Expression::name(name);
-            let state = [Expression::own(), at(time), at(q), at(input_rates).method("into", [])];
+            let state = [Expression::own(), at(time), at(q), at(input_rates).converted()];
             let mut body = Body::default();
-            let forces = body.bound("forces", Expression::runtime("drive_forces", state).tried());
+            let forces = body.bound("forces", Expression::call(Intrinsic::DriveForces, state).tried());
             let forces = self.signatures.driven.iter().map(|&at| forces.clone().field(&self.signatures.inputs[at]));
             let value = self.each_drive(forces.collect::<Vec<_>>());
             self.add(self.signatures.drive_forces(), doc, Body { value: Value::Plain(value), ..body });
@@ -106,7 +107,7 @@ impl ScenePlan<'_, '_, '_> {
         let forces = rows.map(|((row, force), at)| {
             let terms = row.iter().zip(&accelerations);
             let terms = terms.map(|(entry, a)| Expression::Product(vec![entry.clone(), a.clone()]));
-            let sum = std::iter::once(force).chain(terms).map(|term| (false, term)).collect();
+            let sum = std::iter::once(force).chain(terms).collect();
             (name(at), Expression::Sum(sum))
         });
         let forces: Vec<(String, Expression)> = forces.collect();

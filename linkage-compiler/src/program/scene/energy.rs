@@ -4,6 +4,7 @@ use super::{ERRORS, ScenePlan};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
+use crate::program::intrinsics::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn energy(&mut self) {
@@ -56,7 +57,7 @@ impl ScenePlan<'_, '_, '_> {
             let all: Vec<Expression> = has_forces.then_some(Expression::Result(0)).into_iter().chain(terms).collect();
             let sum = match all.as_slice() {
                 [only] => only.clone(),
-                _ => Expression::Sum(all.into_iter().map(|term| (false, term)).collect()),
+                _ => Expression::Sum(all),
             };
             let applied = body.bound("applied".to_owned(), sum);
             (body, applied)
@@ -67,8 +68,9 @@ impl ScenePlan<'_, '_, '_> {
         if self.signatures.count_bearings() > 0 {
             let arguments = &self.signatures.arguments;
             let state = [&arguments.time, &arguments.q, &arguments.input_rates].map(Expression::name);
-            let call = Expression::runtime("bearing_loss", std::iter::once(Expression::own()).chain(state)).tried();
-            let sum = Expression::Sum(vec![(false, dissipated), (false, call)]);
+            let call =
+                Expression::call(Intrinsic::BearingLoss, std::iter::once(Expression::own()).chain(state)).tried();
+            let sum = Expression::Sum(vec![dissipated, call]);
             dissipated = body.bound("all_dissipated".to_owned(), sum);
         }
         let values = [applied, dissipated];

@@ -7,6 +7,7 @@ use crate::ids::InputId;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
+use crate::program::intrinsics::Intrinsic;
 use crate::program::names::Arguments;
 
 impl ScenePlan<'_, '_, '_> {
@@ -28,28 +29,29 @@ impl ScenePlan<'_, '_, '_> {
         let near = Expression::Struct(coordinates, members.collect(), others);
         let found = match is_open {
             true => near,
-            false => self.mechanism().method("solve", [near.borrowed()]).tried().field("coordinates"),
+            false => self.mechanism().driver_call("solve", [near.borrowed()]).tried().field("coordinates"),
         };
-        let balance = Expression::call("balance", [Expression::name(&time), Expression::name(&q).borrowed()]).tried();
+        let balance =
+            Expression::own_call("balance", [Expression::name(&time), Expression::name(&q).borrowed()]).tried();
         let both = Expression::Tuple(vec![Expression::name(&q), balance]);
         let function = Expression::Closure {
-            arguments: vec![Pattern::List(free.into_iter().map(Pattern::Name).collect())],
-            statements: vec![Statement::Let(Pattern::Name(q), found)],
-            value: Box::new(Expression::runtime("Ok", [both])),
+            arguments: vec![Pattern::List(free.into_iter().map(Pattern::name).collect())],
+            statements: vec![Statement::Let(Pattern::name(q), found)],
+            value: Box::new(Expression::call(Intrinsic::Ok, [both])),
             moves: false,
         };
         let search = [Expression::mechanism(), Expression::List(start), function];
-        let mut body = Body::result(Expression::runtime("equilibrium", search));
+        let mut body = Body::result(Expression::call(Intrinsic::Equilibrium, search));
         if !driven.is_empty() {
             let given_by_drives = driven.iter().map(Expression::name).collect();
             let laws = driven.into_iter().map(|input| {
-                let fields = vec![("value".to_owned(), Pattern::Name(input.clone()))];
+                let fields = vec![("value".to_owned(), Pattern::name(input.clone()))];
                 let of = Type::Runtime("Prescribed", Vec::new());
                 (input, Pattern::Struct { of, fields, is_whole: false })
             });
             let of = Type::Bare(self.signatures.drives_type.clone());
             let laws = Pattern::Struct { of, fields: laws.collect(), is_whole: true };
-            let drives = Expression::call("drives", [Expression::name(&time)]);
+            let drives = Expression::own_call("drives", [Expression::name(&time)]);
             body.before = vec![Statement::Let(laws, drives)];
             // No solution for unknowns finds that a given coordinate is not finite.
             let what = "the law of a drive".to_owned();

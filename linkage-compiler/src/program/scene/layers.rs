@@ -9,8 +9,9 @@ use super::signatures::layer;
 use crate::graph::{NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::program::doc::lines;
-use crate::program::expression::{Expression, Pattern, Statement, Type};
+use crate::program::expression::{Expression, Pattern, Receiver, Statement, Type};
 use crate::program::function::{Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value, results};
+use crate::program::intrinsics::Intrinsic;
 use crate::program::names::{Order, name_of};
 use crate::program::plan::unnamed;
 
@@ -115,7 +116,7 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn check_effects(&mut self) {
         let body = self.moved(&self.layers.parts_read);
         let finite = [Expression::mechanism(), self.call_of("effects", |argument| self.passed(argument))];
-        let body = Body { value: Value::Result(Expression::runtime("finite_each", finite)), ..body };
+        let body = Body { value: Value::Result(Expression::call(Intrinsic::FiniteEach, finite)), ..body };
         let doc = lines(["Returns an error with the name of a body or effect if its force is not finite."]);
         self.add(self.signatures.check_effects(self.effects_depend_on_time()), doc, body);
     }
@@ -163,14 +164,14 @@ impl ScenePlan<'_, '_, '_> {
         let arguments = &self.signatures.arguments;
         let input_rates = Expression::name(&arguments.input_rates);
         let mut body = Body::default();
-        let driver = Type::Bare(self.signatures.types.driver.clone());
+        let driver = Receiver::Type(Type::Bare(self.signatures.types.driver.clone()));
         if self.plan.signatures.is_open() {
             if reads.contains(&Read::Pose) {
                 self.pose_at(&mut body);
             }
             if reads.contains(&Read::Rates) {
-                let call = Expression::associated(driver, "coordinate_rates", [input_rates]);
-                body.before.push(Statement::Let(Pattern::Name(arguments.rates.clone()), call));
+                let call = Expression::called_on(driver, "coordinate_rates", [input_rates]);
+                body.before.push(Statement::Let(Pattern::name(arguments.rates.clone()), call));
                 body.calls.push(self.of_driver("coordinate_rates"));
             }
             return body;
@@ -183,7 +184,7 @@ impl ScenePlan<'_, '_, '_> {
                 (Read::Bias, "bias", &arguments.bias),
             ];
             let read = found.into_iter().filter(|(read, ..)| reads.contains(read));
-            let fields = read.map(|(_, field, name)| (field.to_owned(), Pattern::Name(name.clone())));
+            let fields = read.map(|(_, field, name)| (field.to_owned(), Pattern::name(name.clone())));
             let fields: Vec<_> = fields.collect();
             let of = Type::Runtime("Kinematics", Vec::new());
             let pattern = Pattern::Struct { of, is_whole: fields.len() == found.len(), fields };
@@ -196,13 +197,13 @@ impl ScenePlan<'_, '_, '_> {
         let call = self.driver_call("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
         body.calls.push(self.of_driver("ratio_columns"));
         body.before.push(match reads.contains(&Read::Ratios) || reads.contains(&Read::Rates) {
-            true => Statement::Let(Pattern::Name(arguments.ratios.clone()), call),
+            true => Statement::Let(Pattern::name(arguments.ratios.clone()), call),
             false => Statement::Do(call),
         });
         if reads.contains(&Read::Rates) {
             let on = [Expression::name(&arguments.ratios).borrowed(), input_rates];
-            let call = Expression::associated(driver, "coordinate_rates", on);
-            body.before.push(Statement::Let(Pattern::Name(arguments.rates.clone()), call));
+            let call = Expression::called_on(driver, "coordinate_rates", on);
+            body.before.push(Statement::Let(Pattern::name(arguments.rates.clone()), call));
             body.calls.push(self.of_driver("coordinate_rates"));
         }
         body
@@ -293,8 +294,8 @@ impl ScenePlan<'_, '_, '_> {
         let called = self.find(name);
         let arguments = called.into_iter().flat_map(|layer| &layer.arguments).map(argument);
         match called.is_some_and(|layer| layer.is_method) {
-            true => Expression::call(name, arguments),
-            false => Expression::associated(Type::Itself, name, arguments),
+            true => Expression::own_call(name, arguments),
+            false => Expression::called_on(Receiver::ItsType, name, arguments),
         }
     }
 }

@@ -14,8 +14,10 @@ mod unreduced;
 mod validity;
 
 use super::doc::without_singular;
-use super::expression::{Expression, Pattern, Statement, Type};
+use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
+use super::functions::Functions;
+use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::Plan;
 use crate::derivation::{Scene, Step};
@@ -35,7 +37,7 @@ const ERRORS: [&str; 4] = [
 /// The program of one scene.
 pub struct SceneProgram<'a, B> {
     pub signatures: SceneSignatures<'a>,
-    pub functions: Vec<Function<B>>,
+    pub functions: Functions<B>,
 }
 
 /// A scene whose functions are planned one by one.
@@ -106,7 +108,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
     }
 
     pub fn into_program(self) -> SceneProgram<'a, Body> {
-        SceneProgram { signatures: self.signatures, functions: self.functions }
+        SceneProgram { signatures: self.signatures, functions: self.functions.into_iter().collect() }
     }
 }
 
@@ -144,8 +146,8 @@ impl ScenePlan<'_, '_, '_> {
     /// The pose at q, under the name of the argument that holds one.
     fn pose_at(&self, body: &mut Body) {
         let (q, pose) = (&self.signatures.arguments.q, &self.signatures.arguments.pose);
-        let call = self.mechanism().method("pose_at", [Expression::name(q)]);
-        body.before.push(Statement::Let(Pattern::Name(pose.clone()), call));
+        let call = self.mechanism().driver_call("pose_at", [Expression::name(q)]);
+        body.before.push(Statement::Let(Pattern::name(pose.clone()), call));
         body.calls.push(self.of_driver("pose_at"));
     }
 
@@ -187,9 +189,9 @@ impl ScenePlan<'_, '_, '_> {
         let (is_method, is_fallible) = layer.map_or((true, true), |layer| (layer.is_method, layer.is_fallible));
         on.extend(is_fallible.then(Expression::mechanism));
         let call = if is_method {
-            self.mechanism().method(function, on)
+            self.mechanism().driver_call(function, on)
         } else {
-            Expression::associated(Type::Bare(self.signatures.types.driver.clone()), function, on)
+            Expression::called_on(Receiver::Type(Type::Bare(self.signatures.types.driver.clone())), function, on)
         };
         if is_fallible { call.tried() } else { call }
     }
@@ -208,12 +210,12 @@ impl ScenePlan<'_, '_, '_> {
         let check_effects = (self.has_varying_effects && values.iter().any(is_formula)).then(|| {
             let time = self.effects_depend_on_time().then_some(&arguments.time);
             let state = time.into_iter().chain([&arguments.q, &arguments.input_rates]);
-            let check_effects = Expression::call("check_effects", state.map(Expression::name));
-            let error = Expression::runtime("Err", [Expression::name("error").method("into", [])]);
+            let check_effects = Expression::own_call("check_effects", state.map(Expression::name));
+            let error = Expression::call(Intrinsic::Err, [Expression::name("error").converted()]);
             Expression::Closure {
-                arguments: vec![Pattern::Name("error".to_owned())],
+                arguments: vec![Pattern::name("error".to_owned())],
                 statements: Vec::new(),
-                value: Box::new(check_effects.method("and", [error])),
+                value: Box::new(Expression::call(Intrinsic::And, [check_effects, error])),
                 moves: false,
             }
         });
@@ -226,8 +228,8 @@ impl ScenePlan<'_, '_, '_> {
     fn with_rates(&self, mut body: Body) -> Body {
         let input_rates = &self.signatures.arguments.input_rates;
         let inputs = Type::Own(self.signatures.types.inputs.clone());
-        let converted = Expression::name(input_rates).method("into", []);
-        body.before.insert(0, Statement::Let(Pattern::Typed(input_rates.clone(), inputs), converted));
+        let converted = Expression::name(input_rates).converted();
+        body.before.insert(0, Statement::Let(Pattern::typed(input_rates.clone(), inputs), converted));
         body
     }
 }

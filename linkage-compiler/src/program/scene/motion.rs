@@ -8,6 +8,7 @@ use crate::ids::InputId;
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
+use crate::program::intrinsics::Intrinsic;
 use crate::program::operations::Operations;
 use crate::program::plan::unnamed;
 
@@ -94,11 +95,11 @@ impl ScenePlan<'_, '_, '_> {
         let columns = Expression::List(Expression::nested(entries, &[count]));
         let arguments = [Expression::mechanism(), texts, columns, Expression::List(sides)];
         let pattern = names.iter().filter_map(|name| match name {
-            Expression::Local(place) => Some(Pattern::Local(*place)),
+            Expression::Local(place) => Some(Pattern::local(*place)),
             _ => None,
         });
         let pattern = Pattern::List(pattern.collect());
-        body.after.push(Statement::Let(pattern, Expression::runtime("reduced", arguments).tried()));
+        body.after.push(Statement::Let(pattern, Expression::call(Intrinsic::Reduced, arguments).tried()));
         // The operations of a Cholesky factorisation and of two triangular systems.
         let pairs = count * (count - 1) / 2;
         let inner: usize = (0..count).map(|left| left * (left + 1) / 2 * 2).sum();
@@ -160,7 +161,7 @@ impl ScenePlan<'_, '_, '_> {
         doc.extend(errors);
         let arguments = &self.signatures.arguments;
         let state = [&arguments.time, &arguments.q, &arguments.input_rates];
-        let rates = Expression::call("rates", state.map(Expression::name)).tried();
+        let rates = Expression::own_call("rates", state.map(Expression::name)).tried();
         let body = Body::plain(rates.field("input_accelerations"));
         self.add(self.signatures.acceleration(), doc, body);
     }

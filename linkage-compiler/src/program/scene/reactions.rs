@@ -7,6 +7,7 @@ use crate::model::LoadKind;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Shape, Source, Value, results};
+use crate::program::intrinsics::Intrinsic;
 use crate::program::names::{Arguments, Order};
 use crate::program::plan::unnamed;
 
@@ -108,8 +109,8 @@ impl ScenePlan<'_, '_, '_> {
         let mut body = self.on_pose(sources, steps, outputs).checked("the reactions", results(0..count));
         if takes_rates {
             let on = [Expression::name(&pose).borrowed(), Expression::name(&input_rates)];
-            let all = self.mechanism().method("velocity", on).tried();
-            body.before.push(Statement::Let(Pattern::Name(rates), all));
+            let all = self.mechanism().driver_call("velocity", on).tried();
+            body.before.push(Statement::Let(Pattern::name(rates), all));
         }
         Body { value: Value::Plain(value), ..body }
     }
@@ -121,20 +122,20 @@ impl ScenePlan<'_, '_, '_> {
             &self.signatures.arguments;
         let mut body = Body::default();
         if !self.signatures.scene.contacts.is_empty() {
-            let state = [Expression::own(), at(time), at(q), at(input_rates).method("into", [])];
-            return Body { value: Value::Result(Expression::runtime("reactions", state)), ..body };
+            let state = [Expression::own(), at(time), at(q), at(input_rates).converted()];
+            return Body { value: Value::Result(Expression::call(Intrinsic::Reactions, state)), ..body };
         }
         let fields = [("rates", rates), ("input_accelerations", input_accelerations)];
-        let fields = fields.map(|(field, name)| (field.to_owned(), Pattern::Name(name.clone()))).to_vec();
+        let fields = fields.map(|(field, name)| (field.to_owned(), Pattern::name(name.clone()))).to_vec();
         let both = Pattern::Struct { of: Type::Runtime("StateRates", Vec::new()), fields, is_whole: true };
-        let moving = Expression::call("rates", [at(time), at(q), at(input_rates)]).tried();
+        let moving = Expression::own_call("rates", [at(time), at(q), at(input_rates)]).tried();
         body.before.push(Statement::Let(both, moving));
         self.pose_at(&mut body);
         let on = [at(pose).borrowed(), at(rates).borrowed(), at(input_accelerations)];
-        let all = self.mechanism().method("acceleration", on).tried();
-        body.before.push(Statement::Let(Pattern::Name(accelerations.clone()), all));
+        let all = self.mechanism().driver_call("acceleration", on).tried();
+        body.before.push(Statement::Let(Pattern::name(accelerations.clone()), all));
         let motion = [at(time), at(q), at(rates).borrowed(), at(accelerations).borrowed()];
         body.calls.extend(["rates".to_owned(), "reactions_of".to_owned(), self.of_driver("acceleration")]);
-        Body { value: Value::Result(Expression::call("reactions_of", motion)), ..body }
+        Body { value: Value::Result(Expression::own_call("reactions_of", motion)), ..body }
     }
 }

@@ -6,6 +6,7 @@ use crate::graph::NodeId;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Statement};
 use crate::program::function::{Body, Value};
+use crate::program::intrinsics::Intrinsic;
 use crate::program::plan::unnamed;
 
 impl ScenePlan<'_, '_, '_> {
@@ -37,14 +38,14 @@ impl ScenePlan<'_, '_, '_> {
                 nodes.push(restitution);
             }
         }
-        let masses = Expression::runtime("not_negative::<T, _>", [Expression::mechanism(), masses]);
+        let masses = Expression::call(Intrinsic::NotNegative, [Expression::mechanism(), masses]);
         let mut body = Body { kernel: Some(self.on_parameters(unnamed(nodes))), ..Body::default() };
         body.value = if stops.is_empty() {
             Value::Result(masses)
         } else {
             body.after.push(Statement::Do(masses.tried()));
             let stops = self.labelled(stops.into_iter(), self.scene.masses.len(), 3);
-            Value::Result(Expression::runtime("validate_stops", [Expression::mechanism(), stops]))
+            Value::Result(Expression::call(Intrinsic::ValidateStops, [Expression::mechanism(), stops]))
         };
         self.add(self.signatures.check(), doc, body);
     }

@@ -1,0 +1,424 @@
+//! A function as straight-line operations on numbers: calls of other functions are inlined, structs and lists taken apart.
+//!
+//! Branches are those of a regular position: checks pass, triangles are open. The conditions are kept.
+
+use std::collections::HashMap;
+
+use super::operations::{Check, Operation, Operations, Place};
+use super::value::{Given, Role, Value};
+use crate::graph::Function as Elementary;
+use crate::lower::{self, Block, Code, Pattern, Signed, Statement, ValueId};
+use crate::model::Mechanism;
+use crate::program::{
+    Arguments, Entry, Family, Function, Functions, Intrinsic, Meaning, Order, Passed, Receiver, Type,
+};
+
+/// The functions of a type.
+pub(super) struct Owner<'a> {
+    pub(super) functions: &'a Functions<Code>,
+    pub(super) mechanism: &'a Mechanism,
+    arguments: &'a Arguments,
+    /// Those of the mechanism of a scene.
+    inner: Option<&'a Owner<'a>>,
+}
+
+impl<'a> Owner<'a> {
+    pub(super) fn new(
+        functions: &'a Functions<Code>,
+        arguments: &'a Arguments,
+        mechanism: &'a Mechanism,
+        inner: Option<&'a Owner<'a>>,
+    ) -> Self {
+        Self { functions, mechanism, arguments, inner }
+    }
+
+    /// The functions of the mechanism.
+    fn innermost(&self) -> &Self {
+        self.inner.unwrap_or(self)
+    }
+
+    fn role(&self, argument: &str) -> Role {
+        let Arguments { guess, position, branch, .. } = self.arguments;
+        let is_order =
+            |order: &Order| [self.arguments.of(*order), self.arguments.of_inputs(*order)].contains(&argument);
+        match Order::ALL.into_iter().find(is_order) {
+            Some(order) => Role::Motion(order),
+            None if argument == guess || argument == position => Role::Motion(Order::Value),
+            None if argument == branch => Role::Branch,
+            None => Role::Other(argument.to_owned()),
+        }
+    }
+}
+
+/// A function whose values become operations.
+struct Scope<'a> {
+    of: &'a Owner<'a>,
+    code: &'a Code,
+    arguments: Vec<Value>,
+    bound: HashMap<ValueId, Value>,
+}
+
+#[derive(Default)]
+pub(super) struct Inlined {
+    pub(super) operations: Operations,
+    pub(super) checks: Vec<Check>,
+}
+
+impl Inlined {
+    /// The value of a function of symbols; a pose is that of `pose_at`.
+    pub(super) fn result(&mut self, of: &Owner<'_>, function: &Function<Code>) -> Value {
+        let pose = &of.arguments.pose;
+        let arguments = function.arguments.iter().map(|argument| match argument.passed {
+            Passed::Turns => Value::Unknown,
+            _ if argument.name == *pose => self.pose(of),
+            _ => Value::given(of.role(&argument.name)),
+        });
+        let arguments = arguments.collect();
+        self.call(of, function, arguments)
+    }
+
+    fn pose(&mut self, of: &Owner<'_>) -> Value {
+        let mechanism = of.innermost();
+        match mechanism.functions.named("pose_at") {
+            Some(pose_at) => self.call(mechanism, pose_at, vec![Value::given(Role::Motion(Order::Value))]),
+            None => Value::Unknown,
+        }
+    }
+
+    fn call(&mut self, of: &Owner<'_>, function: &Function<Code>, arguments: Vec<Value>) -> Value {
+        let Some(code) = &function.body else { return Value::Unknown };
+        let mut scope = Scope { of, code, arguments, bound: HashMap::new() };
+        match self.statements(&code.statements, &mut scope) {
+            true => self.value(code.value.literal(), &mut scope),
+            false => Value::Unknown,
+        }
+    }
+
+    /// Adds statements; false if the function ends with a value of its own.
+    fn statements(&mut self, statements: &[Statement], scope: &mut Scope<'_>) -> bool {
+        statements.iter().all(|statement| self.statement(statement, scope))
+    }
+
+    fn statement(&mut self, statement: &Statement, scope: &mut Scope<'_>) -> bool {
+        match statement {
+            Statement::Let(pattern, value) | Statement::LetElse(pattern, value, _) => {
+                let value = match pattern {
+                    Pattern::Bound(bound) if bound == value => self.computed(*value, scope),
+                    _ => self.value(*value, scope),
+                };
+                self.bind(pattern, value, scope);
+            }
+            Statement::Do(value) => {
+                self.value(*value, scope);
+            }
+            Statement::Assign(place, _) => {
+                // A variable has no formula.
+                scope.bound.insert(root(scope.code, *place), Value::Unknown);
+            }
+            Statement::Unless(conditions, _) => conditions.iter().for_each(|condition| {
+                self.value(*condition, scope);
+            }),
+            Statement::Return(_) => return false,
+        }
+        true
+    }
+
+    fn bind(&mut self, pattern: &Pattern, value: Value, scope: &mut Scope<'_>) {
+        match pattern {
+            Pattern::Bound(bound) | Pattern::Mutable(bound) | Pattern::Typed(bound, _) => {
+                let name = scope.code.name(*bound).unwrap_or_default();
+                let value = match value {
+                    // An entry of an argument has the name that the code gives it.
+                    Value::Given(Given { role: role @ Role::Other(_), path }) if !path.is_empty() => {
+                        Value::Number(self.operations.argument(role.key(&path), name))
+                    }
+                    value => value,
+                };
+                if let Value::Number(place) = value {
+                    self.operations.name(place, name);
+                }
+                scope.bound.insert(*bound, value);
+            }
+            Pattern::Case(_, inside) => self.bind(inside, value, scope),
+            Pattern::List(patterns) | Pattern::Tuple(patterns) => {
+                for (place, pattern) in patterns.iter().enumerate() {
+                    self.bind(pattern, value.index(place), scope);
+                }
+            }
+            Pattern::Struct { fields, .. } => {
+                for (field, pattern) in fields {
+                    self.bind(pattern, value.field(field), scope);
+                }
+            }
+            Pattern::Ignored => {}
+        }
+    }
+
+    fn value(&mut self, id: ValueId, scope: &mut Scope<'_>) -> Value {
+        match scope.bound.get(&id) {
+            Some(value) => value.clone(),
+            None => self.computed(id, scope),
+        }
+    }
+
+    fn computed(&mut self, id: ValueId, scope: &mut Scope<'_>) -> Value {
+        use lower::Value as V;
+        let code = scope.code;
+        match code.operation(id) {
+            V::Itself => Value::given(Role::Parameters),
+            V::Argument(place) => scope.arguments.get(*place).cloned().unwrap_or(Value::Unknown),
+            V::Constant(number) | V::Exact(number) => self.made(Operation::Number(*number)),
+            V::Sum(terms) => {
+                let terms = terms.iter().map(|term| Some((term.negative, self.number(term.value, scope)?)));
+                let terms: Option<Vec<_>> = terms.collect();
+                self.result_of(terms.map(Operation::Sum))
+            }
+            V::Product(factors) => {
+                let factors = self.numbers(factors, scope);
+                self.result_of(factors.map(Operation::Product))
+            }
+            V::Quotient(above, below) => {
+                let parts = self.numbers(&[*above, *below], scope);
+                self.result_of(parts.and_then(|parts| Some(Operation::Quotient(parts.try_into().ok()?))))
+            }
+            V::Square(base) => {
+                let base = self.number(*base, scope);
+                self.result_of(base.map(Operation::Square))
+            }
+            V::Negative(inside) => {
+                let inside = self.number(*inside, scope);
+                self.result_of(inside.map(Operation::Negative))
+            }
+            V::Call(function, arguments) => {
+                let arguments: Option<Vec<Place>> = arguments.iter().map(|one| self.signed(*one, scope)).collect();
+                self.result_of(arguments.map(|arguments| Operation::Call(name_of(*function), arguments)))
+            }
+            V::Text(text) => Value::Text(text.clone()),
+            V::Field(of, name) => self.value(*of, scope).field(name),
+            V::Index(of, place) => self.value(*of, scope).index(*place),
+            V::List(values) | V::Tuple(values) => Value::list(self.values(values, scope)),
+            V::Struct(_, members, rest) => {
+                let rest = rest.map(|rest| self.value(rest, scope));
+                let mut members: Vec<(String, Value)> =
+                    members.iter().map(|(name, value)| (name.clone(), self.value(*value, scope))).collect();
+                if let Some(Value::Members(others)) = rest {
+                    let others = others.iter().filter(|(name, _)| members.iter().all(|(other, _)| other != name));
+                    let others: Vec<_> = others.cloned().collect();
+                    members.extend(others);
+                }
+                Value::members(members)
+            }
+            V::Intrinsic(of, of_type, arguments) => {
+                let arguments = self.values(arguments, scope);
+                self.intrinsic(scope.of.mechanism, (*of, of_type.as_ref()), &arguments)
+            }
+            V::Own(receiver, function, arguments) => {
+                let arguments = self.values(arguments, scope);
+                let of = match receiver {
+                    Receiver::Itself | Receiver::ItsType => scope.of,
+                    // A mechanism in twice the precision is another one.
+                    Receiver::Value(of) if !is_part_of_self(code, *of) => return Value::Unknown,
+                    Receiver::Value(_) | Receiver::Type(_) => scope.of.innermost(),
+                };
+                self.call(of, &of.functions.by_id()[*function], arguments)
+            }
+            V::Try(value) | V::Borrowed(value) | V::MutablyBorrowed(value) | V::Dereferenced(value) => {
+                self.value(*value, scope)
+            }
+            V::Block(Block { statements, value }) => match self.statements(statements, scope) {
+                true => self.value(*value, scope),
+                false => Value::Unknown,
+            },
+            _ => Value::Unknown,
+        }
+    }
+
+    fn values(&mut self, values: &[ValueId], scope: &mut Scope<'_>) -> Vec<Value> {
+        values.iter().map(|value| self.value(*value, scope)).collect()
+    }
+
+    fn number(&mut self, id: ValueId, scope: &mut Scope<'_>) -> Option<Place> {
+        let value = self.value(id, scope);
+        self.place(&value)
+    }
+
+    fn numbers(&mut self, values: &[ValueId], scope: &mut Scope<'_>) -> Option<Vec<Place>> {
+        values.iter().map(|value| self.number(*value, scope)).collect()
+    }
+
+    fn signed(&mut self, signed: Signed, scope: &mut Scope<'_>) -> Option<Place> {
+        let place = self.number(signed.value, scope)?;
+        Some(if signed.negative { self.operations.add(Operation::Negative(place)) } else { place })
+    }
+
+    fn made(&mut self, operation: Operation) -> Value {
+        Value::Number(self.operations.add(operation))
+    }
+
+    fn result_of(&mut self, operation: Option<Operation>) -> Value {
+        operation.map_or(Value::Unknown, |operation| self.made(operation))
+    }
+
+    /// The number that a value is; a part of an argument that is read as a number is one.
+    fn place(&mut self, value: &Value) -> Option<Place> {
+        match value {
+            Value::Number(place) => Some(*place),
+            Value::Given(Given { role, path }) => {
+                let name = match role {
+                    Role::Other(argument) => argument.clone() + &path.concat(),
+                    role => role.name(path.last()?),
+                };
+                Some(self.operations.argument(role.key(path), &name))
+            }
+            _ => None,
+        }
+    }
+
+    fn places(&mut self, values: &[&Value]) -> Option<Vec<Place>> {
+        values.iter().map(|value| self.place(value)).collect()
+    }
+
+    /// A function that the program does not define, by its meaning in the table.
+    fn intrinsic(
+        &mut self,
+        mechanism: &Mechanism,
+        (of, of_type): (Intrinsic, Option<&Type>),
+        arguments: &[Value],
+    ) -> Value {
+        let argument = |place: usize| &arguments[place];
+        match of.row().meaning {
+            Meaning::None => Value::Unknown,
+            Meaning::Argument(place) => argument(place).clone(),
+            Meaning::Check(word, places) => {
+                self.check(word, &places.iter().map(|place| argument(*place)).collect::<Vec<_>>());
+                Value::Unknown
+            }
+            Meaning::Chord { factors, side } => self.chord(argument(factors), argument(side)),
+            Meaning::ReachChord { factors, radius, scale, side } => {
+                let scale = match argument(scale) {
+                    Value::List(scales) => scales.first().cloned().unwrap_or(Value::Unknown),
+                    scale => scale.clone(),
+                };
+                self.check("apart", &[argument(radius), &scale]);
+                self.chord(argument(factors), argument(side))
+            }
+            Meaning::Elbow { triangle, side, is_flagged } => {
+                let chord = self.elbow_chord(argument(triangle), argument(side));
+                if is_flagged { Value::list([chord, Value::Unknown]) } else { chord }
+            }
+            Meaning::Direction => Value::members([("re", argument(0).clone()), ("im", argument(1).clone())]),
+            Meaning::SineCosine => self.sine_cosine(argument(0)),
+            Meaning::SinesCosines => match argument(0) {
+                Value::List(angles) => {
+                    Value::list(angles.iter().map(|angle| self.sine_cosine(angle)).collect::<Vec<_>>())
+                }
+                _ => Value::Unknown,
+            },
+            Meaning::From => from(of_type, arguments),
+            Meaning::NoTurns => Value::PrincipalTurns,
+            Meaning::InTurn { turns, principal } => match argument(turns) {
+                Value::PrincipalTurns => argument(principal).clone(),
+                _ => Value::Unknown,
+            },
+            Meaning::Named(entry) => named(mechanism, entry, arguments),
+        }
+    }
+
+    fn sine_cosine(&mut self, angle: &Value) -> Value {
+        let Some(angle) = self.place(angle) else { return Value::Unknown };
+        let both = ["sin", "cos"].map(|name| self.made(Operation::Call(name, vec![angle])));
+        Value::list(both)
+    }
+
+    fn check(&mut self, word: &'static str, of: &[&Value]) {
+        if let Some(of) = self.places(of) {
+            self.checks.push(Check { word, of });
+        }
+    }
+
+    fn elbow_chord(&mut self, triangle: &Value, side: &Value) -> Value {
+        let factors = triangle.field("factors");
+        let [reach, distance] = ["reach_squared", "distance_squared"].map(|name| triangle.field(name));
+        self.check("open", &[&factors.index(0), &factors.index(1), &reach, &distance]);
+        self.chord(&factors, side)
+    }
+
+    /// side sqrt(low high): a side is 1 or -1, and the product with it exact.
+    fn chord(&mut self, factors: &Value, side: &Value) -> Value {
+        let factors = self.places(&[&factors.index(0), &factors.index(1)]);
+        let Some((factors, side)) = factors.zip(self.place(side)) else { return Value::Unknown };
+        let radicand = self.operations.add(Operation::Product(factors));
+        self.check("moderate", &[&Value::Number(radicand)]);
+        let root = self.operations.add(Operation::Call("sqrt", vec![radicand]));
+        self.made(Operation::Product(vec![side, root]))
+    }
+}
+
+/// The variable that a value is a part of.
+fn root(code: &Code, place: ValueId) -> ValueId {
+    match code.operation(place) {
+        _ if code.name(place).is_some() => place,
+        lower::Value::Field(of, _) | lower::Value::Index(of, _) | lower::Value::Dereferenced(of) => root(code, *of),
+        _ => place,
+    }
+}
+
+/// True for the field of a scene that holds its mechanism.
+fn is_part_of_self(code: &Code, id: ValueId) -> bool {
+    match code.operation(id) {
+        lower::Value::Itself => true,
+        lower::Value::Field(of, _) | lower::Value::Borrowed(of) | lower::Value::Dereferenced(of) => {
+            is_part_of_self(code, *of)
+        }
+        _ => false,
+    }
+}
+
+/// A value of a type from another value.
+fn from(of: Option<&Type>, arguments: &[Value]) -> Value {
+    match (of, arguments) {
+        (Some(Type::Runtime("SVector" | "Column", _)), [Value::List(_)]) => Value::Columns(arguments.into()),
+        (Some(Type::Runtime("SMatrix" | "Matrix", _)), [Value::List(columns)]) => Value::Columns(columns.clone()),
+        (Some(Type::Bare(_) | Type::Own(_)), [from]) => from.clone(),
+        _ => Value::Unknown,
+    }
+}
+
+/// The last argument by the names of points or outputs.
+fn named(mechanism: &Mechanism, entry: Entry, arguments: &[Value]) -> Value {
+    let Some(Value::List(values)) = arguments.last() else { return Value::Unknown };
+    let is_of_points = |text: &Value| matches!(text, Value::Text(text) if text.starts_with("point"));
+    let family = match entry {
+        Entry::Point | Entry::PointMotion => Family::Points,
+        Entry::Columns if arguments.iter().any(is_of_points) => Family::Points,
+        Entry::Output | Entry::OutputMotion | Entry::Columns => Family::Outputs,
+    };
+    let change = |value: &Value| match (entry, value) {
+        (Entry::Point, point) => components(point),
+        (Entry::Output, output) => output.clone(),
+        (Entry::Columns, Value::List(columns)) => Value::Columns(columns.clone()),
+        (Entry::Columns, _) => Value::Unknown,
+        (Entry::PointMotion, motion) => parts(["position", "velocity", "acceleration"], motion, &components),
+        (Entry::OutputMotion, motion) => parts(["value", "velocity", "acceleration"], motion, &Value::clone),
+    };
+    Value::members(family.names(mechanism).into_iter().zip(values.iter().map(change)))
+}
+
+/// `(x, y)` of a point or a vector.
+fn components(point: &Value) -> Value {
+    Value::members([("x", point.index(0)), ("y", point.index(1))])
+}
+
+/// Members of an array by these names.
+fn parts<const N: usize>(names: [&str; N], of: &Value, change: &dyn Fn(&Value) -> Value) -> Value {
+    Value::members(names.into_iter().enumerate().map(|(place, name)| (name, change(&of.index(place)))))
+}
+
+/// The name of a function in FPCore.
+fn name_of(function: Elementary) -> &'static str {
+    match function {
+        Elementary::Abs => "fabs",
+        Elementary::Ln => "log",
+        other => other.operation().name,
+    }
+}

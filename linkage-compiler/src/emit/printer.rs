@@ -1,0 +1,277 @@
+//! The printer of lowered code: one order of visits and one rule of precedence for all styles.
+
+use crate::graph::{Function, Number};
+use crate::lower::{Block, Callee, Code, Pattern, Signed, Statement, Value, ValueId};
+use crate::program::{Constant, Form, Intrinsic, Receiver, Type};
+
+/// The precedence of an expression.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Binding {
+    Sum,
+    Product,
+    Prefix,
+    Atom,
+}
+
+/// The callee of a call as a style writes it: on a value, on a type, or in the runtime.
+pub(super) enum On<T> {
+    Value(T),
+    Type(Type),
+    Runtime,
+}
+
+/// A member of a struct: its name and its value, `None` for a variable of this name.
+pub(super) type Member<T> = (String, Option<T>);
+
+/// The notation of lowered code.
+pub(super) trait Style {
+    type Text;
+
+    fn brackets(&self, inside: Self::Text) -> Self::Text;
+    fn name(&self, name: &str) -> Self::Text;
+    fn number(&self, number: Number) -> Self::Text;
+    fn number_binding(&self, number: Number) -> Binding;
+    fn exact(&self, number: Number) -> Self::Text;
+    fn exact_binding(&self, number: Number) -> Binding;
+    /// The terms, each with true if it is subtracted.
+    fn sum(&self, terms: Vec<(bool, Self::Text)>) -> Self::Text;
+    fn product(&self, factors: Vec<Self::Text>) -> Self::Text;
+    fn quotient(&self, above: Self::Text, below: Self::Text) -> Self::Text;
+    /// The square of a base that is written as a first factor and as a later one.
+    fn square(&self, first: Self::Text, later: Self::Text) -> Self::Text;
+    fn negative(&self, inside: Self::Text) -> Self::Text;
+    /// The first argument of an elementary function, which binds like this.
+    fn argument(&self, binding: Binding, first: Self::Text) -> Self::Text;
+    /// An elementary function of its first argument and others.
+    fn elementary(&self, function: Function, first: Option<Self::Text>, others: Vec<Self::Text>) -> Self::Text;
+    fn all(&self, conditions: Vec<Self::Text>) -> Self::Text;
+
+    fn text(&self, text: &str) -> Self::Text;
+    fn count(&self, count: usize) -> Self::Text;
+    fn constant(&self, constant: Constant) -> Self::Text;
+    fn field(&self, of: Self::Text, name: &str) -> Self::Text;
+    fn index(&self, of: Self::Text, place: usize) -> Self::Text;
+    fn list(&self, values: Vec<Self::Text>) -> Self::Text;
+    fn repeated(&self, value: Self::Text, count: usize) -> Self::Text;
+    fn tuple(&self, values: Vec<Self::Text>) -> Self::Text;
+    fn structure(&self, of: &Type, members: Vec<Member<Self::Text>>, rest: Option<Self::Text>) -> Self::Text;
+
+    fn call(&self, on: On<Self::Text>, name: &str, arguments: Vec<Self::Text>) -> Self::Text;
+    fn function(&self, of: Option<&Type>, name: &str) -> Self::Text;
+    fn tried(&self, value: Self::Text) -> Self::Text;
+    fn borrowed(&self, value: Self::Text) -> Self::Text;
+    fn mutably_borrowed(&self, value: Self::Text) -> Self::Text;
+    fn dereferenced(&self, value: Self::Text) -> Self::Text;
+    fn closure(
+        &self,
+        arguments: Vec<Self::Text>,
+        statements: Vec<Self::Text>,
+        value: Self::Text,
+        moves: bool,
+    ) -> Self::Text;
+    /// A block; without a value it ends with its statements.
+    fn block(&self, statements: Vec<Self::Text>, value: Option<Self::Text>) -> Self::Text;
+
+    fn let_statement(&self, pattern: Self::Text, value: Self::Text) -> Self::Text;
+    fn do_statement(&self, value: Self::Text) -> Self::Text;
+    fn assignment(&self, place: Self::Text, value: Self::Text) -> Self::Text;
+    fn return_statement(&self, value: Self::Text) -> Self::Text;
+    fn let_else(&self, pattern: Self::Text, value: Self::Text, otherwise: Self::Text) -> Self::Text;
+    fn unless(&self, conditions: Vec<Self::Text>, inside: Vec<Self::Text>) -> Self::Text;
+
+    fn ignored(&self) -> Self::Text;
+    fn mutable(&self, name: Self::Text) -> Self::Text;
+    fn case(&self, case: Intrinsic, inside: Self::Text) -> Self::Text;
+    fn typed(&self, name: Self::Text, of: &Type) -> Self::Text;
+    fn struct_pattern(&self, of: &Type, fields: Vec<Member<Self::Text>>, is_whole: bool) -> Self::Text;
+}
+
+/// The code of a function in a style.
+pub(super) struct Printer<'c, S> {
+    pub(super) code: &'c Code,
+    pub(super) style: S,
+}
+
+impl<S: Style> Printer<'_, S> {
+    pub(super) fn statements(&self, statements: &[Statement]) -> Vec<S::Text> {
+        statements.iter().map(|statement| self.statement(statement)).collect()
+    }
+
+    fn statement(&self, statement: &Statement) -> S::Text {
+        match statement {
+            Statement::Let(pattern, value) => {
+                let value = match pattern {
+                    // The pattern gives the value its name.
+                    Pattern::Bound(bound) if bound == value => self.computed(*value),
+                    _ => self.value(*value),
+                };
+                self.style.let_statement(self.pattern(pattern), value)
+            }
+            Statement::Do(value) => self.style.do_statement(self.value(*value)),
+            Statement::Assign(place, value) => self.style.assignment(self.value(*place), self.value(*value)),
+            Statement::Return(value) => self.style.return_statement(self.value(*value)),
+            Statement::LetElse(pattern, value, otherwise) => {
+                self.style.let_else(self.pattern(pattern), self.value(*value), self.value(*otherwise))
+            }
+            Statement::Unless(conditions, inside) => {
+                self.style.unless(self.values(conditions), self.statements(inside))
+            }
+        }
+    }
+
+    fn pattern(&self, pattern: &Pattern) -> S::Text {
+        let all = |patterns: &[Pattern]| patterns.iter().map(|pattern| self.pattern(pattern)).collect();
+        match pattern {
+            Pattern::Bound(bound) => self.value(*bound),
+            Pattern::Mutable(bound) => self.style.mutable(self.value(*bound)),
+            Pattern::Typed(bound, of) => self.style.typed(self.value(*bound), of),
+            Pattern::Case(case, inside) => self.style.case(*case, self.pattern(inside)),
+            Pattern::Ignored => self.style.ignored(),
+            Pattern::List(patterns) => self.style.list(all(patterns)),
+            Pattern::Tuple(patterns) => self.style.tuple(all(patterns)),
+            Pattern::Struct { of, fields, is_whole } => {
+                let fields = fields.iter().map(|(field, pattern)| {
+                    let is_name =
+                        matches!(pattern, Pattern::Bound(bound) if self.code.name(*bound) == Some(field.as_str()));
+                    (field.clone(), (!is_name).then(|| self.pattern(pattern)))
+                });
+                self.style.struct_pattern(of, fields.collect(), *is_whole)
+            }
+        }
+    }
+
+    fn values(&self, values: &[ValueId]) -> Vec<S::Text> {
+        values.iter().map(|value| self.value(*value)).collect()
+    }
+
+    /// A value by its name, or computed where it is used.
+    pub(super) fn value(&self, id: ValueId) -> S::Text {
+        match self.code.name(id) {
+            Some(name) => self.style.name(name),
+            None => self.computed(id),
+        }
+    }
+
+    /// A value in brackets if it binds less tightly than `at_least`.
+    fn operand(&self, id: ValueId, at_least: Binding) -> S::Text {
+        let text = self.value(id);
+        if self.binding(id) < at_least { self.style.brackets(text) } else { text }
+    }
+
+    fn binding(&self, id: ValueId) -> Binding {
+        match self.code.operation(id) {
+            _ if self.code.name(id).is_some() => Binding::Atom,
+            Value::Sum(_) | Value::All(_) | Value::Closure { .. } => Binding::Sum,
+            Value::Product(_) | Value::Quotient(..) | Value::Square(_) => Binding::Product,
+            Value::Constant(number) => self.style.number_binding(*number),
+            Value::Exact(number) => self.style.exact_binding(*number),
+            // -a * b parses as (-a) * b, which is equal and costs the same.
+            Value::Negative(inside) => match self.binding(*inside) {
+                Binding::Product => Binding::Product,
+                _ => Binding::Prefix,
+            },
+            Value::Borrowed(_) | Value::MutablyBorrowed(_) | Value::Dereferenced(_) => Binding::Prefix,
+            _ => Binding::Atom,
+        }
+    }
+
+    /// The operation of a value.
+    fn computed(&self, id: ValueId) -> S::Text {
+        let style = &self.style;
+        match self.code.operation(id) {
+            Value::Constant(number) => style.number(*number),
+            Value::Exact(number) => style.exact(*number),
+            Value::Sum(terms) => {
+                let term = |(place, term): (usize, &Signed)| {
+                    let least = if place == 0 && !term.negative { Binding::Sum } else { Binding::Product };
+                    (term.negative, self.operand(term.value, least))
+                };
+                style.sum(terms.iter().enumerate().map(term).collect())
+            }
+            Value::Product(factors) => {
+                let least = |place| if place == 0 { Binding::Product } else { Binding::Prefix };
+                let factors = factors.iter().enumerate().map(|(place, factor)| self.operand(*factor, least(place)));
+                style.product(factors.collect())
+            }
+            Value::Quotient(above, below) => {
+                style.quotient(self.operand(*above, Binding::Product), self.operand(*below, Binding::Prefix))
+            }
+            // The operand is bound or a number: ordering gives all others a statement.
+            Value::Square(base) => {
+                style.square(self.operand(*base, Binding::Product), self.operand(*base, Binding::Prefix))
+            }
+            Value::Negative(inside) => style.negative(self.operand(*inside, Binding::Product)),
+            Value::Call(function, arguments) => {
+                let mut arguments = arguments.iter().map(|argument| match argument.negative {
+                    true => (Binding::Prefix, style.negative(self.operand(argument.value, Binding::Product))),
+                    false => (self.binding(argument.value), self.value(argument.value)),
+                });
+                let first = arguments.next().map(|(binding, first)| style.argument(binding, first));
+                style.elementary(*function, first, arguments.map(|(_, text)| text).collect())
+            }
+            Value::All(conditions) => style.all(self.values(conditions)),
+            Value::Text(text) => style.text(text),
+            Value::Count(count) => style.count(*count),
+            Value::Path(constant) => style.constant(*constant),
+            Value::Field(of, name) => style.field(self.operand(*of, Binding::Atom), name),
+            Value::Index(of, place) => style.index(self.operand(*of, Binding::Atom), *place),
+            Value::List(values) => style.list(self.values(values)),
+            Value::Repeated(value, count) => style.repeated(self.value(*value), *count),
+            Value::Tuple(values) => style.tuple(self.values(values)),
+            Value::Struct(of, members, rest) => {
+                let members = members.iter().map(|(field, value)| {
+                    let is_name = self.code.name(*value) == Some(field.as_str());
+                    (field.clone(), (!is_name).then(|| self.value(*value)))
+                });
+                style.structure(of, members.collect(), rest.map(|rest| self.value(rest)))
+            }
+            Value::Intrinsic(of, of_type, arguments) => self.intrinsic(*of, of_type.as_ref(), arguments),
+            Value::Function(of, of_type) => style.function(of_type.as_ref(), of.row().name),
+            Value::Own(receiver, function, arguments) => {
+                let (on, callee) = match receiver {
+                    Receiver::Itself => (On::Value(style.name("self")), Callee::Own(*function)),
+                    Receiver::ItsType => (On::Type(Type::Itself), Callee::Own(*function)),
+                    Receiver::Value(of) => (On::Value(self.operand(*of, Binding::Atom)), Callee::OfDriver(*function)),
+                    Receiver::Type(of) => (On::Type(of.clone()), Callee::OfDriver(*function)),
+                };
+                style.call(on, self.callee(callee), self.values(arguments))
+            }
+            Value::UserFunction(function, arguments) => {
+                style.call(On::Type(Type::Itself), self.callee(Callee::User(*function)), self.values(arguments))
+            }
+            Value::Try(value) => style.tried(self.operand(*value, Binding::Atom)),
+            Value::Borrowed(value) => style.borrowed(self.operand(*value, Binding::Prefix)),
+            Value::MutablyBorrowed(value) => style.mutably_borrowed(self.operand(*value, Binding::Prefix)),
+            Value::Dereferenced(value) => style.dereferenced(self.operand(*value, Binding::Prefix)),
+            Value::Closure { arguments, body: Block { statements, value }, moves } => {
+                let arguments = arguments.iter().map(|argument| self.pattern(argument)).collect();
+                style.closure(arguments, self.statements(statements), self.value(*value), *moves)
+            }
+            Value::Block(Block { statements, value }) => {
+                let is_unit = matches!(self.code.operation(*value), Value::Tuple(all) if all.is_empty());
+                style.block(self.statements(statements), (!is_unit).then(|| self.value(*value)))
+            }
+            Value::Symbol(_)
+            | Value::Direction(..)
+            | Value::Bound
+            | Value::Itself
+            | Value::Argument(_)
+            | Value::External(..) => unreachable!("lowering names all values that are bound"),
+        }
+    }
+
+    fn callee(&self, of: Callee) -> &str {
+        self.code.callee(of).expect("lowering finds all functions that code calls")
+    }
+
+    fn intrinsic(&self, of: Intrinsic, of_type: Option<&Type>, arguments: &[ValueId]) -> S::Text {
+        let (on, arguments) = match (of.row().form, of_type, arguments) {
+            (Form::Method, _, [receiver, arguments @ ..]) => {
+                (On::Value(self.operand(*receiver, Binding::Atom)), arguments)
+            }
+            (_, Some(of_type), _) => (On::Type(of_type.clone()), arguments),
+            _ => (On::Runtime, arguments),
+        };
+        self.style.call(on, of.row().name, self.values(arguments))
+    }
+}
