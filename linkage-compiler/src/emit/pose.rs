@@ -1,7 +1,5 @@
 //! The fields of a pose.
 
-use std::collections::BTreeSet;
-
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -14,8 +12,7 @@ use crate::program::{Derived, Taken};
 
 /// The fields of a pose in a stub: the coordinates, angles as directions and as numbers.
 pub(super) fn guessed(mechanism: &Mechanism, driver: &Driver, root: &TokenStream) -> TokenStream {
-    let nothing = BTreeSet::new();
-    let mut taken = Taken::new(&nothing);
+    let mut taken = Taken::unreserved();
     let order = mechanism.coordinate_order(driver);
     let coordinates: Vec<&Coordinate> = order.iter().map(|&place| &mechanism.coordinates[place]).collect();
     let names: Vec<Ident> = coordinates.iter().map(|coordinate| ident(&taken.unique(&coordinate.name.field))).collect();

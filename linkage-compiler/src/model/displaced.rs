@@ -2,18 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use super::expression::Lowering;
 use super::links::Links;
 use super::mechanism::Mechanism;
 use super::opened::{Load, Opened, OpenedBody, Site};
 use super::opening::Opening;
+use super::resolver::{Mode, Resolver};
 use super::scene::Body;
 use super::scope::Value;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::BodyId;
 use crate::syntax::{self, Expression, ExpressionId, StatementKind};
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Reads all statements again with displaced joints.
     pub(super) fn open(
         &mut self,
@@ -53,7 +53,7 @@ impl Lowering<'_> {
 
     /// The value of an expression with displaced joints; a law is a force, not a path.
     pub(super) fn displaced(&mut self, index: usize, value: Value) -> Value {
-        if self.is_law {
+        if self.mode == Mode::Law {
             return value;
         }
         let Some(mut opening) = self.opening.take() else { return value };

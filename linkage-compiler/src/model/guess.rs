@@ -1,27 +1,21 @@
 //! Completion of a mechanism with mistakes, so that its stub has the names that the rest of the program uses.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
 use super::kind::Kind;
 use super::mechanism::{Coordinate, Driver, Mechanism};
 use super::name::Name;
+use super::resolver::Assumed;
 use super::scope::{Scope, Undeclared};
 use crate::diagnostics::nearest;
-use crate::graph::SymbolId;
 use crate::ids::{CoordinateId, Id, InputId, Table};
 use crate::syntax::{Statement, StatementKind, can_be_name, is_keyword};
 
 /// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
 /// names.
-pub(super) fn complete(
-    mechanism: &mut Mechanism,
-    statements: &[Statement],
-    scope: &Scope,
-    undeclared_kinds: &[(String, Kind)],
-    undeclared_symbols: &BTreeMap<String, SymbolId>,
-) {
+pub(super) fn complete(mechanism: &mut Mechanism, statements: &[Statement], scope: &Scope, assumed: &Assumed) {
     rename(mechanism, scope);
     let zero = mechanism.graph.zero();
     for parameter in mechanism.parameters.iter_mut().chain(mechanism.scene_parameters.iter_mut()) {
@@ -35,8 +29,8 @@ pub(super) fn complete(
     let rows: usize = rows.sum();
     let mut missing = missing(mechanism, statements, scope);
     let declare = |mechanism: &mut Mechanism, name: Ident| {
-        let kind = undeclared_kinds.iter().find(|(other, _)| name == other).map_or(Kind::Number, |(_, kind)| *kind);
-        let known = undeclared_symbols.get(&name.to_string()).copied();
+        let kind = assumed.kinds.iter().find(|(other, _)| name == other).map_or(Kind::Number, |(_, kind)| *kind);
+        let known = assumed.symbols.get(&name.to_string()).copied();
         let name = Name::new(&name);
         let symbol = known.unwrap_or_else(|| mechanism.graph.symbol(name.field.clone()));
         mechanism.coordinates.push(Coordinate { kind, ..Coordinate::new(name, Vec::new(), symbol) })

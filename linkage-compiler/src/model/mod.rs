@@ -10,7 +10,6 @@ mod expression;
 mod guess;
 mod kind;
 mod links;
-mod lower;
 mod meant;
 mod mechanism;
 mod name;
@@ -20,6 +19,8 @@ mod places;
 mod power;
 mod redundant;
 mod request;
+mod resolve;
+mod resolver;
 mod scene;
 mod scope;
 mod slips;
@@ -27,7 +28,6 @@ mod undeclared;
 
 pub use chain::{Chain, Link};
 pub use kind::Kind;
-pub use lower::resolve;
 pub use mechanism::{
     Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
 };
@@ -35,5 +35,6 @@ pub use name::{Name, TypeName};
 pub use opened::{Load, LoadKind, Opened};
 pub use places::Places;
 pub use request::Request;
+pub use resolve::resolve;
 pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};
 pub use scope::VECTOR_FUNCTIONS;

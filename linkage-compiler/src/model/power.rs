@@ -1,11 +1,11 @@
 //! Powers: exponents are integers that a power can have.
 
-use super::expression::Lowering;
+use super::resolver::Resolver;
 use super::scope::Value;
 use crate::graph::{Fault, LARGEST_EXPONENT, Number};
 use crate::syntax::ExpressionId;
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     pub(super) fn power(&mut self, base: ExpressionId, exponent: ExpressionId) -> Value {
         if let Value::Vector(..) = self.value(base) {
             let message = "a vector has no power: use `dot(P, P)` for the square of its length";

@@ -130,8 +130,7 @@ impl Position {
     ) -> Self {
         let side = |chord| Side::of(mechanism, driver, derivation, chord);
         let sides: Vec<Side> = assembly.chords.iter().map(side).collect();
-        let nothing = BTreeSet::new();
-        let mut taken = Taken::new(&nothing);
+        let mut taken = Taken::unreserved();
         for side in &sides {
             taken.unique(&side.field);
         }
@@ -224,8 +223,7 @@ impl Position {
             formulas.extend(symbols.iter().flat_map(|&symbol| graph.partial(&paths, symbol)));
         }
         let needed: BTreeSet<SymbolId> = graph.needed_as_numbers(&formulas).into_iter().collect();
-        let nothing = BTreeSet::new();
-        let mut taken = Taken::new(&nothing);
+        let mut taken = Taken::unreserved();
         for side in sides {
             taken.unique(&side.field);
         }

@@ -5,12 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Body;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{BodyId, Id};
-use crate::model::expression::Lowering;
 use crate::model::mechanism::Mechanism;
 use crate::model::name::Name;
+use crate::model::resolver::Resolver;
 use crate::syntax::{self, ExpressionId};
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Declares time and the rates of the coordinates, for the laws of scenes.
     pub(in crate::model) fn declare_motion(&mut self, result: &mut Mechanism) {
         let mut name = "t".to_owned();
@@ -24,9 +24,9 @@ impl Lowering<'_> {
         for coordinate in result.coordinates.iter_mut() {
             let rate = self.graph.symbol(format!("{}_rate", coordinate.name.field));
             coordinate.rate = Some(rate);
-            self.rates.insert(coordinate.symbol, self.graph.variable(rate));
+            self.motion.rates.insert(coordinate.symbol, self.graph.variable(rate));
         }
-        self.time = result.time.map(|time| self.graph.variable(time));
+        self.motion.time = result.time.map(|time| self.graph.variable(time));
     }
 
     pub(in crate::model) fn body(&mut self, tree: &syntax::Body, result: &mut Mechanism) {
@@ -89,8 +89,8 @@ impl Lowering<'_> {
 
     /// Reports an expression that depends on coordinates, rates or time.
     pub(super) fn still(&mut self, id: ExpressionId, node: NodeId, what: &str) {
-        let motion = self.rates.values().chain(&self.time).filter_map(|&node| self.graph.as_symbol(node));
-        let motion: BTreeSet<SymbolId> = motion.chain(self.rates.keys().copied()).collect();
+        let motion = self.motion.rates.values().chain(&self.motion.time).filter_map(|&node| self.graph.as_symbol(node));
+        let motion: BTreeSet<SymbolId> = motion.chain(self.motion.rates.keys().copied()).collect();
         if self.graph.symbols_of(&[node]).iter().any(|symbol| motion.contains(symbol)) {
             let message = format!("{what} must be constant: use parameters only");
             self.diagnostics.error(self.expressions.region(id), message);

@@ -2,10 +2,10 @@
 
 use super::{Contact, ContactLaw};
 use crate::graph::NodeId;
-use crate::model::expression::Lowering;
+use crate::model::resolver::Resolver;
 use crate::syntax::{EffectKind, ExpressionId};
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Evaluates a friction or a stop: all its expressions, also after a mistake in one.
     pub(super) fn contact(&mut self, kind: &EffectKind) -> Option<Contact> {
         match kind {

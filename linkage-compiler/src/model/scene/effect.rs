@@ -8,7 +8,7 @@ use syn::Attribute;
 
 use super::{Account, Draft, Law, Reading, SceneRequest, Wanted};
 use crate::graph::{Function, Node, NodeId, Number, SymbolId};
-use crate::model::expression::Lowering;
+use crate::model::resolver::{Mode, Resolver};
 use crate::model::scope::Value;
 use crate::syntax::{self, EffectKind, Expression, ExpressionId, Place};
 
@@ -36,7 +36,7 @@ impl Draft {
     }
 }
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     pub(in crate::model) fn scene(&mut self, tree: &syntax::Scene, attributes: &[Attribute], reading: &mut Reading) {
         let mut scene = Draft {
             name: tree.name.clone(),
@@ -154,9 +154,7 @@ impl Lowering<'_> {
                 scene.laws.push(Law { label: format!("torque on {words}"), law, along, account: Account::Applied });
             }
             EffectKind::Force { law, at } => {
-                self.is_law = true;
-                let force = self.vector(*law);
-                self.is_law = false;
+                let force = self.within(Mode::Law, |resolver| resolver.vector(*law));
                 let (Some((fx, fy)), Some((x, y)), Some(words)) = (force, self.vector(*at), self.text(*at)) else {
                     return;
                 };
@@ -188,8 +186,8 @@ impl Lowering<'_> {
                     scene.drives.push((input.clone(), self.graph.zero()));
                     return;
                 };
-                let rates: Vec<_> = self.rates.values().filter_map(|&rate| self.graph.as_symbol(rate)).collect();
-                let moves = |symbol: &SymbolId| self.rates.contains_key(symbol) || rates.contains(symbol);
+                let rates: Vec<_> = self.motion.rates.values().filter_map(|&rate| self.graph.as_symbol(rate)).collect();
+                let moves = |symbol: &SymbolId| self.motion.rates.contains_key(symbol) || rates.contains(symbol);
                 if self.graph.symbols_of(&[node]).iter().any(moves) {
                     let region = self.expressions.region(*law);
                     self.diagnostics.error(region, "the law of a drive may depend on `t` and parameters only");
@@ -198,8 +196,9 @@ impl Lowering<'_> {
             }
             EffectKind::Unread(names) => {
                 self.value(*names);
-                let is_coordinate =
-                    |name: &&Ident| self.scope.symbol(name).is_some_and(|symbol| self.rates.contains_key(&symbol));
+                let is_coordinate = |name: &&Ident| {
+                    self.scope.symbol(name).is_some_and(|symbol| self.motion.rates.contains_key(&symbol))
+                };
                 if keyword == "drive"
                     && let Expression::Unread(names) = self.expressions.get(*names)
                     && let Some(input) = names.iter().map(|unread| &unread.name).find(is_coordinate)
@@ -340,10 +339,7 @@ impl Lowering<'_> {
 
     /// Evaluates an expression that may contain `t` and `rate(…)`.
     pub(super) fn law(&mut self, id: ExpressionId) -> Option<NodeId> {
-        self.is_law = true;
-        let law = self.scalar(id);
-        self.is_law = false;
-        law
+        self.within(Mode::Law, |resolver| resolver.scalar(id))
     }
 
     /// Evaluates a scalar that must depend on coordinates.
@@ -360,11 +356,11 @@ impl Lowering<'_> {
 
     /// True if an expression depends on a coordinate.
     fn moves(&self, node: NodeId) -> bool {
-        self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol))
+        self.graph.symbols_of(&[node]).iter().any(|symbol| self.motion.rates.contains_key(symbol))
     }
 
     /// The rate of an expression in terms of the rates of the coordinates.
     pub(in crate::model) fn rate_of(&mut self, node: NodeId) -> NodeId {
-        self.graph.differentiate(&[node], &self.rates)[0]
+        self.graph.differentiate(&[node], &self.motion.rates)[0]
     }
 }

@@ -8,9 +8,9 @@ use super::{Body, Draft, Drive, Reading, Scene, SceneRequest};
 use crate::diagnostics::suggestion;
 use crate::graph::SymbolId;
 use crate::ids::{BodyId, DriverId};
-use crate::model::expression::Lowering;
 use crate::model::mechanism::{Driver, Mechanism};
 use crate::model::name::TypeName;
+use crate::model::resolver::Resolver;
 
 /// Completes a scene with mistakes for its stub: all that the right scene may have.
 fn complete(scene: &mut Scene, result: &Mechanism) {
@@ -23,7 +23,7 @@ fn complete(scene: &mut Scene, result: &Mechanism) {
     ]);
 }
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Resolves the bodies, drivers and parameters of all scenes.
     pub(in crate::model) fn finish_scenes(&mut self, reading: Reading, result: &mut Mechanism) {
         let (mut used, mut mentions) = (BTreeSet::new(), Vec::new());
