@@ -37,10 +37,10 @@ impl Resolver<'_> {
                     chains.loops.push(sides.map(Option::unwrap_or_default));
                 }
                 StatementKind::Body(body) => {
-                    let center = body.properties.iter().find(|(word, _)| word == "center");
-                    let chain = center.and_then(|(_, value)| self.chain(*value, &named));
+                    let center = body.property("center");
+                    let chain = center.and_then(|value| self.chain(value, &named));
                     chains.centers.push(chain.unwrap_or_default());
-                    let mean = center.and_then(|(_, value)| self.mean(*value));
+                    let mean = center.and_then(|value| self.mean(value));
                     chains.means.push(mean);
                 }
                 _ => {}

@@ -2,11 +2,12 @@
 
 use proc_macro2::Ident;
 
-use super::advice;
+use super::functions::VECTOR_FUNCTIONS;
 use super::kind::{Kind, bare_symbols};
 use super::mechanism::{Call, Extreme};
 use super::resolver::{Mode, Resolver};
-use super::scope::{VECTOR_FUNCTIONS, Value};
+use super::scope::Value;
+use super::{advice, functions};
 use crate::diagnostics::{Region, suggestion};
 use crate::graph::{External, ExternalId, Function, NodeId, Number};
 use crate::syntax::{Expression, ExpressionId, Operator, Unit, Unread};
@@ -18,7 +19,9 @@ impl Resolver<'_> {
         let missing = (id.index() + 1).saturating_sub(self.values.len());
         for (expression, region) in expressions.from(self.values.len()).take(missing) {
             let value = self.read(expression, region);
-            let value = self.displaced(self.values.len(), value);
+            if self.mode == Mode::Law {
+                self.motion.laws.insert(self.values.len());
+            }
             let is_at_fault = self.report_fault(region);
             self.values.push(if is_at_fault { Value::Poison } else { value });
         }
@@ -337,26 +340,10 @@ impl Resolver<'_> {
         if text == "powi" {
             return self.power(arguments[0], arguments[1]);
         }
-        let vectors: Option<Vec<(NodeId, NodeId)>> = arguments.iter().map(|&argument| self.vector(argument)).collect();
+        let vectors: Option<Vec<[NodeId; 2]>> =
+            arguments.iter().map(|&argument| self.vector(argument).map(|(x, y)| [x, y])).collect();
         let Some(vectors) = vectors else { return Value::Poison };
-        let (x, y) = vectors[0];
-        let g = &mut self.graph;
-        Value::Scalar(match (text.as_str(), vectors.get(1)) {
-            ("x", _) => x,
-            ("y", _) => y,
-            ("norm", _) => g.call(Function::Hypot, &[x, y]),
-            ("angle", _) => g.call(Function::Atan2, &[y, x]),
-            // dot = ax bx + ay by, cross = ax by - ay bx.
-            ("dot", Some(&(u, v))) => {
-                let (left, right) = (g.multiply(x, u), g.multiply(y, v));
-                g.add(left, right)
-            }
-            (_, Some(&(u, v))) => {
-                let (left, right) = (g.multiply(x, v), g.multiply(y, u));
-                g.subtract(left, right)
-            }
-            _ => return Value::Poison,
-        })
+        functions::of_vectors(&mut self.graph, &text, &vectors).map_or(Value::Poison, Value::Scalar)
     }
 
     /// Advice for a call of a user function by its path instead of by the name of its value.

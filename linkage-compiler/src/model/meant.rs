@@ -2,9 +2,10 @@
 
 use proc_macro2::Ident;
 
+use super::functions::VECTOR_FUNCTIONS;
 use super::name::Name;
 use super::resolver::{Mode, Resolver};
-use super::scope::{VECTOR_FUNCTIONS, Value};
+use super::scope::Value;
 use crate::diagnostics::Region;
 use crate::graph::{Function, NodeId};
 use crate::syntax::{Body, ExpressionId, Statement, StatementKind, unknown_unit};
@@ -98,10 +99,10 @@ impl Resolver<'_> {
     }
 
     /// The message of a body where a value belongs, with the names of its centre and its angle.
-    fn value_of_body(&self, Body { name, properties, .. }: &Body) -> String {
+    fn value_of_body(&self, body: &Body) -> String {
+        let name = &body.name;
         let named = |word: &str| {
-            let (_, value) = properties.iter().find(|(property, _)| property == word)?;
-            let value = self.expressions.as_name(*value).filter(|value| *value != name)?;
+            let value = self.expressions.as_name(body.property(word)?).filter(|value| *value != name)?;
             Some(value.to_string())
         };
         let written = |word: &str| named(word).map_or_else(|| format!("its {word}"), |of| format!("its {word} `{of}`"));

@@ -6,7 +6,9 @@ mod chain;
 mod chains;
 mod check;
 mod displaced;
+mod equation;
 mod expression;
+mod functions;
 mod guess;
 mod kind;
 mod links;
@@ -27,6 +29,7 @@ mod slips;
 mod undeclared;
 
 pub use chain::{Chain, Link};
+pub use functions::VECTOR_FUNCTIONS;
 pub use kind::Kind;
 pub use mechanism::{
     Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
@@ -37,4 +40,3 @@ pub use places::Places;
 pub use request::Request;
 pub use resolve::resolve;
 pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};
-pub use scope::VECTOR_FUNCTIONS;

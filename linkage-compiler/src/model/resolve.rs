@@ -8,17 +8,17 @@ use syn::{Attribute, Path};
 use super::chain::{Chain, Chains};
 use super::kind::Kind;
 use super::links::Links;
-use super::mechanism::{Constraint, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
+use super::mechanism::{Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
 use super::name::{Name, TypeName};
-use super::resolver::{Mode, Resolver};
+use super::resolver::Resolver;
 use super::scope::Value;
 use super::{check, guess, request, scene};
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::SymbolId;
 use crate::ids::CoordinateId;
 use crate::structure::System;
-use crate::syntax::{self, ExpressionId, KEYWORD_AS_NAME, StatementKind};
+use crate::syntax::{self, KEYWORD_AS_NAME, StatementKind};
 
 /// The largest number of expressions of a mechanism; its derivatives have several times as many.
 const LARGEST: usize = 25_000;
@@ -137,8 +137,7 @@ impl Resolver<'_> {
         let joints = self.joints(&mut links, result);
         result.opened.loads = joints.iter().map(|(_, load)| load.clone()).collect();
         if self.diagnostics.is_empty() {
-            let again = Mechanism::named(Vec::new(), Vec::new(), result.visibility.clone(), result.name.clone());
-            self.open(statements, links, &joints, again, &mut result.opened);
+            self.displace(statements, links, &joints, result);
         }
         if self.diagnostics.is_empty() {
             self.undetermined(result);
@@ -237,7 +236,7 @@ impl Resolver<'_> {
         Some((name, symbol))
     }
 
-    pub(super) fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
+    fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
         let mut reading = scene::Reading::default();
         for statement in statements {
             let (attributes, before) = (statement.attributes.clone(), self.scope.uses());
@@ -261,17 +260,7 @@ impl Resolver<'_> {
                 }
                 StatementKind::Equation { left, right, is_implied } => {
                     let constraints = if *is_implied { &mut result.implied } else { &mut result.constraints };
-                    let both = (self.value(*left), self.value(*right));
-                    if let (Value::Vector(..), Value::Vector(..)) = both {
-                        let region = self.expressions.region(*left).to(self.expressions.region(*right));
-                        let message =
-                            "both sides are vectors, but an `equation` is between scalars: write `loop` instead";
-                        self.diagnostics.error(region, message);
-                    } else if let (Some(a), Some(b)) = (self.scalar(*left), self.scalar(*right)) {
-                        self.kinds.sums.push(vec![*left, *right]);
-                        let row = self.graph.subtract(a, b);
-                        self.close(attributes, *left, *right, vec![row], constraints);
-                    }
+                    self.close_equation(attributes, *left, *right, constraints);
                 }
                 StatementKind::Let { name, value } => {
                     let value = self.value(*value);
@@ -330,55 +319,6 @@ impl Resolver<'_> {
             }
         }
         reading
-    }
-
-    fn close_loop(
-        &mut self,
-        attributes: Vec<Attribute>,
-        left: ExpressionId,
-        right: ExpressionId,
-        constraints: &mut Vec<Constraint>,
-    ) {
-        let (a, b) = self.within(Mode::Loop, |resolver| (resolver.value(left), resolver.value(right)));
-        let region = self.expressions.region(left).to(self.expressions.region(right));
-        match (a, b) {
-            (Value::Vector(ax, ay), Value::Vector(bx, by)) => {
-                let rows = vec![self.graph.subtract(ax, bx), self.graph.subtract(ay, by)];
-                self.close(attributes, left, right, rows, constraints);
-            }
-            // `loop … = 0`: the zero vector.
-            (Value::Vector(x, y), Value::Scalar(zero)) if self.graph.is_zero(zero) => {
-                let [zx, zy] = self.displaced_origin();
-                let rows = vec![self.graph.subtract(x, zx), self.graph.subtract(y, zy)];
-                self.close(attributes, left, right, rows, constraints);
-            }
-            (Value::Scalar(_), Value::Scalar(_)) => {
-                self.diagnostics
-                    .error(region, "both sides are scalars, but a `loop` is between vectors: write `equation` instead");
-            }
-            (Value::Scalar(_), Value::Vector(..)) => self.expect_vector(left),
-            (Value::Vector(..), Value::Scalar(_)) => self.expect_vector(right),
-            (Value::Poison, _) | (_, Value::Poison) => {}
-        }
-    }
-
-    fn close(
-        &mut self,
-        attributes: Vec<Attribute>,
-        left: ExpressionId,
-        right: ExpressionId,
-        rows: Vec<NodeId>,
-        constraints: &mut Vec<Constraint>,
-    ) {
-        let region = self.expressions.region(left).to(self.expressions.region(right));
-        if self.report_fault(region) {
-            return;
-        }
-        if rows.iter().all(|&row| self.graph.is_zero(row)) {
-            self.diagnostics.error(region, "both sides are equal: this equation is always true; remove it");
-            return;
-        }
-        constraints.push(Constraint { span: region.first, attributes, rows });
     }
 
     fn drivers(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: Roles) {

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::kind::{Kind, Kinds};
 use super::mechanism::{ExternalFunction, Extreme};
-use super::opening::Opening;
 use super::scope::{Scope, Value};
 use crate::budget::Budget;
 use crate::diagnostics::Diagnostics;
@@ -28,8 +27,6 @@ pub(super) struct Resolver<'a> {
     pub(super) reported: Reported,
     /// The literal with the most extreme magnitude so far.
     pub(super) extreme: Option<Extreme>,
-    /// The second reading with displaced joints.
-    pub(super) opening: Option<Opening>,
     pub(super) diagnostics: &'a mut Diagnostics,
 }
 
@@ -59,6 +56,8 @@ pub(super) struct Motion {
     /// The rate of each coordinate.
     pub(super) rates: BTreeMap<SymbolId, NodeId>,
     pub(super) time: Option<NodeId>,
+    /// The expressions of laws, by index.
+    pub(super) laws: BTreeSet<usize>,
 }
 
 /// Mistakes that are reported once, however often they are made.
@@ -85,7 +84,6 @@ impl<'a> Resolver<'a> {
             kinematic: BTreeSet::new(),
             reported: Reported::default(),
             extreme: None,
-            opening: None,
             diagnostics,
         }
     }

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Body;
 use crate::graph::{NodeId, SymbolId};
-use crate::ids::{BodyId, Id};
 use crate::model::mechanism::Mechanism;
 use crate::model::name::Name;
 use crate::model::resolver::Resolver;
@@ -39,10 +38,9 @@ impl Resolver<'_> {
         }
         // Expressions must be evaluated in the order of the source.
         let (mut scalars, mut center) = (BTreeMap::new(), None);
-        let id = BodyId::new(result.bodies.len());
         for (word, value) in &tree.properties {
             if word == "center" {
-                center = self.center(id, *value);
+                center = self.vector(*value);
             } else if let Some(node) = self.scalar(*value) {
                 if word == "angle" {
                     self.angle_of_body(node, self.expressions.region(*value), &tree.name.to_string());
@@ -67,9 +65,6 @@ impl Resolver<'_> {
         missing("angle", "inertia", "inertia j;");
         if result.bodies.iter().any(|body| tree.name == body.name.text) {
             self.diagnostics.error(tree.name.span(), format_args!("the body `{}` is declared twice", tree.name));
-        }
-        if let Some(angle) = scalars.get_mut("angle") {
-            *angle = self.turned(id, *angle);
         }
         result.bodies.push(Body {
             name: Name::new(&tree.name),

@@ -43,6 +43,7 @@ impl Resolver<'_> {
                 parameters: Vec::new(),
                 loads: Vec::new(),
                 wanted: draft.wanted,
+                written: draft.written,
             };
             if let Some((span, bodies)) = &draft.inertia {
                 let all = self.bodies(bodies, result);
