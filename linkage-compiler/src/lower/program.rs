@@ -10,13 +10,8 @@ use crate::program::{Access, Body, Derived, Function, Program, SceneProgram};
 
 /// Lowers all functions of a driver and of its scenes.
 #[must_use]
-pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Program<'a, Code> {
+pub fn program<'a>(planned: Program<'a, Body, Derived>, derivation: &Derivation) -> Program<'a, Code> {
     let Program { signatures, position, functions, scenes, any_number, derived } = planned;
-    let Some(derived) = derived else {
-        let functions = functions.into_iter().map(Function::without_body).collect();
-        let any_number = any_number.map(|any_number| any_number.map(Function::without_body));
-        return Program { signatures, position, functions, scenes: Vec::new(), any_number, derived: None };
-    };
     let reserved = signatures.arguments.reserved();
     let mut context = context(derivation, &derived, &reserved, &signatures.arguments, Works::default());
     let functions: Vec<_> = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
