@@ -166,7 +166,7 @@ pub struct Expansion {
 /// Derives and emits a mechanism; `root` is the path of the `linkage` crate.
 ///
 /// # Errors
-/// The messages of mistakes that appear in derivatives, or of a spent budget; so of the functions below.
+/// The messages of mistakes that appear in derivatives, or that of a spent budget.
 pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Result<Expansion, Vec<String>> {
     let (mut nodes, mut operations) = (0, Operations::default());
     let drivers = of_checked(mechanism, |Lowered { derivation, program }| {

@@ -30,6 +30,7 @@ mod undeclared;
 
 pub use chain::{Chain, Link};
 pub use functions::VECTOR_FUNCTIONS;
+pub use guess::{Guess, GuessedGroup};
 pub use kind::Kind;
 pub use mechanism::{
     Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,

@@ -245,12 +245,9 @@ impl Resolver<'_> {
                 StatementKind::Parameters(parameters) => {
                     for (name, default) in parameters {
                         let Some(default) = default else { continue };
-                        let node = self.constant(*default);
-                        // A parameter with a wrong default has a default nevertheless, for the stub.
-                        let node = node.unwrap_or_else(|| self.graph.zero());
-                        let text = name.to_string();
+                        let (node, text) = (self.constant(*default), name.to_string());
                         if let Some(parameter) = result.parameters.iter_mut().find(|p| p.name.text == text) {
-                            parameter.default = Some(node);
+                            parameter.default = node;
                         }
                     }
                 }
@@ -352,9 +349,7 @@ impl Resolver<'_> {
                 }
             }
             if driven.is_empty() && !self.diagnostics.is_empty() {
-                // For the stub: a coordinate that no other driver has.
-                let is_free = |id: &&CoordinateId| result.drivers.iter().all(|driver| !driver.inputs.contains(id));
-                driven.extend(open.iter().rev().find(is_free));
+                driven.extend(guess::driven(&result.drivers, &open));
             }
             if result.drivers.iter().any(|driver| driver.name == *name) || result.name == *name {
                 self.diagnostics.error(name.span(), format_args!("the type `{name}` is declared twice"));

@@ -20,7 +20,7 @@ pub(in crate::model) enum Along {
     Contact { on: ExpressionId, is_signed: bool },
 }
 
-/// What the laws and the contacts of a scene act along, in order.
+/// The scalars of the laws and of the contacts of a scene, in order.
 #[derive(Debug, Default)]
 pub(in crate::model) struct Written {
     pub(in crate::model) laws: Vec<Along>,

@@ -1,21 +1,26 @@
-//! Completion of a mechanism with mistakes, so that its stub has the names that the rest of the program uses.
+//! The names of a mechanism with mistakes: undeclared coordinates, and declarations that a slip renames.
 
 use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
-use super::kind::Kind;
-use super::mechanism::{Coordinate, Driver, Mechanism};
-use super::name::Name;
-use super::resolver::Assumed;
-use super::scope::{Scope, Undeclared};
 use crate::diagnostics::nearest;
 use crate::ids::{CoordinateId, Id, InputId, Table};
+use crate::model::kind::Kind;
+use crate::model::mechanism::{Coordinate, Driver, Mechanism};
+use crate::model::name::Name;
+use crate::model::resolver::Assumed;
+use crate::model::scope::{Scope, Undeclared};
 use crate::syntax::{Statement, StatementKind, can_be_name, is_keyword};
 
 /// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
 /// names.
-pub(super) fn complete(mechanism: &mut Mechanism, statements: &[Statement], scope: &Scope, assumed: &Assumed) {
+pub(in crate::model) fn complete(
+    mechanism: &mut Mechanism,
+    statements: &[Statement],
+    scope: &Scope,
+    assumed: &Assumed,
+) {
     rename(mechanism, scope);
     let zero = mechanism.graph.zero();
     for parameter in mechanism.parameters.iter_mut().chain(mechanism.scene_parameters.iter_mut()) {
@@ -101,7 +106,7 @@ pub(super) fn complete(mechanism: &mut Mechanism, statements: &[Statement], scop
 }
 
 /// Removes the coordinates that are reported as unused.
-pub(super) fn without_idle(mechanism: &mut Mechanism, scope: &Scope) {
+pub(in crate::model) fn without_idle(mechanism: &mut Mechanism, scope: &Scope) {
     let is_idle = |coordinate: &Coordinate| !scope.is_used(coordinate.symbol) && !coordinate.name.text.starts_with('_');
     let idle: BTreeSet<CoordinateId> =
         mechanism.coordinates.enumerated().filter(|(_, coordinate)| is_idle(coordinate)).map(|(id, _)| id).collect();
