@@ -123,7 +123,7 @@ fn an_unknown_may_be_a_cosine() {
     let source = "mechanism Odd { input theta; unknown y, z, w; equation y = sin(theta); equation z = cos(y); \
                   equation w = sin(y) + sin(z); }";
     let mechanism = linkage_compiler::read(source.parse().unwrap()).unwrap().remove(0);
-    let text: String = linkage_compiler::programs(&mechanism).concat();
+    let text: String = linkage_compiler::programs(&mechanism).unwrap().concat();
     let position = text.split("\n\n").find(|function| function.starts_with("assemble(")).unwrap();
     let count = |what: &str| position.matches(what).count();
     assert_eq!([count(".sine_cosine()"), count("cos("), count("sin(")], [3, 0, 0], "{position}");
@@ -132,7 +132,7 @@ fn an_unknown_may_be_a_cosine() {
 /// Nodes, operations of each kind and bytes of an expansion.
 fn size(source: &str) -> [usize; 6] {
     let mechanism = linkage_compiler::read(source.parse().unwrap()).unwrap().remove(0);
-    let expansion = linkage_compiler::compile(&mechanism, &"::linkage".parse().unwrap());
+    let expansion = linkage_compiler::compile(&mechanism, &"::linkage".parse().unwrap()).unwrap();
     let Operations { functions, divisions, multiplications, additions } = expansion.operations;
     [expansion.nodes, functions, divisions, multiplications, additions, expansion.tokens.to_string().len()]
 }

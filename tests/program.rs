@@ -6,7 +6,7 @@ use linkage_gallery::source;
 /// The lowered functions of one driver or scene of a file, as far as they have one of these names.
 fn program(file: &str, of: &str, names: &[&str]) -> String {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
-    let text: String = linkage_compiler::programs(&mechanism).concat();
+    let text: String = linkage_compiler::programs(&mechanism).unwrap().concat();
     let mut current = "";
     let mut kept = vec![of];
     for part in text.split("\n\n") {
@@ -144,7 +144,7 @@ fn long_functions_are_divided_where_few_values_are_used_later() {
     let loops: String = (1..=60).map(one).collect();
     let source = format!("mechanism Chain {{ param d; input w0; {loops} }}");
     let mechanism = linkage_compiler::read(source.parse().unwrap()).unwrap().remove(0);
-    let text = linkage_compiler::programs(&mechanism).concat();
+    let text = linkage_compiler::programs(&mechanism).unwrap().concat();
     let motion = text.split("\n\n").find(|part| part.starts_with("motion(")).unwrap();
     let blocks: Vec<_> = motion.lines().filter_map(|line| line.trim().split_once(" = {")).collect();
     assert!(blocks.len() > 3, "{blocks:?}");

@@ -28,7 +28,7 @@ type Measured = BTreeMap<&'static str, Vec<[f64; 3]>>;
 /// The bounds of the type that a derivation is of.
 fn bounds_of(file: &str, of: &str) -> Bounds {
     let mechanisms = linkage_compiler::read(source::tokens_of(file)).unwrap();
-    let all = mechanisms.iter().flat_map(linkage_compiler::bounds);
+    let all = mechanisms.iter().flat_map(|mechanism| linkage_compiler::bounds(mechanism).unwrap());
     all.into_iter().find(|bounds| bounds.driver == of).unwrap_or_else(|| panic!("no {of}"))
 }
 

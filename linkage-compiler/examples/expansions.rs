@@ -106,11 +106,11 @@ fn write(body: TokenStream, texts: &mut BTreeMap<&'static str, String>) {
     add(texts, "derivation", &derivation);
     for mechanism in linkage_compiler::read(body).unwrap() {
         add(texts, "stub", &linkage_compiler::emit::stub(&mechanism, &root));
-        *texts.entry("program").or_default() += &linkage_compiler::programs(&mechanism).concat();
-        for [of, function, lines] in linkage_compiler::formulas(&mechanism) {
+        *texts.entry("program").or_default() += &linkage_compiler::programs(&mechanism).unwrap().concat();
+        for [of, function, lines] in linkage_compiler::formulas(&mechanism).unwrap() {
             let _ = writeln!(texts.entry("fpcore").or_default(), "{of}::{function}\n{lines}");
         }
-        let _ = writeln!(texts.entry("bounds").or_default(), "{:#?}", linkage_compiler::bounds(&mechanism));
+        let _ = writeln!(texts.entry("bounds").or_default(), "{:#?}", linkage_compiler::bounds(&mechanism).unwrap());
     }
 }
 

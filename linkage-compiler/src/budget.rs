@@ -11,6 +11,10 @@ use std::rc::Rc;
 /// long and more than 512 MB.
 pub const MOST_STEPS: usize = 150_000_000;
 
+/// The error of a budget without remaining steps: results are then meaningless, and loops must end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Spent;
+
 /// The remaining steps of an invocation; all its graphs share them.
 #[derive(Debug, Clone)]
 pub struct Budget {
@@ -30,17 +34,26 @@ impl Budget {
         Self { left: Rc::new(Cell::new(steps)) }
     }
 
-    /// Takes steps; returns false if the budget is then spent.
-    pub fn spend(&self, steps: usize) -> bool {
-        let left = self.left.get().saturating_sub(steps);
-        self.left.set(left);
-        left > 0
+    /// Takes steps.
+    ///
+    /// # Errors
+    /// [`Spent`] if none remain.
+    pub fn spend(&self, steps: usize) -> Result<(), Spent> {
+        self.count(steps);
+        self.check()
     }
 
-    /// Returns true if no steps remain. Results are then meaningless, and loops must end.
-    #[must_use]
-    pub fn is_spent(&self) -> bool {
-        self.left.get() == 0
+    /// Takes the steps of work that ends in any case.
+    pub fn count(&self, steps: usize) {
+        self.left.set(self.left.get().saturating_sub(steps));
+    }
+
+    /// Checks that steps remain.
+    ///
+    /// # Errors
+    /// [`Spent`] if none remain.
+    pub fn check(&self) -> Result<(), Spent> {
+        if self.left.get() > 0 { Ok(()) } else { Err(Spent) }
     }
 
     /// The remaining steps.

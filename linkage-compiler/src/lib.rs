@@ -1,6 +1,6 @@
 //! The compiler behind `linkage!`: tokens in, tokens out.
 //!
-//! [`expand`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), algebra
+//! [`expand_within`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), algebra
 //! (simplification), structure (order of solution), model (name resolution and checks), derivation (mathematics), program
 //! (the functions to emit), lower (common subexpressions, order, names), notation (formulas for readers), emit
 //! (printers).
@@ -11,6 +11,7 @@ mod clash;
 pub mod derivation;
 pub mod diagnostics;
 pub mod emit;
+mod facade;
 pub mod graph;
 pub mod ids;
 pub mod lower;
@@ -25,11 +26,13 @@ use std::collections::BTreeMap;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use budget::Budget;
+use budget::{Budget, Spent};
 use derivation::Derivation;
 use diagnostics::Diagnostics;
-use model::{Mechanism, Request};
-use program::Operations;
+pub use facade::Facade;
+use lower::Code;
+use model::{Driver, Mechanism};
+use program::{Operations, Program};
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
 ///
@@ -40,111 +43,105 @@ pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
     expand_within(input, &Facade::complete(root), &Budget::default())
 }
 
-/// The `linkage` crate that emitted code calls.
-#[derive(Debug, Clone)]
-pub struct Facade {
-    /// Its path.
-    pub path: TokenStream,
-    /// True if its feature `dynamics` is on: scenes need it.
-    pub has_dynamics: bool,
-    /// True if its feature `serde` is on: `derive serde` needs it.
-    pub has_serde: bool,
-    /// True if its feature `interval` is on: `derive intervals` needs it.
-    pub has_intervals: bool,
-}
-
-impl Facade {
-    /// The crate at this path with all features on.
-    #[must_use]
-    pub fn complete(path: &TokenStream) -> Self {
-        Self { path: path.clone(), has_dynamics: true, has_serde: true, has_intervals: true }
-    }
-}
-
 /// Expands one `linkage!` invocation within a budget of work.
 #[must_use]
 pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> TokenStream {
-    let root = &facade.path;
     let mut outside = Diagnostics::default();
-    let mut resolved = Vec::new();
-    for tree in syntax::parse(input, &mut outside) {
-        let was_spent = budget.is_spent();
-        let (mut mechanism, mut diagnostics) = model::resolve(tree, budget);
-        if !facade.has_dynamics {
-            report_scenes(&mut mechanism, &mut diagnostics);
-        }
-        report_requests(&mut mechanism, facade, &mut diagnostics);
-        clash::within(&mut mechanism, &mut diagnostics);
-        if budget.is_spent() {
-            diagnostics = Diagnostics::default();
-            if !was_spent {
-                too_much(&mechanism, &mut diagnostics);
-            }
-        }
-        resolved.push((mechanism, diagnostics));
-    }
-    let clashes = clash::find(resolved.iter().map(|(mechanism, _)| mechanism), &mut outside);
+    let trees = syntax::parse(input, &mut outside);
+    let mut resolved: Vec<_> = trees.into_iter().map(|tree| resolved(tree, facade, budget)).collect();
+    let clashing = clash::find(resolved.iter().map(|(mechanism, _)| mechanism), &mut outside);
     let (mut errors, mut items) = (outside.to_tokens(), TokenStream::new());
-    for (place, (mechanism, diagnostics)) in resolved.iter_mut().enumerate() {
-        if clashes.contains(&place) {
-            errors.extend(diagnostics.to_tokens());
-            continue;
+    for (index, (mechanism, diagnostics)) in resolved.iter_mut().enumerate() {
+        if !clashing.contains(&index) {
+            items.extend(emitted(mechanism, &facade.path, diagnostics));
         }
-        let is_spent = budget.is_spent();
-        let complete = (!is_spent && diagnostics.is_empty()).then(|| printed(mechanism, budget, root, diagnostics));
         errors.extend(diagnostics.to_tokens());
-        match complete.filter(|_| diagnostics.is_empty()) {
-            Some(complete) => items.extend(complete),
-            None if mechanism.is_well_named() => items.extend(emit::stub(mechanism, root)),
-            None => {}
-        }
     }
     quote! { #errors #items }
 }
 
-/// Reports and removes all scenes: without the feature `dynamics` the types that their stubs name do not exist.
-fn report_scenes(mechanism: &mut Mechanism, diagnostics: &mut Diagnostics) {
-    for scene in std::mem::take(&mut mechanism.scenes).iter() {
-        diagnostics
-            .error(scene.name.span(), "a scene needs the feature `dynamics` of `linkage`: enable it in Cargo.toml");
-    }
-}
-
-/// Reports and removes the requests whose features are off.
-fn report_requests(mechanism: &mut Mechanism, facade: &Facade, diagnostics: &mut Diagnostics) {
-    let needed = [
-        (Request::Serde, facade.has_serde, "`derive serde` needs the feature `serde`"),
-        (Request::Intervals, facade.has_intervals, "`derive intervals` needs the feature `interval`"),
-    ];
-    for (request, is_on, message) in needed {
-        if !is_on && let Some(span) = mechanism.requests_at.remove(&request) {
-            mechanism.requests.remove(&request);
-            diagnostics.error(span, format_args!("{message} of `linkage`: enable it in Cargo.toml"));
+/// Resolves a mechanism, and makes the checks that need no derivatives.
+fn resolved(tree: syntax::Mechanism, facade: &Facade, budget: &Budget) -> (Mechanism, Diagnostics) {
+    let before = budget.check();
+    let (mut mechanism, mut diagnostics) = model::resolve(tree, budget);
+    facade.check(&mut mechanism, &mut diagnostics);
+    clash::within(&mut mechanism, &mut diagnostics);
+    if budget.check().is_err() {
+        diagnostics = Diagnostics::default();
+        // Only the mechanism that exceeds the budget is reported.
+        if before.is_ok() {
+            too_much(&mechanism, &mut diagnostics);
         }
     }
+    (mechanism, diagnostics)
 }
 
-/// Derives a mechanism, checks its derivatives, and prints its program, one driver after the other to limit memory.
-fn printed(mechanism: &Mechanism, budget: &Budget, root: &TokenStream, diagnostics: &mut Diagnostics) -> TokenStream {
-    let mut drivers = Vec::new();
+/// The items of a mechanism: complete, or after mistakes those of a stub.
+fn emitted(mechanism: &Mechanism, root: &TokenStream, diagnostics: &mut Diagnostics) -> TokenStream {
+    if diagnostics.is_empty()
+        && mechanism.graph.budget().check().is_ok()
+        && let Some(drivers) =
+            of_drivers(mechanism, diagnostics, |of| emit::driver(&of.program, Some(&of.derivation), root))
+    {
+        return emit::mechanism(mechanism, drivers, root);
+    }
+    if mechanism.is_well_named() { emit::stub(mechanism, root) } else { TokenStream::new() }
+}
+
+/// A driver with its mathematics and its functions.
+struct Lowered<'m> {
+    derivation: Derivation,
+    program: Program<'m, Code>,
+}
+
+/// Derives, checks, plans and lowers one driver; `None` after a mistake.
+fn lowered<'m>(
+    mechanism: &'m Mechanism,
+    driver: &'m Driver,
+    diagnostics: &mut Diagnostics,
+) -> Result<Option<Lowered<'m>>, Spent> {
+    let budget = mechanism.graph.budget();
+    budget.spend(derivation::matrices(mechanism, driver))?;
+    let mut derivation = derivation::derive(mechanism, driver);
+    budget.check()?;
+    if !derivation::check(mechanism, driver, &mut derivation, diagnostics) {
+        return Ok(None);
+    }
+    let planned = program::plan(mechanism, driver, &mut derivation)?;
+    let program = match lower::program(planned, &derivation) {
+        Ok(program) => program,
+        Err(dangling) => {
+            // Formulas that a spent budget cut off refer to what was left out.
+            budget.check()?;
+            diagnostics.error(driver.name.span(), dangling);
+            return Ok(None);
+        }
+    };
+    derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
+    Ok(Some(Lowered { derivation, program }))
+}
+
+/// Applies a function to each driver, one after the other to limit memory; `None` after a mistake.
+fn of_drivers<R>(
+    mechanism: &Mechanism,
+    diagnostics: &mut Diagnostics,
+    mut f: impl FnMut(Lowered) -> R,
+) -> Option<Vec<R>> {
+    let mut results = Vec::new();
     for driver in &mechanism.drivers {
-        let before = diagnostics.len();
-        if budget.spend(derivation::matrices(mechanism, driver)) {
-            let mut derivation = derivation::derive(mechanism, driver);
-            if !budget.is_spent() && derivation::check(mechanism, driver, &mut derivation, diagnostics) {
-                let planned = program::plan(mechanism, driver, &mut derivation);
-                let lowered = lower::program(planned, &derivation).expect("temporary");
-                drivers.push(emit::driver(&lowered, Some(&derivation), root));
-                derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
-            }
-        }
-        if budget.is_spent() {
-            diagnostics.truncate(before);
+        let mut own = Diagnostics::default();
+        let result = lowered(mechanism, driver, &mut own).and_then(|lowered| {
+            let result = lowered.map(&mut f);
+            mechanism.graph.budget().check().map(|()| result)
+        });
+        let Ok(result) = result else {
             too_much(mechanism, diagnostics);
             break;
-        }
+        };
+        results.extend(result);
+        diagnostics.append(own);
     }
-    emit::mechanism(mechanism, drivers, root)
+    diagnostics.is_empty().then_some(results)
 }
 
 /// Reports that the budget of an invocation is spent in a mechanism.
@@ -158,7 +155,13 @@ fn too_much(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// The emitted code of a checked mechanism, and its size.
+/// Applies a function to each driver of a mechanism without diagnostics so far.
+fn of_checked<R>(mechanism: &Mechanism, f: impl FnMut(Lowered) -> R) -> Result<Vec<R>, Vec<String>> {
+    let mut diagnostics = Diagnostics::default();
+    of_drivers(mechanism, &mut diagnostics, f).ok_or_else(|| diagnostics.messages())
+}
+
+/// The emitted code of a mechanism, and its size.
 #[derive(Debug, Clone)]
 pub struct Expansion {
     pub tokens: TokenStream,
@@ -168,47 +171,41 @@ pub struct Expansion {
     pub operations: Operations,
 }
 
-/// Derives and emits a checked mechanism; `root` is the path of the `linkage` crate.
-#[must_use]
-pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Expansion {
-    let (mut nodes, mut operations, mut drivers) = (0, Operations::default(), Vec::new());
-    for (driver, mut derivation) in mechanism.drivers.iter().zip(derive(mechanism)) {
-        let lowered =
-            lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary");
+/// Derives and emits a mechanism; `root` is the path of the `linkage` crate.
+///
+/// # Errors
+/// The messages of mistakes that appear in derivatives, or that of a spent budget.
+pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Result<Expansion, Vec<String>> {
+    let (mut nodes, mut operations) = (0, Operations::default());
+    let drivers = of_checked(mechanism, |Lowered { derivation, program }| {
         nodes += derivation.graph.len();
-        operations = operations.plus(emit::operations(&lowered));
-        drivers.push(emit::driver(&lowered, Some(&derivation), root));
-    }
-    Expansion { tokens: emit::mechanism(mechanism, drivers, root), nodes, operations }
+        operations = operations.plus(emit::operations(&program));
+        emit::driver(&program, Some(&derivation), root)
+    })?;
+    Ok(Expansion { tokens: emit::mechanism(mechanism, drivers, root), nodes, operations })
 }
 
-/// Returns the derivations of a checked mechanism, one for each driver.
+/// Returns the derivations of a mechanism, one for each driver.
 #[must_use]
 pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
     mechanism.drivers.iter().map(|driver| derivation::derive(mechanism, driver)).collect()
 }
 
-/// Returns the lowered programs of a checked mechanism as text, one for each driver.
-#[must_use]
-pub fn programs(mechanism: &Mechanism) -> Vec<String> {
-    let drivers = mechanism.drivers.iter().map(|driver| {
-        let mut derivation = derivation::derive(mechanism, driver);
-        emit::text(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary"))
-    });
-    drivers.collect()
+/// Returns the lowered programs of a mechanism as text, one for each driver.
+///
+/// # Errors
+/// As [`compile`].
+pub fn programs(mechanism: &Mechanism) -> Result<Vec<String>, Vec<String>> {
+    of_checked(mechanism, |of| emit::text(&of.program))
 }
 
-/// Returns the formulas of the functions of a checked mechanism and of its scenes as `derive fpcore` writes them: the
-/// type, the function and its lines.
-#[must_use]
-pub fn formulas(mechanism: &Mechanism) -> Vec<[String; 3]> {
-    let drivers = mechanism.drivers.iter().flat_map(|driver| {
-        let mut derivation = derivation::derive(mechanism, driver);
-        emit::formulas(
-            &lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary"),
-        )
-    });
-    drivers.collect()
+/// Returns the formulas of the functions of a mechanism and of its scenes as `derive fpcore` writes them: the type, the
+/// function and its lines.
+///
+/// # Errors
+/// As [`compile`].
+pub fn formulas(mechanism: &Mechanism) -> Result<Vec<[String; 3]>, Vec<String>> {
+    Ok(of_checked(mechanism, |of| emit::formulas(&of.program))?.concat())
 }
 
 /// The largest rounding errors that the functions of one driver can have.
@@ -222,24 +219,28 @@ pub struct Bounds {
     pub functions: BTreeMap<String, lower::Bound>,
 }
 
-/// Returns the largest rounding errors that the functions of a checked mechanism can have, for each driver.
-#[must_use]
-pub fn bounds(mechanism: &Mechanism) -> Vec<Bounds> {
-    let drivers = mechanism.drivers.iter().map(|driver| {
-        let mut derivation = derivation::derive(mechanism, driver);
-        let lowered =
-            lower::program(program::plan(mechanism, driver, &mut derivation), &derivation).expect("temporary");
+/// Returns the largest rounding errors that the functions of a mechanism can have, for each driver.
+///
+/// # Errors
+/// As [`compile`].
+pub fn bounds(mechanism: &Mechanism) -> Result<Vec<Bounds>, Vec<String>> {
+    of_checked(mechanism, |Lowered { derivation, program }| {
         let name = |symbol| derivation.graph.symbol_name(symbol).to_owned();
-        let parameters = mechanism.parameters.iter().map(|parameter| name(parameter.symbol)).collect();
-        let coordinates = derivation.coordinates.iter().map(|one| [one.value, one.rate, one.acceleration].map(name));
-        let bounds = lowered.functions.iter().filter_map(|function| {
+        let bounds = program.functions.iter().filter_map(|function| {
             let bound = function.body.as_ref()?.bound.clone()?;
             Some((function.name.clone(), bound))
         });
-        let (functions, coordinates) = (bounds.collect(), coordinates.collect());
-        Bounds { driver: driver.name.to_string(), parameters, coordinates, functions }
-    });
-    drivers.collect()
+        Bounds {
+            driver: program.signatures.driver.name.to_string(),
+            parameters: mechanism.parameters.iter().map(|parameter| name(parameter.symbol)).collect(),
+            coordinates: derivation
+                .coordinates
+                .iter()
+                .map(|one| [one.value, one.rate, one.acceleration].map(name))
+                .collect(),
+            functions: bounds.collect(),
+        }
+    })
 }
 
 /// Parses and checks mechanisms without expanding them, for tests and tools.

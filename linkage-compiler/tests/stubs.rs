@@ -46,7 +46,7 @@ fn a_stub_has_the_functions_of_the_mechanism() {
         for mechanism in linkage_compiler::read(tokens).unwrap() {
             for (driver, mut derivation) in mechanism.drivers.iter().zip(linkage_compiler::derive(&mechanism)) {
                 let whose = format!("{} of {}", driver.name, path.display());
-                let planned = program::plan(&mechanism, driver, &mut derivation);
+                let planned = program::plan(&mechanism, driver, &mut derivation).unwrap();
                 let stub = program::stub::<Code>(&mechanism, driver);
                 let sides =
                     |of: &Position| of.sides.iter().map(|side| (side.field.clone(), side.choice)).collect::<Vec<_>>();

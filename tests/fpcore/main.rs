@@ -25,7 +25,7 @@ const WITHOUT: [&str; 2] = ["ThreeTogether", "Block"];
 /// The derivations of a file as `derive fpcore` makes them, from those without.
 fn with_lines(file: &str, derivation: &Derivation) -> Derivation {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
-    let formulas = linkage_compiler::formulas(&mechanism).into_iter();
+    let formulas = linkage_compiler::formulas(&mechanism).unwrap().into_iter();
     let of_it = formulas.filter(|[of, ..]| of == derivation.mechanism);
     let kernels = of_it.map(|[_, function, lines]| Kernel {
         function: function.leak(),
@@ -163,7 +163,7 @@ all_mechanisms!(tests);
 fn functions_without_formulas() {
     let functions = |file: &str| {
         let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
-        let formulas = linkage_compiler::formulas(&mechanism);
+        let formulas = linkage_compiler::formulas(&mechanism).unwrap();
         formulas.into_iter().map(|[_, function, _]| function).collect::<Vec<_>>()
     };
     for (file, with, without) in [

@@ -226,7 +226,7 @@ impl Ring {
 
     fn spend(&self, terms: usize) -> Outcome<()> {
         match self.work.get().checked_sub(terms) {
-            Some(left) if self.budget.spend(terms) => {
+            Some(left) if self.budget.spend(terms).is_ok() => {
                 self.work.set(left);
                 Ok(())
             }

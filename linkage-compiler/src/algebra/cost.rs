@@ -25,7 +25,7 @@ pub fn cost(graph: &Graph, root: NodeId, given: &BTreeSet<NodeId>) -> Cost {
             continue;
         }
         total.nodes += 1;
-        graph.budget().spend(1);
+        graph.budget().count(1);
         match graph.node(id) {
             Node::Call(Function::Sin | Function::Cos, angle) if given.contains(&angle[0]) => continue,
             // An absolute value costs nothing.

@@ -43,7 +43,7 @@ pub fn simplify(graph: &mut Graph, roots: &[NodeId], given: &BTreeSet<NodeId>) -
         for _ in 0..MOST_ROUNDS {
             let before = forms.best;
             forms.offer_all(graph, before);
-            if forms.best == before || graph.budget().is_spent() {
+            if forms.best == before || graph.budget().check().is_err() {
                 break;
             }
         }

@@ -135,9 +135,11 @@ pub(super) fn expanded(graph: &mut Graph, id: NodeId) -> Option<Polynomial> {
 
 /// The product of two polynomials; `None` if it has too many terms. Assumes that cancelled factors are not zero.
 pub(super) fn multiply(graph: &mut Graph, left: &Polynomial, right: &Polynomial) -> Option<Polynomial> {
-    if left.len() * right.len() > MOST_TERMS || !graph.budget().spend(left.len() * right.len()) {
+    let count = left.len() * right.len();
+    if count > MOST_TERMS {
         return None;
     }
+    graph.budget().spend(count).ok()?;
     for (_, x) in left {
         for (_, y) in right {
             let opposed = x.iter().filter(|(base, n)| y.get(base).is_some_and(|m| m.signum() == -n.signum()));
@@ -179,7 +181,7 @@ pub(super) fn quotient(graph: &mut Graph, dividend: NodeId, divisor: NodeId) -> 
     let dividend = expanded(graph, dividend)?;
     add(&mut rest, &dividend, Number::ONE, &Monomial::new());
     let mut quotient = Polynomial::new();
-    while !rest.is_empty() && graph.budget().spend(by.len() + rest.len()) {
+    while !rest.is_empty() && graph.budget().spend(by.len() + rest.len()).is_ok() {
         let (top, coefficient) = rest.iter().max_by(|a, b| order_of(a.0, b.0)).map(|(m, k)| (m.clone(), *k))?;
         let mut monomial: Monomial = top.into_iter().collect();
         for (base, exponent) in &lead_monomial {

@@ -37,7 +37,7 @@ impl Pair {
 /// Applies the identities from left to right until none matches.
 pub(super) fn combine(graph: &mut Graph, mut polynomial: Polynomial) -> Polynomial {
     // Terminates: each step combines two terms into one or removes a squared sine.
-    while graph.budget().spend(polynomial.len())
+    while graph.budget().spend(polynomial.len()).is_ok()
         && let Some(shorter) = combine_once(graph, &polynomial)
     {
         polynomial = shorter;

@@ -9,7 +9,7 @@ use super::plane::{Vector, turned};
 use super::step::Step;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{BlockId, ColumnId};
-use crate::structure::{Group, Loops, Slide};
+use crate::structure::{Choice, Loops};
 
 /// The steps that solve all groups, and their results.
 #[derive(Debug, Clone, Default)]
@@ -42,53 +42,6 @@ pub struct Chord {
     pub choice: Choice,
     /// True if the determinant of the block and the half chord have opposite signs.
     pub is_opposite: bool,
-}
-
-/// The names of the two solutions of a group; the first is that of the positive root.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Choice {
-    /// Left or right of the line between the outer joints.
-    Elbow,
-    /// Far or near.
-    Slider,
-    /// The equation rises or falls with the angle.
-    Slope,
-}
-
-impl Choice {
-    /// The choice of a group with two solutions. The angle of a dyad with a slider has those of the slider.
-    #[must_use]
-    pub fn of(group: Group, slide: Option<Slide>) -> Option<Self> {
-        match (group, slide) {
-            (Group::Rrr | Group::Circles | Group::LinkToCircle, _) => Some(Self::Elbow),
-            (Group::Rrp | Group::Rpr | Group::SliderToCircle, _) | (Group::Angle, Some(_)) => Some(Self::Slider),
-            (Group::Angle, None) => Some(Self::Slope),
-            (
-                Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Loops(_) | Group::Irreducible(..),
-                _,
-            ) => None,
-        }
-    }
-
-    /// The name of its type in the runtime.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Elbow => "Elbow",
-            Self::Slider => "Slider",
-            Self::Slope => "Slope",
-        }
-    }
-
-    /// The variants of the positive and of the negative root.
-    #[must_use]
-    pub fn variants(self) -> [&'static str; 2] {
-        match self {
-            Self::Elbow => ["Left", "Right"],
-            Self::Slider => ["Far", "Near"],
-            Self::Slope => ["Rising", "Falling"],
-        }
-    }
 }
 
 impl Assembly {

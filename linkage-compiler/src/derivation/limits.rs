@@ -128,7 +128,7 @@ impl Derivation {
                     by.insert(name, formula);
                 }
             }
-            if by.is_empty() || self.graph.budget().is_spent() {
+            if by.is_empty() || self.graph.budget().check().is_err() {
                 return function;
             }
             function = self.graph.replace(&[function], &by)[0];

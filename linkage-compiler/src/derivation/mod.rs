@@ -38,7 +38,7 @@ mod step;
 mod systems;
 mod unreduced;
 
-pub use assembly::{Assembly, Choice, Chord};
+pub use assembly::{Assembly, Chord};
 pub use check::{LARGEST, check, check_numbers, matrices};
 pub use data::{Block, Coordinate, Derivation, Determinant, Implied, Quantity, RatioDerivatives, Sensitivity};
 pub use derive::derive;

@@ -2,13 +2,13 @@
 
 use rustc_hash::FxHashMap;
 
-use super::assembly::{Assembly, Choice, Chord};
+use super::assembly::{Assembly, Chord};
 use super::closed_form::Solver;
 use super::data::{Block, Derivation};
 use super::step::Step;
 use crate::graph::{Graph, NodeId, SymbolId};
 use crate::ids::BlockId;
-use crate::structure::{self, Group, Loops};
+use crate::structure::{self, Choice, Group, Loops};
 
 impl Derivation {
     /// Solves the position group by group: in closed form if there is one, else by Newton's method.

@@ -8,11 +8,12 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use super::assembly::{Assembly, Choice};
+use super::assembly::Assembly;
 use super::data::Derivation;
 use super::step::Step;
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::ids::{BlockId, Id, Table};
+use crate::structure::Choice;
 
 /// The closed form of a block.
 #[derive(Debug, Clone, Default)]

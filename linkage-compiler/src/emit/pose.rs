@@ -1,7 +1,5 @@
 //! The fields of a pose.
 
-use std::collections::BTreeSet;
-
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -9,22 +7,22 @@ use super::names::{comment, ident};
 use super::types::serde_of_direction;
 use crate::derivation::Derivation;
 use crate::graph::Texts;
-use crate::model::{Coordinate, Driver, Kind, Mechanism};
+use crate::model::{Driver, Guess, Mechanism};
 use crate::program::{Derived, Taken};
 
-/// The fields of a pose in a stub: the coordinates, angles as directions and as numbers.
+/// The fields of a pose in a stub.
 pub(super) fn guessed(mechanism: &Mechanism, driver: &Driver, root: &TokenStream) -> TokenStream {
-    let nothing = BTreeSet::new();
-    let mut taken = Taken::new(&nothing);
-    let order = mechanism.coordinate_order(driver);
-    let coordinates: Vec<&Coordinate> = order.iter().map(|&place| &mechanism.coordinates[place]).collect();
-    let names: Vec<Ident> = coordinates.iter().map(|coordinate| ident(&taken.unique(&coordinate.name.field))).collect();
-    let members = coordinates.iter().zip(&names).map(|(coordinate, name)| match coordinate.kind {
-        Kind::Angle => {
-            let number = ident(&taken.unique(&format!("{}_angle", coordinate.name.field)));
+    let mut taken = Taken::unreserved();
+    let fields = Guess::pose(mechanism, driver).into_iter();
+    let fields = fields.map(|(id, is_angle)| (mechanism.coordinates[id].name.field.as_str(), is_angle));
+    let fields: Vec<(&str, bool)> = fields.collect();
+    let names: Vec<Ident> = fields.iter().map(|(field, _)| ident(&taken.unique(field))).collect();
+    let members = fields.iter().zip(&names).map(|((field, is_angle), name)| match is_angle {
+        true => {
+            let number = ident(&taken.unique(&format!("{field}_angle")));
             quote!(pub #name: #root::__rt::UnitComplex<T>, pub #number: T,)
         }
-        Kind::Length | Kind::Number => quote!(pub #name: T,),
+        false => quote!(pub #name: T,),
     });
     let members: TokenStream = members.collect();
     let scalar = ident(&taken.unique("scalar"));

@@ -51,12 +51,12 @@ impl Graph {
 
     /// Spends steps; returns an arbitrary node if the budget is exceeded.
     pub(super) fn unaffordable(&self, steps: usize) -> Option<NodeId> {
-        (!self.budget.spend(steps) && !self.nodes.is_empty()).then_some(NodeId(0))
+        (self.budget.spend(steps).is_err() && !self.nodes.is_empty()).then_some(NodeId(0))
     }
 
     /// Makes a new symbol; symbols with equal names are different.
     pub fn symbol(&mut self, name: impl Into<String>) -> SymbolId {
-        self.budget.spend(STEPS_OF_A_SYMBOL);
+        self.budget.count(STEPS_OF_A_SYMBOL);
         self.symbols.push(name.into());
         SymbolId(self.symbols.len() - 1)
     }

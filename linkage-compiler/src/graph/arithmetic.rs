@@ -96,7 +96,7 @@ impl Graph {
             }
         }
         let collected = terms;
-        self.budget.spend(collected.len());
+        self.budget.count(collected.len());
         let mut terms = Vec::new();
         for &(term, coefficient) in &collected {
             if coefficient.is_zero() {

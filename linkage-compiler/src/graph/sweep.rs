@@ -107,7 +107,7 @@ impl Graph {
                 self.each_child(id, |child| stack.push(child));
             }
         }
-        self.budget.spend(found.len());
+        self.budget.count(found.len());
         // Children have smaller ids than their parents.
         let mut found: Vec<NodeId> = found.into_iter().collect();
         found.sort_unstable();

@@ -1,6 +1,7 @@
 //! Lowering of a planned function: translate, order, write, check, place, name.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::{self, Display, Formatter};
 
 use rustc_hash::FxHashSet;
 
@@ -54,6 +55,13 @@ pub struct Dangling {
     pub function: String,
     /// What it refers to.
     pub what: String,
+}
+
+impl Display for Dangling {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { function, what } = self;
+        write!(f, "the code of `{function}` refers to {what}, which does not exist: this is a mistake of the compiler")
+    }
 }
 
 /// Lowers a function.

@@ -14,13 +14,11 @@ use crate::program::{Access, AnyNumber, Arguments, Body, Derived, Function, Func
 ///
 /// # Errors
 /// If a function refers to something that does not exist: a mistake of the compiler.
-pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Result<Program<'a, Code>, Dangling> {
+pub fn program<'a>(
+    planned: Program<'a, Body, Derived>,
+    derivation: &Derivation,
+) -> Result<Program<'a, Code>, Dangling> {
     let Program { signatures, position, functions, scenes, any_number, derived } = planned;
-    let Some(derived) = derived else {
-        let functions = functions.into_table().map(Function::without_body).into_iter().collect();
-        let any_number = any_number.map(|any_number| any_number.map(Function::without_body));
-        return Ok(Program { signatures, position, functions, scenes: Vec::new(), any_number, derived: None });
-    };
     let of_driver = ids(&functions);
     let reserved = signatures.arguments.reserved();
     let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &of_driver, of_driver: &of_driver };

@@ -26,7 +26,7 @@ pub fn schedule(
     let introduced: BTreeSet<SymbolId> = steps.iter().flat_map(Step::introduced).collect();
     let (mut values, translated) = Builder::translate_all(graph, given, &nodes);
     let roots: Vec<Signed> = nodes.iter().map(|node| translated[node]).collect();
-    graph.budget().spend(nodes.len() + values.len());
+    graph.budget().count(nodes.len() + values.len());
     sharing::share(&mut values, &roots, graph.budget(), is_inlined);
     joined::join(&mut values, &roots, is_inlined);
     factors::order(&mut values);

@@ -159,7 +159,7 @@ impl<'a> Sharing<'a> {
             }
         }
         while let Some((priority, Reverse(pair))) = self.candidates.pop()
-            && !self.budget.is_spent()
+            && self.budget.check().is_ok()
         {
             let now = Priority { count: self.holders.get(&pair).map_or(0, Vec::len), ..priority };
             if now == priority {
@@ -251,7 +251,7 @@ impl<'a> Sharing<'a> {
     /// The pairs of a list. No operand occurs twice: equal factors form a square, equal terms have a coefficient.
     fn pairs(&self, place: usize) -> Vec<Pair> {
         let parts = &self.lists[place].parts;
-        self.budget.spend(parts.len());
+        self.budget.count(parts.len());
         let reach = if parts.len() > LONGEST_PAIRED { 1 } else { parts.len() };
         let mut pairs = Vec::new();
         for (index, &a) in parts.iter().enumerate().filter(|(_, a)| self.is_frequent(**a)) {

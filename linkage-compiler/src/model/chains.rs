@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::chain::{Chain, Chains, Link, Mean, in_order};
-use super::expression::Lowering;
+use super::resolver::Resolver;
 use super::scope::Value;
 use crate::graph::{NodeId, Number};
 use crate::syntax::{Expression, ExpressionId, Operator, Statement, StatementKind};
@@ -14,7 +14,7 @@ const LONGEST: usize = 256;
 /// The chains of the `let`s of vectors; None for the name of a point, from which chains start.
 type Named = BTreeMap<String, Option<Chain>>;
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Finds the chains once all expressions have values.
     pub(super) fn chains(&mut self, statements: &[Statement]) -> Chains {
         let (mut chains, mut named) = (Chains::default(), Named::new());
@@ -37,10 +37,10 @@ impl Lowering<'_> {
                     chains.loops.push(sides.map(Option::unwrap_or_default));
                 }
                 StatementKind::Body(body) => {
-                    let center = body.properties.iter().find(|(word, _)| word == "center");
-                    let chain = center.and_then(|(_, value)| self.chain(*value, &named));
+                    let center = body.property("center");
+                    let chain = center.and_then(|value| self.chain(value, &named));
                     chains.centers.push(chain.unwrap_or_default());
-                    let mean = center.and_then(|(_, value)| self.mean(*value));
+                    let mean = center.and_then(|value| self.mean(value));
                     chains.means.push(mean);
                 }
                 _ => {}

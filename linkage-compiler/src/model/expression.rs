@@ -1,68 +1,27 @@
-//! Lowering of expressions from syntax tree to graph, with a check of scalars and vectors.
-
-use std::collections::{BTreeMap, BTreeSet};
+//! Resolution of expressions from syntax tree to graph, with a check of scalars and vectors.
 
 use proc_macro2::Ident;
 
-use super::advice;
+use super::functions::VECTOR_FUNCTIONS;
 use super::kind::{Kind, bare_symbols};
-use super::mechanism::{Call, ExternalFunction, Extreme};
-use super::opening::Opening;
-use super::scope::{Scope, VECTOR_FUNCTIONS, Value};
-use crate::diagnostics::{Diagnostics, Region, suggestion};
-use crate::graph::{External, ExternalId, Function, Graph, NodeId, Number, SymbolId};
-use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Unit, Unread};
+use super::mechanism::{Call, Extreme};
+use super::resolver::{Mode, Resolver};
+use super::scope::Value;
+use super::{advice, functions};
+use crate::diagnostics::{Region, suggestion};
+use crate::graph::{External, ExternalId, Function, NodeId, Number};
+use crate::syntax::{Expression, ExpressionId, Operator, Unit, Unread};
 
-/// The state of the analysis of one mechanism: names, values and kinds so far.
-pub(super) struct Lowering<'a> {
-    pub(super) graph: Graph,
-    pub(super) scope: Scope,
-    /// The value of each expression, by id; expressions are lowered in ascending order.
-    pub(super) values: Vec<Value>,
-    pub(super) expressions: &'a Expressions,
-    pub(super) kinds: Vec<(SymbolId, Kind)>,
-    pub(super) externals: Vec<ExternalFunction>,
-    /// Kinds of names that may be undeclared, from their use.
-    pub(super) undeclared_kinds: Vec<(String, Kind)>,
-    /// Symbols of undeclared names, which may be coordinates.
-    pub(super) undeclared_symbols: BTreeMap<String, SymbolId>,
-    /// Names of scalars that are reported among vectors.
-    pub(super) misused: BTreeSet<String>,
-    /// Symbols that are lengths unless another use says otherwise.
-    pub(super) supposed: Vec<SymbolId>,
-    /// The operands of the sums of scalars, and the sides of equations.
-    pub(super) sums: Vec<Vec<ExpressionId>>,
-    /// Symbols that are components of vectors in loops.
-    pub(super) lengths_of_loops: Vec<SymbolId>,
-    pub(super) is_loop: bool,
-    /// True in the default of a parameter.
-    pub(super) is_default: bool,
-    /// The angles of bodies, with their places and the names of the bodies.
-    pub(super) angles_of_bodies: Vec<(NodeId, Region, String)>,
-    /// The symbols that statements outside of scenes mention.
-    pub(super) kinematic: BTreeSet<SymbolId>,
-    /// The rate of each coordinate; empty without scenes.
-    pub(super) rates: BTreeMap<SymbolId, NodeId>,
-    pub(super) time: Option<NodeId>,
-    /// The suffixes of numbers that are reported as units.
-    pub(super) units: BTreeSet<String>,
-    /// True in the law of a scene, where `rate` and `t` are allowed.
-    pub(super) is_law: bool,
-    /// The literal with the most extreme magnitude so far.
-    pub(super) extreme: Option<Extreme>,
-    /// The second reading with displaced joints.
-    pub(super) opening: Option<Opening>,
-    pub(super) diagnostics: &'a mut Diagnostics,
-}
-
-impl Lowering<'_> {
-    /// Lowers an expression and its operands; returns its value.
+impl Resolver<'_> {
+    /// Reads an expression and its operands; returns its value.
     pub(super) fn value(&mut self, id: ExpressionId) -> Value {
         let expressions = self.expressions;
         let missing = (id.index() + 1).saturating_sub(self.values.len());
         for (expression, region) in expressions.from(self.values.len()).take(missing) {
-            let value = self.lower(expression, region);
-            let value = self.displaced(self.values.len(), value);
+            let value = self.read(expression, region);
+            if self.mode == Mode::Law {
+                self.motion.laws.insert(self.values.len());
+            }
             let is_at_fault = self.report_fault(region);
             self.values.push(if is_at_fault { Value::Poison } else { value });
         }
@@ -112,10 +71,7 @@ impl Lowering<'_> {
 
     /// The value of an expression without symbols: the default of a parameter.
     pub(super) fn constant(&mut self, id: ExpressionId) -> Option<NodeId> {
-        self.is_default = true;
-        let node = self.scalar(id);
-        self.is_default = false;
-        let node = node?;
+        let node = self.within(Mode::Default, |resolver| resolver.scalar(id))?;
         if self.graph.constant_value(node).is_some() {
             return Some(node);
         }
@@ -123,7 +79,7 @@ impl Lowering<'_> {
         None
     }
 
-    fn lower(&mut self, expression: &Expression, region: Region) -> Value {
+    fn read(&mut self, expression: &Expression, region: Region) -> Value {
         // The expression has the next index.
         if let (Expression::Number { digits, .. }, Some(suffix)) =
             (expression, self.expressions.suffix(self.values.len()))
@@ -143,8 +99,10 @@ impl Lowering<'_> {
                 }
             },
             Expression::Name(name) if name == "pi" => Value::Scalar(self.graph.pi()),
-            Expression::Name(name) if self.is_law && name == "t" => self.time.map_or(Value::Poison, Value::Scalar),
-            Expression::Name(name) if self.is_default && !self.scope.is_declared(name) => {
+            Expression::Name(name) if self.mode == Mode::Law && name == "t" => {
+                self.motion.time.map_or(Value::Poison, Value::Scalar)
+            }
+            Expression::Name(name) if self.mode == Mode::Default && !self.scope.is_declared(name) => {
                 self.diagnostics.error(region, "a default must be a number: it cannot depend on names");
                 Value::Poison
             }
@@ -184,10 +142,9 @@ impl Lowering<'_> {
                 for Unread { name, is_angle, is_length } in names {
                     let Some(symbol) = self.scope.symbol(name) else { continue };
                     self.scope.mention(symbol);
-                    let is_known = self.kinds.iter().any(|(other, _)| *other == symbol);
                     let kind = if *is_angle { Kind::Angle } else { Kind::Length };
-                    if (*is_angle || *is_length) && !is_known {
-                        self.kinds.push((symbol, kind));
+                    if *is_angle || *is_length {
+                        self.kinds.known.entry(symbol).or_insert(kind);
                     }
                 }
                 Value::Poison
@@ -210,7 +167,7 @@ impl Lowering<'_> {
         let angle_region = self.expressions.region(angle);
         for (id, kind) in [(magnitude, Kind::Length), (angle, Kind::Angle)] {
             if let Some(name) = self.expressions.as_name(id).filter(|name| self.scope.symbol(name).is_none()) {
-                self.undeclared_kinds.push((name.to_string(), kind));
+                self.assumed.kinds.push((name.to_string(), kind));
             }
         }
         let angle_id = angle;
@@ -279,7 +236,7 @@ impl Lowering<'_> {
                 false => (*scalar, format!("a scalar cannot be added to a vector: {}", self.as_vector(*scalar))),
             };
             // A name with a wrong value is one mistake.
-            if self.values_in(at).into_iter().all(|name| self.misused.insert(name)) {
+            if self.values_in(at).into_iter().all(|name| self.reported.scalars.insert(name)) {
                 self.diagnostics.error(self.expressions.region(at), message);
             }
             return Value::Poison;
@@ -288,7 +245,7 @@ impl Lowering<'_> {
         match (poisoned, first_is_vector) {
             (false, Some(true)) => Value::Vector(self.graph.sum(&xs), self.graph.sum(&ys)),
             (false, Some(false)) => {
-                self.sums.push(scalars);
+                self.kinds.sums.push(scalars);
                 Value::Scalar(self.graph.sum(&xs))
             }
             _ => Value::Poison,
@@ -339,7 +296,7 @@ impl Lowering<'_> {
         if let Some((function, order)) = self.scope.function(&text) {
             return self.external(name, function, order, arguments, region);
         }
-        if self.is_law && text == "rate" {
+        if self.mode == Mode::Law && text == "rate" {
             let argument = self.takes(&text, 1, arguments, region).then(|| self.scalar(arguments[0])).flatten();
             return argument.map_or(Value::Poison, |argument| Value::Scalar(self.rate_of(argument)));
         }
@@ -383,26 +340,10 @@ impl Lowering<'_> {
         if text == "powi" {
             return self.power(arguments[0], arguments[1]);
         }
-        let vectors: Option<Vec<(NodeId, NodeId)>> = arguments.iter().map(|&argument| self.vector(argument)).collect();
+        let vectors: Option<Vec<[NodeId; 2]>> =
+            arguments.iter().map(|&argument| self.vector(argument).map(|(x, y)| [x, y])).collect();
         let Some(vectors) = vectors else { return Value::Poison };
-        let (x, y) = vectors[0];
-        let g = &mut self.graph;
-        Value::Scalar(match (text.as_str(), vectors.get(1)) {
-            ("x", _) => x,
-            ("y", _) => y,
-            ("norm", _) => g.call(Function::Hypot, &[x, y]),
-            ("angle", _) => g.call(Function::Atan2, &[y, x]),
-            // dot = ax bx + ay by, cross = ax by - ay bx.
-            ("dot", Some(&(u, v))) => {
-                let (left, right) = (g.multiply(x, u), g.multiply(y, v));
-                g.add(left, right)
-            }
-            (_, Some(&(u, v))) => {
-                let (left, right) = (g.multiply(x, v), g.multiply(y, u));
-                g.subtract(left, right)
-            }
-            _ => return Value::Poison,
-        })
+        functions::of_vectors(&mut self.graph, &text, &vectors).map_or(Value::Poison, Value::Scalar)
     }
 
     /// Advice for a call of a user function by its path instead of by the name of its value.
@@ -444,11 +385,11 @@ impl Lowering<'_> {
     /// Assumes that the components of a vector are lengths, unless another use says otherwise: an angle may be plotted.
     fn suppose_lengths(&mut self, components: [NodeId; 2]) {
         for symbol in components.into_iter().flat_map(|node| bare_symbols(&self.graph, node)) {
-            if self.is_loop {
-                self.lengths_of_loops.push(symbol);
+            if self.mode == Mode::Loop {
+                self.kinds.lengths_of_loops.insert(symbol);
             }
-            if !self.kinds.iter().any(|(other, _)| *other == symbol) {
-                self.supposed.push(symbol);
+            if !self.kinds.known.contains_key(&symbol) {
+                self.kinds.supposed.insert(symbol);
             }
         }
     }
@@ -456,17 +397,16 @@ impl Lowering<'_> {
     /// True if a name of an expression has another kind.
     fn conflicts(&self, node: NodeId, kind: Kind) -> bool {
         let symbols = bare_symbols(&self.graph, node);
-        symbols.iter().any(|symbol| self.kinds.iter().any(|(other, known)| other == symbol && *known != kind))
+        symbols.iter().any(|symbol| self.kinds.known.get(symbol).is_some_and(|known| *known != kind))
     }
 
     /// Records the kind of the symbols that have the kind of an expression; returns false if one has another kind.
     fn mark(&mut self, node: NodeId, kind: Kind, region: Region) -> bool {
         let mut agrees = true;
         for symbol in bare_symbols(&self.graph, node) {
-            match self.kinds.iter().find(|(other, _)| *other == symbol) {
-                None => self.kinds.push((symbol, kind)),
-                Some((_, before)) if *before == kind => {}
-                Some((_, before)) => {
+            match *self.kinds.known.entry(symbol).or_insert(kind) {
+                before if before == kind => {}
+                before => {
                     let name = self.graph.symbol_name(symbol);
                     let message = format!("`{name}` is used as a {kind} here, but as a {before} before");
                     self.diagnostics.error(region, message.replace("a angle", "an angle"));

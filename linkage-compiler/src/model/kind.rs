@@ -1,8 +1,11 @@
 //! Inference of the kind of a name, angle or length, from its use.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+use crate::diagnostics::Region;
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
+use crate::syntax::ExpressionId;
 
 /// The kind of quantity of a parameter or coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -23,6 +26,30 @@ impl fmt::Display for Kind {
             Self::Angle => "angle in radians",
             Self::Length => "length",
         })
+    }
+}
+
+/// The kinds of the symbols so far, and where they must agree.
+#[derive(Debug, Default)]
+pub(super) struct Kinds {
+    pub(super) known: BTreeMap<SymbolId, Kind>,
+    /// Lengths unless another use says otherwise.
+    pub(super) supposed: BTreeSet<SymbolId>,
+    /// Components of vectors in loops.
+    pub(super) lengths_of_loops: BTreeSet<SymbolId>,
+    /// The operands of the sums of scalars, and the sides of equations.
+    pub(super) sums: Vec<Vec<ExpressionId>>,
+    /// The angles of bodies, with their places and the names of the bodies.
+    pub(super) angles_of_bodies: Vec<(NodeId, Region, String)>,
+}
+
+impl Kinds {
+    pub(super) fn of(&self, symbol: SymbolId) -> Kind {
+        match self.known.get(&symbol) {
+            Some(kind) => *kind,
+            None if self.supposed.contains(&symbol) => Kind::Length,
+            None => Kind::Number,
+        }
     }
 }
 

@@ -2,29 +2,28 @@
 
 use proc_macro2::Ident;
 
-use super::expression::Lowering;
+use super::functions::VECTOR_FUNCTIONS;
 use super::name::Name;
-use super::scope::{VECTOR_FUNCTIONS, Value};
+use super::resolver::{Mode, Resolver};
+use super::scope::Value;
 use crate::diagnostics::Region;
 use crate::graph::{Function, NodeId};
 use crate::syntax::{Body, ExpressionId, Statement, StatementKind, unknown_unit};
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// The variable of an undeclared name: next to `@` it is a scalar, so that the structure of the loop is known.
     pub(super) fn undeclared(&mut self, id: ExpressionId) -> Option<NodeId> {
         let name =
             self.expressions.as_name(id).filter(|name| !self.scope.is_declared(name) && !self.scope.is_other(name))?;
-        let symbol = *self
-            .undeclared_symbols
-            .entry(name.to_string())
-            .or_insert_with(|| self.graph.symbol(Name::new(name).field));
+        let symbol =
+            *self.assumed.symbols.entry(name.to_string()).or_insert_with(|| self.graph.symbol(Name::new(name).field));
         Some(self.graph.variable(symbol))
     }
 
     /// True for a function of the language.
     pub(super) fn is_function(&self, name: &str) -> bool {
         let is_vector_function = VECTOR_FUNCTIONS.iter().any(|(other, _)| *other == name);
-        Function::named(name).is_some() || is_vector_function || (self.is_law && name == "rate")
+        Function::named(name).is_some() || is_vector_function || (self.mode == Mode::Law && name == "rate")
     }
 
     /// A name before a factor without an operator: a function without parentheses, or a product without `*`.
@@ -40,20 +39,21 @@ impl Lowering<'_> {
         }
         Value::Poison
     }
+
     /// A number with a suffix that is no unit: a product with the name that it is, or a number with another unit.
     pub(super) fn suffixed(&mut self, digits: &str, suffix: &Ident, is_hexadecimal: bool, region: Region) -> Value {
-        let (text, is_time) = (suffix.to_string(), self.is_law && suffix == "t");
+        let (text, is_time) = (suffix.to_string(), self.mode == Mode::Law && suffix == "t");
         let Some(number) = self.number(digits, region) else { return Value::Poison };
         let number = self.graph.number(number);
         if self.scope.is_other(suffix) {
             return self.scope.look_up(suffix, self.diagnostics);
         }
         // A default depends on no names: there it is a unit.
-        let is_name = text == "pi" || !self.is_default && (is_time || self.scope.is_declared(suffix));
+        let is_name = text == "pi" || self.mode != Mode::Default && (is_time || self.scope.is_declared(suffix));
         if is_name {
             let message = format!("expected an operator: write `{digits}*{text}` for a product");
             self.diagnostics.error(region, message);
-            let other = match (is_time, self.time) {
+            let other = match (is_time, self.motion.time) {
                 (true, Some(time)) => Value::Scalar(time),
                 _ if text == "pi" => Value::Scalar(self.graph.pi()),
                 _ => self.scope.look_up(suffix, self.diagnostics),
@@ -74,7 +74,7 @@ impl Lowering<'_> {
             return Value::Poison;
         }
         // A unit that is written at each number is one mistake.
-        if !self.expressions.has_reported(&text) && self.units.insert(text.clone()) {
+        if !self.expressions.has_reported(&text) && self.reported.units.insert(text.clone()) {
             self.diagnostics.error(region, unknown_unit(&text, digits));
         }
         let is_degrees = text.starts_with("deg");
@@ -99,10 +99,10 @@ impl Lowering<'_> {
     }
 
     /// The message of a body where a value belongs, with the names of its centre and its angle.
-    fn value_of_body(&self, Body { name, properties, .. }: &Body) -> String {
+    fn value_of_body(&self, body: &Body) -> String {
+        let name = &body.name;
         let named = |word: &str| {
-            let (_, value) = properties.iter().find(|(property, _)| property == word)?;
-            let value = self.expressions.as_name(*value).filter(|value| *value != name)?;
+            let value = self.expressions.as_name(body.property(word)?).filter(|value| *value != name)?;
             Some(value.to_string())
         };
         let written = |word: &str| named(word).map_or_else(|| format!("its {word}"), |of| format!("its {word} `{of}`"));

@@ -1,9 +1,9 @@
 //! Opened joints, for the forces in them.
 //!
 //! A joint is opened by a displacement of one link from the joint: from the pin, or across its guide and about the end
-//! of it. Every vector is then read again as a path over links from the origin. Where it enters the link at the pin it
-//! is displaced, where it leaves it there it is displaced back; a path that ends at the pin ends on the pin, and the
-//! centre of a body on its link. The force in the joint is the generalised force of the displacement (see
+//! of it. Every vector is a path over links from the origin. Where it enters the link at the pin it is displaced, where
+//! it leaves it there it is displaced back; a path that ends at the pin ends on the pin, and the centre of a body on its
+//! link. The force in the joint is the generalised force of the displacement (see
 //! `derivation::loads`).
 
 use std::collections::BTreeMap;
@@ -12,57 +12,88 @@ use super::chain::{Link, in_order};
 use super::links::{GROUND, Leg, LegOf, Links, moved};
 use super::opened::Site;
 use super::scope::Value;
-use crate::diagnostics::Region;
 use crate::graph::{Graph, NodeId, Number, SymbolId};
-use crate::syntax::{Expression, ExpressionId, Expressions, Operator};
+use crate::syntax::{Expression, ExpressionId, Expressions, Operator, Statement, StatementKind};
 
-/// The second reading of all vectors, with displaced joints.
-pub(super) struct Opening {
+/// The opened joints, and the vectors in which they are displaced.
+pub(super) struct Opening<'o> {
+    pub(super) graph: &'o mut Graph,
+    pub(super) expressions: &'o Expressions,
     pub(super) links: Links,
     pub(super) sites: Vec<(Site, [SymbolId; 2])>,
-    /// The values of the first reading.
-    pub(super) plain: Vec<Value>,
-    /// The vectors that names stand for, and whether the name is that of a point.
+    /// The values of all expressions with closed joints.
+    pub(super) plain: &'o [Value],
+    /// The expressions that names stand for, and whether the name is that of a point.
     pub(super) definitions: BTreeMap<String, (ExpressionId, bool)>,
-    /// The link of the body whose centre is read.
-    pub(super) owner: Option<usize>,
-    /// The vectors that are no paths over links, by expression.
-    pub(super) unclear: BTreeMap<usize, Region>,
+    /// The link of the body whose centre is displaced.
+    owner: Option<usize>,
 }
 
 /// A path over links from the origin.
 #[derive(Debug, Clone)]
-pub(super) struct Path {
+struct Path {
     /// Its end; `None` after a vector that begins elsewhere.
     position: Option<[NodeId; 2]>,
     /// The link on which it ends; `None` for a pin.
     link: Option<usize>,
-    pub(super) shift: [NodeId; 2],
+    shift: [NodeId; 2],
     /// True if it has not left the origin.
     is_fresh: bool,
 }
 
-impl Opening {
-    /// The first vector that is no path over links; a `let` may be a part of one.
-    pub(super) fn unclear(mut self) -> Option<Region> {
-        for (part, _) in self.definitions.values().filter(|(_, is_point)| !is_point) {
-            self.unclear.remove(&part.index());
+impl<'o> Opening<'o> {
+    pub(super) fn new(
+        graph: &'o mut Graph,
+        expressions: &'o Expressions,
+        plain: &'o [Value],
+        (links, sites): (Links, Vec<(Site, [SymbolId; 2])>),
+        statements: &[Statement],
+    ) -> Self {
+        let mut definitions = BTreeMap::new();
+        for statement in statements {
+            let (name, value, is_point) = match &statement.kind {
+                StatementKind::Let { name, value } | StatementKind::Output { name, value } => (name, *value, false),
+                StatementKind::Point { name, value } | StatementKind::Quantity { name, value } => (name, *value, true),
+                _ => continue,
+            };
+            definitions.insert(name.to_string(), (value, is_point));
         }
-        self.unclear.into_values().next()
+        Self { graph, expressions, links, sites, plain, definitions, owner: None }
+    }
+
+    /// The displacement of a vector that begins at the origin and, for the centre of a body, ends on the link of the body;
+    /// `None` if it is no path over links.
+    pub(super) fn displacement(&mut self, id: ExpressionId, owner: Option<usize>) -> Option<[NodeId; 2]> {
+        self.owner = owner;
+        self.shift(id)
+    }
+
+    /// The displacement of the pin at the origin, at which a loop `… = 0` ends.
+    pub(super) fn of_origin(&mut self) -> [NodeId; 2] {
+        self.owner = None;
+        let path = self.start();
+        self.end(path).shift
+    }
+
+    /// The angle of a link, which turns with what slides on an opened guide.
+    pub(super) fn turned(&mut self, link: usize, angle: NodeId) -> NodeId {
+        let mut turned = angle;
+        for (site, [_, turn]) in &self.sites {
+            if matches!(site, Site::Guide { block, .. } if *block == link) {
+                let turn = self.graph.variable(*turn);
+                turned = self.graph.add(turned, turn);
+            }
+        }
+        turned
     }
 
     /// The displacement of the end of a vector that begins at the origin.
-    pub(super) fn shift(
-        &mut self,
-        graph: &mut Graph,
-        expressions: &Expressions,
-        id: ExpressionId,
-    ) -> Option<[NodeId; 2]> {
-        match expressions.get(id) {
-            Expression::Sum(operands) => self.shift_of_sum(graph, expressions, operands, false),
+    fn shift(&mut self, id: ExpressionId) -> Option<[NodeId; 2]> {
+        match self.expressions.get(id) {
+            Expression::Sum(operands) => self.shift_of_sum(operands, false),
             Expression::Negate(inner) => {
-                let shift = self.shift(graph, expressions, *inner)?;
-                Some(shift.map(|part| graph.negate(part)))
+                let shift = self.shift(*inner)?;
+                Some(shift.map(|part| self.graph.negate(part)))
             }
             Expression::Product(operands) => {
                 let mut factors = Vec::new();
@@ -74,95 +105,83 @@ impl Opening {
                         Value::Poison => return None,
                     }
                 }
-                let factor = graph.product(&factors);
-                let shift = match expressions.get(vector?) {
+                let factor = self.graph.product(&factors);
+                let shift = match self.expressions.get(vector?) {
                     // The mean of positions.
-                    Expression::Sum(operands) => self.shift_of_sum(graph, expressions, operands, true)?,
-                    _ => self.shift(graph, expressions, vector?)?,
+                    Expression::Sum(operands) => self.shift_of_sum(operands, true)?,
+                    _ => self.shift(vector?)?,
                 };
-                Some(shift.map(|part| graph.multiply(factor, part)))
+                Some(shift.map(|part| self.graph.multiply(factor, part)))
             }
             Expression::Name(name) => {
                 let (definition, _) = *self.definitions.get(&name.to_string())?;
-                self.shift(graph, expressions, definition)
+                self.shift(definition)
             }
             _ => {
-                let path = self.start(graph);
-                match self.follow(graph, expressions, id, false, path) {
-                    Some(path) => Some(self.end(graph, path).shift),
-                    None => self.is_free(graph, expressions, id).then(|| [graph.zero(); 2]),
+                let path = self.start();
+                match self.follow(id, false, path) {
+                    Some(path) => Some(self.end(path).shift),
+                    None => self.is_free(id).then(|| [self.graph.zero(); 2]),
                 }
             }
         }
     }
 
     /// The displacement of a sum. An operand that does not continue the path is a position of its own.
-    fn shift_of_sum(
-        &mut self,
-        graph: &mut Graph,
-        expressions: &Expressions,
-        operands: &[(Operator, ExpressionId)],
-        is_mean: bool,
-    ) -> Option<[NodeId; 2]> {
-        let mut path = self.start(graph);
+    fn shift_of_sum(&mut self, operands: &[(Operator, ExpressionId)], is_mean: bool) -> Option<[NodeId; 2]> {
+        let mut path = self.start();
         for &(operator, operand) in operands {
             let is_reversed = operator == Operator::Inverse;
-            let is_position = is_mean && expressions.as_name(operand).is_some();
+            let is_position = is_mean && self.expressions.as_name(operand).is_some();
             let next = match is_position {
                 true => None,
-                false => self.follow(graph, expressions, operand, is_reversed, path.clone()),
+                false => self.follow(operand, is_reversed, path.clone()),
             };
             path = match next {
                 Some(next) => next,
                 None => {
                     let sign = if is_reversed { Number::MINUS_ONE } else { Number::ONE };
-                    let own = self.shift(graph, expressions, operand)?;
+                    let own = self.shift(operand)?;
                     // The origin is not the end of a path that has not begun.
                     let ended = match path.is_fresh {
                         true => Path { position: None, link: None, is_fresh: false, ..path },
-                        false => self.end(graph, path),
+                        false => self.end(path),
                     };
-                    let shift = [0, 1].map(|axis| graph.sum(&[(Number::ONE, ended.shift[axis]), (sign, own[axis])]));
+                    let shift =
+                        [0, 1].map(|axis| self.graph.sum(&[(Number::ONE, ended.shift[axis]), (sign, own[axis])]));
                     Path { shift, ..ended }
                 }
             };
         }
-        Some(self.end(graph, path).shift)
+        Some(self.end(path).shift)
     }
 
     /// Continues a path by a vector; `None` if it does not begin on a link there.
-    fn follow(
-        &mut self,
-        graph: &mut Graph,
-        expressions: &Expressions,
-        id: ExpressionId,
-        is_reversed: bool,
-        mut path: Path,
-    ) -> Option<Path> {
-        match expressions.get(id) {
+    fn follow(&mut self, id: ExpressionId, is_reversed: bool, mut path: Path) -> Option<Path> {
+        match self.expressions.get(id) {
             Expression::Sum(operands) => {
                 for (operator, operand) in in_order(operands, is_reversed) {
                     let is_reversed = is_reversed != (operator == Operator::Inverse);
-                    path = self.follow(graph, expressions, operand, is_reversed, path)?;
+                    path = self.follow(operand, is_reversed, path)?;
                 }
                 Some(path)
             }
-            Expression::Negate(inner) => self.follow(graph, expressions, *inner, !is_reversed, path),
+            Expression::Negate(inner) => self.follow(*inner, !is_reversed, path),
             Expression::Name(name) => {
                 let (definition, is_point) = *self.definitions.get(&name.to_string())?;
                 if is_point && (is_reversed || !path.is_fresh) {
                     return None;
                 }
-                self.follow(graph, expressions, definition, is_reversed, path)
+                self.follow(definition, is_reversed, path)
             }
             _ => {
-                let (plain, zero) = (&self.plain, graph.zero());
-                let link = Link::of(expressions, id, is_reversed, zero, &mut |id| plain[id.index()])?;
-                if link.vector.iter().all(|&part| graph.is_zero(part)) {
+                let (plain, zero) = (self.plain, self.graph.zero());
+                let link = Link::of(self.expressions, id, is_reversed, zero, &mut |id| plain[id.index()])?;
+                if link.vector.iter().all(|&part| self.graph.is_zero(part)) {
                     return Some(path);
                 }
-                for leg in self.links.legs(graph, &link)? {
-                    path = self.go(graph, path, &leg)?;
+                for leg in self.links.legs(self.graph, &link)? {
+                    path = self.go(path, &leg)?;
                 }
                 Some(path)
             }
@@ -170,9 +189,9 @@ impl Opening {
     }
 
     /// Continues a path by a leg.
-    fn go(&self, graph: &mut Graph, mut path: Path, leg: &Leg) -> Option<Path> {
+    fn go(&mut self, mut path: Path, leg: &Leg) -> Option<Path> {
         let position = path.position?;
-        let next = moved(graph, position, leg.vector);
+        let next = moved(self.graph, position, leg.vector);
         let [here, there] = [position, next].map(|position| self.links.place(position));
         let at = |place: Option<usize>, direction: usize| self.links.link_at(place?, direction);
         let [on, ends_on] = match leg.of {
@@ -188,41 +207,41 @@ impl Opening {
             }
         };
         if let Some(place) = here {
-            self.step(graph, &mut path, place, on);
+            self.step(&mut path, place, on);
         }
         path.link = ends_on;
         for (site, [first, turn]) in &self.sites {
             let Site::Guide { ends, block } = *site else { continue };
-            let (first, turn) = (graph.variable(*first), graph.variable(*turn));
+            let (first, turn) = (self.graph.variable(*first), self.graph.variable(*turn));
             let [x, y] = leg.vector;
             let displacement = match leg.of {
                 LegOf::Rigid { .. } if on == Some(block) => {
-                    let across = graph.multiply(turn, y);
-                    [graph.negate(across), graph.multiply(turn, x)]
+                    let across = self.graph.multiply(turn, y);
+                    [self.graph.negate(across), self.graph.multiply(turn, x)]
                 }
                 LegOf::Guide { normal, .. } if [here, there] == ends.map(Some) => {
-                    normal.map(|part| graph.multiply(first, part))
+                    normal.map(|part| self.graph.multiply(first, part))
                 }
                 LegOf::Guide { normal, .. } if [there, here] == ends.map(Some) => {
-                    normal.map(|part| graph.multiply(first, part)).map(|part| graph.negate(part))
+                    normal.map(|part| self.graph.multiply(first, part)).map(|part| self.graph.negate(part))
                 }
                 _ => continue,
             };
-            path.shift = moved(graph, path.shift, displacement);
+            path.shift = moved(self.graph, path.shift, displacement);
         }
         Some(Path { position: Some(next), is_fresh: false, ..path })
     }
 
     /// Ends a path on its owner, or else on the pin at its end.
-    pub(super) fn end(&self, graph: &mut Graph, mut path: Path) -> Path {
+    fn end(&mut self, mut path: Path) -> Path {
         if let Some(place) = path.position.and_then(|position| self.links.place(position)) {
-            self.step(graph, &mut path, place, self.owner);
+            self.step(&mut path, place, self.owner);
         }
         Path { position: None, link: None, is_fresh: false, ..path }
     }
 
     /// Changes the link of a path at a place.
-    fn step(&self, graph: &mut Graph, path: &mut Path, place: usize, to: Option<usize>) {
+    fn step(&mut self, path: &mut Path, place: usize, to: Option<usize>) {
         if path.link == to {
             return;
         }
@@ -234,22 +253,22 @@ impl Opening {
                 link if link == path.link => Number::MINUS_ONE,
                 _ => continue,
             };
-            let symbols = symbols.map(|symbol| graph.variable(symbol));
-            path.shift = [0, 1].map(|axis| graph.sum(&[(Number::ONE, path.shift[axis]), (sign, symbols[axis])]));
+            let symbols = symbols.map(|symbol| self.graph.variable(symbol));
+            path.shift = [0, 1].map(|axis| self.graph.sum(&[(Number::ONE, path.shift[axis]), (sign, symbols[axis])]));
         }
         path.link = to;
     }
 
-    pub(super) fn start(&self, graph: &mut Graph) -> Path {
-        let zero = [graph.zero(); 2];
+    fn start(&mut self) -> Path {
+        let zero = [self.graph.zero(); 2];
         Path { position: Some(zero), link: Some(GROUND), shift: zero, is_fresh: true }
     }
 
     /// True for a vector that no displacement changes: it turns with no link that an opened guide turns.
-    fn is_free(&mut self, graph: &mut Graph, expressions: &Expressions, id: ExpressionId) -> bool {
-        let (plain, zero) = (&self.plain, graph.zero());
-        let link = Link::of(expressions, id, false, zero, &mut |id| plain[id.index()]);
-        let Some(legs) = link.and_then(|link| self.links.legs(graph, &link)) else { return false };
+    fn is_free(&mut self, id: ExpressionId) -> bool {
+        let (plain, zero) = (self.plain, self.graph.zero());
+        let link = Link::of(self.expressions, id, false, zero, &mut |id| plain[id.index()]);
+        let Some(legs) = link.and_then(|link| self.links.legs(self.graph, &link)) else { return false };
         let turns = |leg: &Leg| {
             let LegOf::Rigid { direction } = leg.of else { return false };
             let mut sites = self.sites.iter();

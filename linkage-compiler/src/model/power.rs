@@ -1,11 +1,12 @@
 //! Powers: exponents are integers that a power can have.
 
-use super::expression::Lowering;
+use super::functions;
+use super::resolver::Resolver;
 use super::scope::Value;
-use crate::graph::{Fault, LARGEST_EXPONENT, Number};
+use crate::graph::Fault;
 use crate::syntax::ExpressionId;
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     pub(super) fn power(&mut self, base: ExpressionId, exponent: ExpressionId) -> Value {
         if let Value::Vector(..) = self.value(base) {
             let message = "a vector has no power: use `dot(P, P)` for the square of its length";
@@ -18,11 +19,9 @@ impl Lowering<'_> {
             return Value::Poison;
         }
         let region = self.expressions.region(exponent);
-        let number = self.graph.as_number(node);
-        let is_integer = number.is_some_and(|number| number.to_f64().fract() == 0.0);
-        let integer = number.and_then(Number::as_integer).and_then(|n| i32::try_from(n).ok());
-        match integer.filter(|integer| integer.unsigned_abs() <= LARGEST_EXPONENT.unsigned_abs()) {
-            Some(integer) => Value::Scalar(self.graph.power(base, integer)),
+        let is_integer = self.graph.as_number(node).is_some_and(|number| number.to_f64().fract() == 0.0);
+        match functions::power(&mut self.graph, base, node) {
+            Some(power) => Value::Scalar(power),
             None if is_integer => {
                 self.diagnostics.error(region, Fault::ExponentOverflow);
                 Value::Poison

@@ -11,8 +11,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::expression::Lowering;
 use super::mechanism::Mechanism;
+use super::resolver::Resolver;
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::ids::{Id, RowId, Table, UnknownId};
 use crate::structure::{incidence, order};
@@ -20,7 +20,7 @@ use crate::structure::{incidence, order};
 /// The most rows among which constant factors are looked for. With more, no factors are found.
 const MOST_ROWS: usize = 64;
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Marks the joints whose forces are not determined; reports frictions by these forces. Equations that displacements
     /// change do carry forces to the joints.
     pub(super) fn undetermined(&mut self, result: &mut Mechanism) {

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
+use super::functions::VECTOR_FUNCTIONS;
 use crate::diagnostics::{Diagnostics, Region, nearest};
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 
@@ -20,6 +21,13 @@ impl Value {
         match self {
             Self::Scalar(node) => Some(node),
             Self::Vector(..) | Self::Poison => None,
+        }
+    }
+
+    pub(super) fn vector(self) -> Option<[NodeId; 2]> {
+        match self {
+            Self::Vector(x, y) => Some([x, y]),
+            Self::Scalar(_) | Self::Poison => None,
         }
     }
 }
@@ -67,10 +75,6 @@ pub(super) struct Undeclared {
     pub message: Option<usize>,
 }
 
-/// The functions of the language besides the operation table, with their number of arguments.
-pub const VECTOR_FUNCTIONS: [(&str, usize); 7] =
-    [("x", 1), ("y", 1), ("norm", 1), ("angle", 1), ("dot", 2), ("cross", 2), ("powi", 2)];
-
 impl Scope {
     /// Declares a name; returns false and reports an error if it is a keyword or already declared.
     pub(super) fn claim(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> bool {
@@ -101,13 +105,6 @@ impl Scope {
         // The first declaration of a name counts.
         if let Some(entry @ Entry::Later) = self.entries.get_mut(&name.to_string()) {
             *entry = Entry::Value(value);
-        }
-    }
-
-    /// Forgets the values of all names, which are defined again.
-    pub(super) fn forget_values(&mut self) {
-        for entry in self.entries.values_mut().filter(|entry| matches!(entry, Entry::Value(_))) {
-            *entry = Entry::Later;
         }
     }
 

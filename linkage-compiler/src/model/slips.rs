@@ -1,10 +1,10 @@
 //! Slips that are valid formulas: degrees without a unit, a unit where none may stand, an angle that is a length.
 
-use super::expression::Lowering;
 use super::kind::{Kind, bare_symbols, bare_terms};
-use super::lower::lacks_equations;
 use super::mechanism::Mechanism;
 use super::name::Name;
+use super::resolve::lacks_equations;
+use super::resolver::Resolver;
 use super::scope::Value;
 use crate::diagnostics::Region;
 use crate::graph::{NodeId, Number, SymbolId};
@@ -13,7 +13,7 @@ use crate::syntax::{Expression, ExpressionId, Statement, StatementKind, Unit};
 /// A number above it is more than a turn in radians.
 const TURN: f64 = std::f64::consts::TAU;
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// The text of a plain number, and its value, if the expression is one.
     fn plain(&self, id: ExpressionId) -> Option<(String, f64, Unit)> {
         match self.expressions.get(id) {
@@ -53,11 +53,11 @@ impl Lowering<'_> {
 
     /// Records the angle of a body, to be checked when the kinds of all names are known.
     pub(super) fn angle_of_body(&mut self, node: NodeId, region: Region, body: &str) {
-        self.angles_of_bodies.push((node, region, body.to_owned()));
+        self.kinds.angles_of_bodies.push((node, region, body.to_owned()));
     }
 
     /// Reports defaults and angles of bodies of the wrong kind.
-    pub(super) fn kinds_of_numbers(&mut self, statements: &[Statement], kind_of: &dyn Fn(SymbolId) -> Kind) {
+    pub(super) fn kinds_of_numbers(&mut self, statements: &[Statement]) {
         let parameters = statements.iter().filter_map(|statement| match &statement.kind {
             StatementKind::Parameters(parameters) => Some(parameters),
             _ => None,
@@ -65,7 +65,7 @@ impl Lowering<'_> {
         for (name, default) in parameters.flatten() {
             let (Some(default), Some(symbol)) = (*default, self.scope.symbol(name)) else { continue };
             let Some((digits, value, unit)) = self.plain(default) else { continue };
-            let message = match (kind_of(symbol), unit) {
+            let message = match (self.kinds.of(symbol), unit) {
                 (Kind::Angle, Unit::None) if value.abs() > TURN => {
                     format!(
                         "the angle `{name}` is {digits} radians, more than a turn: write `{digits}deg`, or `{digits}rad` to mean it"
@@ -78,10 +78,10 @@ impl Lowering<'_> {
             };
             self.diagnostics.error(self.expressions.region(default), message);
         }
-        for (node, region, body) in std::mem::take(&mut self.angles_of_bodies) {
+        for (node, region, body) in std::mem::take(&mut self.kinds.angles_of_bodies) {
             let length = bare_symbols(&self.graph, node).into_iter().find(|&symbol| {
-                kind_of(symbol) == Kind::Length
-                    && (self.lengths_of_loops.contains(&symbol) || self.kinds.iter().any(|(other, _)| *other == symbol))
+                self.kinds.of(symbol) == Kind::Length
+                    && (self.kinds.lengths_of_loops.contains(&symbol) || self.kinds.known.contains_key(&symbol))
             });
             if let Some(length) = length {
                 let name = self.graph.symbol_name(length);
@@ -98,7 +98,7 @@ impl Lowering<'_> {
             let coordinate = result.coordinates.iter().find(|coordinate| coordinate.symbol == symbol);
             coordinate.map(|coordinate| coordinate.name.text.as_str())
         };
-        for operands in std::mem::take(&mut self.sums) {
+        for operands in std::mem::take(&mut self.kinds.sums) {
             let mut found: [Vec<(ExpressionId, Number, &str)>; 2] = Default::default();
             for operand in operands {
                 let Some(Value::Scalar(node)) = self.values.get(operand.index()) else { continue };
@@ -130,10 +130,10 @@ impl Lowering<'_> {
 
     /// The kind of a name that is used as a length or as an angle.
     fn length_or_angle(&self, symbol: SymbolId) -> Option<Kind> {
-        let has = |kind| self.kinds.contains(&(symbol, kind));
+        let has = |kind| self.kinds.known.get(&symbol) == Some(&kind);
         match () {
             () if has(Kind::Angle) => Some(Kind::Angle),
-            () if has(Kind::Length) || self.lengths_of_loops.contains(&symbol) => Some(Kind::Length),
+            () if has(Kind::Length) || self.kinds.lengths_of_loops.contains(&symbol) => Some(Kind::Length),
             () => None,
         }
     }
@@ -155,7 +155,7 @@ impl Lowering<'_> {
 
     /// True for the name of an angle.
     fn is_angle(&self, name: &str) -> bool {
-        self.scope.symbol_of(name).is_some_and(|symbol| self.kinds.contains(&(symbol, Kind::Angle)))
+        self.scope.symbol_of(name).is_some_and(|symbol| self.kinds.known.get(&symbol) == Some(&Kind::Angle))
     }
 
     /// The names of values in a name, or in a product of names.

@@ -1,17 +1,17 @@
 //! The messages of undeclared names, when all declarations are known: a line of declarations that is missing is one
 //! mistake.
 
-use super::expression::Lowering;
 use super::kind::Kind;
+use super::resolver::Resolver;
 use super::scope::Undeclared;
 use crate::diagnostics::{nearest, suggestion};
 use crate::syntax::{Statement, StatementKind, constant_of_rust};
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Completes the messages of undeclared names.
     pub(super) fn report_undeclared(&mut self, statements: &[Statement]) {
         let is_angle =
-            |name: &str| self.undeclared_kinds.iter().any(|(other, kind)| other == name && *kind == Kind::Angle);
+            |name: &str| self.assumed.kinds.iter().any(|(other, kind)| other == name && *kind == Kind::Angle);
         let known: Vec<&str> = self.scope.names().collect();
         let reported: Vec<&Undeclared> =
             self.scope.undeclared().iter().filter(|undeclared| undeclared.message.is_some()).collect();

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 
 use super::names::Taken;
 use super::pose::PosePlan;
-use crate::derivation::{Assembly, Choice, Chord, Derivation, Joint, Step};
-use crate::graph::{Graph, SymbolId};
+use crate::derivation::{Assembly, Chord, Derivation, Joint, Step};
+use crate::graph::SymbolId;
 use crate::ids::UnknownId;
-use crate::model::{Driver, Kind, Mechanism};
-use crate::structure::{Class, Group};
+use crate::model::{Coordinate, Driver, Guess, Kind, Mechanism};
+use crate::structure::{Choice, Group};
 
 /// The properties of the position problem that signatures and types depend on.
 #[derive(Debug, Clone, Default)]
@@ -116,6 +116,15 @@ pub struct AngleTurn {
     pub number: String,
 }
 
+/// The names of the fields of sides.
+fn fields_of(sides: &[Side]) -> Taken<'static> {
+    let mut taken = Taken::unreserved();
+    for side in sides {
+        taken.unique(&side.field);
+    }
+    taken
+}
+
 impl Position {
     /// The largest number of branches that `branches` assembles: at a microsecond each, it takes a tenth of a second. For
     /// more it is a stub with this reason.
@@ -130,11 +139,7 @@ impl Position {
     ) -> Self {
         let side = |chord| Side::of(mechanism, driver, derivation, chord);
         let sides: Vec<Side> = assembly.chords.iter().map(side).collect();
-        let nothing = BTreeSet::new();
-        let mut taken = Taken::new(&nothing);
-        for side in &sides {
-            taken.unique(&side.field);
-        }
+        let mut taken = fields_of(&sides);
         let solved = steps.iter().filter_map(|step| match step {
             Step::Turn { symbol, .. } => Some(*symbol),
             _ => None,
@@ -158,89 +163,33 @@ impl Position {
         Self { is_closed: assembly.guesses.is_empty(), open, sides, modes, turns, blocks: derivation.blocks.len() }
     }
 
-    /// A guess for a mechanism with mistakes. If the order of solution is known, the groups are those of the equations
-    /// as written; else each pair of unknowns, in the order of declaration, is a group with two solutions.
+    /// The position of a mechanism with mistakes, by its guessed solution.
     pub fn guessed(mechanism: &Mechanism, driver: &Driver) -> Self {
-        let name = |place: UnknownId| mechanism.coordinates[driver.unknowns[place]].name.field.as_str();
-        if driver.system.blocks.is_empty() {
-            let are_angles = |group: &[UnknownId]| {
-                group.iter().all(|&place| mechanism.coordinates[driver.unknowns[place]].kind != Kind::Length)
-            };
-            let places: Vec<UnknownId> = driver.unknowns.ids().collect();
-            let sides = places.chunks_exact(2).map(|group| {
-                let choice = if are_angles(group) { Choice::Elbow } else { Choice::Slider };
-                Side::of_unknowns([name(group[0]), name(group[1])].join("_"), choice)
-            });
-            let sides: Vec<_> = sides.collect();
-            return Self { is_closed: true, blocks: sides.len(), sides, ..Self::default() };
-        }
-        let mut graph = mechanism.graph.clone();
-        let rows = &driver.system.rows;
-        let (mut sides, mut solved, mut open, mut modes) = (Vec::new(), BTreeSet::new(), Vec::new(), Vec::new());
-        for block in &driver.system.blocks {
-            let equations = rows.at(&block.equations);
-            let symbols = block.unknowns.iter().map(|&place| mechanism.coordinates[driver.unknowns[place]].symbol);
-            let symbols: Vec<SymbolId> = symbols.collect();
-            let group = Class::of(&mut graph, &equations, &symbols).group;
-            let choice = Choice::of(group, block.slide);
-            if choice.is_some() {
-                let angles = graph.in_directions(&equations);
-                solved.extend(symbols.into_iter().filter(|symbol| angles.contains(symbol)));
-            }
-            let names: Vec<&str> = block.unknowns.iter().map(|&place| name(place)).collect();
-            open.extend(group.obstacle().map(|obstacle| (names.join(", "), obstacle)));
-            modes.extend(Modes::of(group, &names));
-            let mut dyad = block.unknowns.clone();
-            dyad.extend(block.slide.map(|slide| slide.length));
-            dyad.sort_unstable();
-            let names: Vec<&str> = dyad.into_iter().map(name).collect();
-            sides.extend(choice.map(|choice| Side::of_unknowns(names.join("_"), choice)));
-        }
-        let is_closed = open.is_empty() && modes.is_empty();
-        if !open.is_empty() {
-            modes.clear();
-        }
-        let turns = match is_closed {
-            true => Self::guessed_turns(mechanism, driver, &mut graph, &sides, &solved),
-            false => Vec::new(),
+        let Guess { groups, turns } = Guess::of(mechanism, driver);
+        let names = |unknowns: &[UnknownId]| -> Vec<&str> {
+            unknowns
+                .iter()
+                .map(|&unknown| mechanism.coordinates[driver.unknowns[unknown]].name.field.as_str())
+                .collect()
         };
-        Self { is_closed, open, sides, modes, turns, blocks: driver.system.blocks.len() }
-    }
-
-    /// The turns of the solved angles that appear as numbers in formulas of the mechanism or of its scenes.
-    fn guessed_turns(
-        mechanism: &Mechanism,
-        driver: &Driver,
-        graph: &mut Graph,
-        sides: &[Side],
-        solved: &BTreeSet<SymbolId>,
-    ) -> Vec<AngleTurn> {
-        let mut formulas = mechanism.kinematic_formulas(&driver.system.rows);
-        let directions = graph.directions(&formulas);
-        let symbols: Vec<SymbolId> = mechanism.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-        for scene in mechanism.scenes_of(driver) {
-            formulas.extend(scene.values());
-            let paths = scene.paths(&mechanism.bodies);
-            formulas.extend(symbols.iter().flat_map(|&symbol| graph.partial(&paths, symbol)));
-        }
-        let needed: BTreeSet<SymbolId> = graph.needed_as_numbers(&formulas).into_iter().collect();
-        let nothing = BTreeSet::new();
-        let mut taken = Taken::new(&nothing);
-        for side in sides {
-            taken.unique(&side.field);
-        }
-        let order = mechanism.coordinate_order(driver);
-        let coordinates = order.into_iter().map(|index| &mechanism.coordinates[index]);
-        let turning = coordinates.filter(|coordinate| {
-            let symbol = coordinate.symbol;
-            solved.contains(&symbol) && (needed.contains(&symbol) || !directions.contains(&symbol))
+        let open = groups.iter().filter_map(|group| Some((names(&group.unknowns).join(", "), group.group.obstacle()?)));
+        let open: Vec<_> = open.collect();
+        let listed = groups.iter().filter(|_| open.is_empty());
+        let modes = listed.filter_map(|group| Modes::of(group.group, &names(&group.unknowns))).collect();
+        let sides = groups.iter().filter_map(|group| {
+            let choice = group.choice?;
+            Some(Side::of_unknowns(names(&group.dyad).join("_"), choice))
         });
-        let turns = turning.map(|coordinate| {
-            let name = coordinate.name.field.clone();
-            let field = taken.unique(&format!("{name}_turn"));
-            AngleTurn { symbol: coordinate.symbol, field, number: name.clone(), coordinate: name }
+        let sides: Vec<Side> = sides.collect();
+        let mut taken = fields_of(&sides);
+        let turns = turns.into_iter().map(|id| {
+            let Coordinate { name, symbol, .. } = &mechanism.coordinates[id];
+            let field = taken.unique(&format!("{}_turn", name.field));
+            AngleTurn { symbol: *symbol, field, number: name.field.clone(), coordinate: name.field.clone() }
         });
-        turns.collect()
+        let turns = turns.collect();
+        let is_closed = groups.iter().all(|group| group.group.is_closed());
+        Self { is_closed, open, sides, modes, turns, blocks: groups.len() }
     }
 
     /// A sentence for each group without a closed form.

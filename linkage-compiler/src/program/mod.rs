@@ -47,6 +47,7 @@ pub use scene::{MULTIPLIERS, SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
 pub use stored::Stored;
 
+use crate::budget::Spent;
 use crate::derivation::{ClosedForm, Derivation, Formulas};
 use crate::graph::NodeId;
 use crate::ids::{BlockId, Table};
@@ -54,16 +55,16 @@ use crate::model::{Driver, Mechanism, Request};
 use plan::Plan;
 use scene::ScenePlan;
 
-/// The program of one driver of a mechanism; `B` is the body of a function, planned or lowered.
-pub struct Program<'a, B> {
+/// The program of one driver of a mechanism; `B` is the body of a function, planned or lowered, `D` the derived data,
+/// which a stub lacks.
+pub struct Program<'a, B, D = Option<Derived>> {
     pub signatures: Signatures<'a>,
     pub position: Position,
     pub functions: Functions<B>,
     pub scenes: Vec<SceneProgram<'a, B>>,
     /// The formulas over numbers of any kind, on request.
     pub any_number: Option<AnyNumber<B>>,
-    /// `None` in a stub.
-    pub derived: Option<Derived>,
+    pub derived: D,
 }
 
 /// The derived data that bodies of functions and types are made of.
@@ -77,13 +78,18 @@ pub struct Derived {
 }
 
 /// Plans the functions of a driver and of its scenes.
-pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut Derivation) -> Program<'a, Body> {
+///
+/// # Errors
+/// [`Spent`] if the budget of the invocation is.
+pub fn plan<'a>(
+    mechanism: &'a Mechanism,
+    driver: &'a Driver,
+    derivation: &mut Derivation,
+) -> Result<Program<'a, Body, Derived>, Spent> {
     let mut plan = Plan::of(mechanism, driver, derivation);
     let mut scenes = Vec::new();
     for (number, scene) in mechanism.scenes_of(driver).enumerate() {
-        if mechanism.graph.budget().is_spent() {
-            break;
-        }
+        mechanism.graph.budget().check()?;
         scenes.extend(ScenePlan::of(&mut plan, scene, number).map(ScenePlan::into_program));
     }
     let any_number = mechanism.requests.contains(&Request::Intervals).then(|| plan.any_number());
@@ -103,8 +109,8 @@ pub fn plan<'a>(mechanism: &'a Mechanism, driver: &'a Driver, derivation: &mut D
     }
     kept.reverse();
     let functions = kept.into_iter().collect();
-    let derived = Some(Derived { pose, formulas, closed_forms, named });
-    Program { signatures, position, functions, scenes, any_number, derived }
+    let derived = Derived { pose, formulas, closed_forms, named };
+    Ok(Program { signatures, position, functions, scenes, any_number, derived })
 }
 
 /// The program of a mechanism with mistakes: functions without bodies.

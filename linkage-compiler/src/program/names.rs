@@ -26,6 +26,12 @@ impl<'a> Taken<'a> {
         Self { reserved, names: FxHashSet::default(), numbers: FxHashMap::default() }
     }
 
+    /// All names are free.
+    pub fn unreserved() -> Self {
+        static NOTHING: BTreeSet<String> = BTreeSet::new();
+        Self::new(&NOTHING)
+    }
+
     /// Returns the preferred name, or one with a number if it is taken.
     pub fn unique(&mut self, preferred: &str) -> String {
         if self.claim(preferred) { preferred.to_owned() } else { self.numbered(preferred, 2) }

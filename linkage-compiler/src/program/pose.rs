@@ -80,8 +80,7 @@ impl PosePlan {
             }
         }
         let mut texts = Texts::default();
-        let nothing = BTreeSet::new();
-        let mut taken = Taken::new(&nothing);
+        let mut taken = Taken::unreserved();
         let mut unique = |preferred: String| taken.unique(&preferred);
         let mut determinants = Vec::new();
         for (number, block) in derivation.blocks.enumerated() {

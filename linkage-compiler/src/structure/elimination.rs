@@ -110,7 +110,7 @@ impl Reduction<'_> {
         let mut open = vec![block];
         while let Some(block) = open.pop() {
             match self.group(&block) {
-                group if group.is_closed() || self.graph.budget().is_spent() => {}
+                group if group.is_closed() || self.graph.budget().check().is_err() => {}
                 group if group.most_modes().is_some() => self.split_loops(&block),
                 _ => open.extend(self.parts_after_elimination(&block)),
             }

@@ -5,6 +5,7 @@
 //! components of the dependency graph, which Tarjan's algorithm finds in the order of solution (I. S. Duff, J. K. Reid,
 //! "An implementation of Tarjan's algorithm for the block triangularization of a matrix", ACM TOMS 4, 1978).
 
+mod choice;
 mod distance;
 mod elimination;
 mod group;
@@ -14,6 +15,7 @@ mod obstacle;
 mod slide;
 mod waves;
 
+pub use choice::Choice;
 pub use distance::Distance;
 pub use elimination::{Elimination, System, incidence};
 pub use group::{Circles, Class, Group, mirror};

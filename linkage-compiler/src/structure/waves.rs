@@ -57,7 +57,7 @@ impl Row {
         let mut count = 0;
         while let Some(mut term) = open.pop() {
             count += 1;
-            if count > MOST_TERMS || !graph.budget().spend(1) {
+            if count > MOST_TERMS || graph.budget().spend(1).is_err() {
                 return Err(Obstacle::NotLoops);
             }
             let Some(node) = term.factors.pop() else {

@@ -35,6 +35,20 @@ pub enum Expression {
     Unread(Vec<Unread>),
 }
 
+impl Expression {
+    /// The operands of an expression that is read.
+    #[must_use]
+    pub fn operands(&self) -> Vec<ExpressionId> {
+        match self {
+            Self::Vector(first, second) | Self::At(first, second) | Self::Power(first, second) => vec![*first, *second],
+            Self::Sum(operands) | Self::Product(operands) => operands.iter().map(|(_, operand)| *operand).collect(),
+            Self::Negate(operand) | Self::Adjacent(_, operand) => vec![*operand],
+            Self::Call(_, arguments) => arguments.clone(),
+            Self::Number { .. } | Self::Name(_) | Self::Broken | Self::Unread(_) => Vec::new(),
+        }
+    }
+}
+
 /// The suffix of a literal that is no unit: another unit, a type, or a name without an operator before it.
 #[derive(Debug)]
 pub struct Suffix {

@@ -13,6 +13,14 @@ pub struct Body {
     pub is_complete: bool,
 }
 
+impl Body {
+    /// The value of a property.
+    #[must_use]
+    pub fn property(&self, word: &str) -> Option<ExpressionId> {
+        self.properties.iter().find(|(keyword, _)| keyword == word).map(|(_, value)| *value)
+    }
+}
+
 /// `scene NAME { … }`, or `scene NAME of DRIVER { … }`.
 pub struct Scene {
     pub name: Ident,
@@ -86,6 +94,7 @@ pub enum Joint {
 }
 
 /// The scalar that a spring or damper acts along: an expression, or the distance of two points.
+#[derive(Debug, Clone, Copy)]
 pub enum Place {
     On(ExpressionId),
     Between(ExpressionId, ExpressionId),

@@ -1,7 +1,5 @@
 //! The found columns of a batch: their names, and where `kinematics` and `full_kinematics` hold their numbers.
 
-use std::collections::BTreeSet;
-
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -39,9 +37,8 @@ pub struct Columns {
 
 impl Columns {
     pub fn of(program: &Program<Code>, derivation: Option<&Derivation>) -> Self {
-        let nothing = BTreeSet::new();
         let mut columns = Self { coordinates: Vec::new(), angles: Vec::new(), quantities: Vec::new() };
-        let mut taken = Taken::new(&nothing);
+        let mut taken = Taken::unreserved();
         columns.add_coordinates(program, derivation, &mut taken);
         columns.add_quantities(program, &mut taken);
         columns

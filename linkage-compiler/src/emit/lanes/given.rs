@@ -1,6 +1,5 @@
 //! The given columns of a batch: parameters, inputs or a guess, and the rates and accelerations of the inputs.
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -35,8 +34,7 @@ impl Given {
             true => (inputs.clone(), &types.inputs),
             false => (order.iter().map(|&place| &mechanism.coordinates[place].name).collect(), &types.coordinates),
         };
-        let nothing = BTreeSet::new();
-        let mut taken = Taken::new(&nothing);
+        let mut taken = Taken::unreserved();
         let mut names: Vec<String> = parameters.iter().chain(&start).map(|name| taken.unique(&name.text)).collect();
         for ending in ["_rate", "_acceleration"] {
             names.extend(inputs.iter().map(|name| taken.unique(&format!("{}{ending}", name.text))));

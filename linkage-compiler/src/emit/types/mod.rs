@@ -16,7 +16,7 @@ use super::names::{comment, ident};
 use super::pose;
 use crate::derivation::Derivation;
 use crate::lower::Code;
-use crate::model::{Coordinate, Mechanism, Request, TypeName};
+use crate::model::{Coordinate, Guess, Mechanism, Request, TypeName};
 use crate::program::{Modes, Position, Program, TypeNames};
 use branch::branch;
 use by_name::{by_name, conversions, coordinates, described, orders};
@@ -140,8 +140,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
         });
     }
     let derived = program.derived.as_ref().zip(derivation);
-    if derived.is_none() && driver.inputs.len() != 1 {
-        // The number of inputs is not known: accept a number as well.
+    if derived.is_none() && Guess::may_have_one_input(driver) {
         tokens.extend(quote! {
             impl<T: #root::__rt::Real> ::core::convert::From<T> for #inputs<T> {
                 fn from(_: T) -> Self {

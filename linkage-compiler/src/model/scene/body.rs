@@ -4,13 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Body;
 use crate::graph::{NodeId, SymbolId};
-use crate::ids::{BodyId, Id};
-use crate::model::expression::Lowering;
 use crate::model::mechanism::Mechanism;
 use crate::model::name::Name;
+use crate::model::resolver::Resolver;
 use crate::syntax::{self, ExpressionId};
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Declares time and the rates of the coordinates, for the laws of scenes.
     pub(in crate::model) fn declare_motion(&mut self, result: &mut Mechanism) {
         let mut name = "t".to_owned();
@@ -24,9 +23,9 @@ impl Lowering<'_> {
         for coordinate in result.coordinates.iter_mut() {
             let rate = self.graph.symbol(format!("{}_rate", coordinate.name.field));
             coordinate.rate = Some(rate);
-            self.rates.insert(coordinate.symbol, self.graph.variable(rate));
+            self.motion.rates.insert(coordinate.symbol, self.graph.variable(rate));
         }
-        self.time = result.time.map(|time| self.graph.variable(time));
+        self.motion.time = result.time.map(|time| self.graph.variable(time));
     }
 
     pub(in crate::model) fn body(&mut self, tree: &syntax::Body, result: &mut Mechanism) {
@@ -39,10 +38,9 @@ impl Lowering<'_> {
         }
         // Expressions must be evaluated in the order of the source.
         let (mut scalars, mut center) = (BTreeMap::new(), None);
-        let id = BodyId::new(result.bodies.len());
         for (word, value) in &tree.properties {
             if word == "center" {
-                center = self.center(id, *value);
+                center = self.vector(*value);
             } else if let Some(node) = self.scalar(*value) {
                 if word == "angle" {
                     self.angle_of_body(node, self.expressions.region(*value), &tree.name.to_string());
@@ -68,9 +66,6 @@ impl Lowering<'_> {
         if result.bodies.iter().any(|body| tree.name == body.name.text) {
             self.diagnostics.error(tree.name.span(), format_args!("the body `{}` is declared twice", tree.name));
         }
-        if let Some(angle) = scalars.get_mut("angle") {
-            *angle = self.turned(id, *angle);
-        }
         result.bodies.push(Body {
             name: Name::new(&tree.name),
             mass: scalars.get("mass").copied().zip(center.map(|(x, y)| [x, y])),
@@ -89,8 +84,8 @@ impl Lowering<'_> {
 
     /// Reports an expression that depends on coordinates, rates or time.
     pub(super) fn still(&mut self, id: ExpressionId, node: NodeId, what: &str) {
-        let motion = self.rates.values().chain(&self.time).filter_map(|&node| self.graph.as_symbol(node));
-        let motion: BTreeSet<SymbolId> = motion.chain(self.rates.keys().copied()).collect();
+        let motion = self.motion.rates.values().chain(&self.motion.time).filter_map(|&node| self.graph.as_symbol(node));
+        let motion: BTreeSet<SymbolId> = motion.chain(self.motion.rates.keys().copied()).collect();
         if self.graph.symbols_of(&[node]).iter().any(|symbol| motion.contains(symbol)) {
             let message = format!("{what} must be constant: use parameters only");
             self.diagnostics.error(self.expressions.region(id), message);

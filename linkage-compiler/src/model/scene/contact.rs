@@ -1,13 +1,14 @@
 //! Analysis of frictions and stops.
 
+use super::along::Along;
 use super::{Contact, ContactLaw};
 use crate::graph::NodeId;
-use crate::model::expression::Lowering;
+use crate::model::resolver::Resolver;
 use crate::syntax::{EffectKind, ExpressionId};
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Evaluates a friction or a stop: all its expressions, also after a mistake in one.
-    pub(super) fn contact(&mut self, kind: &EffectKind) -> Option<Contact> {
+    pub(super) fn contact(&mut self, kind: &EffectKind) -> Option<(Contact, Along)> {
         match kind {
             EffectKind::Friction { factors, reaction, on } => {
                 let mut nodes = Vec::new();
@@ -24,12 +25,10 @@ impl Lowering<'_> {
                 }
                 let along = self.moving(*on);
                 let label = format!("friction on {}", self.text(*on)?);
-                Some(Contact {
-                    label,
-                    along: self.signed(along?),
-                    law: ContactLaw::Friction(nodes.into_iter().collect::<Option<_>>()?),
-                    bearing: None,
-                })
+                let along = self.signed(along?);
+                let law = ContactLaw::Friction(nodes.into_iter().collect::<Option<_>>()?);
+                let written = Along::Contact { on: *on, is_signed: true };
+                Some((Contact { label, along, law, bearing: None }, written))
             }
             EffectKind::Stop { on, range, restitution } => {
                 let along = self.moving(*on);
@@ -56,20 +55,20 @@ impl Lowering<'_> {
                     let message = "a restitution must be between 0 and 1: s'+ = -e s'- at an impact";
                     self.diagnostics.error(self.expressions.region(*restitution), message);
                 }
-                let (along, range) = self.above_zero(along?, range);
+                let (along, range, is_signed) = self.above_zero(along?, range);
                 let law = ContactLaw::Stop { range, restitution: restitution_node };
-                Some(Contact { label, along, law, bearing: None })
+                Some((Contact { label, along, law, bearing: None }, Along::Contact { on: *on, is_signed }))
             }
             _ => None,
         }
     }
 
-    /// A length never passes an end at zero or below: it stays in -c..c if it stays in 0..c, and so does x of |x|.
-    fn above_zero(&mut self, scalar: NodeId, [lower, upper]: [NodeId; 2]) -> (NodeId, [NodeId; 2]) {
+    /// The scalar and the range of a stop, and whether it is signed. A length never passes an end at zero or below: it stays in -c..c if it stays in 0..c, and so does x of |x|.
+    fn above_zero(&mut self, scalar: NodeId, [lower, upper]: [NodeId; 2]) -> (NodeId, [NodeId; 2], bool) {
         if self.graph.is_length(scalar) && self.graph.constant_value(lower).is_some_and(|lower| lower <= 0.0) {
-            (self.signed(scalar), [self.graph.negate(upper), upper])
+            (self.signed(scalar), [self.graph.negate(upper), upper], true)
         } else {
-            (scalar, [lower, upper])
+            (scalar, [lower, upper], false)
         }
     }
 }

@@ -6,9 +6,10 @@ use proc_macro2::Ident;
 use rustc_hash::FxHashMap;
 use syn::Attribute;
 
+use super::along::{self, Along, Written};
 use super::{Account, Draft, Law, Reading, SceneRequest, Wanted};
 use crate::graph::{Function, Node, NodeId, Number, SymbolId};
-use crate::model::expression::Lowering;
+use crate::model::resolver::{Mode, Resolver};
 use crate::model::scope::Value;
 use crate::syntax::{self, EffectKind, Expression, ExpressionId, Place};
 
@@ -36,7 +37,7 @@ impl Draft {
     }
 }
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     pub(in crate::model) fn scene(&mut self, tree: &syntax::Scene, attributes: &[Attribute], reading: &mut Reading) {
         let mut scene = Draft {
             name: tree.name.clone(),
@@ -46,6 +47,7 @@ impl Lowering<'_> {
             contacts: Vec::new(),
             requests: BTreeSet::new(),
             wanted: Vec::new(),
+            written: Written::default(),
             inertia: None,
             contact: None,
             gravity: Vec::new(),
@@ -91,7 +93,7 @@ impl Lowering<'_> {
             EffectKind::Spring { stiffness, free, place } => {
                 let k = self.scalar(*stiffness);
                 let free_length = free.map(|free| self.scalar(free));
-                let Some((along, words)) = self.place(place) else { return };
+                let Some((along, words)) = self.place(*place) else { return };
                 let (Some(k), false) = (k, free_length == Some(None)) else { return };
                 self.still(*stiffness, k, "the stiffness of a spring");
                 let mut free_node = self.graph.zero();
@@ -118,10 +120,11 @@ impl Lowering<'_> {
                 };
                 let (law, account) = (self.graph.negate(pull), Account::Stored(energy));
                 scene.laws.push(Law { label: format!("spring{words}"), law, along, account });
+                scene.written.laws.push(Along::Spring(*place));
             }
             EffectKind::Damper { constant, place } => {
                 let c = self.law(*constant);
-                let Some((along, words)) = self.place(place) else { return };
+                let Some((along, words)) = self.place(*place) else { return };
                 let Some(c) = c else { return };
                 if self.graph.constant_value(c).is_some_and(|value| value < 0.0) {
                     let message = "the constant of a damper is negative: it would drive the mechanism";
@@ -140,10 +143,11 @@ impl Lowering<'_> {
                 let force = self.graph.multiply(per_rate, rate);
                 let law = self.graph.negate(force);
                 scene.laws.push(Law { label: format!("damper{words}"), law, along, account: Account::Dissipated });
+                scene.written.laws.push(Along::Damper(*place));
             }
-            EffectKind::Torque { law, on } => {
-                let (law, along) = (self.law(*law), self.scalar(*on));
-                let (Some(law), Some(along), Some(words)) = (law, along, self.text(*on)) else { return };
+            &EffectKind::Torque { law, on } => {
+                let (law, along) = (self.law(law), self.scalar(on));
+                let (Some(law), Some(along), Some(words)) = (law, along, self.text(on)) else { return };
                 let (law, along) = match self.half_square(along) {
                     Some(half_square) => {
                         let zero = self.graph.zero();
@@ -152,34 +156,45 @@ impl Lowering<'_> {
                     None => (law, along),
                 };
                 scene.laws.push(Law { label: format!("torque on {words}"), law, along, account: Account::Applied });
+                scene.written.laws.push(Along::Spring(Place::On(on)));
             }
             EffectKind::Force { law, at } => {
-                self.is_law = true;
-                let force = self.vector(*law);
-                self.is_law = false;
+                let force = self.within(Mode::Law, |resolver| resolver.vector(*law));
                 let (Some((fx, fy)), Some((x, y)), Some(words)) = (force, self.vector(*at), self.text(*at)) else {
                     return;
                 };
                 for (law, along) in [(fx, x), (fy, y)] {
                     scene.laws.push(Law { label: format!("force at {words}"), law, along, account: Account::Applied });
                 }
+                scene.written.laws.push(Along::Point(*at));
             }
             EffectKind::Potential(value) => {
                 if let Some(node) = self.scalar(*value) {
                     let label = format!("potential {}", self.text(*value).unwrap_or_default());
-                    scene.laws.extend(self.potential(node, &label));
+                    let laws = self.potential(node).into_iter();
+                    scene.laws.extend(laws.map(|(law, along, energy)| Law {
+                        label: label.clone(),
+                        law,
+                        along,
+                        account: Account::Stored(energy),
+                    }));
+                    scene.written.laws.push(Along::Potential(*value));
                 }
             }
             EffectKind::Friction { .. } | EffectKind::Stop { .. } => {
                 scene.contact.get_or_insert_with(|| (keyword.span(), keyword.to_string()));
                 let contact = self.contact(&effect.kind);
-                if let (EffectKind::Friction { reaction: Some(pin), on, .. }, Some(contact)) = (&effect.kind, &contact)
+                if let (EffectKind::Friction { reaction: Some(pin), on, .. }, Some((contact, _))) =
+                    (&effect.kind, &contact)
                 {
                     let region = self.expressions.region(*on);
                     let pin = pin.and_then(|pin| self.vector(pin)).map(|(x, y)| [x, y]);
                     scene.wanted.push(Wanted::friction(region, scene.contacts.len(), (contact.along, pin)));
                 }
-                scene.contacts.extend(contact);
+                if let Some((contact, written)) = contact {
+                    scene.contacts.push(contact);
+                    scene.written.contacts.push(written);
+                }
             }
             EffectKind::Reaction(joint) => scene.wanted.extend(self.joint(*joint)),
             EffectKind::Drive { input, law } => {
@@ -188,8 +203,8 @@ impl Lowering<'_> {
                     scene.drives.push((input.clone(), self.graph.zero()));
                     return;
                 };
-                let rates: Vec<_> = self.rates.values().filter_map(|&rate| self.graph.as_symbol(rate)).collect();
-                let moves = |symbol: &SymbolId| self.rates.contains_key(symbol) || rates.contains(symbol);
+                let rates: Vec<_> = self.motion.rates.values().filter_map(|&rate| self.graph.as_symbol(rate)).collect();
+                let moves = |symbol: &SymbolId| self.motion.rates.contains_key(symbol) || rates.contains(symbol);
                 if self.graph.symbols_of(&[node]).iter().any(moves) {
                     let region = self.expressions.region(*law);
                     self.diagnostics.error(region, "the law of a drive may depend on `t` and parameters only");
@@ -198,8 +213,9 @@ impl Lowering<'_> {
             }
             EffectKind::Unread(names) => {
                 self.value(*names);
-                let is_coordinate =
-                    |name: &&Ident| self.scope.symbol(name).is_some_and(|symbol| self.rates.contains_key(&symbol));
+                let is_coordinate = |name: &&Ident| {
+                    self.scope.symbol(name).is_some_and(|symbol| self.motion.rates.contains_key(&symbol))
+                };
                 if keyword == "drive"
                     && let Expression::Unread(names) = self.expressions.get(*names)
                     && let Some(input) = names.iter().map(|unread| &unread.name).find(is_coordinate)
@@ -225,36 +241,37 @@ impl Lowering<'_> {
     }
 
     /// The scalar that a spring or damper acts along, and its text for the label.
-    pub(super) fn place(&mut self, place: &Place) -> Option<(NodeId, String)> {
-        match *place {
-            Place::On(on) => Some((self.scalar(on)?, format!(" on {}", self.text(on)?))),
+    fn place(&mut self, place: Place) -> Option<(NodeId, String)> {
+        let words = match place {
+            Place::On(on) => {
+                self.scalar(on)?;
+                format!(" on {}", self.text(on)?)
+            }
             Place::Between(from, to) => {
                 let (from_vector, to_vector) = (self.vector(from), self.vector(to));
-                let ((ax, ay), (bx, by)) = (from_vector?, to_vector?);
-                let (x, y) = (self.graph.subtract(bx, ax), self.graph.subtract(by, ay));
-                let length = self.graph.call(Function::Hypot, &[x, y]);
+                from_vector.and(to_vector)?;
                 let words = self.text(from).zip(self.text(to));
-                Some((length, words.map_or_else(String::new, |(from, to)| format!(" between {from} and {to}"))))
+                words.map_or_else(String::new, |(from, to)| format!(" between {from} and {to}"))
             }
-        }
+        };
+        let values = &self.values;
+        Some((along::length(&mut self.graph, place, &|id| values[id.index()])?, words))
     }
 
-    /// F = -dV: -dV/ds / s along s^2 / 2 for the terms of V that are functions of one length s, and -1 along the others.
-    fn potential(&mut self, value: NodeId, label: &str) -> Vec<Law> {
+    /// Laws, scalars and energies with F = -dV: -dV/ds / s along s^2 / 2 for the terms of V that are functions of one length s, and -1 along the others.
+    pub(super) fn potential(&mut self, value: NodeId) -> Vec<(NodeId, NodeId, NodeId)> {
         let mut laws = Vec::new();
         let mut others = Vec::new();
         for (coefficient, term) in self.graph.terms(value) {
             let energy = self.graph.scale(coefficient, term);
             match self.along_one_length(energy) {
-                Some((law, along)) => {
-                    laws.push(Law { label: label.to_owned(), law, along, account: Account::Stored(energy) });
-                }
+                Some((law, along)) => laws.push((law, along, energy)),
                 None => others.push((Number::ONE, energy)),
             }
         }
         if laws.is_empty() || !others.is_empty() {
             let (law, along) = (self.graph.number(Number::MINUS_ONE), self.graph.sum(&others));
-            laws.push(Law { label: label.to_owned(), law, along, account: Account::Stored(along) });
+            laws.push((law, along, along));
         }
         laws
     }
@@ -302,17 +319,9 @@ impl Lowering<'_> {
         self.graph.call(Function::IfNonzero, &[part, quotient, limit])
     }
 
-    /// x of |x|: a force against |x|' along |x| is one against x' along x.
-    pub(super) fn signed(&self, scalar: NodeId) -> NodeId {
-        match self.graph.node(scalar) {
-            Node::Call(Function::Abs, x) => x[0],
-            _ => scalar,
-        }
-    }
-
     /// s^2 / 2 of a length or another magnitude, also of a constant one: an opened joint may change it. A force along it need
     /// not have a direction where the length is zero.
-    fn half_square(&mut self, scalar: NodeId) -> Option<NodeId> {
+    pub(super) fn half_square(&mut self, scalar: NodeId) -> Option<NodeId> {
         let parts = match self.graph.node(scalar).clone() {
             Node::Call(Function::Hypot | Function::Abs, parts) => parts,
             Node::Call(Function::Sqrt, square) => return Some(self.graph.scale(Number::ratio(1, 2), square[0])),
@@ -340,10 +349,7 @@ impl Lowering<'_> {
 
     /// Evaluates an expression that may contain `t` and `rate(…)`.
     pub(super) fn law(&mut self, id: ExpressionId) -> Option<NodeId> {
-        self.is_law = true;
-        let law = self.scalar(id);
-        self.is_law = false;
-        law
+        self.within(Mode::Law, |resolver| resolver.scalar(id))
     }
 
     /// Evaluates a scalar that must depend on coordinates.
@@ -360,11 +366,11 @@ impl Lowering<'_> {
 
     /// True if an expression depends on a coordinate.
     fn moves(&self, node: NodeId) -> bool {
-        self.graph.symbols_of(&[node]).iter().any(|symbol| self.rates.contains_key(symbol))
+        self.graph.symbols_of(&[node]).iter().any(|symbol| self.motion.rates.contains_key(symbol))
     }
 
     /// The rate of an expression in terms of the rates of the coordinates.
     pub(in crate::model) fn rate_of(&mut self, node: NodeId) -> NodeId {
-        self.graph.differentiate(&[node], &self.rates)[0]
+        self.graph.differentiate(&[node], &self.motion.rates)[0]
     }
 }

@@ -4,26 +4,16 @@ use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
-use super::{Body, Draft, Drive, Reading, Scene, SceneRequest};
+use super::{Body, Draft, Drive, Reading, Scene};
 use crate::diagnostics::suggestion;
 use crate::graph::SymbolId;
 use crate::ids::{BodyId, DriverId};
-use crate::model::expression::Lowering;
+use crate::model::guess;
 use crate::model::mechanism::{Driver, Mechanism};
 use crate::model::name::TypeName;
+use crate::model::resolver::Resolver;
 
-/// Completes a scene with mistakes for its stub: all that the right scene may have.
-fn complete(scene: &mut Scene, result: &Mechanism) {
-    scene.inertia.get_or_insert_with(|| result.bodies.ids().collect());
-    scene.requests.extend([
-        SceneRequest::Energy,
-        SceneRequest::Power,
-        SceneRequest::Reactions,
-        SceneRequest::Equilibrium,
-    ]);
-}
-
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Resolves the bodies, drivers and parameters of all scenes.
     pub(in crate::model) fn finish_scenes(&mut self, reading: Reading, result: &mut Mechanism) {
         let (mut used, mut mentions) = (BTreeSet::new(), Vec::new());
@@ -43,6 +33,7 @@ impl Lowering<'_> {
                 parameters: Vec::new(),
                 loads: Vec::new(),
                 wanted: draft.wanted,
+                written: draft.written,
             };
             if let Some((span, bodies)) = &draft.inertia {
                 let all = self.bodies(bodies, result);
@@ -80,9 +71,7 @@ impl Lowering<'_> {
                 }
                 scene.drives.push(Drive { input: place, law });
             }
-            // For the stub.
-            let free = inputs.ids().next().filter(|_| scene.drives.is_empty());
-            scene.drives.extend(free.zip(lost).map(|(input, law)| Drive { input, law }));
+            scene.drives.extend(guess::drive(&scene.drives, inputs, lost));
             let taken = result.drivers.iter().map(|driver| &driver.name).chain([&result.name]);
             if taken.chain(result.scenes.iter().map(|scene| &scene.name)).any(|name| *name == scene.name) {
                 let message = format!("the type `{}` is declared twice", scene.name);
@@ -90,7 +79,7 @@ impl Lowering<'_> {
                 continue;
             }
             if !draft.is_complete || self.diagnostics.len() > messages {
-                complete(&mut scene, result);
+                guess::completed(&mut scene, result);
             }
             mentions.push(draft.mentions);
             result.scenes.push(scene);
@@ -129,8 +118,7 @@ impl Lowering<'_> {
             };
             self.diagnostics.error(span, message);
         }
-        // For the stub.
-        place.or_else(|| result.drivers.ids().next())
+        place.or_else(|| guess::driver(result))
     }
 
     /// The bodies with these names; all bodies if there are no names.

@@ -6,10 +6,10 @@ use super::Scene;
 use crate::diagnostics::Region;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::SceneId;
-use crate::model::expression::Lowering;
 use crate::model::links::{GROUND, Links};
 use crate::model::mechanism::Mechanism;
 use crate::model::opened::{Load, LoadKind, Site};
+use crate::model::resolver::Resolver;
 use crate::syntax::{ExpressionId, Joint};
 
 /// A joint that a scene names, before the links are known.
@@ -49,7 +49,7 @@ impl Wanted {
     }
 }
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Evaluates `reaction at P` or `reaction on s`.
     pub(super) fn joint(&mut self, joint: Joint) -> Option<Wanted> {
         let id = |joint: Joint| -> ExpressionId {
@@ -71,7 +71,7 @@ impl Lowering<'_> {
 
     /// Finds the joints that scenes name; reports names of no joint.
     pub(in crate::model) fn joints(&mut self, links: &mut Links, result: &mut Mechanism) -> Vec<(Site, Load)> {
-        let mut finder = Finder { lowering: self, links, result, found: Vec::new() };
+        let mut finder = Finder { resolver: self, links, result, found: Vec::new() };
         for scene in finder.result.scenes.ids() {
             finder.scene(scene);
         }
@@ -80,7 +80,7 @@ impl Lowering<'_> {
 }
 
 struct Finder<'f, 'a> {
-    lowering: &'f mut Lowering<'a>,
+    resolver: &'f mut Resolver<'a>,
     links: &'f mut Links,
     result: &'f mut Mechanism,
     found: Vec<(Site, Load)>,
@@ -92,10 +92,10 @@ impl Finder<'_, '_> {
         for Wanted { region, of } in self.result.scenes[id].wanted.clone() {
             match of {
                 WantedOf::Pin(position, text) => {
-                    let holding = self.links.holding(&mut self.lowering.graph, position);
+                    let holding = self.links.holding(&mut self.resolver.graph, position);
                     if holding.is_empty() {
                         let message = format!("{text} is fixed in no body and no link: name a point of a link");
-                        self.lowering.diagnostics.error(region, message);
+                        self.resolver.diagnostics.error(region, message);
                     }
                     let place = self.links.hold(position, &holding);
                     for link in holding {
@@ -107,7 +107,7 @@ impl Finder<'_, '_> {
                     if sites.is_empty() {
                         let message = "no vector has this length: a guide is a vector `s@phi` or `(s, h)` whose length \
                                        is a coordinate; for a pin write `reaction at P;`";
-                        self.lowering.diagnostics.error(region, message);
+                        self.resolver.diagnostics.error(region, message);
                     }
                     loads.extend(sites.into_iter().map(|site| self.open(site)).collect::<Vec<_>>());
                 }
@@ -116,7 +116,7 @@ impl Finder<'_, '_> {
                     if sites.is_empty() && self.result.constraints.is_empty() {
                         let message =
                             "there is no joint: write points and centres of bodies as sums of vectors `r@phi`";
-                        self.lowering.diagnostics.error(region, message);
+                        self.resolver.diagnostics.error(region, message);
                     }
                     loads.extend(sites.into_iter().map(|site| self.open(site)).collect::<Vec<_>>());
                 }
@@ -138,7 +138,7 @@ impl Finder<'_, '_> {
 
     /// The guides whose length is this coordinate, up to sign and a constant.
     fn guides(&mut self, length: NodeId) -> Vec<Site> {
-        let graph = &mut self.lowering.graph;
+        let graph = &mut self.resolver.graph;
         let mut moving = graph.symbols_of(&[length]).into_iter().filter(|&symbol| self.links.is_coordinate(symbol));
         let (Some(coordinate), None) = (moving.next(), moving.next()) else { return Vec::new() };
         let slope = graph.partial(&[length], coordinate)[0];
@@ -154,7 +154,7 @@ impl Finder<'_, '_> {
     fn bearing(&mut self, along: NodeId, pin: Option<[NodeId; 2]>, region: Region) -> Option<Site> {
         let mut sites = if pin.is_some() { Vec::new() } else { self.guides(along) };
         if sites.is_empty() {
-            sites = self.links.pins_of_angle(&mut self.lowering.graph, along);
+            sites = self.links.pins_of_angle(&mut self.resolver.graph, along);
         }
         if let Some(pin) = pin {
             let pin = self.links.place(pin);
@@ -165,7 +165,7 @@ impl Finder<'_, '_> {
             [] => {
                 let message = "no joint moves by this scalar: name the length of a guide, the angle of a link that turns \
                                about the ground, or the difference of the angles of two links with a common pin";
-                self.lowering.diagnostics.error(region, message);
+                self.resolver.diagnostics.error(region, message);
             }
             _ => {
                 let names: Vec<String> = sites.iter().map(|site| self.load(*site).field).collect();
@@ -173,7 +173,7 @@ impl Finder<'_, '_> {
                     "several joints move by this scalar ({}): write `reaction at P on …` with the pin",
                     names.join(", ")
                 );
-                self.lowering.diagnostics.error(region, message);
+                self.resolver.diagnostics.error(region, message);
             }
         }
         None
@@ -205,14 +205,14 @@ impl Finder<'_, '_> {
             Site::Guide { ends, block } => {
                 let guide = self.links.guides.iter().find(|guide| guide.ends == ends);
                 let base = guide.map_or(GROUND, |guide| guide.links[0]);
-                let coordinate = guide.map(|guide| self.lowering.graph.symbol_name(guide.coordinate).to_owned());
+                let coordinate = guide.map(|guide| self.resolver.graph.symbol_name(guide.coordinate).to_owned());
                 let coordinate = coordinate.unwrap_or_default();
                 let [guide, block] = [base, block].map(|link| self.links.link(link).name.clone());
                 let end = self.point_at(ends[1]).map(|(text, _)| text);
                 (coordinate.clone(), LoadKind::Guide { coordinate, guide, block, end })
             }
         };
-        let graph = &mut self.lowering.graph;
+        let graph = &mut self.resolver.graph;
         // No identifier has a blank.
         let displacement = [1, 2].map(|at| graph.symbol(format!("displacement {at} of {field}")));
         let left_out = self.equations_of(site);
@@ -221,7 +221,7 @@ impl Finder<'_, '_> {
 
     /// The equations in the angles of the links of a joint, and in the length of a guide.
     fn equations_of(&self, site: Site) -> Vec<NodeId> {
-        let graph = &self.lowering.graph;
+        let graph = &self.resolver.graph;
         let mut moving: BTreeSet<SymbolId> = BTreeSet::new();
         match site {
             Site::Pin { place, .. } => {
@@ -252,7 +252,7 @@ impl Finder<'_, '_> {
         if let Some(named) = self.point_at(place) {
             return named;
         }
-        if self.links.is_origin(&mut self.lowering.graph, place) {
+        if self.links.is_origin(&mut self.resolver.graph, place) {
             return ("the origin".to_owned(), "origin".to_owned());
         }
         let links: Vec<&str> = self.links.at(place).map(|link| self.links.link(link).name.as_str()).collect();

@@ -1,5 +1,6 @@
 //! Bodies and scenes; every effect is a potential, or a law that acts along a scalar.
 
+mod along;
 mod body;
 mod contact;
 mod effect;
@@ -12,9 +13,9 @@ use proc_macro2::{Ident, Span};
 use syn::Attribute;
 
 use super::name::{Name, TypeName};
-use super::opened::Paths;
 use crate::graph::{NodeId, SymbolId};
-use crate::ids::{BodyId, DriverId, InputId, SceneId, SceneParameterId, Table};
+use crate::ids::{BodyId, DriverId, InputId, SceneParameterId, Table};
+pub(super) use along::Written;
 pub(super) use joint::Wanted;
 
 /// A rigid body.
@@ -46,6 +47,7 @@ pub struct Scene {
     pub loads: Vec<usize>,
     /// The joints that its statements name.
     pub(super) wanted: Vec<Wanted>,
+    pub(super) written: Written,
 }
 
 /// A force along a scalar: its work is `law` times the change of `along`.
@@ -109,17 +111,6 @@ pub(super) struct Reading {
     scenes: Vec<Draft>,
 }
 
-impl Reading {
-    /// The scalars that effects act along, for each scene.
-    pub(super) fn paths(&self) -> Table<SceneId, Paths> {
-        let paths = self.scenes.iter().map(|scene| Paths {
-            laws: scene.laws.iter().map(|law| law.along).collect(),
-            contacts: scene.contacts.iter().map(|contact| contact.along).collect(),
-        });
-        paths.collect()
-    }
-}
-
 /// A scene with unresolved names of bodies, drivers and inputs.
 struct Draft {
     name: Ident,
@@ -129,6 +120,7 @@ struct Draft {
     contacts: Vec<Contact>,
     requests: BTreeSet<SceneRequest>,
     wanted: Vec<Wanted>,
+    written: Written,
     inertia: Option<(Span, Vec<Ident>)>,
     /// The keyword of the first contact.
     contact: Option<(Span, String)>,

@@ -1,26 +1,24 @@
 //! Analysis of a mechanism: declares all names, evaluates the statements, and checks the whole.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use proc_macro2::Ident;
 use quote::ToTokens;
 use syn::spanned::Spanned;
 use syn::{Attribute, Path};
 
 use super::chain::{Chain, Chains};
-use super::expression::Lowering;
 use super::kind::Kind;
 use super::links::Links;
-use super::mechanism::{Constraint, Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
+use super::mechanism::{Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
 use super::name::{Name, TypeName};
-use super::scope::{Scope, Value};
+use super::resolver::Resolver;
+use super::scope::Value;
 use super::{check, guess, request, scene};
 use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, suggestion};
-use crate::graph::{Graph, NodeId, SymbolId};
+use crate::graph::SymbolId;
 use crate::ids::CoordinateId;
 use crate::structure::System;
-use crate::syntax::{self, ExpressionId, KEYWORD_AS_NAME, StatementKind};
+use crate::syntax::{self, KEYWORD_AS_NAME, StatementKind};
 
 /// The largest number of expressions of a mechanism; its derivatives have several times as many.
 const LARGEST: usize = 25_000;
@@ -35,77 +33,47 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     const EVERYWHERE: [&str; 5] = ["cfg", "allow", "warn", "deny", "forbid"];
     let is_everywhere = |attribute: &Attribute| EVERYWHERE.iter().any(|word| attribute.path().is_ident(word));
     let (everywhere, attributes) = attributes.into_iter().partition(is_everywhere);
-    let mut lowering = Lowering {
-        graph: Graph::within(budget),
-        scope: Scope::default(),
-        values: Vec::new(),
-        expressions: &expressions,
-        kinds: Vec::new(),
-        undeclared_kinds: Vec::new(),
-        undeclared_symbols: BTreeMap::new(),
-        misused: BTreeSet::new(),
-        supposed: Vec::new(),
-        sums: Vec::new(),
-        lengths_of_loops: Vec::new(),
-        is_loop: false,
-        is_default: false,
-        angles_of_bodies: Vec::new(),
-        kinematic: BTreeSet::new(),
-        externals: Vec::new(),
-        rates: BTreeMap::new(),
-        time: None,
-        units: BTreeSet::new(),
-        is_law: false,
-        extreme: None,
-        opening: None,
-        diagnostics,
-    };
+    let mut resolver = Resolver::new(&expressions, budget, diagnostics);
     let has_scenes = statements.iter().any(|statement| matches!(statement.kind, StatementKind::Scene(_)));
-    lowering.scope.has_time = has_scenes;
-    expressions.keywords().for_each(|keyword| lowering.scope.excuse(keyword));
+    resolver.scope.has_time = has_scenes;
+    expressions.keywords().for_each(|keyword| resolver.scope.excuse(keyword));
     let mut result = Mechanism::named(attributes, everywhere, visibility, TypeName::new(&name));
-    lowering.name_others(&name, &statements);
+    resolver.name_others(&name, &statements);
     let mut roles = Roles::default();
-    lowering.declare(&statements, &mut result, &mut roles);
+    resolver.declare(&statements, &mut result, &mut roles);
     if has_scenes {
-        lowering.declare_motion(&mut result);
+        resolver.declare_motion(&mut result);
     }
-    let reading = lowering.define(&statements, &mut result);
-    lowering.drivers(&statements, &mut result, roles);
-    lowering.finish_scenes(reading, &mut result);
-    result.requests_at = request::resolve(&statements, !result.parameters.is_empty(), lowering.diagnostics);
+    let reading = resolver.define(&statements, &mut result);
+    resolver.drivers(&statements, &mut result, roles);
+    resolver.finish_scenes(reading, &mut result);
+    result.requests_at = request::resolve(&statements, !result.parameters.is_empty(), resolver.diagnostics);
     result.requests = result.requests_at.keys().copied().collect();
-    lowering.report_fault(result.name.span());
-    lowering.report_undeclared(&statements);
-    let (kinds, supposed) = (lowering.kinds.clone(), lowering.supposed.clone());
-    let kind_of = |symbol| match kinds.iter().find(|(other, _)| *other == symbol) {
-        Some((_, kind)) => *kind,
-        None if supposed.contains(&symbol) => Kind::Length,
-        None => Kind::Number,
-    };
-    lowering.kinds_of_numbers(&statements, &kind_of);
-    lowering.kinds_of_sums(&result);
-    if lowering.diagnostics.is_empty() {
-        lowering.unused_lets(&statements, &result);
-        let chains = lowering.chains(&statements);
-        lowering.open_joints(&statements, &chains, &mut result);
+    resolver.report_fault(result.name.span());
+    resolver.report_undeclared(&statements);
+    resolver.kinds_of_numbers(&statements);
+    resolver.kinds_of_sums(&result);
+    if resolver.diagnostics.is_empty() {
+        resolver.unused_lets(&statements, &result);
+        let chains = resolver.chains(&statements);
+        resolver.open_joints(&statements, &chains, &mut result);
         result.loops = chains.loops;
         result.points.iter_mut().zip(chains.points).for_each(|(point, chain)| point.chain = chain);
     } else {
         // For the stub.
-        let messages = lowering.diagnostics.len();
-        let chains = lowering.chains(&statements);
-        lowering.open_joints(&statements, &chains, &mut result);
-        lowering.diagnostics.truncate(messages);
+        let messages = resolver.diagnostics.len();
+        let chains = resolver.chains(&statements);
+        resolver.open_joints(&statements, &chains, &mut result);
+        resolver.diagnostics.truncate(messages);
     }
-    let Lowering { graph, scope, undeclared_kinds, undeclared_symbols, externals, extreme, diagnostics, .. } = lowering;
+    let Resolver { graph, scope, kinds, assumed, externals, extreme, diagnostics, .. } = resolver;
     (result.graph, result.extreme) = (graph, extreme);
     result.externals = externals;
     for parameter in result.parameters.iter_mut().chain(result.scene_parameters.iter_mut()) {
-        parameter.kind = kind_of(parameter.symbol);
+        parameter.kind = kinds.of(parameter.symbol);
     }
     for coordinate in result.coordinates.iter_mut() {
-        coordinate.kind = kind_of(coordinate.symbol);
+        coordinate.kind = kinds.of(coordinate.symbol);
     }
     if result.graph.len() > LARGEST {
         diagnostics.error(
@@ -131,7 +99,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         }
     }
     if !diagnostics.is_empty() {
-        guess::complete(&mut result, &statements, &scope, &undeclared_kinds, &undeclared_symbols);
+        guess::complete(&mut result, &statements, &scope, &assumed);
     }
     (result, own)
 }
@@ -149,7 +117,7 @@ struct Roles {
     open: Vec<CoordinateId>,
 }
 
-impl Lowering<'_> {
+impl Resolver<'_> {
     /// Opens the joints whose forces scenes need.
     fn open_joints(&mut self, statements: &[syntax::Statement], chains: &Chains, result: &mut Mechanism) {
         if result.scenes.iter().all(|scene| scene.wanted.is_empty()) {
@@ -169,8 +137,7 @@ impl Lowering<'_> {
         let joints = self.joints(&mut links, result);
         result.opened.loads = joints.iter().map(|(_, load)| load.clone()).collect();
         if self.diagnostics.is_empty() {
-            let again = Mechanism::named(Vec::new(), Vec::new(), result.visibility.clone(), result.name.clone());
-            self.open(statements, links, &joints, again, &mut result.opened);
+            self.displace(statements, links, &joints, result);
         }
         if self.diagnostics.is_empty() {
             self.undetermined(result);
@@ -269,7 +236,7 @@ impl Lowering<'_> {
         Some((name, symbol))
     }
 
-    pub(super) fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
+    fn define(&mut self, statements: &[syntax::Statement], result: &mut Mechanism) -> scene::Reading {
         let mut reading = scene::Reading::default();
         for statement in statements {
             let (attributes, before) = (statement.attributes.clone(), self.scope.uses());
@@ -278,12 +245,9 @@ impl Lowering<'_> {
                 StatementKind::Parameters(parameters) => {
                     for (name, default) in parameters {
                         let Some(default) = default else { continue };
-                        let node = self.constant(*default);
-                        // A parameter with a wrong default has a default nevertheless, for the stub.
-                        let node = node.unwrap_or_else(|| self.graph.zero());
-                        let text = name.to_string();
+                        let (node, text) = (self.constant(*default), name.to_string());
                         if let Some(parameter) = result.parameters.iter_mut().find(|p| p.name.text == text) {
-                            parameter.default = Some(node);
+                            parameter.default = node;
                         }
                     }
                 }
@@ -293,17 +257,7 @@ impl Lowering<'_> {
                 }
                 StatementKind::Equation { left, right, is_implied } => {
                     let constraints = if *is_implied { &mut result.implied } else { &mut result.constraints };
-                    let both = (self.value(*left), self.value(*right));
-                    if let (Value::Vector(..), Value::Vector(..)) = both {
-                        let region = self.expressions.region(*left).to(self.expressions.region(*right));
-                        let message =
-                            "both sides are vectors, but an `equation` is between scalars: write `loop` instead";
-                        self.diagnostics.error(region, message);
-                    } else if let (Some(a), Some(b)) = (self.scalar(*left), self.scalar(*right)) {
-                        self.sums.push(vec![*left, *right]);
-                        let row = self.graph.subtract(a, b);
-                        self.close(attributes, *left, *right, vec![row], constraints);
-                    }
+                    self.close_equation(attributes, *left, *right, constraints);
                 }
                 StatementKind::Let { name, value } => {
                     let value = self.value(*value);
@@ -364,57 +318,6 @@ impl Lowering<'_> {
         reading
     }
 
-    fn close_loop(
-        &mut self,
-        attributes: Vec<Attribute>,
-        left: ExpressionId,
-        right: ExpressionId,
-        constraints: &mut Vec<Constraint>,
-    ) {
-        self.is_loop = true;
-        let (a, b) = (self.value(left), self.value(right));
-        self.is_loop = false;
-        let region = self.expressions.region(left).to(self.expressions.region(right));
-        match (a, b) {
-            (Value::Vector(ax, ay), Value::Vector(bx, by)) => {
-                let rows = vec![self.graph.subtract(ax, bx), self.graph.subtract(ay, by)];
-                self.close(attributes, left, right, rows, constraints);
-            }
-            // `loop … = 0`: the zero vector.
-            (Value::Vector(x, y), Value::Scalar(zero)) if self.graph.is_zero(zero) => {
-                let [zx, zy] = self.displaced_origin();
-                let rows = vec![self.graph.subtract(x, zx), self.graph.subtract(y, zy)];
-                self.close(attributes, left, right, rows, constraints);
-            }
-            (Value::Scalar(_), Value::Scalar(_)) => {
-                self.diagnostics
-                    .error(region, "both sides are scalars, but a `loop` is between vectors: write `equation` instead");
-            }
-            (Value::Scalar(_), Value::Vector(..)) => self.expect_vector(left),
-            (Value::Vector(..), Value::Scalar(_)) => self.expect_vector(right),
-            (Value::Poison, _) | (_, Value::Poison) => {}
-        }
-    }
-
-    fn close(
-        &mut self,
-        attributes: Vec<Attribute>,
-        left: ExpressionId,
-        right: ExpressionId,
-        rows: Vec<NodeId>,
-        constraints: &mut Vec<Constraint>,
-    ) {
-        let region = self.expressions.region(left).to(self.expressions.region(right));
-        if self.report_fault(region) {
-            return;
-        }
-        if rows.iter().all(|&row| self.graph.is_zero(row)) {
-            self.diagnostics.error(region, "both sides are equal: this equation is always true; remove it");
-            return;
-        }
-        constraints.push(Constraint { span: region.first, attributes, rows });
-    }
-
     fn drivers(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: Roles) {
         let Roles { inputs, unknowns, open } = roles;
         let mut chosen = false;
@@ -446,9 +349,7 @@ impl Lowering<'_> {
                 }
             }
             if driven.is_empty() && !self.diagnostics.is_empty() {
-                // For the stub: a coordinate that no other driver has.
-                let is_free = |id: &&CoordinateId| result.drivers.iter().all(|driver| !driver.inputs.contains(id));
-                driven.extend(open.iter().rev().find(is_free));
+                driven.extend(guess::driven(&result.drivers, &open));
             }
             if result.drivers.iter().any(|driver| driver.name == *name) || result.name == *name {
                 self.diagnostics.error(name.span(), format_args!("the type `{name}` is declared twice"));

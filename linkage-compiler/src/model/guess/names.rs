@@ -1,26 +1,25 @@
-//! Completion of a mechanism with mistakes, so that its stub has the names that the rest of the program uses.
+//! The names of a mechanism with mistakes: undeclared coordinates, and declarations that a slip renames.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
-use super::kind::Kind;
-use super::mechanism::{Coordinate, Driver, Mechanism};
-use super::name::Name;
-use super::scope::{Scope, Undeclared};
 use crate::diagnostics::nearest;
-use crate::graph::SymbolId;
 use crate::ids::{CoordinateId, Id, InputId, Table};
+use crate::model::kind::Kind;
+use crate::model::mechanism::{Coordinate, Driver, Mechanism};
+use crate::model::name::Name;
+use crate::model::resolver::Assumed;
+use crate::model::scope::{Scope, Undeclared};
 use crate::syntax::{Statement, StatementKind, can_be_name, is_keyword};
 
 /// Completes a mechanism with mistakes: undeclared coordinates, the order of solution if it is known, and unique field
 /// names.
-pub(super) fn complete(
+pub(in crate::model) fn complete(
     mechanism: &mut Mechanism,
     statements: &[Statement],
     scope: &Scope,
-    undeclared_kinds: &[(String, Kind)],
-    undeclared_symbols: &BTreeMap<String, SymbolId>,
+    assumed: &Assumed,
 ) {
     rename(mechanism, scope);
     let zero = mechanism.graph.zero();
@@ -35,8 +34,8 @@ pub(super) fn complete(
     let rows: usize = rows.sum();
     let mut missing = missing(mechanism, statements, scope);
     let declare = |mechanism: &mut Mechanism, name: Ident| {
-        let kind = undeclared_kinds.iter().find(|(other, _)| name == other).map_or(Kind::Number, |(_, kind)| *kind);
-        let known = undeclared_symbols.get(&name.to_string()).copied();
+        let kind = assumed.kinds.iter().find(|(other, _)| name == other).map_or(Kind::Number, |(_, kind)| *kind);
+        let known = assumed.symbols.get(&name.to_string()).copied();
         let name = Name::new(&name);
         let symbol = known.unwrap_or_else(|| mechanism.graph.symbol(name.field.clone()));
         mechanism.coordinates.push(Coordinate { kind, ..Coordinate::new(name, Vec::new(), symbol) })
@@ -107,7 +106,7 @@ pub(super) fn complete(
 }
 
 /// Removes the coordinates that are reported as unused.
-pub(super) fn without_idle(mechanism: &mut Mechanism, scope: &Scope) {
+pub(in crate::model) fn without_idle(mechanism: &mut Mechanism, scope: &Scope) {
     let is_idle = |coordinate: &Coordinate| !scope.is_used(coordinate.symbol) && !coordinate.name.text.starts_with('_');
     let idle: BTreeSet<CoordinateId> =
         mechanism.coordinates.enumerated().filter(|(_, coordinate)| is_idle(coordinate)).map(|(id, _)| id).collect();
