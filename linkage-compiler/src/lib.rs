@@ -2,7 +2,7 @@
 //!
 //! [`expand`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), algebra
 //! (simplification), structure (order of solution), model (name resolution and checks), derivation (mathematics), program
-//! (the functions to emit), lower (common subexpressions, order, names), notation (formulas for readers), emit
+//! (the functions to emit), lower (common subexpressions, order, names), document (formulas for readers), emit
 //! (printers).
 
 pub mod algebra;
@@ -10,12 +10,12 @@ pub mod budget;
 mod clash;
 pub mod derivation;
 pub mod diagnostics;
+pub mod document;
 pub mod emit;
 pub mod graph;
 pub mod ids;
 pub mod lower;
 pub mod model;
-pub mod notation;
 pub mod program;
 pub mod structure;
 pub mod syntax;
@@ -28,6 +28,7 @@ use quote::quote;
 use budget::Budget;
 use derivation::Derivation;
 use diagnostics::Diagnostics;
+use document::{Document, SceneDocument};
 use model::{Mechanism, Request};
 use program::Operations;
 
@@ -197,15 +198,19 @@ pub fn programs(mechanism: &Mechanism) -> Vec<String> {
     drivers.collect()
 }
 
-/// Returns the formulas of the functions of a checked mechanism and of its scenes as `derive fpcore` writes them: the
-/// type, the function and its lines.
+/// Returns the documents of a checked mechanism, one for each driver, and those of its scenes, with the formulas of
+/// functions as `derive fpcore` adds them.
 #[must_use]
-pub fn formulas(mechanism: &Mechanism) -> Vec<[String; 3]> {
-    let drivers = mechanism.drivers.iter().flat_map(|driver| {
+pub fn documents(mechanism: &Mechanism) -> (Vec<Document>, Vec<SceneDocument>) {
+    let (mut documents, mut scenes) = (Vec::new(), Vec::new());
+    for driver in &mechanism.drivers {
         let mut derivation = derivation::derive(mechanism, driver);
-        emit::formulas(&lower::program(program::plan(mechanism, driver, &mut derivation), &derivation))
-    });
-    drivers.collect()
+        let lowered = lower::program(program::plan(mechanism, driver, &mut derivation), &derivation);
+        let (of_driver, of_scenes) = emit::documents(&lowered, &derivation);
+        documents.extend(of_driver);
+        scenes.extend(of_scenes);
+    }
+    (documents, scenes)
 }
 
 /// The largest rounding errors that the functions of one driver can have.

@@ -2,7 +2,7 @@
 //! rounding errors can be.
 //!
 //! A function is executed with symbols for numbers (`run`), calls of other functions included. That gives operations in
-//! the order of the code (`operations`), which are written one line each (`lines`). Newton's method, pivoting and user
+//! the order of the code (`operations`), which are formulas in the table of the document (`lines`). Newton's method, pivoting and user
 //! functions have no formula: nor have the results that depend on them.
 
 mod lines;
@@ -11,6 +11,7 @@ mod operations;
 mod run;
 mod value;
 
+use crate::document::{KernelCode, Table};
 use crate::lower::Code;
 use crate::program::{Program, SceneProgram, SceneSignatures};
 use run::{Owner, Run};
@@ -32,11 +33,11 @@ impl<'a> Straight<'a> {
         Self { owner: Owner::new(&scene.functions, arguments, self.owner.mechanism, Some((field, &self.owner))) }
     }
 
-    /// The formulas of the function with this name, line by line; empty if it has none.
-    pub(super) fn lines(&self, name: &str) -> String {
-        let Some(function) = self.owner.functions.get(name) else { return String::new() };
+    /// The formulas of the function with this name; empty if it has none.
+    pub(super) fn code(&self, name: &str, table: &mut Table) -> KernelCode {
+        let Some(function) = self.owner.functions.get(name) else { return KernelCode::default() };
         let mut run = Run::default();
         let value = run.result(&self.owner, function);
-        lines::written(self.owner.mechanism, &run.operations, &run.checks, &value)
+        lines::code(self.owner.mechanism, &run.operations, &run.checks, &value, table)
     }
 }
