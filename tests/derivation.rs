@@ -1,7 +1,7 @@
 //! The derivations as documents, with the formulas of the Maple sheet and the lecture notes.
 
-use linkage::Document;
-use linkage::derivation::{Derivation, Equation, Formula};
+use linkage::derivation::{Derivation, Equation};
+use linkage::{Document, Notation};
 
 use linkage_gallery::cam_follower::*;
 use linkage_gallery::cam_rocker::*;
@@ -168,7 +168,7 @@ fn pressure_angle_of_a_cam() {
     let value = CamFollower::DERIVATION.outputs[0].value[0].right;
     assert_eq!(value.to_string(), "arctan((lift′(θ, height, rise) − offset)/(s + √(prime² − offset²)))");
     let prime = r"\mathrm{lift}'(\theta, \mathrm{height}, \mathrm{rise})";
-    let Formula { latex, mathml, .. } = value;
+    let (latex, mathml) = (value.to_latex(), value.to_mathml());
     assert!(latex.contains(prime), "{latex}");
     assert!(mathml.contains("<msup><mi>lift</mi><mo>′</mo></msup>"), "{mathml}");
 }

@@ -1,32 +1,28 @@
-//! Every printed formula of the gallery, as the compiler writes it: none holds a function of numbers whose value is
-//! rational, or a term times 0 or 1; each effect of a scene is in its document.
+//! Every printed formula of the gallery: none holds a function of numbers whose value is rational, or a term times 0 or
+//! 1; each effect of a scene is in its document.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
+use linkage_compiler::document::{Document, Number, SceneDocument, Table};
 use linkage_gallery::{FILES, source};
-use proc_macro2::{TokenStream, TokenTree};
-use quote::quote;
 
-/// The expansion of a file of the gallery.
-fn expanded(file: &str) -> TokenStream {
-    linkage_compiler::expand(source::tokens_of(file), &quote!(::linkage))
+/// The documents of a file of the gallery.
+fn documents(file: &str) -> (Vec<Document>, Vec<SceneDocument>) {
+    linkage_compiler::documents(&linkage_compiler::read(source::tokens_of(file)).expect(file)[0]).expect(file)
 }
 
-/// The texts of the fields of this name, at any depth.
-fn fields(tokens: TokenStream, field: &str, found: &mut Vec<String>) {
-    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    for (place, token) in tokens.iter().enumerate() {
-        match token {
-            TokenTree::Group(group) => fields(group.stream(), field, found),
-            TokenTree::Ident(name) if name == field => {
-                if let Some(TokenTree::Literal(text)) = tokens.get(place + 2) {
-                    found.extend(syn::parse_str::<syn::LitStr>(&text.to_string()).map(|text| text.value()).ok());
-                }
-            }
-            _ => {}
-        }
-    }
+/// Formulas in Unicode.
+fn texts(table: &Table, numbers: &[Number]) -> Vec<String> {
+    let table = linkage_lent::table(table);
+    numbers.iter().map(|number| table.get(number.get()).unwrap().to_string()).collect()
+}
+
+/// A name in Unicode.
+fn shown(name: &str) -> String {
+    let mut table = Table::default();
+    let number = table.plain(name);
+    texts(&table, &[number]).concat()
 }
 
 /// The value of a number, a multiple of pi or a quotient of these; `None` for anything else.
@@ -151,8 +147,10 @@ fn faults_are_found() {
 fn no_function_of_numbers_is_rational() {
     let (mut count, mut wrong) = (0, Vec::new());
     for file in FILES {
-        let mut formulas = Vec::new();
-        fields(expanded(file), "text", &mut formulas);
+        let (documents, scenes) = documents(file);
+        let of_drivers = documents.iter().map(|document| texts(&document.table, &document.formulas()));
+        let of_scenes = scenes.iter().map(|document| texts(&document.table, &document.formulas()));
+        let formulas: Vec<String> = of_drivers.chain(of_scenes).flatten().collect();
         count += formulas.len();
         let faults = formulas.iter().filter_map(|formula| {
             let fault = fault(formula).or_else(|| formula.contains("if_nonzero").then(|| "if_nonzero".to_owned()))?;
@@ -174,24 +172,14 @@ fn every_effect_is_in_its_document() {
         if mechanism.scenes.iter().next().is_none() {
             continue;
         }
-        let tokens: Vec<TokenTree> = expanded(file).into_iter().collect();
+        let (_, documents) = documents(file);
         for scene in mechanism.scenes.iter() {
-            // `impl Name { … DERIVATION … }`
-            let document = tokens.windows(3).find_map(|tokens| match tokens {
-                [TokenTree::Ident(word), TokenTree::Ident(name), TokenTree::Group(group)]
-                    if word == "impl"
-                        && scene.name == *name
-                        && group.stream().to_string().contains("SceneDerivation") =>
-                {
-                    Some(group.stream())
-                }
-                _ => None,
-            });
+            let document = documents.iter().find(|document| scene.name == document.scene.as_str());
             let document = document.unwrap_or_else(|| panic!("{file}: {}", scene.name));
-            let (mut names, mut texts) = (Vec::new(), Vec::new());
-            fields(document.clone(), "name", &mut names);
-            fields(document, "text", &mut texts);
-            let names: BTreeSet<&str> = names.iter().map(String::as_str).collect();
+            let texts = texts(&document.table, &document.formulas());
+            let of_effects = document.forces.iter().map(|effect| effect.name.as_str());
+            let of_contacts = document.frictions_and_stops.iter().map(|contact| contact.name.as_str());
+            let names: BTreeSet<&str> = of_effects.chain(of_contacts).collect();
             let laws = scene.laws.iter().map(|law| law.label.clone());
             let contacts = scene.contacts.iter().map(|contact| contact.label.clone());
             let weights = scene.weights.iter().map(|(body, _)| format!("body {}", mechanism.bodies[*body].name.text));
@@ -202,16 +190,13 @@ fn every_effect_is_in_its_document() {
             for drive in &scene.drives {
                 let driver = &mechanism.drivers[scene.driver];
                 let input = &mechanism.coordinates[driver.inputs[drive.input]].name.text;
-                let shown =
-                    linkage_compiler::notation::Formula::of_name(linkage_compiler::notation::Name::Plain(input));
-                assert!(texts.contains(&shown.text), "{file}: the drive of {input} is missing");
+                assert!(texts.contains(&shown(input)), "{file}: the drive of {input} is missing");
                 count += 1;
             }
             // Each parameter is given, and in a formula.
             for &parameter in &scene.parameters {
                 let name = &mechanism.scene_parameters[parameter].name.text;
-                let shown =
-                    linkage_compiler::notation::Formula::of_name(linkage_compiler::notation::Name::Plain(name)).text;
+                let shown = shown(name);
                 let is_in = |text: &&String| text.contains(&shown) && **text != shown;
                 let is_alone = texts.iter().filter(|text| **text == shown).count() > 1;
                 let is_cut = texts.iter().any(|text| text.contains('…'));

@@ -3,7 +3,7 @@
 #![cfg(feature = "sheet")]
 
 use linkage::Document;
-use linkage::derivation::{Entry, Formula, FormulaMatrix};
+use linkage::derivation::{Entry, FormulaMatrix, FormulaNode, FormulaTable};
 use linkage::sheet::Sheet;
 
 use linkage_gallery::cam_follower::*;
@@ -102,11 +102,11 @@ fn equations_are_numbered_as_in_the_text() {
 
 #[test]
 fn large_matrices_are_lists_of_entries() {
-    const ONE: Formula = Formula { text: "1", latex: "1", mathml: "<mn>1</mn>" };
+    let table = FormulaTable::checked(&[FormulaNode::Integer(1)]).unwrap();
+    let entries = [Entry { row: 6, column: 0, value: table.get(1).unwrap() }];
     let mut large = *FourBar::DERIVATION;
     let name = FourBar::DERIVATION.jacobian_inputs.name;
-    large.jacobian_inputs =
-        FormulaMatrix { name, factor: None, rows: 7, columns: 1, entries: &[Entry { row: 6, column: 0, value: ONE }] };
+    large.jacobian_inputs = FormulaMatrix { name, factor: None, rows: 7, columns: 1, entries: &entries };
     let html = Sheet::new(&large).to_html();
     assert_balanced(&html);
     assert!(html.contains("<mrow><mn>7</mn><mo>,</mo><mn>1</mn></mrow></msub><mo>=</mo><mn>1</mn>"));

@@ -95,7 +95,7 @@ fn nanoseconds<T: Real>(operation: impl Fn(T) -> T) -> f64 {
 /// The operations of the methods for one mechanism.
 #[derive(Debug, Clone, Copy)]
 pub struct Counts {
-    pub derivation: &'static Derivation,
+    pub derivation: &'static Derivation<'static>,
     /// The unknowns of the group that is solved by factorisation, or zero.
     pub factorised: usize,
 }

@@ -71,7 +71,7 @@ pub struct Figure {
     pub about: &'static str,
     pub source: &'static str,
     pub picture: Animation,
-    pub derivation: &'static Derivation,
+    pub derivation: &'static Derivation<'static>,
     pub course: Course,
     /// The number of branches in general and in the first frame; None if positions come from Newton's method.
     pub branches: Option<[usize; 2]>,
@@ -82,7 +82,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    pub fn new(name: &'static str, derivation: &'static Derivation, course: Course) -> Self {
+    pub fn new(name: &'static str, derivation: &'static Derivation<'static>, course: Course) -> Self {
         let picture = Animation::new(name, SECONDS);
         let (branches, circuits) = (None, None);
         Self { name, about: "", source: "", picture, derivation, course, branches, circuits, ulps: 0.0 }

@@ -12,6 +12,8 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use linkage_compiler::model::Request;
+use linkage_report::Notation;
+use linkage_runtime::derivation::{Kernel, KernelCode};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::quote;
 
@@ -101,16 +103,46 @@ fn with_statement(body: TokenStream, statement: &TokenStream) -> TokenStream {
 /// Adds the texts of an invocation, by kind.
 fn write(body: TokenStream, texts: &mut BTreeMap<&'static str, String>) {
     let root = quote!(::linkage);
-    let (derivation, code) = apart(linkage_compiler::expand(body.clone(), &root));
-    add(texts, "code", &code);
+    let (derivation, expansion) = apart(linkage_compiler::expand(body.clone(), &root));
+    add(texts, "code", &expansion);
     add(texts, "derivation", &derivation);
     for mechanism in linkage_compiler::read(body).unwrap() {
         add(texts, "stub", &linkage_compiler::emit::stub(&mechanism, &root));
         *texts.entry("program").or_default() += &linkage_compiler::programs(&mechanism).unwrap().concat();
-        for [of, function, lines] in linkage_compiler::formulas(&mechanism).unwrap() {
-            let _ = writeln!(texts.entry("fpcore").or_default(), "{of}::{function}\n{lines}");
+        let (documents, scenes) = linkage_compiler::documents(&mechanism).unwrap();
+        let fpcore = texts.entry("fpcore").or_default();
+        for document in &documents {
+            let derivation = linkage_lent::derivation(document);
+            code(fpcore, derivation.mechanism, derivation.kernels);
+            for scene in scenes.iter().filter(|scene| scene.mechanism == document.mechanism) {
+                let scene = linkage_lent::scene(scene);
+                code(fpcore, scene.scene, scene.kernels);
+            }
         }
         let _ = writeln!(texts.entry("bounds").or_default(), "{:#?}", linkage_compiler::bounds(&mechanism).unwrap());
+    }
+}
+
+/// Adds the formulas of functions, a line each.
+fn code(text: &mut String, of: &str, kernels: &[Kernel<'_>]) {
+    for Kernel { function, code: KernelCode { steps, checks, results }, .. } in kernels {
+        if results.is_empty() {
+            continue;
+        }
+        *text += &format!("{of}::{function}\n");
+        for step in *steps {
+            *text += &format!("let {} {}\n", step.left.to_fpcore(), step.right.to_fpcore());
+        }
+        for check in *checks {
+            let word = format!("{check:?}").to_lowercase();
+            let word = word.split('(').next().unwrap_or_default();
+            let of: Vec<String> = check.of().iter().map(Notation::to_fpcore).collect();
+            *text += &format!("check {word} {}\n", of.join(" "));
+        }
+        for result in *results {
+            *text += &format!("return {} {}\n", result.place, result.value.to_fpcore());
+        }
+        *text += "\n";
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! [`expand_within`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), algebra
 //! (simplification), structure (order of solution), model (name resolution and checks), derivation (mathematics), program
-//! (the functions to emit), lower (common subexpressions, order, names), notation (formulas for readers), emit
+//! (the functions to emit), lower (common subexpressions, order, names), document (formulas for readers), emit
 //! (printers).
 
 pub mod algebra;
@@ -10,13 +10,13 @@ pub mod budget;
 mod clash;
 pub mod derivation;
 pub mod diagnostics;
+pub mod document;
 pub mod emit;
 mod facade;
 pub mod graph;
 pub mod ids;
 pub mod lower;
 pub mod model;
-pub mod notation;
 pub mod program;
 pub mod structure;
 pub mod syntax;
@@ -29,6 +29,7 @@ use quote::quote;
 use budget::{Budget, Spent};
 use derivation::Derivation;
 use diagnostics::Diagnostics;
+use document::{Document, SceneDocument};
 pub use facade::Facade;
 use lower::Code;
 use model::{Driver, Mechanism};
@@ -199,13 +200,15 @@ pub fn programs(mechanism: &Mechanism) -> Result<Vec<String>, Vec<String>> {
     of_checked(mechanism, |of| emit::text(&of.program))
 }
 
-/// Returns the formulas of the functions of a mechanism and of its scenes as `derive fpcore` writes them: the type, the
-/// function and its lines.
+/// Returns the documents of a mechanism, one for each driver, and those of its scenes, with the formulas of functions as
+/// `derive fpcore` adds them.
 ///
 /// # Errors
 /// As [`compile`].
-pub fn formulas(mechanism: &Mechanism) -> Result<Vec<[String; 3]>, Vec<String>> {
-    Ok(of_checked(mechanism, |of| emit::formulas(&of.program))?.concat())
+pub fn documents(mechanism: &Mechanism) -> Result<(Vec<Document>, Vec<SceneDocument>), Vec<String>> {
+    let (documents, scenes): (Vec<_>, Vec<_>) =
+        of_checked(mechanism, |of| emit::documents(&of.program, &of.derivation))?.into_iter().unzip();
+    Ok((documents.into_iter().flatten().collect(), scenes.into_iter().flatten().collect()))
 }
 
 /// The largest rounding errors that the functions of one driver can have.

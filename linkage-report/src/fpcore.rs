@@ -5,7 +5,11 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use linkage_runtime::__shared::{CANCELLATION, COINCIDENT_ULPS, ZERO_ULPS, smallest_product};
-use linkage_runtime::derivation::Kernel;
+use linkage_runtime::derivation::notation::Name;
+use linkage_runtime::derivation::{Equation, Formula, FormulaView, Kernel, KernelCheck, KernelCode};
+
+use crate::Notation;
+use crate::notation::literal;
 
 /// One number that an emitted function computes, as a formula of FPCore 2.0. Its [`Display`](fmt::Display) is the text.
 ///
@@ -35,34 +39,24 @@ use linkage_runtime::derivation::Kernel;
 /// # Ok::<(), &str>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct FpCore {
+pub struct FpCore<'a> {
     name: String,
-    /// In the order of the lines.
-    arguments: Vec<&'static str>,
-    lines: Vec<Line>,
-    value: &'static str,
-    /// The conditions, and the lines that they need.
-    checks: Vec<Check>,
-    lines_of_checks: Vec<Line>,
-    given: BTreeMap<&'static str, f64>,
-    ranges: BTreeMap<&'static str, RangeInclusive<f64>>,
+    /// In the order of the steps.
+    arguments: Vec<&'a str>,
+    steps: Vec<Equation<'a>>,
+    value: Formula<'a>,
+    /// The conditions, and the steps that they need.
+    checks: Vec<KernelCheck<'a>>,
+    steps_of_checks: Vec<Equation<'a>>,
+    given: BTreeMap<&'a str, f64>,
+    ranges: BTreeMap<&'a str, RangeInclusive<f64>>,
 }
 
-/// `name = value`
-type Line = (&'static str, &'static str);
-
-/// A condition by its word, and the numbers that it is on.
-#[derive(Debug, Clone)]
-struct Check {
-    word: &'static str,
-    of: Vec<&'static str>,
-}
-
-impl FpCore {
+impl<'a> FpCore<'a> {
     /// The formulas of functions of a mechanism or scene.
-    pub(crate) fn of(owner: &str, kernels: &[Kernel]) -> Vec<Self> {
+    pub(crate) fn of(owner: &str, kernels: &[Kernel<'a>]) -> Vec<Self> {
         let owner = &ascii(owner);
-        kernels.iter().flat_map(|kernel| Code::of(kernel).cores(owner, kernel.function)).collect()
+        kernels.iter().flat_map(|kernel| cores(owner, kernel)).collect()
     }
 
     /// The type, function and place in its result: `FourBar::velocity.theta3`.
@@ -95,16 +89,19 @@ impl FpCore {
         self
     }
 
-    fn argument(&self, name: &str) -> Option<&'static str> {
+    fn argument(&self, name: &str) -> Option<&'a str> {
         self.arguments.iter().copied().find(|argument| *argument == name)
     }
 
-    /// The given numbers and lines as bindings of `let*`, for a body of these expressions.
-    fn bindings(&self, lines: &[Line], body: impl Iterator<Item = &'static str>) -> Vec<String> {
-        let used: BTreeSet<&str> = lines.iter().map(|(_, value)| *value).chain(body).flat_map(symbols).collect();
+    /// The given numbers and steps as bindings of `let*`, for a body of these formulas.
+    fn bindings(&self, steps: &[Equation<'a>], body: &[Formula<'a>]) -> Vec<String> {
+        let mut used = BTreeSet::new();
+        let formulas = steps.iter().map(|step| step.right).chain(body.iter().copied());
+        formulas.for_each(|formula| each_symbol(formula, &mut |_, name| _ = used.insert(name)));
         let given = self.given.iter().filter(|(name, _)| used.contains(*name));
         let given = given.map(|(name, number)| format!("[{name} {}]", literal(*number)));
-        given.chain(lines.iter().map(|(name, value)| format!("[{name} {value}]"))).collect()
+        let steps = steps.iter().map(|step| format!("[{} {}]", step.left.to_fpcore(), step.right.to_fpcore()));
+        given.chain(steps).collect()
     }
 
     /// The conditions: ranges first.
@@ -113,9 +110,9 @@ impl FpCore {
         let ranges =
             ranges.map(|(name, range)| format!("(<= {} {name} {})", literal(*range.start()), literal(*range.end())));
         let mut conditions: Vec<String> = ranges.collect();
-        let mut checks: Vec<String> = self.checks.iter().flat_map(Check::conditions).collect();
-        let bindings =
-            self.bindings(&self.lines_of_checks, self.checks.iter().flat_map(|check| check.of.iter().copied()));
+        let mut checks: Vec<String> = self.checks.iter().flat_map(conditions_of).collect();
+        let of_checks: Vec<Formula<'_>> = self.checks.iter().flat_map(KernelCheck::of).copied().collect();
+        let bindings = self.bindings(&self.steps_of_checks, &of_checks);
         if !checks.is_empty() && !bindings.is_empty() {
             let all = joined(checks);
             checks = vec![format!("(let* ({}) {all})", bindings.join(" "))];
@@ -125,7 +122,7 @@ impl FpCore {
     }
 }
 
-impl fmt::Display for FpCore {
+impl fmt::Display for FpCore<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let arguments: Vec<&str> = self.arguments().collect();
         writeln!(f, "(FPCore ({})", arguments.join(" "))?;
@@ -135,11 +132,11 @@ impl fmt::Display for FpCore {
         if !conditions.is_empty() {
             writeln!(f, "  :pre {}", joined(conditions))?;
         }
-        let bindings = self.bindings(&self.lines, std::iter::once(self.value));
+        let (bindings, value) = (self.bindings(&self.steps, &[self.value]), self.value.to_fpcore());
         if bindings.is_empty() {
-            return write!(f, "  {})", self.value);
+            return write!(f, "  {value})");
         }
-        write!(f, "  (let* ({})\n    {}))", bindings.join("\n         "), self.value)
+        write!(f, "  (let* ({})\n    {value}))", bindings.join("\n         "))
     }
 }
 
@@ -157,26 +154,31 @@ fn joined(conditions: Vec<String>) -> String {
     }
 }
 
-impl Check {
-    /// The conditions under which the code computes these formulas and no others.
-    fn conditions(&self) -> Vec<String> {
-        match (self.word, self.of.as_slice()) {
-            ("regular", [determinant, scale]) => {
-                vec![format!("(> (fabs {determinant}) (* {} (fabs {scale})))", ulps(ZERO_ULPS))]
-            }
-            ("nonzero", [number]) => vec![format!("(!= {number} 0)")],
-            ("positive", [length]) => vec![format!("(>= {length} 0)")],
-            ("apart", [radius, scale]) => vec![format!("(> {radius} (* {} {scale}))", ulps(COINCIDENT_ULPS))],
-            ("moderate", [product]) => {
-                let least = smallest_product::<f64>();
-                vec![format!("(< {} {product} {})", literal(least), literal(1.0 / least))]
-            }
-            ("open", [low, high, reach_squared, distance_squared]) => vec![
+/// The conditions under which the code computes these formulas and no others.
+fn conditions_of(check: &KernelCheck<'_>) -> Vec<String> {
+    let text = |of: &Formula<'_>| of.to_fpcore();
+    match check {
+        KernelCheck::Regular(of) => {
+            let [determinant, scale] = of.each_ref().map(text);
+            vec![format!("(> (fabs {determinant}) (* {} (fabs {scale})))", ulps(ZERO_ULPS))]
+        }
+        KernelCheck::Nonzero([number]) => vec![format!("(!= {} 0)", text(number))],
+        KernelCheck::Positive([length]) => vec![format!("(>= {} 0)", text(length))],
+        KernelCheck::Apart(of) => {
+            let [radius, scale] = of.each_ref().map(text);
+            vec![format!("(> {radius} (* {} {scale}))", ulps(COINCIDENT_ULPS))]
+        }
+        KernelCheck::Moderate([product]) => {
+            let least = smallest_product::<f64>();
+            vec![format!("(< {} {} {})", literal(least), text(product), literal(1.0 / least))]
+        }
+        KernelCheck::Open(of) => {
+            let [low, high, reach_squared, distance_squared] = of.each_ref().map(text);
+            vec![
                 format!("(> {low} (* {CANCELLATION} {reach_squared}))"),
                 format!("(> {high} (* {CANCELLATION} {distance_squared}))"),
                 format!("(> {distance_squared} (* {} {reach_squared}))", ulps(1.0)),
-            ],
-            _ => Vec::new(),
+            ]
         }
     }
 }
@@ -185,107 +187,74 @@ fn ulps(number: f64) -> String {
     literal(number * f64::EPSILON)
 }
 
-/// A number of FPCore.
-fn literal(number: f64) -> String {
-    match number {
-        _ if number.is_nan() => "NAN".to_owned(),
-        _ if number.is_infinite() => if number > 0.0 { "INFINITY" } else { "(- INFINITY)" }.to_owned(),
-        _ => format!("{number:?}").trim_end_matches(".0").to_owned(),
-    }
-}
-
-/// The lines of a function.
-struct Code {
-    lines: Vec<Line>,
-    checks: Vec<Check>,
-    /// The places in the result and their values.
-    results: Vec<Line>,
-}
-
-impl Code {
-    fn of(kernel: &Kernel) -> Self {
-        let mut code = Self { lines: Vec::new(), checks: Vec::new(), results: Vec::new() };
-        for line in kernel.lines.lines() {
-            let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
-            let pair = rest.split_once(' ').unwrap_or((rest, ""));
-            match word {
-                "let" => code.lines.push(pair),
-                "return" => code.results.push(pair),
-                _ => code.checks.push(Check { word: pair.0, of: expressions(pair.1) }),
-            }
-        }
-        code
-    }
-
-    fn cores(&self, owner: &str, function: &str) -> Vec<FpCore> {
-        let core = |&(place, value): &Line| {
-            let lines = self.needed(symbols(value));
-            let mut known: BTreeSet<&str> = lines.iter().map(|(name, _)| *name).collect();
-            known.extend(lines.iter().flat_map(|(_, value)| symbols(value)).chain(symbols(value)));
-            let is_of_it = |check: &&Check| check.of.first().is_some_and(|first| known.contains(first));
-            let checks: Vec<Check> = self.checks.iter().filter(is_of_it).cloned().collect();
-            let lines_of_checks =
-                self.needed(checks.iter().flat_map(|check| check.of.iter().flat_map(|of| symbols(of))));
-            let mut arguments = Vec::new();
-            let of_checks = checks.iter().flat_map(|check| check.of.iter().copied());
-            let all = lines.iter().chain(&lines_of_checks).map(|(_, value)| *value).chain([value]).chain(of_checks);
-            for symbol in all.flat_map(symbols) {
-                if !arguments.contains(&symbol) && self.lines.iter().all(|(name, _)| *name != symbol) {
-                    arguments.push(symbol);
+/// The formulas of the numbers that a function returns.
+fn cores<'a>(owner: &str, kernel: &Kernel<'a>) -> Vec<FpCore<'a>> {
+    let KernelCode { steps, checks, results } = kernel.code;
+    let defined: BTreeSet<u32> = steps.iter().map(|step| step.left.number()).collect();
+    let core = |place: &str, value: Formula<'a>| {
+        let of_it = needed(steps, &[value]);
+        let mut known: BTreeSet<u32> = of_it.iter().map(|step| step.left.number()).collect();
+        let formulas = of_it.iter().map(|step| step.right).chain([value]);
+        formulas.for_each(|formula| each_symbol(formula, &mut |number, _| _ = known.insert(number)));
+        let is_of_it =
+            |check: &&KernelCheck<'a>| check.of().first().is_some_and(|first| known.contains(&first.number()));
+        let checks: Vec<KernelCheck<'a>> = checks.iter().filter(is_of_it).copied().collect();
+        let of_checks: Vec<Formula<'a>> = checks.iter().flat_map(KernelCheck::of).copied().collect();
+        let steps_of_checks = needed(steps, &of_checks);
+        let mut arguments = Vec::new();
+        let formulas = of_it.iter().chain(&steps_of_checks).map(|step| step.right).chain([value]).chain(of_checks);
+        formulas.for_each(|formula| {
+            each_symbol(formula, &mut |number, name| {
+                if !arguments.contains(&name) && !defined.contains(&number) {
+                    arguments.push(name);
                 }
-            }
-            FpCore {
-                name: format!("{owner}::{function}{place}"),
-                arguments,
-                lines,
-                value,
-                checks,
-                lines_of_checks,
-                given: BTreeMap::new(),
-                ranges: BTreeMap::new(),
-            }
-        };
-        self.results.iter().map(core).collect()
-    }
-
-    /// The lines that symbols need, in order.
-    fn needed(&self, symbols_of: impl Iterator<Item = &'static str>) -> Vec<Line> {
-        let mut needed: BTreeSet<&str> = symbols_of.collect();
-        let mut lines: Vec<Line> = Vec::new();
-        for &(name, value) in self.lines.iter().rev() {
-            if needed.contains(name) {
-                needed.extend(symbols(value));
-                lines.push((name, value));
-            }
+            });
+        });
+        FpCore {
+            name: format!("{owner}::{}{place}", kernel.function),
+            arguments,
+            steps: of_it,
+            value,
+            checks,
+            steps_of_checks,
+            given: BTreeMap::new(),
+            ranges: BTreeMap::new(),
         }
-        lines.reverse();
-        lines
-    }
-}
-
-/// The symbols of an expression that are neither operators nor constants.
-fn symbols(expression: &'static str) -> impl Iterator<Item = &'static str> {
-    let is_symbol = |word: &&str| {
-        let is_number = word.starts_with(|first: char| first.is_ascii_digit() || first == '-');
-        !word.is_empty() && !word.starts_with('(') && !is_number && !["PI", "NAN", "INFINITY"].contains(word)
     };
-    expression.split(' ').map(|word| word.trim_end_matches(')')).filter(is_symbol)
+    results.iter().map(|result| core(result.place, result.value)).collect()
 }
 
-/// The expressions of a list, divided at spaces outside parentheses.
-fn expressions(list: &'static str) -> Vec<&'static str> {
-    let (mut depth, mut start, mut all) = (0_usize, 0, Vec::new());
-    for (place, letter) in list.char_indices() {
-        match letter {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            ' ' if depth == 0 => {
-                all.push(&list[start..place]);
-                start = place + 1;
-            }
-            _ => {}
+/// The steps that formulas need, in order.
+fn needed<'a>(steps: &[Equation<'a>], formulas: &[Formula<'a>]) -> Vec<Equation<'a>> {
+    let mut needed = BTreeSet::new();
+    formulas.iter().for_each(|&formula| each_symbol(formula, &mut |number, _| _ = needed.insert(number)));
+    let mut found: Vec<Equation<'a>> = Vec::new();
+    for step in steps.iter().rev() {
+        if needed.contains(&step.left.number()) {
+            each_symbol(step.right, &mut |number, _| _ = needed.insert(number));
+            found.push(*step);
         }
     }
-    all.push(&list[start..]);
-    all
+    found.reverse();
+    found
+}
+
+/// Visits the names in a formula of code, with their numbers, in the order of the text.
+fn each_symbol<'a>(formula: Formula<'a>, visit: &mut dyn FnMut(u32, &'a str)) {
+    match formula.view() {
+        FormulaView::Name(Name::Plain(name)) => visit(formula.number(), name),
+        FormulaView::Sum(terms) => terms.iter().for_each(|(_, term)| each_symbol(term, visit)),
+        FormulaView::Product(parts)
+        | FormulaView::Call(_, parts)
+        | FormulaView::External(_, _, parts)
+        | FormulaView::AtMost(parts) => parts.iter().for_each(|part| each_symbol(part, visit)),
+        FormulaView::Quotient(one, other) | FormulaView::Multiple(one, other) => {
+            each_symbol(one, visit);
+            each_symbol(other, visit);
+        }
+        FormulaView::Power(inside, _) | FormulaView::NonZero(inside) | FormulaView::Exists(inside) => {
+            each_symbol(inside, visit);
+        }
+        _ => {}
+    }
 }

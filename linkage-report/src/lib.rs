@@ -1,6 +1,7 @@
 //! Documents and drawings of linkages.
 //!
 //! - [`Document`]: a derivation as plain text and as LaTeX, its code as FPCore;
+//! - [`Notation`]: a formula as LaTeX and MathML;
 //! - [`sheet`]: a derivation as HTML, with numbers and pictures;
 //! - [`drawing`]: a linkage as SVG;
 //! - [`Table`]: a motion as columns and as CSV.
@@ -11,9 +12,11 @@ mod document;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod fpcore;
+mod notation;
 pub mod sheet;
 mod table;
 
 pub use document::Document;
 pub use fpcore::FpCore;
+pub use notation::Notation;
 pub use table::Table;

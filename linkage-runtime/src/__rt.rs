@@ -37,7 +37,12 @@ pub use crate::{
 
 /// The types of emitted derivations.
 pub mod derivation {
-    pub use crate::derivation as prelude;
+    /// What the constants name.
+    pub mod prelude {
+        pub use crate::derivation::ElementaryFunction::*;
+        pub use crate::derivation::FormulaNode::*;
+        pub use crate::derivation::*;
+    }
 }
 
 /// The crate `serde`, and names for its attributes.

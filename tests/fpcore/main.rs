@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use linkage::Document;
-use linkage::derivation::{Derivation, Kernel, Operations};
+use linkage::derivation::Derivation;
 use linkage_gallery::{Fixture, all_mechanisms, source};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -22,17 +22,12 @@ const POSES: usize = 20;
 /// Mechanisms without formulas for rates: by pivoting, and equal to those of the input.
 const WITHOUT: [&str; 2] = ["ThreeTogether", "Block"];
 
-/// The derivations of a file as `derive fpcore` makes them, from those without.
-fn with_lines(file: &str, derivation: &Derivation) -> Derivation {
+/// The derivation of a file as `derive fpcore` makes it, from that without.
+fn with_code(file: &str, derivation: &Derivation) -> Derivation<'static> {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
-    let formulas = linkage_compiler::formulas(&mechanism).unwrap().into_iter();
-    let of_it = formulas.filter(|[of, ..]| of == derivation.mechanism);
-    let kernels = of_it.map(|[_, function, lines]| Kernel {
-        function: function.leak(),
-        operations: Operations::default(),
-        lines: lines.leak(),
-    });
-    Derivation { kernels: kernels.collect::<Vec<_>>().leak(), ..*derivation }
+    let (documents, _) = linkage_compiler::documents(&mechanism).unwrap();
+    let document = documents.iter().find(|document| document.mechanism == derivation.mechanism).unwrap();
+    linkage_lent::derivation(document)
 }
 
 /// The formulas of a mechanism by name, each as it was read.
@@ -80,7 +75,7 @@ fn numbered<'a>(names: &'a [String], list: &'a [f64]) -> impl Iterator<Item = (&
 }
 
 fn agrees<F: Fixture>(derivation: &Derivation, branches: &[Vec<(String, f64)>]) {
-    let (of, cores) = (derivation.mechanism, cores(&with_lines(F::FILE, derivation)));
+    let (of, cores) = (derivation.mechanism, cores(&with_code(F::FILE, derivation)));
     let names = coordinates::<F>();
     let parameters: Vec<String> = derivation.parameters.iter().map(|symbol| symbol.name.to_lowercase()).collect();
     let points: Vec<String> = derivation.points.iter().map(|point| point.name.to_lowercase()).collect();
@@ -163,8 +158,9 @@ all_mechanisms!(tests);
 fn functions_without_formulas() {
     let functions = |file: &str| {
         let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
-        let formulas = linkage_compiler::formulas(&mechanism).unwrap();
-        formulas.into_iter().map(|[_, function, _]| function).collect::<Vec<_>>()
+        let kernels = linkage_compiler::documents(&mechanism).unwrap().0.remove(0).kernels.into_iter();
+        let with_code = kernels.filter(|kernel| !kernel.code.results.is_empty());
+        with_code.map(|kernel| kernel.function).collect::<Vec<_>>()
     };
     for (file, with, without) in [
         ("double_butterfly", ["residual", "points"], ["velocity", "acceleration"]),

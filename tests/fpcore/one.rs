@@ -31,12 +31,12 @@ linkage! {
     }
 }
 
-fn core(all: &[FpCore], name: &str) -> FpCore {
+fn core(all: &[FpCore<'static>], name: &str) -> FpCore<'static> {
     all.iter().find(|core| core.name() == name).unwrap_or_else(|| panic!("no {name}")).clone()
 }
 
 /// The formulas of the mechanism and of the scene.
-fn all() -> Vec<FpCore> {
+fn all() -> Vec<FpCore<'static>> {
     let (mechanism, scene) = (FourBar::<f64>::DERIVATION.fpcore(), Loaded::<f64>::DERIVATION.fpcore());
     mechanism.into_iter().chain(scene).collect()
 }

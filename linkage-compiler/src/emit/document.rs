@@ -1,85 +1,44 @@
-//! `DERIVATION`: the derivation as data, with every formula as Unicode text, LaTeX and MathML.
-
-use std::ops::Deref;
+//! `DERIVATION`: a document as constants of the runtime.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
-use rustc_hash::FxHashMap;
+use quote::{ToTokens, format_ident, quote};
 
 use super::names::string;
-use super::work::Work;
-use crate::derivation::{ClosedForm, Derivation, Inverse, Quantity, QuantityFormulas, RatioDerivatives, Row};
-use crate::graph::{NodeId, SymbolId};
-use crate::ids::{BlockId, CoordinateId, Id, InputId, Table, UnknownId};
-use crate::model::{Driver, Mechanism};
-use crate::notation::{Formula, Name, Printer};
-use crate::program::{Derived, Operations};
+use crate::document::{
+    Block, ContactEffect, Document, Effect, Equation, JointForce, Kernel, KernelCode, Matrix, Method, Node, Number,
+    Quantity, Root, SceneDocument, Sensitivity, Symbol, Table,
+};
+use crate::model::TypeName;
+use crate::program::Operations;
 
 /// The constant `DERIVATION` of a driver.
-pub(super) fn constant(
-    mechanism: &Mechanism,
-    driver: &Driver,
-    derivation: &Derivation,
-    derived: &Derived,
-    kernels: &[Work],
-    root: &TokenStream,
-) -> TokenStream {
-    let Derived { formulas, closed_forms, .. } = derived;
-    let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
-    let names = names(mechanism, derivation, &inputs, &unknowns);
-    let graph = &derivation.graph;
-    let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
-    let parameters: Vec<&str> = mechanism.parameters.iter().map(|parameter| parameter.name.text.as_str()).collect();
-    let mut document = Document {
-        printer: Printer::new(graph, &shown),
-        derivation,
-        parameters: &parameters,
-        inputs: &inputs,
-        unknowns: &unknowns,
-    };
-    let (by_inputs, by_pairs, by_parameters) = (document.by_inputs(), document.by_pairs(), document.by_parameters());
-
-    let residual = document.numbered("Psi", &derivation.residual);
-    let implied: Vec<NodeId> = derivation.implied.iter().map(|implied| implied.residual).collect();
-    let implied = document.numbered("chi", &implied);
-    let by_unknowns = derivation.jacobian_unknowns();
-    let jacobian_unknowns = document.matrix(Name::Plain("J"), None, &by_unknowns, unknowns.len());
-    let jacobian_inputs = document.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len());
-    let blocks: Vec<_> = formulas
-        .inverses
-        .enumerated()
-        .map(|(number, inverse)| document.block(number, &closed_forms[number], inverse.as_ref()))
-        .collect();
-    let determinant = option(formulas.determinant.map(|node| document.equation(Name::Determinant(None), node)));
-    let ratios = document.derivatives(&unknowns, &by_inputs, &formulas.ratios);
-    let is_requested = derivation.ratio_derivatives.is_some();
-    let second = option(is_requested.then(|| document.derivatives(&unknowns, &by_pairs, &formulas.ratio_derivatives)));
-    let gamma = document.numbered("gamma", &derivation.gamma);
-    let jerk = option(derivation.eta.as_ref().map(|eta| document.numbered("eta", eta)));
-    let sensitivity = option(derivation.sensitivity.as_ref().map(|first| {
-        let jacobian = document.matrix(Name::Plain("Psi_p"), None, &first.jacobian, parameters.len());
-        let formulas = nonzero(derivation, &formulas.sensitivities);
-        let formulas = document.derivatives(&unknowns, &by_parameters, &formulas);
+pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream) -> TokenStream {
+    let (table, mechanism) = (table(&document.table), string(&document.mechanism));
+    let [parameters, inputs, unknowns] =
+        [&document.parameters, &document.inputs, &document.unknowns].map(|symbols| self::symbols(symbols));
+    let [residual, implied, ratios, gamma] =
+        [&document.residual, &document.implied, &document.ratios, &document.gamma].map(|all| equations(all));
+    let [jacobian_unknowns, jacobian_inputs] = [&document.jacobian_unknowns, &document.jacobian_inputs].map(matrix);
+    let blocks = list(document.blocks.iter().map(block));
+    let determinant = option(document.determinant.as_ref().map(equation));
+    let second = option(document.ratio_derivatives.as_deref().map(equations));
+    let jerk = option(document.jerk.as_deref().map(equations));
+    let sensitivity = option(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
+        let (jacobian, formulas) = (matrix(jacobian), equations(formulas));
         quote!(Sensitivity { jacobian: #jacobian, formulas: #formulas })
     }));
-    let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
-    let points = document.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points);
-    let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
-    let outputs = document.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs);
-    let conditions = formulas.conditions.iter().map(|&condition| formula(&document.printer.condition(condition)));
-    let conditions = list(conditions);
-    let [parameters, inputs, unknowns] = [&*parameters, &*inputs, &*unknowns].map(symbols);
-    let kernels = kernel_list(kernels);
-
-    let (name, text) = (&driver.name, string(&driver.name.to_string()));
+    let [points, outputs] = [&document.points, &document.outputs].map(|all| list(all.iter().map(quantity)));
+    let conditions = formulas(&document.conditions);
+    let kernels = list(document.kernels.iter().map(kernel));
     quote! {
         impl #name {
-            /// The derivation as data: every formula as text, `LaTeX` and `MathML`, the order of solution and the
-            /// operations of each function. If it is not used, it is not in the program.
-            pub const DERIVATION: &'static #root::__rt::derivation::prelude::Derivation = {
+            /// The derivation as data: every formula, the order of solution and the operations of each function. If it
+            /// is not used, it is not in the program.
+            pub const DERIVATION: &'static #root::__rt::derivation::prelude::Derivation<'static> = {
                 use #root::__rt::derivation::prelude::*;
+                #table
                 &Derivation {
-                    mechanism: #text,
+                    mechanism: #mechanism,
                     parameters: #parameters,
                     inputs: #inputs,
                     unknowns: #unknowns,
@@ -87,7 +46,7 @@ pub(super) fn constant(
                     implied: #implied,
                     jacobian_unknowns: #jacobian_unknowns,
                     jacobian_inputs: #jacobian_inputs,
-                    blocks: &[#(#blocks),*],
+                    blocks: #blocks,
                     determinant: #determinant,
                     ratios: #ratios,
                     ratio_derivatives: #second,
@@ -104,255 +63,267 @@ pub(super) fn constant(
     }
 }
 
-/// The names of coordinates as the user wrote them.
-pub(super) fn texts<'a, I>(mechanism: &'a Mechanism, places: &Table<I, CoordinateId>) -> Table<I, &'a str> {
-    places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str()).collect()
-}
-
-/// The name of each symbol.
-pub(super) fn names<'a>(
-    mechanism: &'a Mechanism,
-    derivation: &Derivation,
-    inputs: &Table<InputId, &'a str>,
-    unknowns: &Table<UnknownId, &'a str>,
-) -> FxHashMap<SymbolId, Name<'a>> {
-    let mut names = FxHashMap::default();
-    for parameter in &mechanism.parameters {
-        names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
-    }
-    let places = derivation.inputs.iter().zip(inputs).chain(derivation.unknowns.iter().zip(unknowns));
-    for (&place, &text) in places {
-        let coordinate = &derivation.coordinates[place];
-        names.insert(coordinate.value, Name::Plain(text));
-        names.insert(coordinate.rate, Name::Rate(text));
-        names.insert(coordinate.acceleration, Name::Acceleration(text));
-    }
-    for (ratios, &by) in derivation.ratios.iter().zip(inputs) {
-        names.extend(ratios.iter().zip(unknowns).map(|(&ratio, &of)| (ratio, Name::Ratio { of, by })));
-    }
-    if let Some(RatioDerivatives { pairs, names: second, .. }) = &derivation.ratio_derivatives {
-        for (of_pair, &(j, k)) in second.iter().zip(pairs) {
-            let by = [inputs[j], inputs[k]];
-            names.extend(of_pair.iter().zip(unknowns).map(|(&name, &of)| (name, Name::RatioDerivative { of, by })));
+/// The constant `DERIVATION` of a scene: its equations of motion.
+pub(super) fn of_scene(name: &TypeName, document: &SceneDocument, root: &TokenStream) -> TokenStream {
+    let table = table(&document.table);
+    let [scene, mechanism] = [&document.scene, &document.mechanism].map(|name| string(name));
+    let [parameters, contacts] = [&document.parameters, &document.contacts].map(|symbols| self::symbols(symbols));
+    let [mass_matrix, drives] = [&document.mass_matrix, &document.drives].map(|all| equations(all));
+    let forces = list(document.forces.iter().map(|Effect { name, forces }| {
+        let (name, forces) = (string(name), equations(forces));
+        quote!(Effect { name: #name, forces: #forces })
+    }));
+    let frictions_and_stops = list(document.frictions_and_stops.iter().map(contact));
+    let potential = option(document.potential.as_ref().map(equation));
+    let joints = list(document.joints.iter().map(|JointForce { name, components }| {
+        let (name, [first, second]) = (string(name), components.each_ref().map(equation));
+        quote!(JointForce { name: #name, components: [#first, #second] })
+    }));
+    let multipliers = formulas(&document.multipliers);
+    let kernels = list(document.kernels.iter().map(kernel));
+    quote! {
+        impl #name {
+            /// The equations of motion as data: every formula, and the operations of each function. If it is not used, it
+            /// is not in the program.
+            pub const DERIVATION: &'static #root::__rt::derivation::prelude::SceneDerivation<'static> = {
+                use #root::__rt::derivation::prelude::*;
+                #table
+                &SceneDerivation {
+                    scene: #scene,
+                    mechanism: #mechanism,
+                    parameters: #parameters,
+                    mass_matrix: #mass_matrix,
+                    forces: #forces,
+                    frictions_and_stops: #frictions_and_stops,
+                    drives: #drives,
+                    potential: #potential,
+                    joints: #joints,
+                    multipliers: #multipliers,
+                    contacts: #contacts,
+                    kernels: #kernels,
+                }
+            };
         }
     }
-    for (first, parameter) in derivation.sensitivity.iter().flat_map(|first| &first.names).zip(&mechanism.parameters) {
-        let by = parameter.name.text.as_str();
-        names.extend(first.iter().zip(unknowns).map(|(&name, &of)| (name, Name::Ratio { of, by })));
-    }
-    names
 }
 
-/// The formulas, `None` for those that are zero.
-fn nonzero<F: Copy + Into<Option<NodeId>>>(
-    derivation: &Derivation,
-    formulas: &[impl Deref<Target = [F]>],
-) -> Vec<Vec<Option<NodeId>>> {
-    let formula = |&formula: &F| formula.into().filter(|&node| !derivation.graph.is_zero(node));
-    formulas.iter().map(|of_one| of_one.iter().map(formula).collect()).collect()
+impl ToTokens for Number {
+    fn to_tokens(&self, tokens: &mut TokenStream) {
+        Literal::u32_unsuffixed(self.get()).to_tokens(tokens);
+    }
+}
+
+/// The table of formulas, `T`.
+fn table(table: &Table) -> TokenStream {
+    let nodes = table.nodes().map(node);
+    quote!(const T: FormulaTable<'static> = FormulaTable::new(&[#(#nodes),*]);)
+}
+
+fn node(node: &Node) -> TokenStream {
+    let list = |all: &[Number]| quote!(&[#(#all),*]);
+    match node {
+        Node::Name(name) => {
+            let name = string(name);
+            quote!(Name(#name))
+        }
+        Node::Rate(name) => quote!(Rate(#name)),
+        Node::Acceleration(name) => quote!(Acceleration(#name)),
+        Node::Ratio(of, by) => quote!(Ratio(#of, #by)),
+        Node::RatioDerivative(of, [first, second]) => quote!(RatioDerivative(#of, #first, #second)),
+        Node::Determinant(matrix) => quote!(Determinant(#matrix)),
+        Node::Inverse(matrix) => quote!(Inverse(#matrix)),
+        Node::Integer(value) => {
+            let value = Literal::u64_unsuffixed(*value);
+            quote!(Integer(#value))
+        }
+        Node::Decimal(bits) => {
+            let value = decimal(f64::from_bits(*bits));
+            quote!(Decimal(#value))
+        }
+        Node::Pi => quote!(Pi),
+        Node::Ellipsis => quote!(Ellipsis),
+        Node::Sum(terms) => {
+            let terms = terms.iter().map(|(is_negative, term)| {
+                let minus = is_negative.then(|| quote!(-));
+                quote!(#minus #term)
+            });
+            quote!(Sum(&[#(#terms),*]))
+        }
+        Node::Product(factors) => {
+            let factors = list(factors);
+            quote!(Product(#factors))
+        }
+        Node::Quotient(above, below) => quote!(Quotient(#above, #below)),
+        Node::Power(base, exponent) => {
+            let exponent = Literal::u32_unsuffixed(*exponent);
+            quote!(Power(#base, #exponent))
+        }
+        Node::Call(function, arguments) => {
+            let (function, arguments) = (format_ident!("{function:?}"), list(arguments));
+            quote!(Call(#function, #arguments))
+        }
+        Node::External(name, order, arguments) => {
+            let (name, order, arguments) = (string(name), Literal::usize_unsuffixed(*order), list(arguments));
+            quote!(External(#name, #order, #arguments))
+        }
+        Node::Multiple(one, other) => quote!(Multiple(#one, #other)),
+        Node::AtMost(parts) => {
+            let parts = list(parts);
+            quote!(AtMost(#parts))
+        }
+        Node::NonZero(inside) => quote!(NonZero(#inside)),
+        Node::Exists(inside) => quote!(Exists(#inside)),
+    }
+}
+
+fn decimal(value: f64) -> TokenStream {
+    match value {
+        _ if value.is_nan() => quote!(f64::NAN),
+        _ if value.is_infinite() && value < 0.0 => quote!(f64::NEG_INFINITY),
+        _ if value.is_infinite() => quote!(f64::INFINITY),
+        _ => {
+            let (minus, size) = (value.is_sign_negative().then(|| quote!(-)), Literal::f64_unsuffixed(value.abs()));
+            quote!(#minus #size)
+        }
+    }
 }
 
 /// `&[first, second]`
-pub(super) fn list(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
+fn list(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
     let items = items.into_iter();
     quote!(&[#(#items),*])
 }
 
-pub(super) fn option(value: Option<TokenStream>) -> TokenStream {
+/// A value with references is a constant of its own.
+fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
-        Some(value) => quote!(::core::option::Option::Some(#value)),
+        Some(value) => quote!(::core::option::Option::Some(const { #value })),
         None => quote!(::core::option::Option::None),
     }
 }
 
-pub(super) fn formula(Formula { text, latex, mathml }: &Formula) -> TokenStream {
-    // MathML is long and contains few characters that need escapes, so it is not searched for raw strings.
-    let (text, latex, mathml) = (string(text), string(latex), Literal::string(mathml));
-    quote!(Formula { text: #text, latex: #latex, mathml: #mathml })
+fn formula(number: &Number) -> TokenStream {
+    quote!(T.formula(#number))
 }
 
-/// `&[Symbol]` of parameters or coordinates with these names.
-pub(super) fn symbols(names: &[&str]) -> TokenStream {
-    list(names.iter().map(|name| {
-        let (text, shown) = (string(name), formula(&Formula::of_name(Name::Plain(name))));
-        quote!(Symbol { name: #text, formula: #shown })
-    }))
+/// `&[Formula]`.
+fn formulas(all: &[Number]) -> TokenStream {
+    if all.is_empty() { quote!(&[]) } else { quote!(&T.formulas([#(#all),*])) }
 }
 
-/// `&[Kernel]` with the operations of each function.
-pub(super) fn kernel_list(kernels: &[Work]) -> TokenStream {
-    list(kernels.iter().map(|Work { function, operations, lines }| {
-        let Operations { functions, divisions, multiplications, additions } = *operations;
-        let [functions, divisions, multiplications, additions] =
-            [functions, divisions, multiplications, additions].map(Literal::usize_unsuffixed);
-        let [function, lines] = [function, lines].map(|text| string(text));
-        quote! {
-            Kernel {
-                function: #function,
-                operations: Operations {
-                    functions: #functions,
-                    divisions: #divisions,
-                    multiplications: #multiplications,
-                    additions: #additions,
-                },
-                lines: #lines,
-            }
-        }
-    }))
+fn equation([left, right]: &Equation) -> TokenStream {
+    quote!(T.equation([#left, #right]))
 }
 
-/// Writes formulas of one derivation as tokens.
-pub(super) struct Document<'a> {
-    pub(super) printer: Printer<'a>,
-    pub(super) derivation: &'a Derivation,
-    pub(super) parameters: &'a [&'a str],
-    pub(super) inputs: &'a Table<InputId, &'a str>,
-    pub(super) unknowns: &'a Table<UnknownId, &'a str>,
+/// `&[Equation]`.
+fn equations(all: &[Equation]) -> TokenStream {
+    if all.is_empty() {
+        return quote!(&[]);
+    }
+    let all = all.iter().map(|[left, right]| quote!([#left, #right]));
+    quote!(&T.equations([#(#all),*]))
 }
 
-/// The variables of a first or second derivative.
-#[derive(Clone, Copy)]
-enum By<'a> {
-    One(&'a str),
-    Two([&'a str; 2]),
+/// `&[Symbol]`.
+fn symbols(symbols: &[Symbol]) -> TokenStream {
+    list(symbols.iter().map(symbol))
 }
 
-impl By<'_> {
-    fn name<'n>(&'n self, of: &'n str) -> Name<'n> {
-        match *self {
-            Self::One(by) => Name::Ratio { of, by },
-            Self::Two(by) => Name::RatioDerivative { of, by },
-        }
+fn symbol(symbol: &Symbol) -> TokenStream {
+    let (name, formula) = (string(&symbol.name), formula(&symbol.formula));
+    quote!(Symbol { name: #name, formula: #formula })
+}
+
+fn matrix(Matrix { name, factor, rows, columns, entries }: &Matrix) -> TokenStream {
+    let (name, factor) = (formula(name), option(factor.as_ref().map(formula)));
+    let [rows, columns] = [*rows, *columns].map(Literal::usize_unsuffixed);
+    let entries = entries.iter().map(|(place, value)| {
+        let [row, column] = place.map(Literal::usize_unsuffixed);
+        quote!([#row, #column, #value])
+    });
+    quote! {
+        FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &T.entries([#(#entries),*]) }
     }
 }
 
-impl<'a> Document<'a> {
-    fn by_inputs(&self) -> Vec<By<'a>> {
-        self.inputs.iter().map(|&by| By::One(by)).collect()
-    }
-
-    fn by_pairs(&self) -> Vec<By<'a>> {
-        let pairs = self.derivation.ratio_derivatives.iter().flat_map(|second| &second.pairs);
-        pairs.map(|&(j, k)| By::Two([self.inputs[j], self.inputs[k]])).collect()
-    }
-
-    fn by_parameters(&self) -> Vec<By<'a>> {
-        self.parameters.iter().map(|&by| By::One(by)).collect()
-    }
-
-    fn formula(&mut self, node: NodeId) -> TokenStream {
-        formula(&self.printer.formula(node))
-    }
-
-    pub(super) fn equation(&mut self, left: Name, right: NodeId) -> TokenStream {
-        let (left, right) = (formula(&Formula::of_name(left)), self.formula(right));
-        quote!(Equation { left: #left, right: #right })
-    }
-
-    /// name_1 = …, name_2 = …
-    fn numbered(&mut self, name: &str, nodes: &[NodeId]) -> TokenStream {
-        list(nodes.iter().enumerate().map(|(index, &node)| {
-            let name = format!("{name}{}", index + 1);
-            self.equation(Name::Plain(&name), node)
-        }))
-    }
-
-    fn matrix<C: Id>(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row<C>], columns: usize) -> TokenStream {
-        let name = formula(&Formula::of_name(name));
-        let factor = option(factor.map(|factor| self.formula(factor)));
-        let mut entries = Vec::new();
-        for (index, row) in rows.iter().enumerate() {
-            for (&column, &node) in row {
-                let (row, column) = (Literal::usize_unsuffixed(index), Literal::usize_unsuffixed(column.index()));
-                let value = self.formula(node);
-                entries.push(quote!(Entry { row: #row, column: #column, value: #value }));
-            }
-        }
-        let [rows, columns] = [rows.len(), columns].map(Literal::usize_unsuffixed);
-        quote!(FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &[#(#entries),*] })
-    }
-
-    fn block(&mut self, id: BlockId, position: &ClosedForm, inverse: Option<&Inverse>) -> TokenStream {
-        let block = &self.derivation.blocks[id];
-        let number = (self.derivation.blocks.len() > 1).then_some(id.number());
-        let unknowns =
-            block.unknowns.iter().map(|&place| formula(&Formula::of_name(Name::Plain(self.unknowns[place]))));
-        let unknowns = list(unknowns);
-        let equations = block.equations.iter().map(|&equation| Literal::usize_unsuffixed(equation.index()));
-        let group = string(&block.group.description());
-        let method = format_ident!("{}", if block.determinant.is_some() { "ClosedForm" } else { "Factorization" });
-        let determinant = block.determinant.as_ref().map(|determinant| determinant.value);
-        let determinant = option(determinant.map(|value| self.equation(Name::Determinant(number), value)));
-        let inverse = inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len()));
-        let inverse = option(inverse);
-        let root = option(position.root.map(|(root, choice)| {
-            let (root, branches) = (self.formula(root), choice.variants());
-            quote!(Root { formula: #root, branches: [#(#branches),*] })
-        }));
-        let position = list(position.equations.iter().map(|&[left, right]| {
-            let [left, right] = [left, right].map(|side| self.formula(side));
-            quote!(Equation { left: #left, right: #right })
-        }));
-        quote! {
-            Block {
-                unknowns: #unknowns,
-                equations: &[#(#equations),*],
-                group: #group,
-                position: #position,
-                root: #root,
-                method: BlockMethod::#method,
-                determinant: #determinant,
-                inverse: #inverse,
-            }
+fn block(block: &Block) -> TokenStream {
+    let (unknowns, group, position) = (formulas(&block.unknowns), string(&block.group), equations(&block.position));
+    let of_block = block.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
+    let root = option(block.root.as_ref().map(|Root { formula, branches }| {
+        let root = self::formula(formula);
+        quote!(Root { formula: #root, branches: [#(#branches),*] })
+    }));
+    let method = match block.method {
+        Method::ClosedForm => quote!(ClosedForm),
+        Method::Factorization => quote!(Factorization),
+    };
+    let determinant = option(block.determinant.as_ref().map(equation));
+    let inverse = option(block.inverse.as_ref().map(matrix));
+    quote! {
+        Block {
+            unknowns: #unknowns,
+            equations: &[#(#of_block),*],
+            group: #group,
+            position: #position,
+            root: #root,
+            method: BlockMethod::#method,
+            determinant: #determinant,
+            inverse: #inverse,
         }
     }
+}
 
-    /// The equations of the derivatives of named quantities, in the order of the variables; those without formula are
-    /// omitted.
-    fn derivatives<F: Copy + Into<Option<NodeId>>>(
-        &mut self,
-        of: &[impl AsRef<str>],
-        by: &[By<'_>],
-        formulas: &[impl Deref<Target = [F]>],
-    ) -> TokenStream {
-        let mut equations = Vec::new();
-        for (by, formulas) in by.iter().zip(formulas) {
-            for (of, &formula) in of.iter().zip(formulas.iter()) {
-                if let Some(node) = formula.into() {
-                    equations.push(self.equation(by.name(of.as_ref()), node));
-                }
-            }
-        }
-        list(equations)
+fn quantity(quantity: &Quantity) -> TokenStream {
+    let name = string(&quantity.name);
+    let [value, ratios, second, first] =
+        [&quantity.value, &quantity.ratios, &quantity.ratio_derivatives, &quantity.sensitivities]
+            .map(|all| equations(all));
+    quote! {
+        Quantity { name: #name, value: #value, ratios: #ratios, ratio_derivatives: #second, sensitivities: #first }
     }
+}
 
-    /// `&[Quantity]` of points or outputs; the name of a component is a prefix and the name of the quantity.
-    fn quantities(
-        &mut self,
-        names: &[&str],
-        prefixes: &[&str],
-        quantities: &[Quantity],
-        formulas: &[QuantityFormulas],
-    ) -> TokenStream {
-        let (by_inputs, by_pairs, by_parameters) = (self.by_inputs(), self.by_pairs(), self.by_parameters());
-        list(names.iter().zip(quantities).zip(formulas).map(|((name, quantity), formulas)| {
-            let components: Vec<String> = prefixes.iter().map(|prefix| format!("{prefix}{name}")).collect();
-            let values = components.iter().zip(&quantity.value);
-            let value = list(values.map(|(component, &node)| self.equation(Name::Plain(component), node)));
-            let ratios = self.derivatives(&components, &by_inputs, &formulas.ratios);
-            let second = self.derivatives(&components, &by_pairs, &formulas.ratio_derivatives);
-            let first = nonzero(self.derivation, &formulas.sensitivities);
-            let first = self.derivatives(&components, &by_parameters, &first);
-            let name = string(name);
-            quote! {
-                Quantity {
-                    name: #name,
-                    value: #value,
-                    ratios: #ratios,
-                    ratio_derivatives: #second,
-                    sensitivities: #first,
-                }
-            }
-        }))
+fn contact(contact: &ContactEffect) -> TokenStream {
+    let (name, along, forces) = (string(&contact.name), equation(&contact.along), equations(&contact.forces));
+    let [force, bound] = [&contact.force, &contact.bound].map(formula);
+    let bearing = option(contact.bearing.as_ref().map(symbol));
+    let rebound = option(contact.rebound.as_ref().map(formula));
+    quote! {
+        ContactEffect {
+            name: #name,
+            force: #force,
+            along: #along,
+            bound: #bound,
+            bearing: #bearing,
+            rebound: #rebound,
+            forces: #forces,
+        }
+    }
+}
+
+/// A function with its operations, and its code if that is requested.
+fn kernel(Kernel { function, operations, code }: &Kernel) -> TokenStream {
+    let Operations { functions, divisions, multiplications, additions } = *operations;
+    let operations = [functions, divisions, multiplications, additions].map(Literal::usize_unsuffixed);
+    let (function, KernelCode { steps, checks, results }) = (string(function), code);
+    if results.is_empty() {
+        return quote!(Kernel::new(#function, [#(#operations),*]));
+    }
+    let steps = equations(steps);
+    let checks = list(checks.iter().map(|(word, of)| {
+        let (first, rest) = word.split_at(1);
+        let check = format_ident!("{}{rest}", first.to_uppercase());
+        quote!(KernelCheck::#check(T.formulas([#(#of),*])))
+    }));
+    let results = list(results.iter().map(|(place, value)| {
+        let (place, value) = (string(place), formula(value));
+        quote!(KernelResult { place: #place, value: #value })
+    }));
+    quote! {
+        Kernel {
+            function: #function,
+            operations: Operations::new([#(#operations),*]),
+            code: KernelCode { steps: #steps, checks: #checks, results: #results },
+        }
     }
 }

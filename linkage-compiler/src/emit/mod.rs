@@ -18,7 +18,6 @@ mod printer;
 mod reactions;
 mod rust;
 mod scene;
-mod scene_document;
 mod scene_traits;
 mod text;
 mod traits;
@@ -29,13 +28,14 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use crate::derivation::Derivation;
+use crate::document::{Document, SceneDocument, Table};
 use crate::lower::Code;
 use crate::model::{Mechanism, Request, TypeName};
 use crate::program::{self, Function, Functions, Operations, Program};
 use fpcore::Straight;
 use names::string;
 pub use text::text;
-use work::{Work, works};
+use work::kernels;
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]
@@ -81,8 +81,9 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
     let straight = mechanism.requests.contains(&Request::Fpcore).then(|| Straight::of_driver(program));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
-        let works = works(&program.functions, straight.as_ref());
-        tokens.extend(document::constant(mechanism, driver, derivation, derived, &works, root));
+        let kernels = |table: &mut Table| kernels(&program.functions, straight.as_ref(), table);
+        let document = crate::document::of_driver(mechanism, driver, derivation, derived, &kernels);
+        tokens.extend(document::of_driver(&driver.name, &document, root));
     }
     let order = mechanism.coordinate_order(driver);
     let fields: Vec<Ident> = order.iter().map(|&index| types::field(&mechanism.coordinates[index].name)).collect();
@@ -103,8 +104,9 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
             let straight = straight.as_ref().map(|straight| straight.within(scene));
-            let works = works(&scene.functions, straight.as_ref());
-            tokens.extend(scene_document::of_scene(mechanism, (driver, scene.signatures.scene), derived, &works, root));
+            let kernels = |table: &mut Table| kernels(&scene.functions, straight.as_ref(), table);
+            let of = (driver, scene.signatures.scene);
+            tokens.extend(document::of_scene(name, &crate::document::of_scene(mechanism, of, derived, &kernels), root));
         }
     }
     tokens
@@ -136,20 +138,21 @@ fn block(
     }
 }
 
-/// The functions of a driver and of its scenes that have formulas: the type, the function and its lines.
+/// The documents of a driver and of its scenes, with the formulas of their functions as `derive fpcore` adds them.
 #[must_use]
-pub fn formulas(program: &Program<Code>) -> Vec<[String; 3]> {
+pub fn documents(program: &Program<Code>, derivation: &Derivation) -> (Option<Document>, Vec<SceneDocument>) {
+    let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let straight = Straight::of_driver(program);
-    let of_driver = (program.signatures.driver.name.to_string(), works(&program.functions, Some(&straight)));
-    let of_scenes = program.scenes.iter().map(|scene| {
-        let works = works(&scene.functions, Some(&straight.within(scene)));
-        (scene.signatures.scene.name.to_string(), works)
+    let of_driver = program.derived.as_ref().map(|derived| {
+        let kernels = |table: &mut Table| kernels(&program.functions, Some(&straight), table);
+        crate::document::of_driver(mechanism, driver, derivation, derived, &kernels)
     });
-    let all = std::iter::once(of_driver).chain(of_scenes);
-    let formulas = all.flat_map(|(of, works)| {
-        works.into_iter().map(move |Work { function, lines, .. }| [of.clone(), function, lines])
+    let scenes = program.scenes.iter().zip(&derivation.scenes).map(|(scene, derived)| {
+        let straight = straight.within(scene);
+        let kernels = |table: &mut Table| kernels(&scene.functions, Some(&straight), table);
+        crate::document::of_scene(mechanism, (driver, scene.signatures.scene), (derivation, derived), &kernels)
     });
-    formulas.filter(|[.., lines]| !lines.is_empty()).collect()
+    (of_driver, scenes.collect())
 }
 
 /// The operations of all functions of a driver and of its scenes, each called once.

@@ -3,6 +3,7 @@
 use core::fmt::{self, Write};
 
 use super::outline::{GeneralEquation, Pen};
+use crate::Notation;
 use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel, Root};
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
@@ -32,8 +33,8 @@ impl Pen for Latex<'_> {
         writeln!(self.out, "\n\\subsection*{{{heading}}}")
     }
 
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result {
-        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.latex)).collect();
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
+        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.to_latex())).collect();
         writeln!(self.out, "{role}: {}\\par", formulas.join(", "))
     }
 
@@ -45,49 +46,58 @@ impl Pen for Latex<'_> {
         writeln!(self.out, "\\[ {} \\]", general.latex)
     }
 
-    fn display(&mut self, formula: &Formula) -> fmt::Result {
-        writeln!(self.out, "\\[ {} \\]", formula.latex)
+    fn display(&mut self, formula: &Formula<'_>) -> fmt::Result {
+        writeln!(self.out, "\\[ {} \\]", formula.to_latex())
     }
 
-    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result {
+    fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
         let Equation { left, right } = equation;
-        writeln!(self.out, "\\begin{{equation*}} {} = {} \\tag{{{number}}} \\end{{equation*}}", left.latex, right.latex)
+        writeln!(
+            self.out,
+            "\\begin{{equation*}} {} = {} \\tag{{{number}}} \\end{{equation*}}",
+            left.to_latex(),
+            right.to_latex()
+        )
     }
 
-    fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result {
-        let name = matrix.name.latex;
-        let factor = matrix.factor.map_or_else(String::new, |factor| format!("{} ", factor.latex));
+    fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
+        let name = matrix.name.to_latex();
+        let factor = matrix.factor.map_or_else(String::new, |factor| format!("{} ", factor.to_latex()));
         if matrix.rows.max(matrix.columns) > LARGEST_MATRIX {
             for entry in matrix.entries {
                 let (row, column) = (entry.row + 1, entry.column + 1);
-                writeln!(self.out, "\\[ \\left({name}\\right)_{{{row},{column}}} = {factor}{} \\]", entry.value.latex)?;
+                writeln!(
+                    self.out,
+                    "\\[ \\left({name}\\right)_{{{row},{column}}} = {factor}{} \\]",
+                    entry.value.to_latex()
+                )?;
             }
             return Ok(());
         }
         writeln!(self.out, "\\[ {name} = {factor}\\begin{{pmatrix}}")?;
         for row in 0..matrix.rows {
             let entries = (0..matrix.columns)
-                .map(|column| matrix.entry(row, column).map_or_else(|| "0".to_owned(), |entry| entry.latex.to_owned()));
+                .map(|column| matrix.entry(row, column).map_or_else(|| "0".to_owned(), |entry| entry.to_latex()));
             writeln!(self.out, "  {} \\\\", entries.collect::<Vec<_>>().join(" & "))?;
         }
         writeln!(self.out, "\\end{{pmatrix}} \\]")
     }
 
-    fn block(&mut self, n: usize, block: &Block) -> fmt::Result {
+    fn block(&mut self, n: usize, block: &Block<'_>) -> fmt::Result {
         let equations: Vec<_> = block.equations.iter().map(|equation| format!("({})", equation + 1)).collect();
         let equations = equations.join(", ");
         writeln!(self.out, "\\paragraph{{Block {n}, {}}} Equations {equations}.\\par", block.group)
     }
 
-    fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root) -> fmt::Result {
-        let root = formula.latex;
+    fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root<'_>) -> fmt::Result {
+        let root = formula.to_latex();
         writeln!(
             self.out,
             "${root}$ is positive on the branch \\texttt{{{positive}}}, negative on \\texttt{{{negative}}}.\\par"
         )
     }
 
-    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {
+    fn kernels(&mut self, kernels: &[Kernel<'_>]) -> fmt::Result {
         writeln!(self.out, "\\begin{{tabular}}{{lrrrr}}")?;
         writeln!(self.out, "Function & functions & divisions & multiplications & additions \\\\ \\hline")?;
         for Kernel { function, operations, .. } in kernels {

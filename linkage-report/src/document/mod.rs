@@ -30,10 +30,10 @@ pub trait Document {
     fn to_latex(&self) -> String;
     /// The formulas of the emitted functions as FPCore, one for each number that a function returns, of a mechanism
     /// with `derive fpcore`. It has none that depends on an iteration, on pivoting or on a user function.
-    fn fpcore(&self) -> Vec<FpCore>;
+    fn fpcore(&self) -> Vec<FpCore<'_>>;
 }
 
-impl Document for Derivation {
+impl Document for Derivation<'_> {
     fn to_text(&self) -> String {
         written(|text| outline::write(self, &mut text::Text::new(text)))
     }
@@ -42,12 +42,12 @@ impl Document for Derivation {
         written(|text| outline::write(self, &mut latex::Latex::new(text)))
     }
 
-    fn fpcore(&self) -> Vec<FpCore> {
+    fn fpcore(&self) -> Vec<FpCore<'_>> {
         FpCore::of(self.mechanism, self.kernels)
     }
 }
 
-impl Document for SceneDerivation {
+impl Document for SceneDerivation<'_> {
     fn to_text(&self) -> String {
         written(|text| outline::write_scene(self, &mut text::Text::new(text)))
     }
@@ -56,7 +56,7 @@ impl Document for SceneDerivation {
         written(|text| outline::write_scene(self, &mut latex::Latex::new(text)))
     }
 
-    fn fpcore(&self) -> Vec<FpCore> {
+    fn fpcore(&self) -> Vec<FpCore<'_>> {
         FpCore::of(self.scene, self.kernels)
     }
 }

@@ -158,21 +158,21 @@ pub(super) trait Pen {
     fn title(&mut self, mechanism: &str) -> fmt::Result;
     fn heading(&mut self, heading: &str) -> fmt::Result;
     /// A line such as "Given: l₁, l₂".
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result;
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result;
     fn lead(&mut self, words: &str) -> fmt::Result;
     fn general_equation(&mut self, general: &GeneralEquation) -> fmt::Result;
-    fn display(&mut self, formula: &Formula) -> fmt::Result;
-    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result;
-    fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result;
+    fn display(&mut self, formula: &Formula<'_>) -> fmt::Result;
+    fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result;
+    fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result;
     /// The n-th block, counted from 1.
-    fn block(&mut self, n: usize, block: &Block) -> fmt::Result;
+    fn block(&mut self, n: usize, block: &Block<'_>) -> fmt::Result;
     /// The signs of a root on both branches.
-    fn branches(&mut self, root: &Root) -> fmt::Result;
-    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result;
+    fn branches(&mut self, root: &Root<'_>) -> fmt::Result;
+    fn kernels(&mut self, kernels: &[Kernel<'_>]) -> fmt::Result;
 }
 
 /// Writes a derivation.
-pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
+pub(super) fn write(derivation: &Derivation<'_>, pen: &mut dyn Pen) -> fmt::Result {
     let mut number = 0;
     pen.title(derivation.mechanism)?;
     pen.heading(words::COORDINATES)?;
@@ -210,7 +210,7 @@ pub(super) fn write(derivation: &Derivation, pen: &mut dyn Pen) -> fmt::Result {
 }
 
 /// Writes the constraint equations, and the solutions for position, velocity and acceleration.
-fn solved(derivation: &Derivation, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
+fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
     pen.heading(words::CONSTRAINTS)?;
     pen.lead(words::LEAD_CONSTRAINTS)?;
     pen.general_equation(&CONSTRAINTS)?;
@@ -294,7 +294,7 @@ fn solved(derivation: &Derivation, pen: &mut dyn Pen, number: &mut usize) -> fmt
 }
 
 /// Writes the equations of motion of a scene.
-pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Result {
+pub(super) fn write_scene(scene: &SceneDerivation<'_>, pen: &mut dyn Pen) -> fmt::Result {
     let mut number = 0;
     pen.title(scene.scene)?;
     if !scene.parameters.is_empty() {
@@ -361,7 +361,7 @@ pub(super) fn write_scene(scene: &SceneDerivation, pen: &mut dyn Pen) -> fmt::Re
 }
 
 /// The sentence before the generalised forces.
-pub(crate) fn lead_of_forces(scene: &SceneDerivation) -> &'static str {
+pub(crate) fn lead_of_forces(scene: &SceneDerivation<'_>) -> &'static str {
     match scene.forces {
         [] if scene.frictions_and_stops.is_empty() => words::LEAD_NO_FORCES,
         [] => words::LEAD_ONLY_CONTACTS,
@@ -370,21 +370,21 @@ pub(crate) fn lead_of_forces(scene: &SceneDerivation) -> &'static str {
 }
 
 /// The sentence before the force in the joint that limits a friction.
-pub(crate) fn bearing(joint: &Symbol) -> String {
+pub(crate) fn bearing(joint: &Symbol<'_>) -> String {
     format!("with the force of {}:", joint.name)
 }
 
 /// The name of the force of a friction or a stop.
-pub(crate) fn force_along(contact: &Symbol) -> String {
+pub(crate) fn force_along(contact: &Symbol<'_>) -> String {
     format!("The force of {} is", contact.name)
 }
 
 /// The sentence about velocities and accelerations of a block.
-pub(crate) fn system(block: &Block) -> String {
+pub(crate) fn system(block: &Block<'_>) -> String {
     format!("Velocities and accelerations solve a linear system, {}.", block.method.words())
 }
 
-fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation]) -> fmt::Result {
+fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation<'_>]) -> fmt::Result {
     for equation in equations {
         *number += 1;
         pen.equation(*number, equation)?;
@@ -392,7 +392,7 @@ fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation]) -> f
     Ok(())
 }
 
-fn quantities(pen: &mut dyn Pen, number: &mut usize, heading: &str, quantities: &[Quantity]) -> fmt::Result {
+fn quantities(pen: &mut dyn Pen, number: &mut usize, heading: &str, quantities: &[Quantity<'_>]) -> fmt::Result {
     if !quantities.is_empty() {
         pen.heading(heading)?;
     }

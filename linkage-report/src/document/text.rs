@@ -34,7 +34,7 @@ impl Pen for Text<'_> {
         writeln!(self.out, "\n{}. {heading}\n", self.sections)
     }
 
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula>) -> fmt::Result {
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
         write!(self.out, "  {role:<8}")?;
         for (index, formula) in formulas.enumerate() {
             write!(self.out, "{} {formula}", if index == 0 { "" } else { "," })?;
@@ -50,16 +50,16 @@ impl Pen for Text<'_> {
         writeln!(self.out, "        {}", general.text)
     }
 
-    fn display(&mut self, formula: &Formula) -> fmt::Result {
+    fn display(&mut self, formula: &Formula<'_>) -> fmt::Result {
         writeln!(self.out, "        {formula}")
     }
 
-    fn equation(&mut self, number: usize, equation: &Equation) -> fmt::Result {
+    fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
         let width = if number < 10 { 3 } else { 2 };
         writeln!(self.out, "  ({number}){:width$}{equation}", "")
     }
 
-    fn matrix(&mut self, matrix: &FormulaMatrix) -> fmt::Result {
+    fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
         if let Some(factor) = matrix.factor {
             writeln!(self.out, "        {} = {factor} times the matrix with", matrix.name)?;
         }
@@ -73,7 +73,7 @@ impl Pen for Text<'_> {
         Ok(())
     }
 
-    fn block(&mut self, n: usize, block: &Block) -> fmt::Result {
+    fn block(&mut self, n: usize, block: &Block<'_>) -> fmt::Result {
         write!(self.out, "  Block {n}, {}: equations", block.group)?;
         for (index, equation) in block.equations.iter().enumerate() {
             write!(self.out, "{} ({})", if index == 0 { "" } else { "," }, equation + 1)?;
@@ -81,11 +81,11 @@ impl Pen for Text<'_> {
         writeln!(self.out)
     }
 
-    fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root) -> fmt::Result {
+    fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root<'_>) -> fmt::Result {
         writeln!(self.out, "  {formula} is positive on the branch {positive}, negative on {negative}.")
     }
 
-    fn kernels(&mut self, kernels: &[Kernel]) -> fmt::Result {
+    fn kernels(&mut self, kernels: &[Kernel<'_>]) -> fmt::Result {
         let width = kernels.iter().map(|kernel| kernel.function.len()).max().unwrap_or(0);
         writeln!(self.out, "  {:width$}  functions  divisions  multiplications  additions", "")?;
         for Kernel { function, operations, .. } in kernels {

@@ -1,5 +1,6 @@
 //! Helpers for HTML.
 
+use crate::Notation;
 use crate::document::outline::GeneralEquation;
 use linkage_runtime::derivation::{Formula, FormulaMatrix};
 
@@ -20,8 +21,8 @@ pub(super) fn escape(text: &str) -> String {
 }
 
 /// An inline formula.
-pub(super) fn inline(formula: &Formula) -> String {
-    format!("<math>{}</math>", formula.mathml)
+pub(super) fn inline(formula: &Formula<'_>) -> String {
+    format!("<math>{}</math>", formula.to_mathml())
 }
 
 /// A displayed formula, with its LaTeX source as an annotation for copying.
@@ -38,16 +39,16 @@ const LARGEST_MATRIX: usize = 6;
 
 /// The MathML and LaTeX of `name = matrix`, or of each entry of a large matrix. A `general` such as J = ∂Ψ/∂u defines
 /// the matrix.
-pub(super) fn matrix(matrix: &FormulaMatrix, general: Option<&GeneralEquation>) -> Vec<(String, String)> {
+pub(super) fn matrix(matrix: &FormulaMatrix<'_>, general: Option<&GeneralEquation>) -> Vec<(String, String)> {
     let FormulaMatrix { name, factor, rows, columns, .. } = matrix;
-    let (before, before_latex) =
-        factor.map_or_else(Default::default, |factor| (factor.mathml.to_owned(), factor.latex.to_owned()));
+    let (before, before_latex) = factor.map_or_else(Default::default, |factor| (factor.to_mathml(), factor.to_latex()));
     if *rows.max(columns) > LARGEST_MATRIX {
         let entries = matrix.entries.iter().map(|entry| {
             let (row, column, value) = (entry.row + 1, entry.column + 1, entry.value);
             let index = format!("<mrow><mn>{row}</mn><mo>,</mo><mn>{column}</mn></mrow>");
-            let mathml = format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.mathml, value.mathml);
-            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.latex, value.latex))
+            let mathml =
+                format!("<mrow><msub>{}{index}</msub><mo>=</mo>{before}{}</mrow>", name.to_mathml(), value.to_mathml());
+            (mathml, format!("{{{}}}_{{{row},{column}}} = {before_latex} {}", name.to_latex(), value.to_latex()))
         });
         let general = general.map(|general| (general.mathml.to_owned(), general.latex.to_owned()));
         return general.into_iter().chain(entries).collect();
@@ -57,18 +58,18 @@ pub(super) fn matrix(matrix: &FormulaMatrix, general: Option<&GeneralEquation>) 
         let entries: Vec<_> = (0..*columns).map(|column| matrix.entry(row, column)).collect();
         mathml.push_str("<mtr>");
         for entry in &entries {
-            let entry = entry.map_or_else(|| "<mn>0</mn>".to_owned(), |entry| entry.mathml.to_owned());
+            let entry = entry.map_or_else(|| "<mn>0</mn>".to_owned(), |entry| entry.to_mathml());
             mathml.push_str(&format!("<mtd>{entry}</mtd>"));
         }
         mathml.push_str("</mtr>");
         let entries: Vec<String> =
-            entries.iter().map(|entry| entry.map_or_else(|| "0".to_owned(), |entry| entry.latex.to_owned())).collect();
+            entries.iter().map(|entry| entry.map_or_else(|| "0".to_owned(), |entry| entry.to_latex())).collect();
         latex.push_str(&format!(" {} \\\\", entries.join(" & ")));
     }
     // J = ∂Ψ/∂u = (…) is one chain of equations.
     let (name, name_latex) = match general {
         Some(general) => (general.mathml.to_owned(), general.latex.to_owned()),
-        None => (name.mathml.to_owned(), name.latex.to_owned()),
+        None => (name.to_mathml(), name.to_latex()),
     };
     // Fractions are large if there is room.
     let large = *columns <= 3;

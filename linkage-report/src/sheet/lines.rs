@@ -1,13 +1,14 @@
 //! Breaks long sums into lines.
 
+use crate::Notation;
 use linkage_runtime::derivation::Equation;
 
 /// The widest right side, in characters; a wider one is broken at its terms.
 const WIDEST: usize = 58;
 
 /// The MathML of an equation; a long sum is broken into lines.
-pub(super) fn equation(equation: &Equation) -> String {
-    let (left, right) = (equation.left.mathml.to_owned(), equation.right.mathml.to_owned());
+pub(super) fn equation(equation: &Equation<'_>) -> String {
+    let (left, right) = (equation.left.to_mathml(), equation.right.to_mathml());
     if equation.right.to_string().chars().count() > WIDEST {
         let lines = lines(&right);
         if lines.len() > 1 {

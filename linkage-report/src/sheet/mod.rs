@@ -6,7 +6,7 @@
 //! use linkage_runtime::derivation::Derivation;
 //! use linkage_report::sheet::Sheet;
 //!
-//! fn sheet(derivation: &Derivation) -> String {
+//! fn sheet(derivation: &Derivation<'_>) -> String {
 //!     let mut sheet = Sheet::new(derivation);
 //!     sheet.title("A four-bar linkage").numbers("Parameters, mm", [("l1", 80.0), ("l2", 20.0)]);
 //!     sheet.to_html()
@@ -35,9 +35,9 @@ struct Picture {
 /// A builder for a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet<'a> {
-    derivation: &'a Derivation,
+    derivation: &'a Derivation<'a>,
     title: Option<String>,
-    scenes: Vec<&'a SceneDerivation>,
+    scenes: Vec<&'a SceneDerivation<'a>>,
     tables: Vec<Table>,
     pictures: Vec<Picture>,
 }
@@ -45,7 +45,7 @@ pub struct Sheet<'a> {
 impl<'a> Sheet<'a> {
     /// Creates the sheet of a derivation, without numbers or pictures.
     #[must_use]
-    pub fn new(derivation: &'a Derivation) -> Self {
+    pub fn new(derivation: &'a Derivation<'a>) -> Self {
         Self { derivation, title: None, scenes: Vec::new(), tables: Vec::new(), pictures: Vec::new() }
     }
 
@@ -56,7 +56,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Adds the equations of motion of a scene of this mechanism, after the kinematics.
-    pub fn scene(&mut self, scene: &'a SceneDerivation) -> &mut Self {
+    pub fn scene(&mut self, scene: &'a SceneDerivation<'a>) -> &mut Self {
         self.scenes.push(scene);
         self
     }

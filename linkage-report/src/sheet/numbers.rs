@@ -1,5 +1,6 @@
 //! Formats names and values in tables of numbers.
 
+use crate::Notation;
 use linkage_runtime::derivation::{Derivation, Equation, Quantity, Symbol};
 
 use super::html::escape;
@@ -8,7 +9,7 @@ use super::html::escape;
 const DIGITS: i32 = 7;
 
 /// The name of a column: as a formula if it is that of a symbol, of an equation's left side or of a rate, else as text.
-pub(super) fn name(derivation: &Derivation, name: &str) -> String {
+pub(super) fn name(derivation: &Derivation<'_>, name: &str) -> String {
     match formula(derivation, name) {
         Some(mathml) => format!("<math>{mathml}</math>"),
         None => escape(name),
@@ -17,13 +18,13 @@ pub(super) fn name(derivation: &Derivation, name: &str) -> String {
 
 /// The MathML of the name of a symbol, of the left side of an equation, of `theta3/theta2` for the partial derivative
 /// of one symbol by another, or of `theta3_rate` or `theta3_acceleration`; None for other names.
-fn formula(derivation: &Derivation, name: &str) -> Option<String> {
+fn formula(derivation: &Derivation<'_>, name: &str) -> Option<String> {
     let symbol = |name: &str| {
         let mut symbols = derivation.parameters.iter().chain(derivation.inputs).chain(derivation.unknowns);
         symbols.find(|symbol| symbol.name == name || symbol.formula.to_string() == name)
     };
     if let Some(symbol) = symbol(name) {
-        return Some(symbol.formula.mathml.to_owned());
+        return Some(symbol.formula.to_mathml());
     }
     let quantities = derivation.points.iter().chain(derivation.outputs);
     let mut equations = derivation
@@ -39,10 +40,10 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
             value.iter().chain(*ratios).chain(*ratio_derivatives).chain(*sensitivities)
         }));
     if let Some(Equation { left, .. }) = equations.find(|equation| equation.left.to_string() == name) {
-        return Some(left.mathml.to_owned());
+        return Some(left.to_mathml());
     }
     if let Some((of, by)) = name.split_once('/') {
-        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.mathml);
+        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.to_mathml());
         return Some(format!("<mfrac>{}{}</mfrac>", side(symbol(of)?), side(symbol(by)?)));
     }
     let dotted = [("_rate", "˙"), ("_acceleration", "¨")];
@@ -50,8 +51,8 @@ fn formula(derivation: &Derivation, name: &str) -> Option<String> {
 }
 
 /// A symbol with dots above its letter.
-fn dot(symbol: &Symbol, dots: &str) -> String {
-    let mathml = symbol.formula.mathml.to_owned();
+fn dot(symbol: &Symbol<'_>, dots: &str) -> String {
+    let mathml = symbol.formula.to_mathml();
     let over = |letter: &str| format!("<mover>{letter}<mo>{dots}</mo></mover>");
     match mathml.strip_prefix("<msub>").and_then(|inside| inside.split_once("</mi>")) {
         Some((letter, rest)) => format!("<msub>{}{rest}", over(&format!("{letter}</mi>"))),

@@ -1,5 +1,6 @@
 //! Writes the page, section by section.
 
+use crate::Notation;
 use crate::document::outline::{self, GeneralEquation, words};
 use linkage_runtime::derivation::{
     ContactEffect, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation, Symbol,
@@ -74,14 +75,14 @@ impl Page {
         self.push(&format!("<div class=\"law\">{}</div>", display(general.mathml, general.latex)));
     }
 
-    fn equations(&mut self, equations: &[Equation]) {
+    fn equations(&mut self, equations: &[Equation<'_>]) {
         if equations.is_empty() {
             return;
         }
         self.push("<div class=\"equations\">");
         for equation in equations {
             self.equations += 1;
-            let latex = format!("{} = {}", equation.left.latex, equation.right.latex);
+            let latex = format!("{} = {}", equation.left.to_latex(), equation.right.to_latex());
             let formula = display(&lines::equation(equation), &latex);
             let number = self.equations;
             self.push(&format!(
@@ -91,7 +92,7 @@ impl Page {
         self.push("</div>");
     }
 
-    fn matrix(&mut self, which: &FormulaMatrix, general: Option<&GeneralEquation>) {
+    fn matrix(&mut self, which: &FormulaMatrix<'_>, general: Option<&GeneralEquation>) {
         let lines: String = matrix(which, general).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
         self.push(&format!("<div class=\"law\">{lines}</div>"));
     }
@@ -115,7 +116,7 @@ impl Page {
         self.push("</dl>\n</header>");
     }
 
-    fn constraints(&mut self, derivation: &Derivation) {
+    fn constraints(&mut self, derivation: &Derivation<'_>) {
         self.section(words::CONSTRAINTS, |page| {
             page.lead(words::LEAD_CONSTRAINTS);
             page.general_equation(&outline::CONSTRAINTS);
@@ -127,7 +128,7 @@ impl Page {
         });
     }
 
-    fn jacobian(&mut self, derivation: &Derivation) {
+    fn jacobian(&mut self, derivation: &Derivation<'_>) {
         self.section(words::JACOBIAN, |page| {
             page.lead(words::LEAD_JACOBIAN);
             page.matrix(&derivation.jacobian_unknowns, Some(&outline::JACOBIAN_UNKNOWNS));
@@ -135,7 +136,7 @@ impl Page {
         });
     }
 
-    fn structure(&mut self, derivation: &Derivation) {
+    fn structure(&mut self, derivation: &Derivation<'_>) {
         let blocks = derivation.blocks;
         if blocks.is_empty() {
             return;
@@ -176,7 +177,7 @@ impl Page {
         });
     }
 
-    fn ratios(&mut self, derivation: &Derivation) {
+    fn ratios(&mut self, derivation: &Derivation<'_>) {
         self.section(words::RATIOS, |page| {
             page.lead(words::LEAD_RATIOS);
             page.general_equation(&outline::RATIOS);
@@ -186,7 +187,7 @@ impl Page {
         });
     }
 
-    fn acceleration(&mut self, derivation: &Derivation) {
+    fn acceleration(&mut self, derivation: &Derivation<'_>) {
         self.section(words::ACCELERATION, |page| {
             page.lead(words::LEAD_ACCELERATION);
             page.general_equation(&outline::ACCELERATION);
@@ -198,7 +199,7 @@ impl Page {
     }
 
     /// The derivatives that the mechanism requests beyond acceleration.
-    fn requests(&mut self, derivation: &Derivation) {
+    fn requests(&mut self, derivation: &Derivation<'_>) {
         if let Some(formulas) = derivation.ratio_derivatives {
             self.section(words::RATIO_DERIVATIVES, |page| {
                 page.lead(words::LEAD_RATIO_DERIVATIVES);
@@ -225,7 +226,7 @@ impl Page {
         }
     }
 
-    fn quantities(&mut self, heading: &str, quantities: &[Quantity]) {
+    fn quantities(&mut self, heading: &str, quantities: &[Quantity<'_>]) {
         if quantities.is_empty() {
             return;
         }
@@ -241,7 +242,7 @@ impl Page {
         });
     }
 
-    fn numbers(&mut self, derivation: &Derivation, tables: &[Table]) {
+    fn numbers(&mut self, derivation: &Derivation<'_>, tables: &[Table]) {
         if tables.is_empty() {
             return;
         }
@@ -274,7 +275,7 @@ impl Page {
         });
     }
 
-    fn scene(&mut self, scene: &SceneDerivation) {
+    fn scene(&mut self, scene: &SceneDerivation<'_>) {
         self.section(&format!("{}: <code>{}</code>", words::MOTION, escape(scene.scene)), |page| {
             if !scene.parameters.is_empty() {
                 let given = list(scene.parameters.iter().map(|Symbol { formula, .. }| formula));
@@ -307,7 +308,7 @@ impl Page {
         }
     }
 
-    fn frictions_and_stops(&mut self, all: &[ContactEffect]) {
+    fn frictions_and_stops(&mut self, all: &[ContactEffect<'_>]) {
         if !all.is_empty() {
             self.lead(words::LEAD_CONTACTS);
         }
@@ -327,7 +328,7 @@ impl Page {
         }
     }
 
-    fn joints(&mut self, scene: &SceneDerivation) {
+    fn joints(&mut self, scene: &SceneDerivation<'_>) {
         self.section(&format!("{}: <code>{}</code>", words::JOINTS, escape(scene.scene)), |page| {
             page.lead(words::LEAD_JOINTS);
             if !scene.multipliers.is_empty() {
@@ -345,7 +346,7 @@ impl Page {
         });
     }
 
-    fn operations(&mut self, scene: Option<&str>, kernels: &[Kernel]) {
+    fn operations(&mut self, scene: Option<&str>, kernels: &[Kernel<'_>]) {
         if kernels.is_empty() {
             return;
         }
@@ -372,7 +373,7 @@ impl Page {
         });
     }
 
-    fn conditions(&mut self, conditions: &[Formula]) {
+    fn conditions(&mut self, conditions: &[Formula<'_>]) {
         if conditions.is_empty() {
             return;
         }
@@ -384,7 +385,7 @@ impl Page {
 }
 
 /// Formulas in a line, separated by commas.
-fn list<'a>(formulas: impl Iterator<Item = &'a Formula>) -> String {
+fn list<'a>(formulas: impl Iterator<Item = &'a Formula<'a>>) -> String {
     formulas.map(inline).collect::<Vec<_>>().join(", ")
 }
 

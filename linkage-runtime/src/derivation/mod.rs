@@ -1,71 +1,64 @@
-//! A mechanism's derivation as data: every formula as text, LaTeX and MathML.
+//! A mechanism's derivation as data.
 //!
-//! The compiler writes each [`Formula`] in all three notations, so that nothing is parsed or laid out at run time.
+//! Its formulas are numbers of nodes in one [`FormulaTable`], with terms and fractions as they are printed: nothing is
+//! parsed or laid out at run time.
 
+#[doc(hidden)]
+pub mod notation;
 mod scene;
+mod table;
 
 use core::fmt;
 
 pub use scene::{ContactEffect, Effect, JointForce, SceneDerivation};
-
-/// A formula. Its [`Display`](fmt::Display) is the text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Formula {
-    /// One line of Unicode: `−l₃·l₄·sin(θ₃ − θ₄)`.
-    pub text: &'static str,
-    /// LaTeX for mathematical mode, with `amsmath`.
-    pub latex: &'static str,
-    /// Presentation MathML: one element, without the `math` element around it.
-    pub mathml: &'static str,
-}
+pub use table::{ElementaryFunction, Formula, FormulaList, FormulaNode, FormulaTable, FormulaView, Terms};
 
 /// A parameter or coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Symbol {
+pub struct Symbol<'a> {
     /// The name in the `linkage!` language: `theta3`.
-    pub name: &'static str,
+    pub name: &'a str,
     /// The displayed name: θ₃.
-    pub formula: Formula,
+    pub formula: Formula<'a>,
 }
 
 /// `left` = `right`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Equation {
+pub struct Equation<'a> {
     /// The left side.
-    pub left: Formula,
+    pub left: Formula<'a>,
     /// The right side.
-    pub right: Formula,
+    pub right: Formula<'a>,
 }
 
 /// An entry of a [`FormulaMatrix`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Entry {
+pub struct Entry<'a> {
     /// The row, counted from 0.
     pub row: usize,
     /// The column, counted from 0.
     pub column: usize,
     /// The entry itself.
-    pub value: Formula,
+    pub value: Formula<'a>,
 }
 
 /// A matrix of formulas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct FormulaMatrix {
+pub struct FormulaMatrix<'a> {
     /// The name.
-    pub name: Formula,
+    pub name: Formula<'a>,
     /// A factor of every entry, written before the brackets.
-    pub factor: Option<Formula>,
+    pub factor: Option<Formula<'a>>,
     /// The number of rows.
     pub rows: usize,
     /// The number of columns.
     pub columns: usize,
     /// The entries that are not zero.
-    pub entries: &'static [Entry],
+    pub entries: &'a [Entry<'a>],
 }
 
 /// The method that solves the linear system of a [`Block`].
@@ -82,60 +75,60 @@ pub enum BlockMethod {
 /// The root that tells the two solutions of a [`Block`] apart by its sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Root {
+pub struct Root<'a> {
     /// The root.
-    pub formula: Formula,
+    pub formula: Formula<'a>,
     /// The names of the branches on which it is positive and negative.
-    pub branches: [&'static str; 2],
+    pub branches: [&'a str; 2],
 }
 
 /// Unknowns that are solved for together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Block {
+pub struct Block<'a> {
     /// The unknowns.
-    pub unknowns: &'static [Formula],
+    pub unknowns: &'a [Formula<'a>],
     /// The constraint equations that determine them: indices of [`Derivation::residual`].
-    pub equations: &'static [usize],
+    pub equations: &'a [usize],
     /// The Assur group, or a description of any other block.
-    pub group: &'static str,
+    pub group: &'a str,
     /// The position in closed form, each equation in terms of those before it; empty if Newton's method finds it.
-    pub position: &'static [Equation],
+    pub position: &'a [Equation<'a>],
     /// The root that tells two solutions apart.
-    pub root: Option<Root>,
+    pub root: Option<Root<'a>>,
     /// The method that solves the linear system.
     pub method: BlockMethod,
     /// The determinant of the block of J, if it has a formula.
-    pub determinant: Option<Equation>,
+    pub determinant: Option<Equation<'a>>,
     /// The inverse of the block of J, if it has a formula.
-    pub inverse: Option<FormulaMatrix>,
+    pub inverse: Option<FormulaMatrix<'a>>,
 }
 
 /// A point or output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Quantity {
+pub struct Quantity<'a> {
     /// The name in the `linkage!` language.
-    pub name: &'static str,
+    pub name: &'a str,
     /// The components.
-    pub value: &'static [Equation],
+    pub value: &'a [Equation<'a>],
     /// The derivatives of the components with respect to the inputs.
-    pub ratios: &'static [Equation],
+    pub ratios: &'a [Equation<'a>],
     /// The second derivatives of the components with respect to the inputs; empty unless the mechanism requests them.
-    pub ratio_derivatives: &'static [Equation],
+    pub ratio_derivatives: &'a [Equation<'a>],
     /// The derivatives of the components with respect to the parameters, without those that are zero; empty unless the
     /// mechanism requests them.
-    pub sensitivities: &'static [Equation],
+    pub sensitivities: &'a [Equation<'a>],
 }
 
 /// The derivatives of the unknowns with respect to the parameters while the inputs are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Sensitivity {
+pub struct Sensitivity<'a> {
     /// ∂Ψ/∂p, the columns in the order of the parameters.
-    pub jacobian: FormulaMatrix,
+    pub jacobian: FormulaMatrix<'a>,
     /// ∂u/∂p if it has a formula, without the derivatives that are zero.
-    pub formulas: &'static [Equation],
+    pub formulas: &'a [Equation<'a>],
 }
 
 /// The operation counts of a function.
@@ -155,67 +148,108 @@ pub struct Operations {
 /// An emitted function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Kernel {
+pub struct Kernel<'a> {
     /// The name of the function.
-    pub function: &'static str,
+    pub function: &'a str,
     /// The operations of one call. What the function has in common with others that are inlined in it counts once.
     pub operations: Operations,
-    /// With `derive fpcore`, the formulas that it computes, in the order of its operations and in the notation of
-    /// FPCore, a line each: `let` a name and its value, `check` a condition and its numbers, `return` a place in the
-    /// result and its value. It is empty for a function without formulas, such as one that iterates. `Document::fpcore`
-    /// of the crate `linkage` makes files of it.
-    pub lines: &'static str,
+    /// Its code as formulas; empty without `derive fpcore`.
+    pub code: KernelCode<'a>,
+}
+
+/// The numbers that an emitted function computes, by formulas in the order of its operations. It is empty for a function
+/// without formulas, such as one that iterates. `Document::fpcore` of the crate `linkage` writes it for other programs.
+///
+/// Names are those of FPCore: each is an argument, or the left side of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct KernelCode<'a> {
+    /// The intermediate results.
+    pub steps: &'a [Equation<'a>],
+    /// The conditions under which it computes these results.
+    pub checks: &'a [KernelCheck<'a>],
+    /// The numbers that it returns.
+    pub results: &'a [KernelResult<'a>],
+}
+
+/// A condition in the code of a function, for the results that depend on the first of its numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum KernelCheck<'a> {
+    /// A determinant is not zero within rounding errors: the determinant, its scale.
+    Regular([Formula<'a>; 2]),
+    /// A number is not zero.
+    Nonzero([Formula<'a>; 1]),
+    /// A length is not negative.
+    Positive([Formula<'a>; 1]),
+    /// Two points do not coincide within rounding errors: their distance, its scale.
+    Apart([Formula<'a>; 2]),
+    /// A product neither underflows nor overflows.
+    Moderate([Formula<'a>; 1]),
+    /// A triangle has an area: the factors of its squared half chord, the squared sum of its sides, the squared distance
+    /// of their ends.
+    Open([Formula<'a>; 4]),
+}
+
+/// A number that a function returns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct KernelResult<'a> {
+    /// Its place in the result: `.points.c.x`.
+    pub place: &'a str,
+    /// Its value.
+    pub value: Formula<'a>,
 }
 
 /// The kinematics of a mechanism, derived from its constraint equations Ψ(u, v) = 0, where u are the unknowns and v the
 /// inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Derivation {
+pub struct Derivation<'a> {
     /// The mechanism, or the driver of one.
-    pub mechanism: &'static str,
+    pub mechanism: &'a str,
     /// The parameters.
-    pub parameters: &'static [Symbol],
+    pub parameters: &'a [Symbol<'a>],
     /// The inputs v.
-    pub inputs: &'static [Symbol],
+    pub inputs: &'a [Symbol<'a>],
     /// The unknowns u.
-    pub unknowns: &'static [Symbol],
+    pub unknowns: &'a [Symbol<'a>],
     /// Ψ, the residuals of the constraint equations.
-    pub residual: &'static [Equation],
+    pub residual: &'a [Equation<'a>],
     /// The residuals of loops and equations that are declared as implied by the others.
-    pub implied: &'static [Equation],
+    pub implied: &'a [Equation<'a>],
     /// J = ∂Ψ/∂u.
-    pub jacobian_unknowns: FormulaMatrix,
+    pub jacobian_unknowns: FormulaMatrix<'a>,
     /// A = ∂Ψ/∂v.
-    pub jacobian_inputs: FormulaMatrix,
+    pub jacobian_inputs: FormulaMatrix<'a>,
     /// The blocks, in the order in which they are solved.
-    pub blocks: &'static [Block],
+    pub blocks: &'a [Block<'a>],
     /// det J, the product of the determinants of the blocks; none if a block has no formula.
-    pub determinant: Option<Equation>,
+    pub determinant: Option<Equation<'a>>,
     /// The velocity ratios ∂u/∂v.
-    pub ratios: &'static [Equation],
+    pub ratios: &'a [Equation<'a>],
     /// ∂²u/∂v∂v, if it has a formula and the mechanism requests it.
-    pub ratio_derivatives: Option<&'static [Equation]>,
+    pub ratio_derivatives: Option<&'a [Equation<'a>]>,
     /// γ, the quadratic velocity terms: the second time derivative of Ψ without the terms of accelerations.
-    pub gamma: &'static [Equation],
+    pub gamma: &'a [Equation<'a>],
     /// η: the third time derivative of Ψ without the terms of jerks; none unless the mechanism requests the jerk.
-    pub jerk: Option<&'static [Equation]>,
+    pub jerk: Option<&'a [Equation<'a>]>,
     /// The sensitivities to the parameters; none unless the mechanism requests them.
-    pub sensitivity: Option<Sensitivity>,
+    pub sensitivity: Option<Sensitivity<'a>>,
     /// The points and their derivatives.
-    pub points: &'static [Quantity],
+    pub points: &'a [Quantity<'a>],
     /// The outputs and their derivatives.
-    pub outputs: &'static [Quantity],
+    pub outputs: &'a [Quantity<'a>],
     /// The conditions under which the simplified formulas hold, such as l₄ ≠ 0.
-    pub conditions: &'static [Formula],
+    pub conditions: &'a [Formula<'a>],
     /// The emitted functions.
-    pub kernels: &'static [Kernel],
+    pub kernels: &'a [Kernel<'a>],
 }
 
-impl FormulaMatrix {
+impl<'a> FormulaMatrix<'a> {
     /// Returns an entry, or none if it is zero; both indices count from 0.
     #[must_use]
-    pub fn entry(&self, row: usize, column: usize) -> Option<Formula> {
+    pub fn entry(&self, row: usize, column: usize) -> Option<Formula<'a>> {
         self.entries.iter().find(|entry| (entry.row, entry.column) == (row, column)).map(|entry| entry.value)
     }
 }
@@ -231,14 +265,43 @@ impl BlockMethod {
     }
 }
 
-impl fmt::Display for Formula {
+impl fmt::Display for Equation<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text)
+        write!(f, "{} = {}", self.left, self.right)
     }
 }
 
-impl fmt::Display for Equation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {}", self.left, self.right)
+impl<'a> Kernel<'a> {
+    /// A function without code, with the counts of functions, divisions, multiplications and additions.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new(function: &'a str, operations: [usize; 4]) -> Self {
+        Self { function, operations: Operations::new(operations), code: KernelCode::NONE }
+    }
+}
+
+impl KernelCode<'_> {
+    /// No code.
+    pub const NONE: Self = Self { steps: &[], checks: &[], results: &[] };
+}
+
+impl Operations {
+    /// The counts of functions, divisions, multiplications and additions.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn new([functions, divisions, multiplications, additions]: [usize; 4]) -> Self {
+        Self { functions, divisions, multiplications, additions }
+    }
+}
+
+impl<'a> KernelCheck<'a> {
+    /// Its numbers.
+    #[must_use]
+    pub fn of(&self) -> &[Formula<'a>] {
+        match self {
+            Self::Nonzero(of) | Self::Positive(of) | Self::Moderate(of) => of,
+            Self::Regular(of) | Self::Apart(of) => of,
+            Self::Open(of) => of,
+        }
     }
 }

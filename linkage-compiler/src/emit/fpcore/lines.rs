@@ -1,46 +1,49 @@
-//! Operations as text: `let`, `check` and `return` lines, in the order of the code.
-
-use std::fmt::Write;
+//! Operations as formulas: steps, checks and results, in the order of the code.
 
 use super::name::{ascii, reserved, symbol};
 use super::operations::{Check, Operation, Operations, Place};
 use super::value::{Role, Value};
+use crate::document::{KernelCode, Node, Number, Table};
 use crate::emit::rust::parts_of_pi;
-use crate::graph::Number;
+use crate::graph::{self, Function, OPERATIONS};
 use crate::model::Mechanism;
 use crate::program::{Order, Taken};
 
-/// The lines of the formulas that numbers of a value have; empty if none has one.
-pub(super) fn written(mechanism: &Mechanism, operations: &Operations, checks: &[Check], value: &Value) -> String {
+/// The formulas that numbers of a value have; empty if none has one.
+pub(super) fn code(
+    mechanism: &Mechanism,
+    operations: &Operations,
+    checks: &[Check],
+    value: &Value,
+    table: &mut Table,
+) -> KernelCode {
     let mut results = Vec::new();
     value.each_number("", &mut |path, place| results.push((path.to_owned(), place)));
     // An argument or a constant as a result is exact.
     results.retain(|(_, place)| !operations.operation(*place).is_leaf());
     let uses = Uses::of(operations, checks, &results);
-    let mut text = String::new();
     if results.is_empty() {
-        return text;
+        return KernelCode::default();
     }
-    let reserved = reserved();
-    let mut names = Names { operations, taken: Taken::new(&reserved), texts: vec![String::new(); uses.counts.len()] };
+    let (reserved, count) = (reserved(), uses.counts.len());
+    let mut names = Names { operations, table, taken: Taken::new(&reserved), nodes: vec![None; count] };
     names.arguments(mechanism, &uses);
+    let mut steps = Vec::new();
     for place in operations.places().filter(|place| uses.is_used(*place)) {
         let formula = names.formula(place);
-        names.texts[place.index()] = if uses.has_line[place.index()] {
+        names.nodes[place.index()] = Some(if uses.has_line[place.index()] {
             let name = names.unique(operations.preferred(place).unwrap_or("value"));
-            let _ = writeln!(text, "let {name} {formula}");
+            steps.push([name, formula]);
             name
         } else {
             formula
-        };
+        });
     }
-    for Check { word, of } in checks {
-        let _ = writeln!(text, "check {word} {}", names.all(of));
+    KernelCode {
+        steps,
+        checks: checks.iter().map(|Check { word, of }| (*word, names.all(of))).collect(),
+        results: results.into_iter().map(|(path, place)| (ascii(&path), names.node(place))).collect(),
     }
-    for (path, place) in results {
-        let _ = writeln!(text, "return {} {}", ascii(&path), names.texts[place.index()]);
-    }
-    text
 }
 
 /// The operations that results and checks need.
@@ -85,15 +88,16 @@ impl Uses {
     }
 }
 
-/// The names and texts of operations so far.
+/// The names and formulas of operations so far.
 struct Names<'a> {
     operations: &'a Operations,
+    table: &'a mut Table,
     taken: Taken<'a>,
-    texts: Vec<String>,
+    nodes: Vec<Option<Number>>,
 }
 
 impl Names<'_> {
-    /// Names all arguments, before the lines. Parameters and coordinates come first, also those that are not used: an
+    /// Names all arguments, before the steps. Parameters and coordinates come first, also those that are not used: an
     /// argument has one name in all functions.
     fn arguments(&mut self, mechanism: &Mechanism, uses: &Uses) {
         let parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
@@ -104,77 +108,94 @@ impl Names<'_> {
         for (role, field) in parameters.chain(coordinates) {
             let name = self.unique(&role.name(field));
             if let Some(place) = self.operations.known(&role.key(std::slice::from_ref(field))) {
-                self.texts[place.index()] = name;
+                self.nodes[place.index()] = Some(name);
             }
         }
-        let is_new = |place: &Place| uses.is_used(*place) && self.texts[place.index()].is_empty();
+        let is_new = |place: &Place| uses.is_used(*place) && self.nodes[place.index()].is_none();
         let others: Vec<Place> = self.operations.places().filter(is_new).collect();
         for place in others {
             if matches!(self.operations.operation(place), Operation::Argument) {
                 let name = self.unique(self.operations.preferred(place).unwrap_or_default());
-                self.texts[place.index()] = name;
+                self.nodes[place.index()] = Some(name);
             }
         }
     }
 
-    fn unique(&mut self, preferred: &str) -> String {
-        self.taken.unique(&symbol(preferred))
+    fn unique(&mut self, preferred: &str) -> Number {
+        let name = self.taken.unique(&symbol(preferred));
+        self.table.plain(&name)
     }
 
-    fn text(&self, place: Place) -> &str {
-        &self.texts[place.index()]
+    /// The formula or name of an operation before; operands come before their operations.
+    fn node(&mut self, place: Place) -> Number {
+        self.nodes[place.index()].unwrap_or_else(|| self.table.decimal(f64::NAN))
     }
 
-    fn all(&self, places: &[Place]) -> String {
-        places.iter().map(|place| self.text(*place)).collect::<Vec<_>>().join(" ")
+    fn all(&mut self, places: &[Place]) -> Vec<Number> {
+        places.iter().map(|place| self.node(*place)).collect()
     }
 
-    /// The formula of an operation whose operands have texts.
-    fn formula(&self, place: Place) -> String {
-        match self.operations.operation(place) {
-            Operation::Argument => self.text(place).to_owned(),
-            Operation::Number(number) => constant(*number),
-            Operation::Sum(terms) => {
-                let signed = terms.iter().map(|(is_negative, term)| (if *is_negative { "-" } else { "+" }, *term));
-                self.left_to_right(signed)
+    /// The formula of an operation whose operands have formulas.
+    fn formula(&mut self, place: Place) -> Number {
+        let node = match self.operations.operation(place) {
+            Operation::Argument => return self.node(place),
+            Operation::Number(number) => return self.constant(*number),
+            Operation::Sum(terms) => Node::Sum(terms.iter().map(|(sign, term)| (*sign, self.node(*term))).collect()),
+            Operation::Product(factors) => Node::Product(self.all(factors)),
+            Operation::Quotient([above, below]) => Node::Quotient(self.node(*above), self.node(*below)),
+            Operation::Square(base) => Node::Power(self.node(*base), 2),
+            Operation::Negative(inside) => Node::Sum(vec![(true, self.node(*inside))]),
+            Operation::Call(name, arguments) => match function(name) {
+                Some(function) => Node::Call(function, self.all(arguments)),
+                None => Node::External((*name).to_owned(), 0, self.all(arguments)),
+            },
+        };
+        self.table.add(node)
+    }
+
+    /// The constant as emitted code computes it.
+    fn constant(&mut self, number: graph::Number) -> Number {
+        if let Some((count, parts)) = parts_of_pi(number) {
+            let mut multiple = self.table.add(Node::Pi);
+            if count != 1.0 {
+                let count = self.table.decimal(count);
+                multiple = self.table.add(Node::Product(vec![multiple, count]));
             }
-            Operation::Product(factors) => self.left_to_right(factors.iter().map(|factor| ("*", *factor))),
-            Operation::Quotient(parts) => format!("(/ {})", self.all(parts)),
-            Operation::Square(base) => format!("(* {0} {0})", self.text(*base)),
-            Operation::Negative(inside) => format!("(- {})", self.text(*inside)),
-            Operation::Call(name, arguments) => format!("({name} {})", self.all(arguments)),
+            if parts != 1.0 {
+                let parts = self.table.decimal(parts);
+                multiple = self.table.add(Node::Quotient(multiple, parts));
+            }
+            return multiple;
+        }
+        let value = number.to_f64();
+        match number {
+            graph::Number::Ratio(n, d) if format!("{value}").len() > 8 => {
+                let (above, below) = (self.integer(n), self.integer(d));
+                self.table.add(Node::Quotient(above, below))
+            }
+            _ => self.table.decimal(value),
         }
     }
 
-    /// `(- (+ a b) c)`: each operator with everything to its left; a sum may begin with a minus.
-    fn left_to_right<'o>(
-        &self,
-        operands: impl DoubleEndedIterator<Item = (&'o str, Place)> + Clone + ExactSizeIterator,
-    ) -> String {
-        let mut text: String = operands.clone().skip(1).rev().map(|(operator, _)| format!("({operator} ")).collect();
-        for (number, (operator, operand)) in operands.enumerate() {
-            let operand = self.text(operand);
-            text += &match (number, operator) {
-                (0, "-") => format!("(- {operand})"),
-                (0, _) => operand.to_owned(),
-                _ => format!(" {operand})"),
-            };
+    /// An integer, which a double may not hold.
+    fn integer(&mut self, value: i64) -> Number {
+        let is_exact = value as f64 as i64 == value;
+        match u64::try_from(value) {
+            Ok(value) => self.table.add(Node::Integer(value)),
+            Err(_) if is_exact => self.table.decimal(value as f64),
+            Err(_) => {
+                let size = self.table.add(Node::Integer(value.unsigned_abs()));
+                self.table.add(Node::Sum(vec![(true, size)]))
+            }
         }
-        text
     }
 }
 
-/// The constant as emitted code computes it.
-fn constant(number: Number) -> String {
-    if let Some((count, parts)) = parts_of_pi(number) {
-        let multiple = if count == 1.0 { "PI".to_owned() } else { format!("(* PI {count})") };
-        return if parts == 1.0 { multiple } else { format!("(/ {multiple} {parts})") };
-    }
-    let value = number.to_f64();
-    match number {
-        _ if value.is_nan() => "NAN".to_owned(),
-        _ if value.is_infinite() => if value > 0.0 { "INFINITY" } else { "(- INFINITY)" }.to_owned(),
-        Number::Ratio(n, d) if format!("{value}").len() > 8 => format!("(/ {n} {d})"),
-        _ => format!("{value:?}").trim_end_matches(".0").to_owned(),
+/// The function with this name in FPCore.
+fn function(name: &str) -> Option<Function> {
+    match name {
+        "fabs" => Some(Function::Abs),
+        "log" => Some(Function::Ln),
+        name => OPERATIONS.iter().find(|operation| operation.name == name).map(|operation| operation.function),
     }
 }

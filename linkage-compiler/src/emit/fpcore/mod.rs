@@ -1,8 +1,8 @@
 //! The formulas of an emitted function, in the notation of FPCore, for programs that compute how large
 //! rounding errors can be.
 //!
-//! A function is executed with symbols for numbers (`run`), calls of other functions included. That gives operations in
-//! the order of the code (`operations`), which are written one line each (`lines`). Newton's method, pivoting and user
+//! A function becomes straight-line operations on numbers (`inline`), calls of other functions included: operations in
+//! the order of the code (`operations`), which are formulas in the table of the document (`lines`). Newton's method, pivoting and user
 //! functions have no formula: nor have the results that depend on them.
 
 mod inline;
@@ -11,6 +11,7 @@ mod name;
 mod operations;
 mod value;
 
+use crate::document::{KernelCode, Table};
 use crate::lower::Code;
 use crate::program::{Program, SceneProgram};
 use inline::{Inlined, Owner};
@@ -32,11 +33,11 @@ impl<'a> Straight<'a> {
         Self { owner: Owner::new(&scene.functions, arguments, self.owner.mechanism, Some(&self.owner)) }
     }
 
-    /// The formulas of the function with this name, line by line; empty if it has none.
-    pub(super) fn lines(&self, name: &str) -> String {
-        let Some(function) = self.owner.functions.named(name) else { return String::new() };
+    /// The formulas of the function with this name; empty if it has none.
+    pub(super) fn code(&self, name: &str, table: &mut Table) -> KernelCode {
+        let Some(function) = self.owner.functions.named(name) else { return KernelCode::default() };
         let mut inlined = Inlined::default();
         let value = inlined.result(&self.owner, function);
-        lines::written(self.owner.mechanism, &inlined.operations, &inlined.checks, &value)
+        lines::code(self.owner.mechanism, &inlined.operations, &inlined.checks, &value, table)
     }
 }

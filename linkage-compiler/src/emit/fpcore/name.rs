@@ -2,8 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use crate::notation::greek_name;
-
 /// The constants and words of FPCore that a name could be.
 const RESERVED: [&str; 62] = [
     "E",
@@ -81,7 +79,7 @@ pub(super) fn ascii(text: &str) -> String {
     for letter in text.chars() {
         match greek_name(letter) {
             _ if letter.is_ascii() => ascii.push(letter),
-            Some(name) => ascii += name,
+            Some(name) => ascii += &name,
             None => ascii += &format!("u{:x}", u32::from(letter)),
         }
     }
@@ -98,9 +96,37 @@ pub(super) fn symbol(name: &str) -> String {
     symbol
 }
 
+/// The Greek letters from α to ω in the order of Unicode.
+const GREEK: [&str; 25] = [
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "mu", "nu", "xi",
+    "omicron", "pi", "rho", "varsigma", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega",
+];
+
+/// Their second shapes.
+const VARIANTS: [(char, &str); 6] =
+    [('ϵ', "varepsilon"), ('ϰ', "varkappa"), ('ϕ', "varphi"), ('ϖ', "varpi"), ('ϱ', "varrho"), ('ϑ', "vartheta")];
+
+/// The name of a Greek letter.
+fn greek_name(letter: char) -> Option<String> {
+    let place =
+        |first: char| u32::from(letter).checked_sub(u32::from(first)).and_then(|place| usize::try_from(place).ok());
+    let small = place('α').and_then(|place| GREEK.get(place)).map(|name| (*name).to_owned());
+    // No capital letter has the place of the final sigma.
+    let capital = place('Α').and_then(|place| GREEK.get(place)).filter(|name| **name != "varsigma");
+    let capital = capital.map(|name| name[..1].to_uppercase() + &name[1..]);
+    let variant = VARIANTS.iter().find(|(sign, _)| *sign == letter).map(|(_, name)| (*name).to_owned());
+    small.or(capital).or(variant)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::symbol;
+    use super::{ascii, symbol};
+
+    #[test]
+    fn greek_letters_have_names() {
+        assert_eq!(ascii("Α α Ρ ς Σ σ Ω ω ϑ"), "Alpha alpha Rho varsigma Sigma sigma Omega omega vartheta");
+        assert_eq!(ascii("\u{3a2} ά"), "u3a2 u3ac");
+    }
 
     #[test]
     fn symbols_are_ascii() {

@@ -11,40 +11,31 @@ pub enum Name<'a> {
     /// Its second derivative with respect to time: θ̈₃.
     Acceleration(&'a str),
     /// The velocity ratio ∂`of`/∂`by`.
-    Ratio { of: &'a str, by: &'a str },
+    Ratio {
+        /// The quantity.
+        of: &'a str,
+        /// The variable.
+        by: &'a str,
+    },
     /// The derivative of a velocity ratio, ∂²`of`/∂`by`∂`by`.
-    RatioDerivative { of: &'a str, by: [&'a str; 2] },
-    /// The determinant of J, or of the block of J with this number.
-    Determinant(Option<usize>),
-    /// The inverse of J, or of the block of J with this number.
-    Inverse(Option<usize>),
+    RatioDerivative {
+        /// The quantity.
+        of: &'a str,
+        /// The variables.
+        by: [&'a str; 2],
+    },
+    /// The determinant of the matrix with this name: det J.
+    Determinant(&'a str),
+    /// The inverse of the matrix with this name: J⁻¹.
+    Inverse(&'a str),
 }
 
 impl Name<'_> {
     /// True if it is printed as a fraction of differentials.
-    pub(super) fn is_derivative(self) -> bool {
+    #[must_use]
+    pub fn is_derivative(self) -> bool {
         matches!(self, Self::Ratio { .. } | Self::RatioDerivative { .. })
     }
-
-    /// The length in bytes in one line: `x'` is 2, `|J|` 3.
-    pub(super) fn length(self) -> usize {
-        match self {
-            Self::Plain(name) => name.len(),
-            Self::Rate(name) => name.len() + "'".len(),
-            Self::Acceleration(name) => name.len() + "''".len(),
-            Self::Ratio { of, by } => "∂(, )".len() + of.len() + by.len(),
-            Self::RatioDerivative { of, by: [first, second] } => {
-                "∂(, , )".len() + of.len() + first.len() + second.len()
-            }
-            Self::Determinant(block) => "||".len() + matrix_name(block).len(),
-            Self::Inverse(block) => "^-1".len() + matrix_name(block).len(),
-        }
-    }
-}
-
-/// The name of J, or of the block of J with this number.
-pub(super) fn matrix_name(block: Option<usize>) -> String {
-    block.map_or_else(|| "J".to_owned(), |block| format!("J{block}"))
 }
 
 /// Greek names, which are also LaTeX commands, and their letters, sorted by name. Where a letter has two shapes, the
@@ -127,14 +118,17 @@ const LOOK_LATIN: [(&str, char); 14] = [
 
 /// The parts of a name: `theta3_left` is `theta`, `3` and `left`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Word<'a> {
-    pub(super) base: &'a str,
+pub struct Word<'a> {
+    /// The letters: `theta`.
+    pub base: &'a str,
     digits: &'a str,
     rest: &'a str,
 }
 
 impl<'a> Word<'a> {
-    pub(super) fn new(name: &'a str) -> Self {
+    /// Divides a name.
+    #[must_use]
+    pub fn new(name: &'a str) -> Self {
         let name = name.strip_prefix("r#").unwrap_or(name);
         let start = name.trim_start_matches('_');
         if start.is_empty() {
@@ -149,18 +143,20 @@ impl<'a> Word<'a> {
     }
 
     /// The number at the end of the base, and the parts after underscores.
-    pub(super) fn subscripts(self) -> impl Iterator<Item = &'a str> + Clone {
-        std::iter::once(self.digits).chain(self.rest.split('_')).filter(|part| !part.is_empty())
+    pub fn subscripts(self) -> impl Iterator<Item = &'a str> + Clone {
+        core::iter::once(self.digits).chain(self.rest.split('_')).filter(|part| !part.is_empty())
     }
 }
 
 /// The primes of a derivative of this order, up to three.
-pub(super) fn primes(order: usize) -> Option<&'static str> {
-    ["", "′", "″", "‴"].get(order).copied()
+#[must_use]
+pub fn primes(order: u32) -> Option<&'static str> {
+    ["", "′", "″", "‴"].get(order as usize).copied()
 }
 
 /// The Greek letter of this name, or of this letter itself.
-pub(super) fn greek(word: &str) -> Option<(&'static str, char)> {
+#[must_use]
+pub fn greek(word: &str) -> Option<(&'static str, char)> {
     if !word.is_ascii() {
         let mut letters = word.chars();
         let (letter, rest) = (letters.next()?, letters.next());
@@ -169,23 +165,21 @@ pub(super) fn greek(word: &str) -> Option<(&'static str, char)> {
     GREEK.binary_search_by_key(&word, |&(name, _)| name).ok().map(|place| GREEK[place])
 }
 
-/// The name of a Greek letter.
-#[must_use]
-pub fn greek_name(letter: char) -> Option<&'static str> {
-    GREEK.iter().find(|(_, sign)| *sign == letter).map(|(name, _)| *name)
-}
-
 /// A Greek letter with a number, such as `theta3`, as its name and its number.
-pub(super) fn numbered_greek(word: &str) -> Option<(&str, &str)> {
+#[must_use]
+pub fn numbered_greek(word: &str) -> Option<(&str, &str)> {
     let name = word.trim_end_matches(|c: char| c.is_ascii_digit());
     (name.len() < word.len() && greek(name).is_some()).then(|| word.split_at(name.len()))
 }
 
 /// The Latin letter for a Greek letter without a LaTeX command.
-pub(super) fn latin(greek: &str) -> Option<char> {
+#[must_use]
+pub fn latin(greek: &str) -> Option<char> {
     LOOK_LATIN.iter().find(|(name, _)| *name == greek).map(|(_, letter)| *letter)
 }
 
-pub(super) fn is_number(word: &str) -> bool {
+/// True for digits.
+#[must_use]
+pub fn is_number(word: &str) -> bool {
     word.bytes().all(|byte| byte.is_ascii_digit())
 }

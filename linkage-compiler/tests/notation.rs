@@ -1,5 +1,28 @@
-use super::{Formula, Name, Printer};
-use crate::graph::{Condition, External, Function, Graph, NodeId, Number, SymbolId, written};
+//! The three notations of formulas: names, signs, fractions, brackets.
+
+use linkage_compiler::document::{self, LONGEST, Layout, Name};
+use linkage_compiler::graph::{Condition, External, Function, Graph, NodeId, Number, SymbolId, written};
+use linkage_report::Notation;
+
+/// A formula in all notations.
+struct Formula {
+    text: String,
+    latex: String,
+    mathml: String,
+}
+
+impl Formula {
+    fn of(table: &document::Table, number: document::Number) -> Self {
+        let formula = linkage_lent::table(table).get(number.get()).unwrap();
+        Self { text: formula.to_string(), latex: formula.to_latex(), mathml: formula.to_mathml() }
+    }
+
+    fn of_name(name: Name) -> Self {
+        let mut table = document::Table::default();
+        let number = table.name(name);
+        Self::of(&table, number)
+    }
+}
 
 /// A graph with these symbols.
 fn graph<const N: usize>(names: [&str; N]) -> (Graph, [NodeId; N]) {
@@ -13,7 +36,9 @@ fn graph<const N: usize>(names: [&str; N]) -> (Graph, [NodeId; N]) {
 
 fn formula(graph: &Graph, node: NodeId) -> Formula {
     let names = |symbol: SymbolId| named(graph.symbol_name(symbol));
-    Printer::new(graph, &names).formula(node)
+    let mut layout = Layout::new(graph, &names);
+    let number = layout.formula(node);
+    Formula::of(&layout.table, number)
 }
 
 fn text(graph: &Graph, node: NodeId) -> String {
@@ -67,11 +92,12 @@ fn conditions_are_statements() {
     let (mut g, [a, b]) = graph(["a", "b"]);
     let sum = g.add(a, b);
     let names = |symbol: SymbolId| named(g.symbol_name(symbol));
-    let mut printer = Printer::new(&g, &names);
-    let Formula { text, latex, mathml } = printer.condition(Condition::NonZero(sum));
+    let mut layout = Layout::new(&g, &names);
+    let [not_zero, defined] = [Condition::NonZero(sum), Condition::Defined(a)].map(|one| layout.condition(one));
+    let Formula { text, latex, mathml } = Formula::of(&layout.table, not_zero);
     assert_eq!([text.as_str(), &latex], ["a + b ≠ 0", r"a + b \neq 0"]);
     assert_eq!(mathml, "<mrow><mrow><mi>a</mi><mo>+</mo><mi>b</mi></mrow><mo>≠</mo><mn>0</mn></mrow>");
-    assert_eq!(printer.condition(Condition::Defined(a)).text, "a exists");
+    assert_eq!(Formula::of(&layout.table, defined).text, "a exists");
 }
 
 #[test]
@@ -174,11 +200,13 @@ fn an_ellipsis_replaces_a_part_that_is_too_long() {
         node = g.call(Function::Hypot, &[node, with]);
     }
     let shown = text(&g, node);
-    assert!(shown.len() <= super::LONGEST && shown.contains('…'));
+    assert!(shown.len() <= LONGEST && shown.contains('…'));
     let sum = g.add(a, b);
     let names = |symbol: SymbolId| Name::Plain(g.symbol_name(symbol));
     for (longest, shown) in [(5, "a + b"), (4, "…")] {
-        assert_eq!(Printer::new(&g, &names).longest(longest).formula(sum).text, shown);
+        let mut layout = Layout::new(&g, &names).longest(longest);
+        let number = layout.formula(sum);
+        assert_eq!(Formula::of(&layout.table, number).text, shown);
     }
 }
 

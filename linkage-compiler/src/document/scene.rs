@@ -1,26 +1,25 @@
-//! `DERIVATION` of a scene: its equations of motion as data.
+//! The document of a scene: its equations of motion.
 
-use proc_macro2::TokenStream;
-use quote::quote;
 use rustc_hash::FxHashMap;
 
-use super::document::{Document, formula, kernel_list, list, names, option, symbols, texts};
-use super::names::string;
-use super::work::Work;
+use super::data::{ContactEffect, Effect, Equation, JointForce, Kernel, SceneDocument, Symbol};
+use super::driver::Writer;
+use super::layout::Layout;
+use super::name::{Name, names, texts};
+use super::table::{self, Node};
 use crate::derivation::{ContactFormula, Derivation, Reactions, Scene};
-use crate::graph::{Graph, NodeId, Number, SymbolId};
+use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
 use crate::ids::{InputId, Table};
 use crate::model::{self, Driver, LoadKind, Mechanism};
-use crate::notation::{Formula, Name, Printer};
 
-/// The constant `DERIVATION` of a scene: its equations of motion.
-pub(super) fn of_scene(
+/// The document of a scene; `kernels` adds its functions.
+#[must_use]
+pub fn of_scene(
     mechanism: &Mechanism,
     (driver, scene): (&Driver, &model::Scene),
     (derivation, derived): (&Derivation, &Scene),
-    kernels: &[Work],
-    root: &TokenStream,
-) -> TokenStream {
+    kernels: &dyn Fn(&mut table::Table) -> Vec<Kernel>,
+) -> SceneDocument {
     let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
     let mut names = names(mechanism, derivation, &inputs, &unknowns);
     for parameter in &mechanism.scene_parameters {
@@ -38,8 +37,8 @@ pub(super) fn of_scene(
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
     let own = scene.parameters.iter().map(|&place| mechanism.scene_parameters[place].name.text.as_str());
     let own: Vec<&str> = own.collect();
-    let mut document = Document {
-        printer: Printer::new(graph, &shown),
+    let mut writer = Writer {
+        layout: Layout::new(graph, &shown),
         derivation,
         parameters: &own,
         inputs: &inputs,
@@ -49,78 +48,60 @@ pub(super) fn of_scene(
     for (row, entries) in derived.mass_matrix.iter().flatten().enumerate() {
         for (column, &entry) in entries.iter().enumerate().skip(row) {
             let name = if inputs.len() == 1 { "M".to_owned() } else { format!("M{}{}", row + 1, column + 1) };
-            mass_matrix.push(document.equation(Name::Plain(&name), entry));
+            mass_matrix.push(writer.equation(Name::Plain(&name), entry));
         }
     }
     let mut effects = Vec::new();
     let is_zero = |forces: &Table<InputId, NodeId>| forces.iter().all(|&force| graph.is_zero(force));
     for (place, (label, forces)) in derived.parts.iter().enumerate() {
-        let equations = document.forces(graph, forces.iter().copied());
+        let equations = writer.forces(graph, forces.iter().copied());
         // An effect without a part in Q is shown, with its other laws or once; the inertia of a body is not.
         let is_other =
             |(at, (other, forces)): (usize, &(String, _))| other == label && (!is_zero(forces) || at < place);
         let is_alone = !derived.parts.iter().enumerate().any(is_other);
         let is_effect = || label.strip_prefix("body ").is_none_or(|body| is_heavy(mechanism, scene, body));
         if equations.is_some() || (is_alone && is_effect()) {
-            let (label, equations) = (string(label), equations.unwrap_or_else(|| document.no_forces()));
-            effects.push(quote!(Effect { name: #label, forces: #equations }));
+            let forces = equations.unwrap_or_else(|| writer.no_forces());
+            effects.push(Effect { name: label.clone(), forces });
         }
     }
-    let frictions_and_stops = contacts.list(&mut document, graph, (mechanism, scene), derived);
-    let drives = list(
-        derived
-            .drives
-            .iter()
-            .map(|(&input, drive)| document.equation(Name::Plain(inputs[input]), drive.value))
-            .collect::<Vec<_>>(),
-    );
+    let frictions_and_stops = contacts.list(&mut writer, graph, (mechanism, scene), derived);
+    let drives = derived.drives.iter();
+    let drives = drives.map(|(&input, drive)| writer.equation(Name::Plain(inputs[input]), drive.value)).collect();
     let potential = !graph.is_zero(derived.potential);
-    let potential = option(potential.then(|| document.equation(Name::Plain("V"), derived.potential)));
-    let joints = reactions.map(|reactions| document.joints(mechanism, scene, reactions)).unwrap_or_default();
+    let potential = potential.then(|| writer.equation(Name::Plain("V"), derived.potential));
+    let joints = reactions.map(|reactions| writer.joints(mechanism, scene, reactions)).unwrap_or_default();
     let used = graph.symbols_of(&reactions.iter().flat_map(|reactions| reactions.forces.concat()).collect::<Vec<_>>());
     let of_contacts = reactions.iter().flat_map(|reactions| &reactions.contact_forces);
     let acting = scene.contacts.iter().zip(of_contacts).zip(&contact_forces);
     let acting = acting.filter(|((_, symbol), _)| !joints.is_empty() && used.contains(symbol));
-    let acting = acting.map(|((contact, _), name)| {
-        let (label, shown) = (string(&contact.label), formula(&Formula::of_name(Name::Plain(name))));
-        quote!(Symbol { name: #label, formula: #shown })
-    });
-    let acting = list(acting);
+    let contacts =
+        acting.map(|((contact, _), name)| Symbol { name: contact.label.clone(), formula: writer.plain(name) });
+    let contacts = contacts.collect();
     let multipliers = reactions.iter().flat_map(|reactions| reactions.multipliers.names.iter());
     let multipliers = multipliers.filter(|symbol| !joints.is_empty() && used.contains(symbol));
-    let multipliers =
-        list(multipliers.map(|&symbol| formula(&Formula::of_name(Name::Plain(graph.symbol_name(symbol))))));
-    let (parameters, kernels) = (symbols(&own), kernel_list(kernels));
-    let [text, of] = [&scene.name, &driver.name].map(|name| string(&name.to_string()));
-    let name = &scene.name;
-    quote! {
-        impl #name {
-            /// The equations of motion as data: every formula as text, `LaTeX` and `MathML`, and the operations of each
-            /// function. If it is not used, it is not in the program.
-            pub const DERIVATION: &'static #root::__rt::derivation::prelude::SceneDerivation = {
-                use #root::__rt::derivation::prelude::*;
-                &SceneDerivation {
-                    scene: #text,
-                    mechanism: #of,
-                    parameters: #parameters,
-                    mass_matrix: &[#(#mass_matrix),*],
-                    forces: &[#(#effects),*],
-                    frictions_and_stops: #frictions_and_stops,
-                    drives: #drives,
-                    potential: #potential,
-                    joints: &[#(#joints),*],
-                    multipliers: #multipliers,
-                    contacts: #acting,
-                    kernels: #kernels,
-                }
-            };
-        }
-    }
+    let multipliers = multipliers.map(|&symbol| writer.plain(graph.symbol_name(symbol))).collect();
+    let document = SceneDocument {
+        table: table::Table::default(),
+        scene: scene.name.to_string(),
+        mechanism: driver.name.to_string(),
+        parameters: writer.symbols(&own),
+        mass_matrix,
+        forces: effects,
+        frictions_and_stops,
+        drives,
+        potential,
+        joints,
+        multipliers,
+        contacts,
+        kernels: kernels(&mut writer.layout.table),
+    };
+    document.with(writer.layout.table)
 }
 
-impl Document<'_> {
+impl Writer<'_> {
     /// The forces in the joints that a scene shows.
-    fn joints(&mut self, mechanism: &Mechanism, scene: &model::Scene, reactions: &Reactions) -> Vec<TokenStream> {
+    fn joints(&mut self, mechanism: &Mechanism, scene: &model::Scene, reactions: &Reactions) -> Vec<JointForce> {
         let shown = scene.loads.iter().filter_map(|load| {
             let place = reactions.opened.iter().position(|other| other == load)?;
             Some((&mechanism.opened.loads[*load], reactions.forces[place]))
@@ -133,29 +114,27 @@ impl Document<'_> {
             let name = name_of_joint(&load.kind);
             let left_out = load.left_out(&mechanism.graph);
             let name = left_out.map_or(name.clone(), |equations| format!("{name}, without the forces of {equations}"));
-            let name = string(&name);
-            let [first, second] = [0, 1].map(|axis| self.equation(Name::Plain(parts[axis]), force[axis]));
-            quote!(JointForce { name: #name, components: [#first, #second] })
+            let components = [0, 1].map(|axis| self.equation(Name::Plain(parts[axis]), force[axis]));
+            JointForce { name, components }
         });
         forces.collect()
     }
 
     /// The contributions to Q that are not zero, if there is one.
-    fn forces(&mut self, graph: &Graph, forces: impl ExactSizeIterator<Item = NodeId>) -> Option<TokenStream> {
+    fn forces(&mut self, graph: &Graph, forces: impl ExactSizeIterator<Item = NodeId>) -> Option<Vec<Equation>> {
         let count = forces.len();
         let nonzero: Vec<(usize, NodeId)> = forces.enumerate().filter(|(_, force)| !graph.is_zero(*force)).collect();
         let equations = nonzero.iter().map(|&(index, force)| {
             let name = if count == 1 { "Q".to_owned() } else { format!("Q{}", index + 1) };
             self.equation(Name::Plain(&name), force)
         });
-        let equations: Vec<TokenStream> = equations.collect();
-        (!equations.is_empty()).then(|| list(equations))
+        let equations: Vec<Equation> = equations.collect();
+        (!equations.is_empty()).then_some(equations)
     }
 
     /// `Q = 0`.
-    fn no_forces(&self) -> TokenStream {
-        let [left, right] = [Name::Plain("Q"), Name::Plain("0")].map(|name| formula(&Formula::of_name(name)));
-        list([quote!(Equation { left: #left, right: #right })])
+    fn no_forces(&mut self) -> Vec<Equation> {
+        vec![[self.plain("Q"), self.layout.table.add(Node::Integer(0))]]
     }
 }
 
@@ -237,86 +216,55 @@ impl<'a> Contacts<'a> {
         pairs.flat_map(|(symbols, names)| symbols.iter().copied().zip(names.iter().map(|name| Name::Plain(name))))
     }
 
-    /// `&[ContactEffect]`.
     fn list(
         &self,
-        document: &mut Document<'_>,
+        writer: &mut Writer<'_>,
         graph: &Graph,
         (mechanism, scene): (&Mechanism, &model::Scene),
         derived: &Scene,
-    ) -> TokenStream {
+    ) -> Vec<ContactEffect> {
         let names = self.names[0].iter().zip(self.names[1]);
         let contacts = derived.contacts.iter().zip(&scene.contacts).zip(&self.shown).zip(names);
         let contacts = contacts.map(|(((contact, model), shown), (force, scalar))| {
-            let [force, scalar] = [force, scalar].map(|name| Formula::of_name(Name::Plain(name)));
-            let bounds: Vec<Formula> = shown.bounds.iter().map(|&bound| document.printer.formula(bound)).collect();
+            let [force, scalar] = [force, scalar].map(|name| writer.plain(name));
+            let bounds: Vec<table::Number> = shown.bounds.iter().map(|&bound| writer.formula(bound)).collect();
             let bearing = model.bearing.map(|load| name_of_joint(&mechanism.opened.loads[load].kind));
-            let relation = match bounds.as_slice() {
-                [least, most] => at_most(&[least, &scalar, most]),
-                [limit, ..] if bearing.is_some() => {
-                    at_most(&[&modulus(&force), &product(limit, &modulus(&reaction()))])
+            // The force in the joint that limits a friction.
+            let bearing = bearing.map(|name| Symbol { name, formula: writer.plain("R") });
+            let bound = match bounds.as_slice() {
+                [least, most] => vec![*least, scalar, *most],
+                limits => {
+                    let limit = limits.first().copied().unwrap_or(force);
+                    let limit = match &bearing {
+                        Some(Symbol { formula, .. }) => {
+                            let reaction = writer.modulus(*formula);
+                            writer.layout.table.add(Node::Multiple(limit, reaction))
+                        }
+                        None => limit,
+                    };
+                    vec![writer.modulus(force), limit]
                 }
-                limit => at_most(&[&modulus(&force), limit.first().unwrap_or(&force)]),
             };
-            let along = {
-                let right = document.printer.formula(contact.value);
-                let [left, right] = [&scalar, &right].map(formula);
-                quote!(Equation { left: #left, right: #right })
-            };
-            let bearing = option(bearing.map(|joint| {
-                let (joint, shown) = (string(&joint), formula(&reaction()));
-                quote!(Symbol { name: #joint, formula: #shown })
-            }));
-            let rebound = option(shown.rebound.map(|factor| formula(&document.printer.formula(factor))));
-            let forces = document.forces(graph, shown.forces.iter().copied());
-            let forces = forces.unwrap_or_else(|| document.no_forces());
-            let (name, force, relation) = (string(&contact.label), formula(&force), formula(&relation));
-            quote! {
-                ContactEffect {
-                    name: #name,
-                    force: #force,
-                    along: #along,
-                    bound: #relation,
-                    bearing: #bearing,
-                    rebound: #rebound,
-                    forces: #forces,
-                }
+            ContactEffect {
+                name: contact.label.clone(),
+                force,
+                along: [scalar, writer.formula(contact.value)],
+                bound: writer.layout.table.add(Node::AtMost(bound)),
+                bearing,
+                rebound: shown.rebound.map(|factor| writer.formula(factor)),
+                forces: {
+                    let forces = writer.forces(graph, shown.forces.iter().copied());
+                    forces.unwrap_or_else(|| writer.no_forces())
+                },
             }
         });
-        list(contacts.collect::<Vec<_>>())
+        contacts.collect()
     }
 }
 
-/// The force in the joint that limits a friction.
-fn reaction() -> Formula {
-    Formula::of_name(Name::Plain("R"))
-}
-
-/// |x|.
-fn modulus(Formula { text, latex, mathml }: &Formula) -> Formula {
-    Formula {
-        text: format!("|{text}|"),
-        latex: format!("\\left|{latex}\\right|"),
-        mathml: format!("<mrow><mo>|</mo>{mathml}<mo>|</mo></mrow>"),
-    }
-}
-
-/// The product of two factors.
-fn product(one: &Formula, other: &Formula) -> Formula {
-    Formula {
-        text: format!("{}·{}", one.text, other.text),
-        latex: format!("{} \\cdot {}", one.latex, other.latex),
-        mathml: format!("<mrow>{}<mo>⋅</mo>{}</mrow>", one.mathml, other.mathml),
-    }
-}
-
-/// a <= b <= ….
-fn at_most(parts: &[&Formula]) -> Formula {
-    let joined =
-        |of: fn(&Formula) -> &str, sign: &str| parts.iter().map(|part| of(part)).collect::<Vec<_>>().join(sign);
-    Formula {
-        text: joined(|part| &part.text, " ≤ "),
-        latex: joined(|part| &part.latex, " \\leq "),
-        mathml: format!("<mrow>{}</mrow>", joined(|part| &part.mathml, "<mo>≤</mo>")),
+impl Writer<'_> {
+    /// |x|.
+    fn modulus(&mut self, inside: table::Number) -> table::Number {
+        self.layout.table.add(Node::Call(Function::Abs, vec![inside]))
     }
 }

@@ -1,0 +1,249 @@
+//! The compiler's documents as derivations of the runtime, without emitted constants: what tests compare constants with.
+//! The values are never freed.
+
+use linkage_compiler::document::{self, Document, Node, Number, SceneDocument};
+use linkage_compiler::graph::Function;
+use linkage_compiler::program;
+use linkage_runtime::derivation::{
+    Block, BlockMethod, ContactEffect, Derivation, Effect, ElementaryFunction, Entry, Equation, Formula, FormulaMatrix,
+    FormulaNode, FormulaTable, JointForce, Kernel, KernelCheck, KernelCode, KernelResult, Operations, Quantity, Root,
+    SceneDerivation, Sensitivity, Symbol,
+};
+
+/// The derivation of a document.
+///
+/// # Panics
+/// If the table of the document refers to what it does not have.
+#[must_use]
+pub fn derivation(document: &Document) -> Derivation<'static> {
+    let table = Table::of(&document.table);
+    Derivation {
+        mechanism: text(&document.mechanism),
+        parameters: list(&document.parameters, |symbol| table.symbol(symbol)),
+        inputs: list(&document.inputs, |symbol| table.symbol(symbol)),
+        unknowns: list(&document.unknowns, |symbol| table.symbol(symbol)),
+        residual: table.equations(&document.residual),
+        implied: table.equations(&document.implied),
+        jacobian_unknowns: table.matrix(&document.jacobian_unknowns),
+        jacobian_inputs: table.matrix(&document.jacobian_inputs),
+        blocks: list(&document.blocks, |block| table.block(block)),
+        determinant: document.determinant.map(|equation| table.equation(equation)),
+        ratios: table.equations(&document.ratios),
+        ratio_derivatives: document.ratio_derivatives.as_deref().map(|all| table.equations(all)),
+        gamma: table.equations(&document.gamma),
+        jerk: document.jerk.as_deref().map(|all| table.equations(all)),
+        sensitivity: document.sensitivity.as_ref().map(|document::Sensitivity { jacobian, formulas }| Sensitivity {
+            jacobian: table.matrix(jacobian),
+            formulas: table.equations(formulas),
+        }),
+        points: list(&document.points, |quantity| table.quantity(quantity)),
+        outputs: list(&document.outputs, |quantity| table.quantity(quantity)),
+        conditions: table.formulas(&document.conditions),
+        kernels: list(&document.kernels, |kernel| table.kernel(kernel)),
+    }
+}
+
+/// The equations of motion of a document.
+///
+/// # Panics
+/// If the table of the document refers to what it does not have.
+#[must_use]
+pub fn scene(document: &SceneDocument) -> SceneDerivation<'static> {
+    let table = Table::of(&document.table);
+    SceneDerivation {
+        scene: text(&document.scene),
+        mechanism: text(&document.mechanism),
+        parameters: list(&document.parameters, |symbol| table.symbol(symbol)),
+        mass_matrix: table.equations(&document.mass_matrix),
+        forces: list(&document.forces, |effect| Effect {
+            name: text(&effect.name),
+            forces: table.equations(&effect.forces),
+        }),
+        frictions_and_stops: list(&document.frictions_and_stops, |contact| ContactEffect {
+            name: text(&contact.name),
+            force: table.formula(contact.force),
+            along: table.equation(contact.along),
+            bound: table.formula(contact.bound),
+            bearing: contact.bearing.as_ref().map(|joint| table.symbol(joint)),
+            rebound: contact.rebound.map(|factor| table.formula(factor)),
+            forces: table.equations(&contact.forces),
+        }),
+        drives: table.equations(&document.drives),
+        potential: document.potential.map(|equation| table.equation(equation)),
+        joints: list(&document.joints, |joint| JointForce {
+            name: text(&joint.name),
+            components: joint.components.map(|equation| table.equation(equation)),
+        }),
+        multipliers: table.formulas(&document.multipliers),
+        contacts: list(&document.contacts, |symbol| table.symbol(symbol)),
+        kernels: list(&document.kernels, |kernel| table.kernel(kernel)),
+    }
+}
+
+/// The nodes of a table.
+///
+/// # Panics
+/// If one refers to what is not before it.
+#[must_use]
+pub fn table(table: &document::Table) -> FormulaTable<'static> {
+    let nodes: Vec<FormulaNode<'static>> = table.nodes().map(node).collect();
+    FormulaTable::checked(nodes.leak()).expect("a sound table")
+}
+
+fn text(text: &str) -> &'static str {
+    text.to_owned().leak()
+}
+
+fn list<A, B>(all: &[A], convert: impl Fn(&A) -> B) -> &'static [B] {
+    all.iter().map(convert).collect::<Vec<_>>().leak()
+}
+
+#[derive(Clone, Copy)]
+struct Table(FormulaTable<'static>);
+
+impl Table {
+    fn of(table: &document::Table) -> Self {
+        Self(self::table(table))
+    }
+
+    fn formula(self, number: Number) -> Formula<'static> {
+        self.0.get(number.get()).expect("a number of the table")
+    }
+
+    fn formulas(self, all: &[Number]) -> &'static [Formula<'static>] {
+        list(all, |number| self.formula(*number))
+    }
+
+    fn equation(self, sides: document::Equation) -> Equation<'static> {
+        let [left, right] = sides.map(|side| self.formula(side));
+        Equation { left, right }
+    }
+
+    fn equations(self, all: &[document::Equation]) -> &'static [Equation<'static>] {
+        list(all, |equation| self.equation(*equation))
+    }
+
+    fn symbol(self, symbol: &document::Symbol) -> Symbol<'static> {
+        Symbol { name: text(&symbol.name), formula: self.formula(symbol.formula) }
+    }
+
+    fn matrix(self, matrix: &document::Matrix) -> FormulaMatrix<'static> {
+        FormulaMatrix {
+            name: self.formula(matrix.name),
+            factor: matrix.factor.map(|factor| self.formula(factor)),
+            rows: matrix.rows,
+            columns: matrix.columns,
+            entries: list(&matrix.entries, |([row, column], value)| Entry {
+                row: *row,
+                column: *column,
+                value: self.formula(*value),
+            }),
+        }
+    }
+
+    fn block(self, block: &document::Block) -> Block<'static> {
+        Block {
+            unknowns: self.formulas(&block.unknowns),
+            equations: block.equations.clone().leak(),
+            group: text(&block.group),
+            position: self.equations(&block.position),
+            root: block.root.as_ref().map(|root| Root { formula: self.formula(root.formula), branches: root.branches }),
+            method: match block.method {
+                document::Method::ClosedForm => BlockMethod::ClosedForm,
+                document::Method::Factorization => BlockMethod::Factorization,
+            },
+            determinant: block.determinant.map(|equation| self.equation(equation)),
+            inverse: block.inverse.as_ref().map(|inverse| self.matrix(inverse)),
+        }
+    }
+
+    fn quantity(self, quantity: &document::Quantity) -> Quantity<'static> {
+        Quantity {
+            name: text(&quantity.name),
+            value: self.equations(&quantity.value),
+            ratios: self.equations(&quantity.ratios),
+            ratio_derivatives: self.equations(&quantity.ratio_derivatives),
+            sensitivities: self.equations(&quantity.sensitivities),
+        }
+    }
+
+    fn kernel(self, document::Kernel { function, operations, code }: &document::Kernel) -> Kernel<'static> {
+        let program::Operations { functions, divisions, multiplications, additions } = *operations;
+        Kernel {
+            function: text(function),
+            operations: Operations { functions, divisions, multiplications, additions },
+            code: KernelCode {
+                steps: self.equations(&code.steps),
+                checks: list(&code.checks, |(word, of)| self.check(word, of)),
+                results: list(&code.results, |(place, value)| KernelResult {
+                    place: text(place),
+                    value: self.formula(*value),
+                }),
+            },
+        }
+    }
+
+    fn check(self, word: &str, of: &[Number]) -> KernelCheck<'static> {
+        let of = self.formulas(of);
+        let check = match word {
+            "regular" => of.try_into().map(KernelCheck::Regular),
+            "nonzero" => of.try_into().map(KernelCheck::Nonzero),
+            "positive" => of.try_into().map(KernelCheck::Positive),
+            "apart" => of.try_into().map(KernelCheck::Apart),
+            "moderate" => of.try_into().map(KernelCheck::Moderate),
+            "open" => of.try_into().map(KernelCheck::Open),
+            _ => panic!("no check is named {word}"),
+        };
+        check.expect("the numbers of the check")
+    }
+}
+
+fn node(node: &Node) -> FormulaNode<'static> {
+    let parts = |parts: &[Number]| list(parts, |part| part.get());
+    match node {
+        Node::Name(name) => FormulaNode::Name(text(name)),
+        Node::Rate(name) => FormulaNode::Rate(name.get()),
+        Node::Acceleration(name) => FormulaNode::Acceleration(name.get()),
+        Node::Ratio(of, by) => FormulaNode::Ratio(of.get(), by.get()),
+        Node::RatioDerivative(of, [first, second]) => FormulaNode::RatioDerivative(of.get(), first.get(), second.get()),
+        Node::Determinant(matrix) => FormulaNode::Determinant(matrix.get()),
+        Node::Inverse(matrix) => FormulaNode::Inverse(matrix.get()),
+        Node::Integer(value) => FormulaNode::Integer(*value),
+        Node::Decimal(bits) => FormulaNode::Decimal(f64::from_bits(*bits)),
+        Node::Pi => FormulaNode::Pi,
+        Node::Ellipsis => FormulaNode::Ellipsis,
+        Node::Sum(terms) => FormulaNode::Sum(list(terms, |(is_negative, term)| {
+            let number = i32::try_from(term.get()).expect("a short table");
+            if *is_negative { -number } else { number }
+        })),
+        Node::Product(factors) => FormulaNode::Product(parts(factors)),
+        Node::Quotient(above, below) => FormulaNode::Quotient(above.get(), below.get()),
+        Node::Power(base, exponent) => FormulaNode::Power(base.get(), *exponent),
+        Node::Call(function, arguments) => FormulaNode::Call(elementary(*function), parts(arguments)),
+        Node::External(name, order, arguments) => {
+            FormulaNode::External(text(name), u32::try_from(*order).expect("a low order"), parts(arguments))
+        }
+        Node::Multiple(one, other) => FormulaNode::Multiple(one.get(), other.get()),
+        Node::AtMost(all) => FormulaNode::AtMost(parts(all)),
+        Node::NonZero(inside) => FormulaNode::NonZero(inside.get()),
+        Node::Exists(inside) => FormulaNode::Exists(inside.get()),
+    }
+}
+
+fn elementary(function: Function) -> ElementaryFunction {
+    match function {
+        Function::Sin => ElementaryFunction::Sin,
+        Function::Cos => ElementaryFunction::Cos,
+        Function::Tan => ElementaryFunction::Tan,
+        Function::Asin => ElementaryFunction::Asin,
+        Function::Acos => ElementaryFunction::Acos,
+        Function::Atan => ElementaryFunction::Atan,
+        Function::Atan2 => ElementaryFunction::Atan2,
+        Function::Sqrt => ElementaryFunction::Sqrt,
+        Function::Abs => ElementaryFunction::Abs,
+        Function::Exp => ElementaryFunction::Exp,
+        Function::Ln => ElementaryFunction::Ln,
+        Function::Hypot => ElementaryFunction::Hypot,
+        Function::IfNonzero => ElementaryFunction::IfNonzero,
+    }
+}

@@ -1,0 +1,209 @@
+//! Documents as plain data: the types of `DERIVATION` with numbers for formulas.
+
+use super::table::{Number, Numbers, Table};
+use crate::program::Operations;
+
+/// A parameter, a coordinate, or a force that has a name.
+#[derive(Debug, Clone)]
+pub struct Symbol {
+    pub name: String,
+    pub formula: Number,
+}
+
+/// A left and a right side.
+pub type Equation = [Number; 2];
+
+/// A matrix; its entries are those that are not zero, by row and column.
+#[derive(Debug, Clone)]
+pub struct Matrix {
+    pub name: Number,
+    pub factor: Option<Number>,
+    pub rows: usize,
+    pub columns: usize,
+    pub entries: Vec<([usize; 2], Number)>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    ClosedForm,
+    Factorization,
+}
+
+/// A root and the names of the branches on which it is positive and negative.
+#[derive(Debug, Clone)]
+pub struct Root {
+    pub formula: Number,
+    pub branches: [&'static str; 2],
+}
+
+/// Unknowns that are solved for together.
+#[derive(Debug, Clone)]
+pub struct Block {
+    pub unknowns: Vec<Number>,
+    pub equations: Vec<usize>,
+    pub group: String,
+    pub position: Vec<Equation>,
+    pub root: Option<Root>,
+    pub method: Method,
+    pub determinant: Option<Equation>,
+    pub inverse: Option<Matrix>,
+}
+
+/// A point or an output.
+#[derive(Debug, Clone)]
+pub struct Quantity {
+    pub name: String,
+    pub value: Vec<Equation>,
+    pub ratios: Vec<Equation>,
+    pub ratio_derivatives: Vec<Equation>,
+    pub sensitivities: Vec<Equation>,
+}
+
+#[derive(Debug, Clone)]
+pub struct Sensitivity {
+    pub jacobian: Matrix,
+    pub formulas: Vec<Equation>,
+}
+
+/// A public function, its operations and its code.
+#[derive(Debug, Clone)]
+pub struct Kernel {
+    pub function: String,
+    pub operations: Operations,
+    pub code: KernelCode,
+}
+
+/// The formulas of a function: the steps are names and values, the results places and values.
+#[derive(Debug, Clone, Default)]
+pub struct KernelCode {
+    pub steps: Vec<Equation>,
+    pub checks: Vec<(&'static str, Vec<Number>)>,
+    pub results: Vec<(String, Number)>,
+}
+
+/// The document of a driver.
+#[derive(Debug, Clone)]
+pub struct Document {
+    pub table: Table,
+    pub mechanism: String,
+    pub parameters: Vec<Symbol>,
+    pub inputs: Vec<Symbol>,
+    pub unknowns: Vec<Symbol>,
+    pub residual: Vec<Equation>,
+    pub implied: Vec<Equation>,
+    pub jacobian_unknowns: Matrix,
+    pub jacobian_inputs: Matrix,
+    pub blocks: Vec<Block>,
+    pub determinant: Option<Equation>,
+    pub ratios: Vec<Equation>,
+    pub ratio_derivatives: Option<Vec<Equation>>,
+    pub gamma: Vec<Equation>,
+    pub jerk: Option<Vec<Equation>>,
+    pub sensitivity: Option<Sensitivity>,
+    pub points: Vec<Quantity>,
+    pub outputs: Vec<Quantity>,
+    pub conditions: Vec<Number>,
+    pub kernels: Vec<Kernel>,
+}
+
+/// The document of a scene.
+#[derive(Debug, Clone)]
+pub struct SceneDocument {
+    pub table: Table,
+    pub scene: String,
+    pub mechanism: String,
+    pub parameters: Vec<Symbol>,
+    pub mass_matrix: Vec<Equation>,
+    pub forces: Vec<Effect>,
+    pub frictions_and_stops: Vec<ContactEffect>,
+    pub drives: Vec<Equation>,
+    pub potential: Option<Equation>,
+    pub joints: Vec<JointForce>,
+    pub multipliers: Vec<Number>,
+    pub contacts: Vec<Symbol>,
+    pub kernels: Vec<Kernel>,
+}
+
+/// The contribution of a body or an effect to the generalised forces.
+#[derive(Debug, Clone)]
+pub struct Effect {
+    pub name: String,
+    pub forces: Vec<Equation>,
+}
+
+/// A friction or a stop.
+#[derive(Debug, Clone)]
+pub struct ContactEffect {
+    pub name: String,
+    pub force: Number,
+    pub along: Equation,
+    pub bound: Number,
+    pub bearing: Option<Symbol>,
+    pub rebound: Option<Number>,
+    pub forces: Vec<Equation>,
+}
+
+/// The force of a joint on a link.
+#[derive(Debug, Clone)]
+pub struct JointForce {
+    pub name: String,
+    pub components: [Equation; 2],
+}
+
+impl Numbers for Number {
+    fn each(&mut self, visit: &mut dyn FnMut(&mut Number)) {
+        visit(self);
+    }
+}
+
+impl<T: Numbers, const N: usize> Numbers for [T; N] {
+    fn each(&mut self, visit: &mut dyn FnMut(&mut Number)) {
+        self.iter_mut().for_each(|one| one.each(visit));
+    }
+}
+
+impl<T: Numbers> Numbers for Vec<T> {
+    fn each(&mut self, visit: &mut dyn FnMut(&mut Number)) {
+        self.iter_mut().for_each(|one| one.each(visit));
+    }
+}
+
+impl<T: Numbers> Numbers for Option<T> {
+    fn each(&mut self, visit: &mut dyn FnMut(&mut Number)) {
+        self.iter_mut().for_each(|one| one.each(visit));
+    }
+}
+
+/// A second part with numbers.
+impl<K, T: Numbers> Numbers for (K, T) {
+    fn each(&mut self, visit: &mut dyn FnMut(&mut Number)) {
+        self.1.each(visit);
+    }
+}
+
+macro_rules! numbers {
+    ($($Type:ident: $($field:ident)+;)+) => {$(
+        impl Numbers for $Type {
+            fn each(&mut self, visit: &mut dyn FnMut(&mut Number)) {
+                $(self.$field.each(visit);)+
+            }
+        }
+    )+};
+}
+
+numbers! {
+    Symbol: formula;
+    Matrix: name factor entries;
+    Root: formula;
+    Block: unknowns position root determinant inverse;
+    Quantity: value ratios ratio_derivatives sensitivities;
+    Sensitivity: jacobian formulas;
+    Kernel: code;
+    KernelCode: steps checks results;
+    Document: parameters inputs unknowns residual implied jacobian_unknowns jacobian_inputs blocks determinant ratios
+        ratio_derivatives gamma jerk sensitivity points outputs conditions kernels;
+    Effect: forces;
+    ContactEffect: force along bound bearing rebound forces;
+    JointForce: components;
+    SceneDocument: parameters mass_matrix forces frictions_and_stops drives potential joints multipliers contacts kernels;
+}

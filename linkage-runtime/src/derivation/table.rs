@@ -1,0 +1,487 @@
+//! Formulas as numbers of nodes in a table.
+
+use core::fmt;
+
+use super::notation::{Name, Unicode, write};
+use super::{Entry, Equation, Symbol};
+
+/// A node of a [`FormulaTable`]. It refers to nodes before it by their numbers, which count from 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FormulaNode<'a> {
+    /// A quantity by its name in the `linkage!` language: `theta3`.
+    Name(&'a str),
+    /// The first derivative of a name with respect to time.
+    Rate(u32),
+    /// The second derivative of a name with respect to time.
+    Acceleration(u32),
+    /// The derivative of the first name with respect to the second.
+    Ratio(u32, u32),
+    /// The second derivative of the first name with respect to the others.
+    RatioDerivative(u32, u32, u32),
+    /// The determinant of a matrix by its name.
+    Determinant(u32),
+    /// The inverse of a matrix by its name.
+    Inverse(u32),
+    /// A whole number.
+    Integer(u64),
+    /// A number.
+    Decimal(f64),
+    /// π.
+    Pi,
+    /// The place of a part that is too long to be printed.
+    Ellipsis,
+    /// Terms from left to right; the number of a term that is subtracted has a minus sign.
+    Sum(&'a [i32]),
+    /// Factors from left to right.
+    Product(&'a [u32]),
+    /// A numerator and a denominator.
+    Quotient(u32, u32),
+    /// A power of the first with the second, a number by itself, as the exponent.
+    Power(u32, u32),
+    /// An elementary function and its arguments.
+    Call(ElementaryFunction, &'a [u32]),
+    /// A user function, the order of its derivative, and its arguments.
+    External(&'a str, u32, &'a [u32]),
+    /// A product of two with a sign between them in every notation.
+    Multiple(u32, u32),
+    /// a ≤ b ≤ ….
+    AtMost(&'a [u32]),
+    /// a ≠ 0.
+    NonZero(u32),
+    /// The statement that a formula has a value.
+    Exists(u32),
+}
+
+/// An elementary function in a formula.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+#[expect(missing_docs, reason = "the names are those of mathematics")]
+pub enum ElementaryFunction {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Atan2,
+    Sqrt,
+    Abs,
+    Exp,
+    Ln,
+    Hypot,
+    /// `if_nonzero(a, v, w)`: v, or w where a is zero.
+    IfNonzero,
+}
+
+/// The nodes of the formulas of one derivation. Each refers to nodes before it only, so that a formula ends.
+#[derive(Clone, Copy, PartialEq)]
+pub struct FormulaTable<'a> {
+    nodes: &'a [FormulaNode<'a>],
+}
+
+/// A formula: a node of a table. Its [`Display`](fmt::Display) is one line of Unicode, such as `−l₃·l₄·sin(θ₃ − θ₄)`;
+/// the crate `linkage` has a trait `Notation` with LaTeX and MathML.
+#[derive(Clone, Copy)]
+pub struct Formula<'a> {
+    table: FormulaTable<'a>,
+    /// From 1 to the length of the table.
+    number: u32,
+}
+
+/// A node with the formulas that it refers to.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub enum FormulaView<'a> {
+    /// A name, or a derivative of one.
+    Name(Name<'a>),
+    /// A whole number.
+    Integer(u64),
+    /// A number.
+    Decimal(f64),
+    /// π.
+    Pi,
+    /// The place of a part that is too long to be printed.
+    Ellipsis,
+    /// Terms from left to right.
+    Sum(Terms<'a>),
+    /// Factors from left to right.
+    Product(FormulaList<'a>),
+    /// A numerator and a denominator.
+    Quotient(Formula<'a>, Formula<'a>),
+    /// A base and an exponent.
+    Power(Formula<'a>, u32),
+    /// An elementary function and its arguments.
+    Call(ElementaryFunction, FormulaList<'a>),
+    /// A user function, the order of its derivative, and its arguments.
+    External(&'a str, u32, FormulaList<'a>),
+    /// A product of two with a sign between them in every notation.
+    Multiple(Formula<'a>, Formula<'a>),
+    /// a ≤ b ≤ ….
+    AtMost(FormulaList<'a>),
+    /// a ≠ 0.
+    NonZero(Formula<'a>),
+    /// The statement that a formula has a value.
+    Exists(Formula<'a>),
+}
+
+/// Factors or arguments.
+#[derive(Debug, Clone, Copy)]
+pub struct FormulaList<'a> {
+    table: FormulaTable<'a>,
+    numbers: &'a [u32],
+}
+
+/// The terms of a sum.
+#[derive(Debug, Clone, Copy)]
+pub struct Terms<'a> {
+    table: FormulaTable<'a>,
+    numbers: &'a [i32],
+}
+
+impl<'a> FormulaTable<'a> {
+    /// The table of these nodes; none if one refers to a node that does not come before it, takes the derivative,
+    /// determinant or inverse of a node that is not a name, or has no parts.
+    #[must_use]
+    pub const fn checked(nodes: &'a [FormulaNode<'a>]) -> Option<Self> {
+        let mut place = 0;
+        while place < nodes.len() {
+            if !is_sound(nodes, place) {
+                return None;
+            }
+            place += 1;
+        }
+        Some(Self { nodes })
+    }
+
+    /// The formula with this number; none if there is none.
+    #[must_use]
+    pub const fn get(self, number: u32) -> Option<Formula<'a>> {
+        if is_before(number, self.nodes.len()) { Some(Formula { table: self, number }) } else { None }
+    }
+
+    /// The number of nodes.
+    #[must_use]
+    pub const fn len(self) -> usize {
+        self.nodes.len()
+    }
+
+    /// True for a table without nodes.
+    #[must_use]
+    pub const fn is_empty(self) -> bool {
+        self.nodes.is_empty()
+    }
+}
+
+/// Functions for emitted constants: a number without a node ends the compilation.
+#[doc(hidden)]
+impl<'a> FormulaTable<'a> {
+    #[must_use]
+    pub const fn new(nodes: &'a [FormulaNode<'a>]) -> Self {
+        match Self::checked(nodes) {
+            Some(table) => table,
+            None => panic!("a formula refers to a node that is not before it"),
+        }
+    }
+
+    #[must_use]
+    pub const fn formula(self, number: u32) -> Formula<'a> {
+        match self.get(number) {
+            Some(formula) => formula,
+            None => panic!("no formula has this number"),
+        }
+    }
+
+    #[must_use]
+    pub const fn formulas<const N: usize>(self, numbers: [u32; N]) -> [Formula<'a>; N] {
+        let mut all = [Formula { table: self, number: 0 }; N];
+        let mut place = 0;
+        while place < N {
+            all[place] = self.formula(numbers[place]);
+            place += 1;
+        }
+        all
+    }
+
+    #[must_use]
+    pub const fn equation(self, [left, right]: [u32; 2]) -> Equation<'a> {
+        Equation { left: self.formula(left), right: self.formula(right) }
+    }
+
+    #[must_use]
+    pub const fn equations<const N: usize>(self, numbers: [[u32; 2]; N]) -> [Equation<'a>; N] {
+        let none = Formula { table: self, number: 0 };
+        let mut all = [Equation { left: none, right: none }; N];
+        let mut place = 0;
+        while place < N {
+            all[place] = self.equation(numbers[place]);
+            place += 1;
+        }
+        all
+    }
+
+    /// Entries of a matrix, each a row, a column and a formula.
+    #[must_use]
+    pub const fn entries<const N: usize>(self, numbers: [[u32; 3]; N]) -> [Entry<'a>; N] {
+        let mut all = [Entry { row: 0, column: 0, value: Formula { table: self, number: 0 } }; N];
+        let mut place = 0;
+        while place < N {
+            let [row, column, value] = numbers[place];
+            all[place] = Entry { row: row as usize, column: column as usize, value: self.formula(value) };
+            place += 1;
+        }
+        all
+    }
+
+    /// Names as symbols.
+    #[must_use]
+    pub const fn symbols<const N: usize>(self, numbers: [u32; N]) -> [Symbol<'a>; N] {
+        let mut all = [Symbol { name: "", formula: Formula { table: self, number: 0 } }; N];
+        let mut place = 0;
+        while place < N {
+            let formula = self.formula(numbers[place]);
+            all[place] = match self.nodes[numbers[place] as usize - 1] {
+                FormulaNode::Name(name) => Symbol { name, formula },
+                _ => panic!("a symbol is a name"),
+            };
+            place += 1;
+        }
+        all
+    }
+}
+
+/// True if this is the number of a node before a place.
+const fn is_before(number: u32, place: usize) -> bool {
+    number != 0 && number as usize <= place
+}
+
+/// True if the node at a place refers to nodes before it, by their meaning.
+const fn is_sound(nodes: &[FormulaNode<'_>], place: usize) -> bool {
+    match nodes[place] {
+        FormulaNode::Rate(name)
+        | FormulaNode::Acceleration(name)
+        | FormulaNode::Determinant(name)
+        | FormulaNode::Inverse(name) => is_name(nodes, name, place),
+        FormulaNode::Ratio(of, by) => is_name(nodes, of, place) && is_name(nodes, by, place),
+        FormulaNode::RatioDerivative(of, first, second) => {
+            is_name(nodes, of, place) && is_name(nodes, first, place) && is_name(nodes, second, place)
+        }
+        FormulaNode::Name(_)
+        | FormulaNode::Integer(_)
+        | FormulaNode::Decimal(_)
+        | FormulaNode::Pi
+        | FormulaNode::Ellipsis => true,
+        FormulaNode::Quotient(above, below) => is_before(above, place) && is_before(below, place),
+        FormulaNode::Multiple(one, other) => is_before(one, place) && is_before(other, place),
+        FormulaNode::Power(inside, _) | FormulaNode::NonZero(inside) | FormulaNode::Exists(inside) => {
+            is_before(inside, place)
+        }
+        FormulaNode::Product(parts)
+        | FormulaNode::Call(_, parts)
+        | FormulaNode::External(_, _, parts)
+        | FormulaNode::AtMost(parts) => {
+            let mut at = 0;
+            while at < parts.len() {
+                if !is_before(parts[at], place) {
+                    return false;
+                }
+                at += 1;
+            }
+            !parts.is_empty()
+        }
+        FormulaNode::Sum(terms) => {
+            let mut at = 0;
+            while at < terms.len() {
+                if !is_before(terms[at].unsigned_abs(), place) {
+                    return false;
+                }
+                at += 1;
+            }
+            !terms.is_empty()
+        }
+    }
+}
+
+const fn is_name(nodes: &[FormulaNode<'_>], number: u32, place: usize) -> bool {
+    is_before(number, place) && matches!(nodes[number as usize - 1], FormulaNode::Name(_))
+}
+
+impl<'a> Formula<'a> {
+    /// Its number in its table.
+    #[must_use]
+    pub fn number(self) -> u32 {
+        self.number
+    }
+
+    /// Its outermost node.
+    #[must_use]
+    pub fn view(self) -> FormulaView<'a> {
+        let Self { table, .. } = self;
+        let at = |number| Self { table, number };
+        let all = |numbers| FormulaList { table, numbers };
+        match self.node() {
+            FormulaNode::Name(_)
+            | FormulaNode::Rate(_)
+            | FormulaNode::Acceleration(_)
+            | FormulaNode::Ratio(..)
+            | FormulaNode::RatioDerivative(..)
+            | FormulaNode::Determinant(_)
+            | FormulaNode::Inverse(_) => FormulaView::Name(self.name()),
+            FormulaNode::Integer(number) => FormulaView::Integer(number),
+            FormulaNode::Decimal(number) => FormulaView::Decimal(number),
+            FormulaNode::Pi => FormulaView::Pi,
+            FormulaNode::Ellipsis => FormulaView::Ellipsis,
+            FormulaNode::Sum(numbers) => FormulaView::Sum(Terms { table, numbers }),
+            FormulaNode::Product(factors) => FormulaView::Product(all(factors)),
+            FormulaNode::Quotient(above, below) => FormulaView::Quotient(at(above), at(below)),
+            FormulaNode::Power(base, exponent) => FormulaView::Power(at(base), exponent),
+            FormulaNode::Call(function, arguments) => FormulaView::Call(function, all(arguments)),
+            FormulaNode::External(name, order, arguments) => FormulaView::External(name, order, all(arguments)),
+            FormulaNode::Multiple(one, other) => FormulaView::Multiple(at(one), at(other)),
+            FormulaNode::AtMost(parts) => FormulaView::AtMost(all(parts)),
+            FormulaNode::NonZero(inside) => FormulaView::NonZero(at(inside)),
+            FormulaNode::Exists(inside) => FormulaView::Exists(at(inside)),
+        }
+    }
+
+    fn node(self) -> FormulaNode<'a> {
+        self.table.nodes[self.number as usize - 1]
+    }
+
+    /// The name that it is; checked tables have names where derivatives are taken.
+    fn name(self) -> Name<'a> {
+        let text = |number| match (Self { number, ..self }).node() {
+            FormulaNode::Name(name) => name,
+            _ => "",
+        };
+        match self.node() {
+            FormulaNode::Rate(name) => Name::Rate(text(name)),
+            FormulaNode::Acceleration(name) => Name::Acceleration(text(name)),
+            FormulaNode::Ratio(of, by) => Name::Ratio { of: text(of), by: text(by) },
+            FormulaNode::RatioDerivative(of, first, second) => {
+                Name::RatioDerivative { of: text(of), by: [text(first), text(second)] }
+            }
+            FormulaNode::Determinant(matrix) => Name::Determinant(text(matrix)),
+            FormulaNode::Inverse(matrix) => Name::Inverse(text(matrix)),
+            _ => Name::Plain(text(self.number)),
+        }
+    }
+}
+
+impl<'a> FormulaList<'a> {
+    /// The formulas in order.
+    pub fn iter(self) -> impl DoubleEndedIterator<Item = Formula<'a>> + ExactSizeIterator + Clone {
+        let Self { table, numbers } = self;
+        numbers.iter().map(move |&number| Formula { table, number })
+    }
+
+    /// The formula, if it is the only one.
+    #[must_use]
+    pub fn only(self) -> Option<Formula<'a>> {
+        match *self.numbers {
+            [number] => Some(Formula { table: self.table, number }),
+            _ => None,
+        }
+    }
+}
+
+impl<'a> Terms<'a> {
+    /// The terms in order, each with true if it is subtracted.
+    pub fn iter(self) -> impl DoubleEndedIterator<Item = (bool, Formula<'a>)> + ExactSizeIterator + Clone {
+        let Self { table, numbers } = self;
+        numbers.iter().map(move |&number| (number < 0, Formula { table, number: number.unsigned_abs() }))
+    }
+}
+
+/// Formulas are equal if they have the same nodes, in whichever tables.
+impl PartialEq for Formula<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        use FormulaView as V;
+        let is_same = |one: FormulaList<'_>, other: FormulaList<'_>| one.iter().eq(other.iter());
+        match (self.view(), other.view()) {
+            (V::Name(one), V::Name(other)) => one == other,
+            (V::Integer(one), V::Integer(other)) => one == other,
+            (V::Decimal(one), V::Decimal(other)) => one.to_bits() == other.to_bits(),
+            (V::Pi, V::Pi) | (V::Ellipsis, V::Ellipsis) => true,
+            (V::Sum(one), V::Sum(other)) => one.iter().eq(other.iter()),
+            (V::Product(one), V::Product(other)) | (V::AtMost(one), V::AtMost(other)) => is_same(one, other),
+            (V::Quotient(a, b), V::Quotient(c, d)) | (V::Multiple(a, b), V::Multiple(c, d)) => a == c && b == d,
+            (V::Power(one, m), V::Power(other, n)) => m == n && one == other,
+            (V::Call(f, one), V::Call(g, other)) => f == g && is_same(one, other),
+            (V::External(f, m, one), V::External(g, n, other)) => f == g && m == n && is_same(one, other),
+            (V::NonZero(one), V::NonZero(other)) | (V::Exists(one), V::Exists(other)) => one == other,
+            _ => false,
+        }
+    }
+}
+
+impl Eq for Formula<'_> {}
+
+impl fmt::Display for Formula<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write(&Unicode, *self, f)
+    }
+}
+
+/// The text in quotes.
+impl fmt::Debug for Formula<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\"{self}\"")
+    }
+}
+
+impl fmt::Debug for FormulaTable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "FormulaTable({})", self.nodes.len())
+    }
+}
+
+/// Its text.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Formula<'_> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use FormulaNode::{AtMost, Call, Determinant, Name, NonZero, Power, Product, Quotient, Rate, Sum};
+
+    /// A table with a reference to a node that is not before it, or that is not what it must be, cannot be made.
+    #[test]
+    fn references_lead_to_nodes() {
+        let sound: &[FormulaNode<'_>] = &[Name("x"), Rate(1), Sum(&[1, -2]), Power(3, 2), Quotient(2, 4)];
+        assert!(FormulaTable::checked(sound).is_some());
+        for wrong in [
+            Sum(&[1, 0]),
+            Sum(&[1, -2]),
+            Sum(&[i32::MIN]),
+            Sum(&[]),
+            Product(&[1, 2]),
+            Product(&[]),
+            Quotient(1, 3),
+            Power(0, 2),
+            Call(ElementaryFunction::Sin, &[u32::MAX]),
+            AtMost(&[2]),
+            NonZero(2),
+            Rate(2),
+        ] {
+            assert!(FormulaTable::checked(&[Name("x"), wrong]).is_none(), "{wrong:?}");
+        }
+        // The rate of a sum, and the determinant of a number.
+        assert!(FormulaTable::checked(&[Name("x"), Sum(&[1]), Rate(2)]).is_none());
+        assert!(FormulaTable::checked(&[FormulaNode::Pi, Determinant(1)]).is_none());
+        let table = FormulaTable::new(&[Name("x")]);
+        assert!(table.get(1).is_some() && table.get(0).is_none() && table.get(2).is_none());
+    }
+
+    #[test]
+    fn formulas_of_two_tables_are_equal_by_their_nodes() {
+        let one = FormulaTable::new(&[Name("x"), Power(1, 2), Sum(&[2, -1])]);
+        let other = FormulaTable::new(&[Name("y"), Name("x"), Power(2, 2), Sum(&[3, -2]), Sum(&[3, 2])]);
+        assert_eq!(one.formula(3), other.formula(4));
+        assert_ne!(one.formula(3), other.formula(5));
+        assert_eq!(std::format!("{:?} {}", one.formula(3), one.formula(1)), "\"x² − x\" x");
+    }
+}
