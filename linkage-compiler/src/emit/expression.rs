@@ -81,6 +81,7 @@ fn written(value: &Expression) -> TokenStream {
         Expression::All(conditions) => quote!(#(#conditions)&*),
         Expression::Text(text) => string(text).into_token_stream(),
         Expression::Count(count) => literal(*count).into_token_stream(),
+        Expression::Constant("false") => quote!(false),
         Expression::Constant(path) if path.starts_with("Self::") => parsed(path),
         Expression::Constant(path) => runtime(path),
         Expression::Field(of, name) => {
@@ -89,6 +90,10 @@ fn written(value: &Expression) -> TokenStream {
         }
         Expression::Index(of, place) => {
             let (of, place) = (operand(of, Binding::Atom), literal(*place));
+            quote!(#of[#place])
+        }
+        Expression::At(parts) => {
+            let (of, place) = (operand(&parts[0], Binding::Atom), &parts[1]);
             quote!(#of[#place])
         }
         Expression::List(values) => quote!([#(#values),*]),
@@ -260,7 +265,13 @@ impl ToTokens for Type {
             Self::Scalar => quote!(T),
             Self::Text => quote!(&'static str),
             Self::Flag => quote!(bool),
+            Self::Count => quote!(usize),
+            Self::Lanes => quote!([T; W]),
             Self::Itself => quote!(Self),
+            Self::OfTrait(name) => {
+                let name = ident(name);
+                quote!(Self::#name)
+            }
             Self::Own(name) => {
                 let name = ident(name);
                 quote!(#name<T>)
@@ -317,6 +328,10 @@ impl ToTokens for Type {
             Self::Branches { branch, pose } => {
                 let (branch, pose) = (ident(branch), ident(pose));
                 quote!(impl __rt::Iterator<Item = __rt::Assembled<#branch, #pose<T>>> + '_)
+            }
+            Self::Iterator { item, is_cloned } => {
+                let clone = is_cloned.then(|| quote!(+ __rt::Clone));
+                quote!(impl __rt::Iterator<Item = #item> #clone)
             }
         });
     }

@@ -10,8 +10,14 @@ use crate::program::{Access, Expression, Function, Operations, Pattern, Program,
 #[must_use]
 pub fn text(program: &Program<Code>) -> String {
     let mut text = functions(&program.signatures.types.itself, &program.functions);
+    for implementation in &program.implementations {
+        text += &functions(&implementation.title(), &implementation.functions);
+    }
     for scene in &program.scenes {
         text += &functions(&scene.signatures.types.itself, &scene.functions);
+        if let Some(implementation) = &scene.implementation {
+            text += &functions(&implementation.title(), &implementation.functions);
+        }
     }
     text
 }
@@ -131,6 +137,7 @@ fn expression(value: &Expression) -> String {
         Expression::Constant(path) => (*path).to_owned(),
         Expression::Field(of, name) => format!("{}.{name}", expression(of)),
         Expression::Index(of, place) => format!("{}[{place}]", expression(of)),
+        Expression::At(parts) => format!("{}[{}]", expression(&parts[0]), expression(&parts[1])),
         Expression::List(values) => format!("[{}]", expressions(values)),
         Expression::Repeated(value, count) => format!("[{}; {count}]", expression(value)),
         Expression::Tuple(values) => format!("({})", expressions(values)),

@@ -146,6 +146,7 @@ impl Finished<'_> {
             E::All(conditions) => E::All(self.expressions(conditions)),
             E::Field(value, name) => E::Field(Box::new(self.expression(*value)), name),
             E::Index(value, place) => E::Index(Box::new(self.expression(*value)), place),
+            E::At(parts) => E::At(Box::new(parts.map(|part| self.expression(part)))),
             E::List(values) => E::List(self.expressions(values)),
             E::Repeated(value, count) => E::Repeated(Box::new(self.expression(*value)), count),
             E::Tuple(values) => E::Tuple(self.expressions(values)),

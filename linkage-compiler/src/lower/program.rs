@@ -11,11 +11,22 @@ use crate::program::{Access, Body, Derived, Function, Program, SceneProgram};
 /// Lowers all functions of a driver and of its scenes.
 #[must_use]
 pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Program<'a, Code> {
-    let Program { signatures, position, functions, scenes, any_number, derived } = planned;
+    let Program { signatures, position, functions, implementations, columns, scenes, any_number, derived } = planned;
     let Some(derived) = derived else {
         let functions = functions.into_iter().map(Function::without_body).collect();
         let any_number = any_number.map(|any_number| any_number.map(Function::without_body));
-        return Program { signatures, position, functions, scenes: Vec::new(), any_number, derived: None };
+        let implementations = implementations.into_iter().map(|of| of.map(Function::without_body)).collect();
+        let scenes = Vec::new();
+        return Program {
+            signatures,
+            position,
+            functions,
+            implementations,
+            columns,
+            scenes,
+            any_number,
+            derived: None,
+        };
     };
     let reserved = signatures.arguments.reserved();
     let mut context = context(derivation, &derived, &reserved, &signatures.arguments, Works::default());
@@ -23,18 +34,22 @@ pub fn program<'a>(planned: Program<'a, Body>, derivation: &Derivation) -> Progr
     let functions = without_branches(functions);
     let functions = ordered(functions, &signatures.all(&position));
     let works = context.works.renamed(|name| signatures.types.function(name));
+    let is_left = |name: &str| functions.iter().any(|function| function.name == name);
+    let implementations = implementations.into_iter().map(|of| of.without_choice(is_left));
+    let implementations = implementations.map(|of| of.map(|planned| function(planned, &mut context))).collect();
     let any_number = any_number.map(|any_number| any_number.map(|planned| function(planned, &mut context)));
     let scenes = scenes.into_iter().map(|scene| {
-        let SceneProgram { signatures, functions } = scene;
+        let SceneProgram { signatures, functions, implementation } = scene;
         let mut reserved = signatures.arguments.reserved();
         reserved.insert(signatures.field.clone());
         let mut context = self::context(derivation, &derived, &reserved, &signatures.arguments, works.clone());
         let functions = functions.into_iter().map(|planned| function(planned, &mut context)).collect();
         let functions = ordered(functions, &signatures.all());
-        SceneProgram { signatures, functions }
+        let implementation = implementation.map(|of| of.map(|planned| function(planned, &mut context)));
+        SceneProgram { signatures, functions, implementation }
     });
     let scenes = scenes.collect();
-    Program { signatures, position, functions, scenes, any_number, derived: Some(derived) }
+    Program { signatures, position, functions, implementations, columns, scenes, any_number, derived: Some(derived) }
 }
 
 /// Removes the functions for a lane that have branches, and those after them: lanes are then computed one by one.

@@ -33,6 +33,8 @@ pub enum Expression {
     Constant(&'static str),
     Field(Box<Expression>, String),
     Index(Box<Expression>, usize),
+    /// The entry of a list at a number that is known when the function runs.
+    At(Box<[Expression; 2]>),
     List(Vec<Expression>),
     /// `[value; count]`
     Repeated(Box<Expression>, usize),
@@ -125,8 +127,14 @@ pub enum Type {
     Text,
     /// `bool`
     Flag,
+    /// `usize`
+    Count,
+    /// One number for each of several lanes: `[T; W]`.
+    Lanes,
     /// `Self`
     Itself,
+    /// A type of a trait: `Self::Name`.
+    OfTrait(&'static str),
     /// A type of the mechanism over the scalar: `Name<T>`.
     Own(String),
     /// A type of the mechanism over the scalar of twice the precision: `Name<Wide>`.
@@ -168,6 +176,11 @@ pub enum Type {
         branch: String,
         pose: String,
     },
+    /// `impl Iterator<Item>`, and `Clone`.
+    Iterator {
+        item: Box<Type>,
+        is_cloned: bool,
+    },
 }
 
 impl Expression {
@@ -201,6 +214,11 @@ impl Expression {
     /// True if all values are finite: a sum is finite only if all its terms are. Where finite terms overflow, it is false.
     pub fn all_finite(values: Vec<Self>) -> Self {
         Self::Sum(values.into_iter().map(|value| (false, value)).collect()).method("is_finite", [])
+    }
+
+    /// True if each value is finite; finite values that overflow when added are.
+    pub fn are_finite(values: Vec<Self>) -> Self {
+        Self::List(values).method("iter", []).method("all", [Self::Function(Type::Scalar, "is_finite")])
     }
 
     #[must_use]
@@ -318,6 +336,10 @@ impl Expression {
         Self::Number(Number::ZERO)
     }
 
+    pub fn one() -> Self {
+        Self::Number(Number::ONE)
+    }
+
     /// Visits every name that is used.
     pub fn each_name<'e>(&'e self, visit: &mut dyn FnMut(&'e str)) {
         match self {
@@ -330,7 +352,7 @@ impl Expression {
             | Self::Tuple(all)
             | Self::Runtime(_, all)
             | Self::Associated(_, _, all) => all.iter().for_each(|value| value.each_name(visit)),
-            Self::Quotient(parts) => parts.iter().for_each(|part| part.each_name(visit)),
+            Self::Quotient(parts) | Self::At(parts) => parts.iter().for_each(|part| part.each_name(visit)),
             Self::Square(inside)
             | Self::Negative(inside)
             | Self::Field(inside, _)

@@ -222,7 +222,8 @@ impl Run {
                 true => self.value(of, value, scope),
                 false => Value::Unknown,
             },
-            E::Repeated(..)
+            E::At(_)
+            | E::Repeated(..)
             | E::Closure { .. }
             | E::All(_)
             | E::Count(_)

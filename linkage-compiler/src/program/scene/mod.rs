@@ -4,6 +4,7 @@ mod contacts;
 mod drives;
 mod energy;
 mod equilibrium;
+mod implementation;
 mod kinks;
 mod layers;
 mod motion;
@@ -16,11 +17,13 @@ mod validity;
 use super::doc::without_singular;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
+use super::implementation::{Implementation, Kink};
 use super::names::Order;
 use super::plan::Plan;
-use crate::derivation::{Scene, Step};
+use crate::derivation::{self, Scene, Step};
 use crate::graph::NodeId;
 use crate::model::{self, SceneRequest};
+pub(super) use implementation::of_scene as implementation;
 pub use reactions::MULTIPLIERS;
 use reads::{Layers, Read};
 pub use signatures::SceneSignatures;
@@ -36,6 +39,8 @@ const ERRORS: [&str; 4] = [
 pub struct SceneProgram<'a, B> {
     pub signatures: SceneSignatures<'a>,
     pub functions: Vec<Function<B>>,
+    /// The trait for simulations, if the scene has inertia.
+    pub implementation: Option<Implementation<B>>,
 }
 
 /// A scene whose functions are planned one by one.
@@ -106,7 +111,9 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
     }
 
     pub fn into_program(self) -> SceneProgram<'a, Body> {
-        SceneProgram { signatures: self.signatures, functions: self.functions }
+        let kink = |kink: &derivation::Kink| Kink { effect: kink.label.clone(), is_timed: kink.is_timed };
+        let implementation = implementation(&self.signatures, self.scene.kinks.iter().map(kink).collect());
+        SceneProgram { signatures: self.signatures, functions: self.functions, implementation }
     }
 }
 
