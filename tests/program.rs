@@ -15,6 +15,7 @@ fn program(file: &str, of: &str, names: &[&str]) -> String {
             continue;
         };
         let name = signature.trim_start_matches("inlined ").trim_start_matches("cold ");
+        let name = name.trim_start_matches("of a trait ");
         if current == of && names.contains(&name) {
             kept.push(part);
         }
@@ -130,6 +131,21 @@ snapshots! {
     contact_equations: "five_bar_contacts" "Braked" ["equations"];
     contact_checks: "five_bar_contacts" "Shaken" ["check"];
     unreduced_equations: "five_bar_contacts" "Clamped" ["unreduced"];
+}
+
+// Functions of poses, branches and traits.
+snapshots! {
+    functions_of_a_pose: "geared_five_bar" "GearedFiveBarPose" ["is_finite", "coordinates"];
+    branches: "jansen" "JansenBranch" ["all"];
+    branches_by_number: "double_butterfly" "DoubleButterflyBranch" ["all"];
+    trait_of_a_mechanism: "four_bar" "Mechanism of FourBar" ["is_finite", "residual", "gamma", "solve_jacobian"];
+    trait_of_an_open_chain: "cart_pendulum" "Mechanism of CartPendulum"
+        ["residual", "determinant", "gamma", "solve_jacobian", "length_scale"];
+    trait_of_closed_forms: "four_bar" "Assembly of FourBar" ["assemble", "branch_of"];
+    trait_of_lists: "double_butterfly" "Branches of DoubleButterfly" ["all_positions"];
+    trait_of_lanes: "inverted_slider_crank" "Lanes of InvertedSliderCrank" ["lane", "exact"];
+    trait_of_a_scene: "five_bar_scenes" "Scene of Half" ["derivative", "equations", "contacts", "reactions", "prescribed"];
+    trait_of_contacts: "five_bar_contacts" "Scene of Braked" ["equations", "contacts"];
 }
 
 /// The motion of sixty loops in a chain, in blocks: each ends between two loops, where the fewest values are used later.

@@ -2,7 +2,7 @@
 //! of work is spent.
 
 use linkage_compiler::budget::{Budget, MOST_STEPS};
-use linkage_compiler::{Facade, bounds, compile, expand, expand_within, formulas, programs, read};
+use linkage_compiler::{Facade, bounds, compile, documents, expand, expand_within, programs, read};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -17,7 +17,7 @@ fn a_mistake_in_derivatives_is_one_of_everything_made_of_the_mechanism() {
     let compiled = compile(&mechanism, &root).map(|_| ()).unwrap_err();
     assert!(matches!(compiled.as_slice(), [one] if one.starts_with("in the derivatives of `M`")), "{compiled:?}");
     assert_eq!(programs(&mechanism).unwrap_err(), compiled);
-    assert_eq!(formulas(&mechanism).unwrap_err(), compiled);
+    assert_eq!(documents(&mechanism).unwrap_err(), compiled);
     assert_eq!(bounds(&mechanism).map(|_| ()).unwrap_err(), compiled);
     assert!(expand(OUT_OF_RANGE.parse().unwrap(), &root).to_string().contains("in the derivatives of `M`"));
 }

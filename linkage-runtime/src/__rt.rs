@@ -1,14 +1,16 @@
 //! The names used by emitted code, in one module so that they cannot collide with names in the user's crate. Not part
 //! of the interface.
 
+pub use core::clone::Clone;
 pub use core::convert::Into;
 pub use core::iter::Iterator;
+pub use core::marker::PhantomData;
 pub use core::option::Option::{self, None, Some};
 pub use core::result::Result::{self, Err, Ok};
 
 pub use nalgebra::{Point2, SMatrix, SVector, Scalar, UnitComplex, Vector2};
 
-pub use crate::branch::{existing, side_of};
+pub use crate::branch::{combinations, existing, side_at, side_of};
 pub use crate::chord::{
     Triangle, chord, elbow_chord, reach_chord, reachable, regular_chord, regular_elbow_chord, regular_reach_chord,
     solvable,

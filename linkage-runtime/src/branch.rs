@@ -75,6 +75,28 @@ pub struct Assembled<B, P> {
     pub pose: P,
 }
 
+/// A value for each list of numbers below these counts; the last number changes fastest.
+pub fn combinations<B, const N: usize>(
+    counts: [usize; N],
+    of: impl Fn([usize; N]) -> B + Clone,
+) -> impl Iterator<Item = B> + Clone {
+    (0..counts.iter().product()).map(move |place| {
+        let (mut numbers, mut left) = (counts, place);
+        for number in numbers.iter_mut().rev() {
+            let count = *number;
+            *number = left % count;
+            left /= count;
+        }
+        of(numbers)
+    })
+}
+
+/// Returns the solution of the positive root for 0, and that of the negative root for others.
+#[must_use]
+pub fn side_at<S: Side>(number: usize) -> S {
+    if number == 0 { S::OF_POSITIVE_ROOT } else { S::OF_NEGATIVE_ROOT }
+}
+
 /// Assembles each of these branches. A branch with no position, or with infinitely many, is left out, and so is one on
 /// which an implied loop does not close.
 ///
@@ -103,4 +125,22 @@ pub fn existing<B: Copy, P>(
 #[must_use]
 pub fn side_of<T: Real, S: Side>(root: T) -> S {
     if root.is_sign_positive() { S::OF_POSITIVE_ROOT } else { S::OF_NEGATIVE_ROOT }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Elbow, combinations, side_at};
+
+    #[test]
+    fn the_last_number_of_a_combination_changes_fastest() {
+        let all = combinations([2, 1, 3], |numbers| numbers);
+        let expected = [[0, 0, 0], [0, 0, 1], [0, 0, 2], [1, 0, 0], [1, 0, 1], [1, 0, 2]];
+        assert!(all.clone().eq(expected), "{:?}", all.collect::<Vec<_>>());
+        assert_eq!(combinations([], |[]| "one").count(), 1);
+    }
+
+    #[test]
+    fn the_first_side_is_that_of_the_positive_root() {
+        assert_eq!([0, 1].map(side_at::<Elbow>), [Elbow::Left, Elbow::Right]);
+    }
 }

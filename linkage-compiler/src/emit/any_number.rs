@@ -18,7 +18,7 @@ pub(super) fn of_driver(program: &Program<Code>, place: Span) -> Option<TokenStr
         [mechanism.parameters.len(), signatures.unknowns(), signatures.inputs(), signatures.components()].map(literal);
     let fields = mechanism.parameters.iter().map(|parameter| ident(&parameter.name.field));
     let (error, other) = (ident("PositionError"), other_scalar(mechanism));
-    let functions = any.functions.iter().map(|function| functions::function(function, &error, place));
+    let functions = any.functions.iter().map(|function| functions::function(function, &error, None, place));
     let parameters = mechanism.parameters.iter().map(|parameter| string(&parameter.name.text));
     let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(mechanism));
     let quantities = quantities.map(|name| string(&name));

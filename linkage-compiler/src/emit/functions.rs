@@ -12,12 +12,23 @@ use crate::program::{Access, Argument, Function, Operations, Passed, Type, count
 use crate::syntax::identifier;
 
 /// Emits a function with its doc comment, at a place; `error` is its error type. Without a body it is a stub.
-pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) -> TokenStream {
+pub(super) fn function(
+    function: &Function<Code>,
+    error: &Ident,
+    generics: Option<TokenStream>,
+    place: Span,
+) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
     // Only functions that others call show their operation counts.
     let work = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
     let bound = body.as_ref().and_then(|code| code.bound.as_ref()?.sentence());
     let doc = description(doc, work.unwrap_or_default(), bound);
+    // The trait documents its functions.
+    let is_shown = !matches!(access, Access::OfTrait | Access::Lane) || !doc.is_empty();
+    let doc = is_shown.then(|| {
+        let text = comment(&doc);
+        quote!(#[doc = #text])
+    });
     let name = identifier(name, place);
     let itself = is_method.then(|| quote!(&self));
     let arguments = arguments.iter().enumerate().map(|(place, Argument { name, passed })| {
@@ -31,8 +42,10 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
         }
     });
     let arguments = itself.into_iter().chain(arguments);
+    let is_iterator = matches!(returns, Type::Branches { .. } | Type::Iterator { .. });
     let attributes = match access {
-        Access::Public if !is_fallible => quote!(#[must_use] pub),
+        // An iterator must be used anyway.
+        Access::Public if !is_fallible && !is_iterator => quote!(#[must_use] pub),
         Access::Public => quote!(pub),
         Access::PublicInlined if !is_fallible => quote!(#[inline] #[must_use] pub),
         Access::PublicInlined => quote!(#[inline] pub),
@@ -61,19 +74,20 @@ pub(super) fn function(function: &Function<Code>, error: &Ident, place: Span) ->
             quote!(#(#statements)* #value)
         }
         // `!` does not implement `Iterator`, so that a stub returns an empty one.
-        None if matches!(returns, Type::Branches { .. }) => quote!(__rt::Ok(::core::iter::empty())),
+        None if is_iterator && *is_fallible => quote!(__rt::Ok(::core::iter::empty())),
+        None if is_iterator => quote!(::core::iter::empty()),
         None => quote!(::core::unreachable!()),
     };
     let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::#error>) } else { quote!(#returns) };
     let attributes = places::located(attributes, place, 0);
     quote_spanned! {place=>
         #doc
-        #attributes fn #name(#(#arguments),*) -> #result { #body }
+        #attributes fn #name #generics(#(#arguments),*) -> #result { #body }
     }
 }
 
 /// The doc comment: the lines, the numbers of operations, and how large the rounding errors can be, if that is known.
-fn description(lines: &[String], work: Operations, bound: Option<String>) -> TokenStream {
+fn description(lines: &[String], work: Operations, bound: Option<String>) -> String {
     let mut lines: Vec<String> = lines.to_vec();
     if work != Operations::default() {
         lines.extend([String::new(), format!("Operations: {}.", count(work))]);
@@ -82,6 +96,5 @@ fn description(lines: &[String], work: Operations, bound: Option<String>) -> Tok
         lines.extend([String::new(), bound]);
     }
     let lines = lines.iter().map(|line| if line.is_empty() { String::new() } else { format!(" {line}") });
-    let text = comment(&lines.collect::<Vec<_>>().join("\n"));
-    quote!(#[doc = #text])
+    lines.collect::<Vec<_>>().join("\n")
 }

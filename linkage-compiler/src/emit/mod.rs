@@ -1,37 +1,38 @@
 //! Printers of a lowered program: as Rust with the user's names and with formulas in doc comments, and as text.
+//!
+//! A body that computes or decides is planned in [`program`](crate::program) and printed here. Written by hand are types,
+//! signatures, and the conversions and forwards that `tests/bodies_by_hand.rs` lists. Only the constant `DERIVATION` is
+//! made of the derivation; all else is in the program.
 
 mod any_number;
+mod conversions;
 mod document;
-mod drawing;
 mod drives;
 
 mod external;
 mod fpcore;
 mod functions;
+mod implementations;
 mod items;
 mod lanes;
-mod motion;
 mod names;
 mod places;
-mod pose;
 mod printer;
 mod reactions;
 mod rust;
 mod scene;
-mod scene_traits;
 mod text;
-mod traits;
 mod types;
 mod work;
 
-use proc_macro2::{Ident, Span, TokenStream};
-use quote::{quote, quote_spanned};
+use proc_macro2::{Span, TokenStream};
+use quote::quote_spanned;
 
 use crate::derivation::Derivation;
 use crate::document::{Document, SceneDocument, Table};
 use crate::lower::Code;
 use crate::model::{Mechanism, Request, TypeName};
-use crate::program::{self, Function, Functions, Operations, Program};
+use crate::program::{self, Function, Functions, Implemented, Operations, Program};
 use fpcore::Straight;
 use names::string;
 pub use text::text;
@@ -57,25 +58,31 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     self::mechanism(mechanism, drivers, root)
 }
 
-/// Emits the items of one driver and of its scenes; without a derivation, a stub.
+/// Emits the items of one driver and of its scenes; without a derivation, which only `DERIVATION` shows, a stub.
 #[must_use]
 pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let place = places::of(driver.name.span());
-    let mut tokens = places::located(types::of_driver(program, derivation, root), place, 1);
-    let (of_pose, mut implemented) = (traits::of_pose(program, derivation), traits::of_driver(program, derivation));
+    let mut tokens = places::located(types::of_driver(program, root), place, 1);
+    let mut implemented = TokenStream::new();
     if mechanism.requests.contains(&Request::Lanes) {
-        let [columns, lanes] = lanes::of_driver(program, derivation);
-        tokens.extend(columns);
-        implemented.extend(lanes);
+        tokens.extend(lanes::columns(program));
     }
-    if mechanism.requests.contains(&Request::Drawing) {
-        implemented.extend(drawing::of_driver(program, derivation));
+    for implementation in &program.implementations {
+        let conversions = match implementation.of {
+            Implemented::Mechanism => Some(conversions::of_driver(&program.signatures)),
+            Implemented::Lanes => {
+                implemented.extend(lanes::batch(program));
+                Some(lanes::design(program, implementation))
+            }
+            _ => None,
+        };
+        implemented.extend(implementations::implementation(implementation, &driver.name, conversions, place));
     }
     implemented.extend(any_number::of_driver(program, place));
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
-    let implemented = places::located(quote!(#of_pose #implemented), place, 1);
+    let implemented = places::located(implemented, place, 1);
     let place_of = |function: &Function<Code>| places::of(mechanism.place_of(driver, &function.name));
     tokens.extend(block(&driver.name, kinematics, &program.functions, &place_of, root, &implemented));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
@@ -85,20 +92,18 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let document = crate::document::of_driver(mechanism, driver, derivation, derived, &kernels);
         tokens.extend(document::of_driver(&driver.name, &document, root));
     }
-    let order = mechanism.coordinate_order(driver);
-    let fields: Vec<Ident> = order.iter().map(|&index| types::field(&mechanism.coordinates[index].name)).collect();
     for (number, scene) in program.scenes.iter().enumerate() {
         let name = &scene.signatures.scene.name;
         let place = places::of(name.span());
         tokens.extend(places::located(scene::types(&scene.signatures, root), place, 1));
         tokens.extend(drives::types(&scene.signatures, driver, root).map(|types| places::located(types, place, 1)));
         tokens.extend(reactions::types(&scene.signatures, root).map(|types| places::located(types, place, 1)));
-        let kinks =
-            derivation.and_then(|derivation| derivation.scenes.get(number)).map(|derived| derived.kinks.as_slice());
-        let kinks = kinks.unwrap_or_default();
-        let implemented = scene_traits::of_scene(&scene.signatures, driver, (&fields, kinks)).unwrap_or_default();
+        let implemented = scene.implementation.as_ref().map(|implementation| {
+            let conversions = conversions::of_scene(&scene.signatures, driver);
+            implementations::implementation(implementation, name, Some(conversions), place)
+        });
         let text = "The name of the scene in errors.";
-        let implemented = places::located(implemented, place, 1);
+        let implemented = places::located(implemented.unwrap_or_default(), place, 1);
         tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| place, root, &implemented));
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
@@ -123,7 +128,7 @@ fn block(
     implemented: &TokenStream,
 ) -> TokenStream {
     let (error, name) = (names::ident(error), string(&of.to_string()));
-    let functions = functions.iter().map(|function| functions::function(function, &error, place_of(function)));
+    let functions = functions.iter().map(|function| functions::function(function, &error, None, place_of(function)));
     let text = names::comment(&format!(" {text}"));
     quote_spanned! {places::of(of.span())=>
         const _: () = {

@@ -51,6 +51,7 @@ pub(super) trait Style {
     fn constant(&self, constant: Constant) -> Self::Text;
     fn field(&self, of: Self::Text, name: &str) -> Self::Text;
     fn index(&self, of: Self::Text, place: usize) -> Self::Text;
+    fn entry(&self, of: Self::Text, place: Self::Text) -> Self::Text;
     fn list(&self, values: Vec<Self::Text>) -> Self::Text;
     fn repeated(&self, value: Self::Text, count: usize) -> Self::Text;
     fn tuple(&self, values: Vec<Self::Text>) -> Self::Text;
@@ -215,6 +216,7 @@ impl<S: Style> Printer<'_, S> {
             Value::Path(constant) => style.constant(*constant),
             Value::Field(of, name) => style.field(self.operand(*of, Binding::Atom), name),
             Value::Index(of, place) => style.index(self.operand(*of, Binding::Atom), *place),
+            Value::At(of, place) => style.entry(self.operand(*of, Binding::Atom), self.value(*place)),
             Value::List(values) => style.list(self.values(values)),
             Value::Repeated(value, count) => style.repeated(self.value(*value), *count),
             Value::Tuple(values) => style.tuple(self.values(values)),

@@ -89,10 +89,7 @@ impl Style for Rust {
     }
 
     fn constant(&self, constant: Constant) -> TokenStream {
-        match constant.path() {
-            path if path.starts_with("Self::") => parsed(path),
-            path => runtime(path),
-        }
+        if constant.is_of_runtime() { runtime(constant.path()) } else { parsed(constant.path()) }
     }
 
     fn field(&self, of: TokenStream, name: &str) -> TokenStream {
@@ -102,6 +99,10 @@ impl Style for Rust {
 
     fn index(&self, of: TokenStream, place: usize) -> TokenStream {
         let place = literal(place);
+        quote!(#of[#place])
+    }
+
+    fn entry(&self, of: TokenStream, place: TokenStream) -> TokenStream {
         quote!(#of[#place])
     }
 
@@ -274,7 +275,13 @@ impl ToTokens for Type {
             Self::Scalar => quote!(T),
             Self::Text => quote!(&'static str),
             Self::Flag => quote!(bool),
+            Self::Count => quote!(usize),
+            Self::Lanes => quote!([T; W]),
             Self::Itself => quote!(Self),
+            Self::OfTrait(name) => {
+                let name = ident(name);
+                quote!(Self::#name)
+            }
             Self::Own(name) => {
                 let name = ident(name);
                 quote!(#name<T>)
@@ -331,6 +338,10 @@ impl ToTokens for Type {
             Self::Branches { branch, pose } => {
                 let (branch, pose) = (ident(branch), ident(pose));
                 quote!(impl __rt::Iterator<Item = __rt::Assembled<#branch, #pose<T>>> + '_)
+            }
+            Self::Iterator { item, is_cloned } => {
+                let clone = is_cloned.then(|| quote!(+ __rt::Clone));
+                quote!(impl __rt::Iterator<Item = #item> #clone)
             }
         });
     }

@@ -5,19 +5,25 @@ use std::fmt::Write;
 use super::printer::{Binding, Member, On, Printer, Style};
 use crate::graph::{Function as Elementary, Number};
 use crate::lower::{Bound, Code};
-use crate::program::{Access, Constant, Functions, Intrinsic, Operations, Program, Type, count};
+use crate::program::{Access, Constant, Function, Intrinsic, Operations, Program, Type, count};
 
 /// The functions of a driver and of its scenes.
 #[must_use]
 pub fn text(program: &Program<Code>) -> String {
     let mut text = functions(&program.signatures.types.itself, &program.functions);
+    for implementation in &program.implementations {
+        text += &functions(&implementation.title(), &implementation.functions);
+    }
     for scene in &program.scenes {
         text += &functions(&scene.signatures.types.itself, &scene.functions);
+        if let Some(implementation) = &scene.implementation {
+            text += &functions(&implementation.title(), &implementation.functions);
+        }
     }
     text
 }
 
-fn functions(of: &str, functions: &Functions<Code>) -> String {
+fn functions<'f>(of: &str, functions: impl IntoIterator<Item = &'f Function<Code>>) -> String {
     let mut text = format!("{of}\n");
     for function in functions {
         let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
@@ -141,6 +147,10 @@ impl Style for Plain {
     }
 
     fn index(&self, of: String, place: usize) -> String {
+        format!("{of}[{place}]")
+    }
+
+    fn entry(&self, of: String, place: String) -> String {
         format!("{of}[{place}]")
     }
 

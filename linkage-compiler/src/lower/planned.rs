@@ -44,6 +44,10 @@ impl Writer<'_> {
                 let pattern = self.planned_pattern(pattern);
                 self.statements.push(Statement::LetElse(pattern, value, otherwise));
             }
+            S::ReturnUnless(condition, value) => {
+                let [condition, value] = [condition, value].map(|part| self.expression(part, checked));
+                self.statements.push(Statement::Unless(vec![condition], vec![Statement::Return(value)]));
+            }
             S::Refine(to, rough, precise) => {
                 let mut value = self.expression(rough, checked);
                 for factors in self.factors.values().copied().collect::<Vec<_>>() {
@@ -121,11 +125,20 @@ impl Writer<'_> {
             E::Sum(terms) => Value::Sum(self.expressions(terms, checked).into_iter().map(Signed::positive).collect()),
             E::Product(factors) => Value::Product(self.expressions(factors, checked)),
             E::Negative(inside) => Value::Negative(self.expression(inside, checked)),
+            E::Elementary(function, arguments) => {
+                let arguments = self.expressions(arguments, checked).into_iter().map(Signed::positive).collect();
+                Value::Call(*function, arguments)
+            }
+            E::All(conditions) => Value::All(self.expressions(conditions, checked)),
             E::Text(text) => Value::Text(text.clone()),
             E::Count(count) => Value::Count(*count),
             E::Constant(constant) => Value::Path(*constant),
             E::Field(of, name) => Value::Field(self.expression(of, checked), name.clone()),
             E::Index(of, place) => Value::Index(self.expression(of, checked), *place),
+            E::At(parts) => {
+                let [of, place] = [&parts[0], &parts[1]].map(|part| self.expression(part, checked));
+                Value::At(of, place)
+            }
             E::List(all) => Value::List(self.expressions(all, checked)),
             E::Repeated(value, count) => Value::Repeated(self.expression(value, checked), *count),
             E::Tuple(all) => Value::Tuple(self.expressions(all, checked)),
@@ -149,16 +162,27 @@ impl Writer<'_> {
             E::MutablyBorrowed(inside) => Value::MutablyBorrowed(self.expression(inside, checked)),
             E::Dereferenced(inside) => Value::Dereferenced(self.expression(inside, checked)),
             E::Closure { arguments, statements, value, moves } => {
-                let (outside, before) = (self.variables.clone(), std::mem::take(&mut self.statements));
+                let outside = self.variables.clone();
                 let arguments = arguments.iter().map(|argument| self.planned_pattern(argument)).collect();
-                self.planned(statements, checked);
-                let value = self.expression(value, checked);
-                let statements = std::mem::replace(&mut self.statements, before);
+                let body = self.block(statements, value, checked);
                 self.variables = outside;
-                Value::Closure { arguments, body: Block { statements, value }, moves: *moves }
+                Value::Closure { arguments, body, moves: *moves }
+            }
+            E::Block(statements, value) => {
+                let outside = self.variables.clone();
+                let block = self.block(statements, value, checked);
+                self.variables = outside;
+                Value::Block(block)
             }
         };
         self.add(value)
+    }
+
+    fn block(&mut self, statements: &[program::Statement], value: &Expression, checked: &Checked) -> Block {
+        let before = std::mem::take(&mut self.statements);
+        self.planned(statements, checked);
+        let value = self.expression(value, checked);
+        Block { statements: std::mem::replace(&mut self.statements, before), value }
     }
 
     /// A call of a function of the program.

@@ -18,7 +18,7 @@ pub fn program<'a>(
     planned: Program<'a, Body, Derived>,
     derivation: &Derivation,
 ) -> Result<Program<'a, Code>, Dangling> {
-    let Program { signatures, position, functions, scenes, any_number, derived } = planned;
+    let Program { signatures, position, functions, implementations, columns, scenes, any_number, derived } = planned;
     let of_driver = ids(&functions);
     let reserved = signatures.arguments.reserved();
     let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &of_driver, of_driver: &of_driver };
@@ -28,12 +28,15 @@ pub fn program<'a>(
     let order = ordered(without_branches(&functions), &functions, &signatures.all(&position));
     let functions = Functions::listed(functions, order);
     let works = lowered.works.renamed(|name| signatures.types.function(name));
+    let implementations = implementations.into_iter().map(|one| one.without_choice(|name| functions.has(name)));
+    let implementations = implementations.map(|one| one.try_map(|planned| function(planned, &of, &mut lowered)));
+    let implementations = implementations.collect::<Result<_, _>>()?;
     let any_number = any_number.map(|AnyNumber { functions, user_functions }| {
         let functions = functions.into_iter().map(|planned| function(planned, &of, &mut lowered));
         Ok(AnyNumber { functions: functions.collect::<Result<_, _>>()?, user_functions })
     });
     let any_number = any_number.transpose()?;
-    let scenes = scenes.into_iter().map(|SceneProgram { signatures, functions }| {
+    let scenes = scenes.into_iter().map(|SceneProgram { signatures, functions, implementation }| {
         let mut reserved = signatures.arguments.reserved();
         reserved.insert(signatures.field.clone());
         let own = ids(&functions);
@@ -42,10 +45,13 @@ pub fn program<'a>(
         let mut lowered = Lowered { works: works.clone(), roundings: Roundings::new(&derived.pose) };
         let functions = all(functions, &of, &mut lowered)?;
         let order = ordered(functions.ids().collect(), &functions, &signatures.all());
-        Ok(SceneProgram { signatures, functions: Functions::listed(functions, order) })
+        let functions = Functions::listed(functions, order);
+        let implementation = implementation.map(|one| one.try_map(|planned| function(planned, &of, &mut lowered)));
+        Ok(SceneProgram { signatures, functions, implementation: implementation.transpose()? })
     });
     let scenes = scenes.collect::<Result<_, _>>()?;
-    Ok(Program { signatures, position, functions, scenes, any_number, derived: Some(derived) })
+    let derived = Some(derived);
+    Ok(Program { signatures, position, functions, implementations, columns, scenes, any_number, derived })
 }
 
 /// The functions by name.

@@ -52,6 +52,8 @@ pub enum Value {
     Path(Constant),
     Field(ValueId, String),
     Index(ValueId, usize),
+    /// The entry of a list at a number that is known when the function runs.
+    At(ValueId, ValueId),
     List(Vec<ValueId>),
     /// `[value; count]`
     Repeated(ValueId, usize),
@@ -129,7 +131,7 @@ impl Value {
             | Self::Tuple(all)
             | Self::Intrinsic(_, _, all)
             | Self::UserFunction(_, all) => all.iter().copied().for_each(visit),
-            Self::Quotient(above, below) => {
+            Self::Quotient(above, below) | Self::At(above, below) => {
                 visit(*above);
                 visit(*below);
             }
@@ -181,7 +183,7 @@ impl Value {
             | Self::Tuple(all)
             | Self::Intrinsic(_, _, all)
             | Self::UserFunction(_, all) => all.iter_mut().for_each(change),
-            Self::Quotient(above, below) => {
+            Self::Quotient(above, below) | Self::At(above, below) => {
                 change(above);
                 change(below);
             }

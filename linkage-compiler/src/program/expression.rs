@@ -1,7 +1,7 @@
 //! Planned code: expressions, statements and patterns, before they are lowered.
 
 use super::intrinsics::{Constant, Form, Intrinsic};
-use crate::graph::Number;
+use crate::graph::{Function, Number};
 
 /// A planned expression.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,9 @@ pub enum Expression {
     Sum(Vec<Expression>),
     Product(Vec<Expression>),
     Negative(Box<Expression>),
+    Elementary(Function, Vec<Expression>),
+    /// All conditions, none of them left out.
+    All(Vec<Expression>),
 
     // Data.
     Text(String),
@@ -25,6 +28,8 @@ pub enum Expression {
     Constant(Constant),
     Field(Box<Expression>, String),
     Index(Box<Expression>, usize),
+    /// The entry of a list at a number that is known when the function runs.
+    At(Box<[Expression; 2]>),
     List(Vec<Expression>),
     /// `[value; count]`
     Repeated(Box<Expression>, usize),
@@ -54,6 +59,8 @@ pub enum Expression {
         value: Box<Expression>,
         moves: bool,
     },
+    /// `{ statements value }`
+    Block(Vec<Statement>, Box<Expression>),
 }
 
 /// What a function of the program is called on.
@@ -80,6 +87,8 @@ pub enum Statement {
     Assign(Expression, Expression),
     /// `let pattern = value else { return otherwise; };`
     LetElse(Pattern<Variable>, Expression, Expression),
+    /// Returns the second unless the first is true.
+    ReturnUnless(Expression, Expression),
     /// Binds a value, or a precise one if the factorisation of a group loses digits.
     Refine(Pattern<Variable>, Expression, Expression),
     /// Returns an error if a value is not finite; `detail` is a function that finds a more precise error.
@@ -132,8 +141,14 @@ pub enum Type {
     Text,
     /// `bool`
     Flag,
+    /// `usize`
+    Count,
+    /// One number for each of several lanes: `[T; W]`.
+    Lanes,
     /// `Self`
     Itself,
+    /// A type of a trait: `Self::Name`.
+    OfTrait(&'static str),
     /// A type of the mechanism over the scalar: `Name<T>`.
     Own(String),
     /// A type of the mechanism over the scalar of twice the precision: `Name<Wide>`.
@@ -175,6 +190,11 @@ pub enum Type {
         branch: String,
         pose: String,
     },
+    /// `impl Iterator<Item>`, and `Clone`.
+    Iterator {
+        item: Box<Type>,
+        is_cloned: bool,
+    },
 }
 
 impl Expression {
@@ -204,6 +224,12 @@ impl Expression {
     #[must_use]
     pub fn converted(self) -> Self {
         Self::call(Intrinsic::Into, [self])
+    }
+
+    /// True if each value is finite; finite values that overflow when added are.
+    pub fn are_finite(values: Vec<Self>) -> Self {
+        let all = Self::call(Intrinsic::Iter, [Self::List(values)]);
+        Self::call(Intrinsic::AreAll, [all, Self::Function(Intrinsic::IsFinite, Some(Type::Scalar))])
     }
 
     #[must_use]
@@ -326,6 +352,10 @@ impl Expression {
 
     pub fn zero() -> Self {
         Self::Number(Number::ZERO)
+    }
+
+    pub fn one() -> Self {
+        Self::Number(Number::ONE)
     }
 
     /// Expressions in nested lists; `sizes` are the lengths of the inner lists, outermost first.

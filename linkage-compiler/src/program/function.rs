@@ -45,7 +45,7 @@ pub enum Access {
     Layer,
     /// Public, and a [`Layer`](Self::Layer) for scenes.
     PublicLayer,
-    /// Private, `#[inline(always)]`: called in a loop that the compiler vectorises.
+    /// Private or of a trait, `#[inline(always)]`: called in a loop that the compiler vectorises.
     Lane,
     /// Private, `#[inline]`: called for a lane alone, by the implementation of a trait.
     LaneAlone,

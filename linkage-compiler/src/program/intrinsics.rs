@@ -191,6 +191,11 @@ intrinsics! {
     And "and" Method [Data, Data] {}
     OrElse "or_else" Method [Data, Code] { meaning: Meaning::Argument(0) }
     Map "map" Method [Data, Code] {}
+    Iter "iter" Method [Data] {}
+    AreAll "all" Method [Data, Code] {}
+    Get "get" Method [Data, Place] {}
+    Copied "copied" Method [Data] {}
+    UnwrapOr "unwrap_or" Method [Data, Data] {}
     From "from" Associated [Data] { meaning: Meaning::From, is_unchanged: true }
     Zeros "zeros" Associated [] {}
     Default "default" Associated [] {}
@@ -198,7 +203,11 @@ intrinsics! {
     /// All branches.
     All "all" Associated [] {}
     /// The coordinates of a pose.
-    Coordinates "coordinates" Associated [Data] {}
+    Coordinates "coordinates" Method [Data] {}
+    /// A branch without sides, modes and turns.
+    OnlyBranch "new" Associated [] {}
+    /// The parts of the state of a scene.
+    Parts "parts" Associated [Data] {}
 
     // Numbers.
     IsFinite "is_finite" Method [Number] {}
@@ -320,6 +329,9 @@ intrinsics! {
     TurnsFound "turns" Method [Data] {}
     Countable "countable" Function [Mechanism, Numbers] {}
     SideOf "side_of" Function [Number] {}
+    SideAt "side_at" Function [Place] {}
+    NumberOfMode "AssemblyMode::Number" Function [Place] {}
+    Combinations "combinations" Function [Numbers, Code] {}
     Existing "existing" Function [Data, Code] {}
     NoClosedForm "no_closed_form" Function [Mechanism, Part] {}
     NoList "no_list" Function [Mechanism, Part] {}
@@ -343,6 +355,7 @@ intrinsics! {
     Reactions "reactions" Function [Data, Number, Data, Data] {}
     DriveForces "drive_forces" Function [Data, Number, Data, Data] {}
     BearingLoss "bearing_loss" Function [Data, Number, Data, Data] {}
+    EquationsAt "at" Associated [Data, Data, Data, Data, Data] {}
     Equilibrium "equilibrium" Function [Mechanism, Numbers, Code] {}
 }
 
@@ -372,10 +385,20 @@ pub enum Constant {
     NoSearch,
     /// The position of a group nearest to a guess.
     OfGuess,
+    False,
+    /// A mark that stands for the scalar of a type without numbers.
+    Mark,
+    /// The constant argument that is true if angles, points and outputs are wanted.
+    Quantities,
 }
 
 impl Constant {
-    /// The path, in the runtime unless it begins with `Self`.
+    /// True if it belongs to the runtime.
+    pub fn is_of_runtime(self) -> bool {
+        !matches!(self, Self::Name | Self::False | Self::Quantities)
+    }
+
+    /// The path.
     pub fn path(self) -> &'static str {
         match self {
             Self::Name => "Self::NAME",
@@ -384,6 +407,9 @@ impl Constant {
             Self::SearchTurn => "Search::Turn",
             Self::NoSearch => "Search::ClosedFormOnly",
             Self::OfGuess => "AssemblyMode::OfGuess",
+            Self::False => "false",
+            Self::Mark => "PhantomData",
+            Self::Quantities => "QUANTITIES",
         }
     }
 }

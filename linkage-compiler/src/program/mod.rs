@@ -1,18 +1,24 @@
 //! The emitted program as data: which functions a mechanism gets, before they are lowered and printed.
 //!
 //! [`plan`] makes the functions of a driver and of its scenes: name, arguments, return type, the steps and formulas of
-//! the kernel, and the value made of their results. [`stub`] makes those of a mechanism with mistakes.
+//! the kernel, and the value made of their results. [`Implementation`] has those of poses and branches, and those of the
+//! traits of the runtime. [`stub`] makes those of a mechanism with mistakes.
 
 mod any_number;
 mod branch;
+mod branch_functions;
 mod doc;
 mod equations;
 mod expression;
 mod function;
 mod functions;
+mod implementation;
+mod implementations;
 mod implied;
 mod intrinsics;
 mod kinematics;
+mod lane_columns;
+mod lane_functions;
 mod lanes;
 mod length_scale;
 mod limits;
@@ -20,6 +26,8 @@ mod names;
 mod operations;
 mod plan;
 mod pose;
+mod pose_fields;
+mod pose_functions;
 mod position;
 mod precise;
 mod quantities;
@@ -38,17 +46,22 @@ pub use doc::count;
 pub use expression::{Expression, Pattern, Receiver, Statement, Type, Variable};
 pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};
 pub use functions::Functions;
+pub use implementation::{Associated, ConstantValue, Group, Implementation, Implemented, Kink};
 pub use intrinsics::{Constant, Entry, Finite, Form, InLane, Intrinsic, LaneResult, Meaning, Role, Row};
+pub use lane_columns::Column;
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;
 pub use pose::{Given, PosePlan};
+pub use pose_fields::{Held, PoseField};
 pub use precise::ROUGH;
 pub use scene::{MULTIPLIERS, SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
 pub use stored::Stored;
 
+pub use crate::derivation::Part;
+
 use crate::budget::Spent;
-use crate::derivation::{ClosedForm, Derivation, Formulas};
+use crate::derivation::{ClosedForm, Derivation, Formulas, Skeleton};
 use crate::graph::NodeId;
 use crate::ids::{BlockId, Table};
 use crate::model::{Driver, Mechanism, Request};
@@ -61,6 +74,10 @@ pub struct Program<'a, B, D = Option<Derived>> {
     pub signatures: Signatures<'a>,
     pub position: Position,
     pub functions: Functions<B>,
+    /// The functions of its pose, and the traits that it implements.
+    pub implementations: Vec<Implementation<B>>,
+    /// The columns that `Lanes` finds, if it is requested.
+    pub columns: Vec<Column>,
     pub scenes: Vec<SceneProgram<'a, B>>,
     /// The formulas over numbers of any kind, on request.
     pub any_number: Option<AnyNumber<B>>,
@@ -75,6 +92,12 @@ pub struct Derived {
     pub closed_forms: Table<BlockId, ClosedForm>,
     /// The expressions that have names.
     pub named: Vec<(NodeId, String)>,
+    /// The fields of the pose, and those that hold each coordinate.
+    pub fields: Vec<PoseField>,
+    pub held: Vec<(String, Held)>,
+    pub groups: Vec<Group>,
+    /// The drawing, on request.
+    pub skeleton: Skeleton,
 }
 
 /// Plans the functions of a driver and of its scenes.
@@ -94,7 +117,7 @@ pub fn plan<'a>(
     }
     let any_number = mechanism.requests.contains(&Request::Intervals).then(|| plan.any_number());
     let closed_forms = plan.derivation.closed_forms(&plan.assembly);
-    let Plan { signatures, position, functions, pose, formulas, named, .. } = plan;
+    let Plan { signatures, position, functions, pose, formulas, named, derivation, .. } = plan;
     // A private function is kept only if a function of a scene or a later function calls it.
     let calls =
         |function: &Function<Body>| function.body.iter().flat_map(|body| body.calls.clone()).collect::<Vec<_>>();
@@ -108,24 +131,37 @@ pub fn plan<'a>(
         }
     }
     kept.reverse();
-    let functions = kept.into_iter().collect();
-    let derived = Derived { pose, formulas, closed_forms, named };
-    Ok(Program { signatures, position, functions, scenes, any_number, derived })
+    let functions: Functions<Body> = kept.into_iter().collect();
+    let derived = Derived {
+        fields: pose.fields(derivation),
+        held: pose.held(derivation),
+        groups: derivation.blocks.iter().map(|block| Group::of(block, derivation)).collect(),
+        skeleton: derivation.skeleton.clone().unwrap_or_default(),
+        pose,
+        formulas,
+        closed_forms,
+        named,
+    };
+    let (implementations, columns) = implementations::of_driver(&signatures, &position, &functions, Some(&derived));
+    Ok(Program { signatures, position, functions, implementations, columns, scenes, any_number, derived })
 }
 
 /// The program of a mechanism with mistakes: functions without bodies.
 pub fn stub<'a, B>(mechanism: &'a Mechanism, driver: &'a Driver) -> Program<'a, B> {
     let (signatures, position) = (Signatures::new(mechanism, driver), Position::guessed(mechanism, driver));
-    let functions = signatures.all(&position).into_iter().map(Function::without_body).collect();
+    let functions: Functions<B> = signatures.all(&position).into_iter().map(Function::without_body).collect();
+    let (implementations, columns) = implementations::of_driver(&signatures, &position, &functions, None);
+    let implementations = implementations.into_iter().map(|of| of.without_choice(|_| true).without_bodies()).collect();
     let scenes = mechanism.scenes_of(driver).map(|scene| {
         let signatures = SceneSignatures::new(mechanism, driver, scene);
         let functions = signatures.all().into_iter().map(Function::without_body).collect();
-        SceneProgram { signatures, functions }
+        let implementation = scene::implementation(&signatures, Vec::new());
+        SceneProgram { implementation: implementation.map(Implementation::without_bodies), signatures, functions }
     });
     let scenes = scenes.collect();
     let any_number = mechanism.requests.contains(&Request::Intervals).then(|| AnyNumber {
         functions: signatures.of_columns().into_iter().map(Function::without_body).collect(),
         user_functions: Vec::new(),
     });
-    Program { signatures, position, functions, scenes, any_number, derived: None }
+    Program { signatures, position, functions, implementations, columns, scenes, any_number, derived: None }
 }

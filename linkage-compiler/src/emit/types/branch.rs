@@ -1,12 +1,11 @@
 //! The type of the branches.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::derives::derives;
 use super::parameters::MOST_ARGUMENTS;
 use crate::emit::names::{comment, ident};
-use crate::emit::rust::literal;
 use crate::lower::Code;
 use crate::program::{Modes, Position, Program, Side};
 
@@ -92,24 +91,7 @@ pub(super) fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream
             }
         }
     });
-    let every = every(&program.position, &zeros, root);
-    let all = program.position.has_counted_branches().then(|| {
-        let text = if !modes.is_empty() {
-            " All branches with a number for each group without closed form, numbers fastest; some may not exist at a given input."
-        } else if turns.is_empty() {
-            " All branches; some may not exist at a given input."
-        } else {
-            " All branches with turns 0; some may not exist at a given input."
-        };
-        let text = comment(text);
-        quote! {
-            #[doc = #text]
-            pub fn all() -> impl ::core::iter::Iterator<Item = Self> + ::core::clone::Clone {
-                #every
-            }
-        }
-    });
-    let functions = (new.is_some() || all.is_some()).then(|| quote!(impl #branch { #new #all }));
+    let functions = new.map(|new| quote!(impl #branch { #new }));
     let default = sides.is_empty().then(|| quote!(, ::core::default::Default));
     quote! {
         #[doc = #title]
@@ -118,61 +100,5 @@ pub(super) fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream
         #[derive(::core::hash::Hash #default)]
         #visibility struct #branch { #(#members,)* #(#numbers,)* #(#turn_members),* }
         #functions
-    }
-}
-
-/// An iterator of all branches: numbers change fastest, that of the last group first.
-fn every(position: &Position, zeros: &[TokenStream], root: &TokenStream) -> TokenStream {
-    let Position { sides, modes, .. } = position;
-    // The part of the place in the order that counts the numbers of a group, or those of all.
-    let mut steps = vec![1];
-    for group in modes.iter().rev() {
-        steps.insert(0, group.most * steps[0]);
-    }
-    let (place, of) = match modes.as_slice() {
-        [] => (ident("bits"), quote!(u32)),
-        _ => (ident("place"), quote!(usize)),
-    };
-    let bits = match steps[0] {
-        1 => quote!(#place),
-        step => {
-            let step = literal(step);
-            quote!((#place / #step))
-        }
-    };
-    let each = sides.iter().enumerate().map(|(bit, Side { field, choice, .. })| {
-        let (field, of) = (ident(field), ident(choice.name()));
-        let [first, second] = choice.variants().map(ident);
-        let bit = match bit {
-            0 => quote!(#bits & 1),
-            bit => {
-                let bit = literal(bit);
-                quote!((#bits >> #bit) & 1)
-            }
-        };
-        quote!(#field: if #bit == 0 { #root::__rt::#of::#first } else { #root::__rt::#of::#second })
-    });
-    let numbers = modes.iter().zip(&steps[1..]).map(|(Modes { field, most, .. }, step)| {
-        let (field, most) = (ident(field), literal(*most));
-        let number = match *step {
-            1 => quote!(#place % #most),
-            step => {
-                let step = literal(step);
-                quote!(#place / #step % #most)
-            }
-        };
-        quote!(#field: #root::__rt::AssemblyMode::Number(#number))
-    });
-    let (each, zeros) = (each.chain(numbers).collect::<Vec<_>>(), if modes.is_empty() { zeros } else { &[] });
-    match position.count_branches() {
-        Some(1) => quote!(::core::iter::once(Self { #(#zeros),* })),
-        count => {
-            let count = Literal::usize_unsuffixed(count.unwrap_or(usize::MAX));
-            quote! {
-                ::core::iter::Iterator::map(0..#count, |#place: #of| Self {
-                    #(#each,)* #(#zeros),*
-                })
-            }
-        }
     }
 }

@@ -5,23 +5,22 @@ mod branch;
 mod by_name;
 mod derives;
 mod fields;
+mod motion;
 mod parameters;
+mod pose;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Attribute;
 
-use super::motion;
 use super::names::{comment, ident};
-use super::pose;
-use crate::derivation::Derivation;
 use crate::lower::Code;
 use crate::model::{Coordinate, Guess, Mechanism, Request, TypeName};
 use crate::program::{Modes, Position, Program, TypeNames};
 use branch::branch;
 use by_name::{by_name, conversions, coordinates, described, orders};
-use derives::serde_alias;
-pub(super) use derives::{derives, derives_of_pose, serde_of_direction, serde_of_parameters};
+pub(super) use derives::{derives, serde_of_parameters};
+use derives::{derives_of_pose, serde_alias};
 use fields::Fields;
 pub(super) use fields::{docs, field, mark};
 use parameters::parameters;
@@ -100,7 +99,7 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
 }
 
 /// The types of one driver: parameters, inputs, pose, motion, branch.
-pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
+pub(super) fn of_driver(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
     let (name, types, visibility) = (&driver.name, &program.signatures.types, &mechanism.visibility);
     let attributes: Vec<Attribute> = if mechanism.is_driven_by_choice() {
@@ -139,8 +138,7 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
             }
         });
     }
-    let derived = program.derived.as_ref().zip(derivation);
-    if derived.is_none() && Guess::may_have_one_input(driver) {
+    if program.derived.is_none() && Guess::may_have_one_input(driver) {
         tokens.extend(quote! {
             impl<T: #root::__rt::Real> ::core::convert::From<T> for #inputs<T> {
                 fn from(_: T) -> Self {
@@ -149,9 +147,9 @@ pub(super) fn of_driver(program: &Program<Code>, derivation: Option<&Derivation>
             }
         });
     }
-    let members = derived.map_or_else(
+    let members = program.derived.as_ref().map_or_else(
         || pose::guessed(mechanism, driver, root),
-        |(derived, derivation)| pose::fields(mechanism, derived, derivation, root),
+        |derived| pose::fields(mechanism, &derived.fields, root),
     );
     let title = comment(&format!(
         " A position of [`{name}`] with each angle as its direction (cos, sin), so that functions of it compute no sines."

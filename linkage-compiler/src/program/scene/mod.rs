@@ -4,6 +4,7 @@ mod contacts;
 mod drives;
 mod energy;
 mod equilibrium;
+mod implementation;
 mod kinks;
 mod layers;
 mod motion;
@@ -17,12 +18,14 @@ use super::doc::without_singular;
 use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
 use super::functions::Functions;
+use super::implementation::{Implementation, Kink};
 use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::Plan;
-use crate::derivation::{Scene, Step};
+use crate::derivation::{self, Scene, Step};
 use crate::graph::NodeId;
 use crate::model::{self, SceneRequest};
+pub(super) use implementation::of_scene as implementation;
 pub use reactions::MULTIPLIERS;
 use reads::{Layers, Read};
 pub use signatures::SceneSignatures;
@@ -38,6 +41,8 @@ const ERRORS: [&str; 4] = [
 pub struct SceneProgram<'a, B> {
     pub signatures: SceneSignatures<'a>,
     pub functions: Functions<B>,
+    /// The trait for simulations, if the scene has inertia.
+    pub implementation: Option<Implementation<B>>,
 }
 
 /// A scene whose functions are planned one by one.
@@ -108,7 +113,9 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
     }
 
     pub fn into_program(self) -> SceneProgram<'a, Body> {
-        SceneProgram { signatures: self.signatures, functions: self.functions.into_iter().collect() }
+        let kink = |kink: &derivation::Kink| Kink { effect: kink.label.clone(), is_timed: kink.is_timed };
+        let implementation = implementation(&self.signatures, self.scene.kinks.iter().map(kink).collect());
+        SceneProgram { signatures: self.signatures, functions: self.functions.into_iter().collect(), implementation }
     }
 }
 

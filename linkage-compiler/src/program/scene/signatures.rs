@@ -1,7 +1,7 @@
 //! The signatures of the functions of a scene: names, arguments and return types.
 
 use super::reads::Read;
-use crate::ids::{InputId, Table};
+use crate::ids::{CoordinateId, InputId, Table};
 use crate::model::{self, Driver, Mechanism, SceneRequest};
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
@@ -18,6 +18,9 @@ pub struct SceneSignatures<'a> {
     pub field: String,
     /// The field names of the inputs, the ids of free inputs and those of driven ones.
     pub inputs: Table<InputId, String>,
+    /// The field names of the dependent coordinates, and of all coordinates.
+    pub dependent: Vec<String>,
+    pub fields: Vec<String>,
     pub free: Vec<InputId>,
     pub driven: Vec<InputId>,
     /// The type with one value for each driven input.
@@ -31,7 +34,8 @@ impl<'a> SceneSignatures<'a> {
     pub fn new(mechanism: &'a Mechanism, driver: &'a Driver, scene: &'a model::Scene) -> Self {
         let is_driven = |input: &InputId| scene.drives.iter().any(|drive| drive.input == *input);
         let (driven, free) = driver.inputs.ids().partition(is_driven);
-        let inputs = driver.inputs.iter().map(|&index| mechanism.coordinates[index].name.field.clone());
+        let field = |index: CoordinateId| mechanism.coordinates[index].name.field.clone();
+        let inputs = driver.inputs.iter().map(|&index| field(index));
         Self {
             mechanism,
             scene,
@@ -39,6 +43,8 @@ impl<'a> SceneSignatures<'a> {
             arguments: Arguments::new(mechanism),
             field: argument(mechanism, "mechanism"),
             inputs: inputs.collect(),
+            dependent: driver.unknowns.iter().map(|&index| field(index)).collect(),
+            fields: mechanism.coordinate_order(driver).into_iter().map(field).collect(),
             free,
             driven,
             drives_type: format!("{}Drives", scene.name),

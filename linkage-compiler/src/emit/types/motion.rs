@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::names::{comment, ident};
-use super::types::{derives, derives_of_pose};
+use super::derives::{derives, derives_of_pose};
+use crate::emit::names::{comment, ident};
 use crate::model::{Mechanism, TypeName};
 use crate::program::TypeNames;
 
