@@ -37,7 +37,8 @@ fn measure(source: &str) -> Measured {
     }
     times.sort_unstable();
     let mechanism = linkage_compiler::read(tokens).expect("a mechanism").remove(0);
-    let Expansion { nodes, operations, .. } = linkage_compiler::compile(&mechanism, &root).expect("a mechanism without mistakes");
+    let Expansion { nodes, operations, .. } =
+        linkage_compiler::compile(&mechanism, &root).expect("a mechanism without mistakes");
     let operations = operations.functions + operations.divisions + operations.multiplications + operations.additions;
     Measured { time: times[times.len() / 2], nodes, operations, bytes }
 }
