@@ -21,7 +21,7 @@ const BY_HAND: [(&str, &[&str], &str); 13] = [
     ("types/mod", &["from"], "one struct from another, or from and to a list"),
     ("types/branch", &["new"], "a struct from its fields"),
     ("functions", &["#name"], "the printer of planned functions"),
-    ("expression", &[], "the printer of planned expressions"),
+    ("rust", &[], "the printer of lowered code"),
     ("implementations", &[], "the printer of implementations"),
 ];
 
@@ -35,7 +35,7 @@ const WORDS_BY_HAND: [(&str, &[&str]); 6] = [
     ("types/by_name", &["let"]),
     ("types/mod", &["let"]),
     ("functions", &["mut"]),
-    ("expression", &["let", "else", "if", "return", "mut"]),
+    ("rust", &["let", "else", "if", "return", "mut"]),
 ];
 
 #[test]
@@ -64,7 +64,7 @@ fn no_other_statement_is_written_by_hand() {
     assert_eq!(written, known, "plan a statement in src/program");
 }
 
-/// What each file of `src/emit` writes: the contents of its `quote!` and `quote_spanned!`.
+/// The tokens that each file of `src/emit` writes: the contents of its `quote!` and `quote_spanned!`.
 fn emitted() -> Vec<(String, TokenStream)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/emit");
     let mut all = Vec::new();

@@ -29,7 +29,7 @@ pub(in crate::program) fn of_scene(signatures: &SceneSignatures, kinks: Vec<Kink
     let has_bearings = signatures.count_bearings() > 0;
     let mut constants = vec![("NAME", ConstantValue::Text(signatures.types.itself.clone()))];
     constants.extend(has_bearings.then_some(("BEARINGS", ConstantValue::Flag(true))));
-    let of = Of(signatures);
+    let of = OfScene(signatures);
     let mut functions = vec![of.check(), of.derivative(), of.equations(), of.contacts(), of.reactions()];
     functions.extend(has_bearings.then(|| of.bearings()));
     functions.extend((!kinks.is_empty()).then(|| of.kink()));
@@ -40,7 +40,7 @@ pub(in crate::program) fn of_scene(signatures: &SceneSignatures, kinks: Vec<Kink
 }
 
 /// The functions of the trait for a scene.
-struct Of<'a>(&'a SceneSignatures<'a>);
+struct OfScene<'a>(&'a SceneSignatures<'a>);
 
 fn name(name: &str) -> Expression {
     Expression::name(name)
@@ -71,7 +71,7 @@ fn listed<'a>(names: impl IntoIterator<Item = &'a String>) -> Pattern<Variable> 
     Pattern::List(names.into_iter().cloned().map(Pattern::name).collect())
 }
 
-impl Of<'_> {
+impl OfScene<'_> {
     fn time(&self) -> (&'static str, Passed) {
         ("t", Passed::ByValue(Type::Scalar))
     }
