@@ -3,7 +3,7 @@
 
 pub use core::convert::Into;
 pub use core::iter::Iterator;
-pub use core::option::Option::{self, None, Some};
+pub use core::option::Option::{None, Some};
 pub use core::result::Result::{self, Err, Ok};
 
 pub use nalgebra::{Point2, SMatrix, SVector, Scalar, UnitComplex, Vector2};
@@ -39,6 +39,8 @@ pub use crate::{
 pub mod derivation {
     /// What the constants name.
     pub mod prelude {
+        pub use core::option::Option::{None, Some};
+
         pub use crate::derivation::ElementaryFunction::*;
         pub use crate::derivation::FormulaNode::*;
         pub use crate::derivation::*;

@@ -14,16 +14,16 @@ use crate::program::Operations;
 /// The constant `DERIVATION` of a driver.
 pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream) -> TokenStream {
     let (table, mechanism) = (table(&document.table), string(&document.mechanism));
-    let [parameters, inputs, unknowns] =
-        [&document.parameters, &document.inputs, &document.unknowns].map(|symbols| self::symbols(symbols));
+    let [parameters, inputs, unknowns] = [&document.parameters, &document.inputs, &document.unknowns]
+        .map(|symbols| self::symbols(&document.table, symbols));
     let [residual, implied, ratios, gamma] =
         [&document.residual, &document.implied, &document.ratios, &document.gamma].map(|all| equations(all));
     let [jacobian_unknowns, jacobian_inputs] = [&document.jacobian_unknowns, &document.jacobian_inputs].map(matrix);
     let blocks = list(document.blocks.iter().map(block));
     let determinant = option(document.determinant.as_ref().map(equation));
-    let second = option(document.ratio_derivatives.as_deref().map(equations));
-    let jerk = option(document.jerk.as_deref().map(equations));
-    let sensitivity = option(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
+    let second = constant(document.ratio_derivatives.as_deref().map(equations));
+    let jerk = constant(document.jerk.as_deref().map(equations));
+    let sensitivity = constant(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
         let (jacobian, formulas) = (matrix(jacobian), equations(formulas));
         quote!(Sensitivity { jacobian: #jacobian, formulas: #formulas })
     }));
@@ -67,7 +67,8 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
 pub(super) fn of_scene(name: &TypeName, document: &SceneDocument, root: &TokenStream) -> TokenStream {
     let table = table(&document.table);
     let [scene, mechanism] = [&document.scene, &document.mechanism].map(|name| string(name));
-    let [parameters, contacts] = [&document.parameters, &document.contacts].map(|symbols| self::symbols(symbols));
+    let [parameters, contacts] =
+        [&document.parameters, &document.contacts].map(|symbols| self::symbols(&document.table, symbols));
     let [mass_matrix, drives] = [&document.mass_matrix, &document.drives].map(|all| equations(all));
     let forces = list(document.forces.iter().map(|Effect { name, forces }| {
         let (name, forces) = (string(name), equations(forces));
@@ -113,14 +114,42 @@ impl ToTokens for Number {
     }
 }
 
-/// The table of formulas, `T`.
+/// The table of formulas, `T`. Its constants have no references within them, which would be a constant each.
 fn table(table: &Table) -> TokenStream {
-    let nodes = table.nodes().map(node);
-    quote!(const T: FormulaTable<'static> = FormulaTable::new(&[#(#nodes),*]);)
+    let mut parts = Parts::default();
+    let nodes: Vec<TokenStream> = table.nodes().map(|node| self::node(node, &mut parts)).collect();
+    let parts = parts.all.iter().map(|(is_negative, part)| {
+        let minus = is_negative.then(|| quote!(-));
+        quote!(#minus #part)
+    });
+    quote! {
+        const NODES: &[FormulaNode<'static>] = &[#(#nodes),*];
+        const PARTS: &[i32] = &[#(#parts),*];
+        const T: FormulaTable<'static> = FormulaTable::new(NODES, PARTS);
+    }
 }
 
-fn node(node: &Node) -> TokenStream {
-    let list = |all: &[Number]| quote!(&[#(#all),*]);
+/// The terms, factors and arguments of all nodes.
+#[derive(Default)]
+struct Parts {
+    all: Vec<(bool, Number)>,
+}
+
+impl Parts {
+    /// Adds parts: the first place and the count.
+    fn add(&mut self, parts: impl IntoIterator<Item = (bool, Number)>) -> TokenStream {
+        let first = self.all.len();
+        self.all.extend(parts);
+        let [first, count] = [first, self.all.len() - first].map(Literal::usize_unsuffixed);
+        quote!(#first, #count)
+    }
+
+    fn unsigned(&mut self, parts: &[Number]) -> TokenStream {
+        self.add(parts.iter().map(|part| (false, *part)))
+    }
+}
+
+fn node(node: &Node, parts: &mut Parts) -> TokenStream {
     match node {
         Node::Name(name) => {
             let name = string(name);
@@ -143,14 +172,11 @@ fn node(node: &Node) -> TokenStream {
         Node::Pi => quote!(Pi),
         Node::Ellipsis => quote!(Ellipsis),
         Node::Sum(terms) => {
-            let terms = terms.iter().map(|(is_negative, term)| {
-                let minus = is_negative.then(|| quote!(-));
-                quote!(#minus #term)
-            });
-            quote!(Sum(&[#(#terms),*]))
+            let terms = parts.add(terms.iter().copied());
+            quote!(Sum(#terms))
         }
         Node::Product(factors) => {
-            let factors = list(factors);
+            let factors = parts.unsigned(factors);
             quote!(Product(#factors))
         }
         Node::Quotient(above, below) => quote!(Quotient(#above, #below)),
@@ -159,17 +185,18 @@ fn node(node: &Node) -> TokenStream {
             quote!(Power(#base, #exponent))
         }
         Node::Call(function, arguments) => {
-            let (function, arguments) = (format_ident!("{function:?}"), list(arguments));
+            let (function, arguments) = (format_ident!("{function:?}"), parts.unsigned(arguments));
             quote!(Call(#function, #arguments))
         }
         Node::External(name, order, arguments) => {
-            let (name, order, arguments) = (string(name), Literal::usize_unsuffixed(*order), list(arguments));
+            let (name, order) = (string(name), Literal::usize_unsuffixed(*order));
+            let arguments = parts.unsigned(arguments);
             quote!(External(#name, #order, #arguments))
         }
         Node::Multiple(one, other) => quote!(Multiple(#one, #other)),
-        Node::AtMost(parts) => {
-            let parts = list(parts);
-            quote!(AtMost(#parts))
+        Node::AtMost(all) => {
+            let all = parts.unsigned(all);
+            quote!(AtMost(#all))
         }
         Node::NonZero(inside) => quote!(NonZero(#inside)),
         Node::Exists(inside) => quote!(Exists(#inside)),
@@ -194,12 +221,16 @@ fn list(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
     quote!(&[#(#items),*])
 }
 
-/// A value with references is a constant of its own.
 fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
-        Some(value) => quote!(::core::option::Option::Some(const { #value })),
-        None => quote!(::core::option::Option::None),
+        Some(value) => quote!(Some(#value)),
+        None => quote!(None),
     }
+}
+
+/// An optional value with references to others, which is a constant of its own.
+fn constant(value: Option<TokenStream>) -> TokenStream {
+    option(value.map(|value| quote!(const { #value })))
 }
 
 fn formula(number: &Number) -> TokenStream {
@@ -224,9 +255,14 @@ fn equations(all: &[Equation]) -> TokenStream {
     quote!(&T.equations([#(#all),*]))
 }
 
-/// `&[Symbol]`.
-fn symbols(symbols: &[Symbol]) -> TokenStream {
-    list(symbols.iter().map(symbol))
+/// `&[Symbol]`; a name is its own formula, but for forces.
+fn symbols(table: &Table, symbols: &[Symbol]) -> TokenStream {
+    let numbers = symbols.iter().map(|symbol| symbol.formula);
+    match symbols.iter().all(|symbol| table.is_name(symbol.formula, &symbol.name)) {
+        true if symbols.is_empty() => quote!(&[]),
+        true => quote!(&T.symbols([#(#numbers),*])),
+        false => list(symbols.iter().map(symbol)),
+    }
 }
 
 fn symbol(symbol: &Symbol) -> TokenStream {
@@ -258,7 +294,7 @@ fn block(block: &Block) -> TokenStream {
         Method::Factorization => quote!(Factorization),
     };
     let determinant = option(block.determinant.as_ref().map(equation));
-    let inverse = option(block.inverse.as_ref().map(matrix));
+    let inverse = constant(block.inverse.as_ref().map(matrix));
     quote! {
         Block {
             unknowns: #unknowns,
