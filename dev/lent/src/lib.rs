@@ -86,9 +86,9 @@ pub fn scene(document: &SceneDocument) -> SceneDerivation<'static> {
 /// If one refers to what is not before it.
 #[must_use]
 pub fn table(table: &document::Table) -> FormulaTable<'static> {
-    let mut parts = Vec::new();
-    let nodes: Vec<FormulaNode<'static>> = table.nodes().map(|one| node(one, &mut parts)).collect();
-    FormulaTable::checked(nodes.leak(), parts.leak()).expect("a sound table")
+    let (mut names, mut parts) = (Vec::new(), Vec::new());
+    let nodes: Vec<FormulaNode> = table.nodes().map(|one| node(one, &mut names, &mut parts)).collect();
+    FormulaTable::checked(nodes.leak(), names.leak(), parts.leak()).expect("a sound table")
 }
 
 fn text(text: &str) -> &'static str {
@@ -199,7 +199,11 @@ impl Table {
     }
 }
 
-fn node(node: &Node, all: &mut Vec<i32>) -> FormulaNode<'static> {
+fn node(node: &Node, names: &mut Vec<&'static str>, all: &mut Vec<i32>) -> FormulaNode {
+    let mut named = |name: &str| {
+        names.push(text(name));
+        u32::try_from(names.len() - 1).expect("a short table")
+    };
     let signed = |(is_negative, part): &(bool, Number)| {
         let number = i32::try_from(part.get()).expect("a short table");
         if *is_negative { -number } else { number }
@@ -210,7 +214,7 @@ fn node(node: &Node, all: &mut Vec<i32>) -> FormulaNode<'static> {
         [first, parts.len()].map(|place| u32::try_from(place).expect("a short table"))
     };
     match node {
-        Node::Name(name) => FormulaNode::Name(text(name)),
+        Node::Name(name) => FormulaNode::Name(named(name)),
         Node::Rate(name) => FormulaNode::Rate(name.get()),
         Node::Acceleration(name) => FormulaNode::Acceleration(name.get()),
         Node::Ratio(of, by) => FormulaNode::Ratio(of.get(), by.get()),
@@ -237,7 +241,7 @@ fn node(node: &Node, all: &mut Vec<i32>) -> FormulaNode<'static> {
         }
         Node::External(name, order, arguments) => {
             let [first, count] = unsigned(arguments, &mut add);
-            FormulaNode::External(text(name), u32::try_from(*order).expect("a low order"), first, count)
+            FormulaNode::External(named(name), u32::try_from(*order).expect("a low order"), first, count)
         }
         Node::Multiple(one, other) => FormulaNode::Multiple(one.get(), other.get()),
         Node::AtMost(all) => {
@@ -250,7 +254,7 @@ fn node(node: &Node, all: &mut Vec<i32>) -> FormulaNode<'static> {
 }
 
 /// Adds parts without signs.
-fn unsigned(parts: &[Number], add: &mut dyn FnMut(&[(bool, Number)]) -> [u32; 2]) -> [u32; 2] {
+fn unsigned(parts: &[Number], mut add: impl FnMut(&[(bool, Number)]) -> [u32; 2]) -> [u32; 2] {
     add(&parts.iter().map(|part| (false, *part)).collect::<Vec<_>>())
 }
 

@@ -118,24 +118,33 @@ impl ToTokens for Number {
 fn table(table: &Table) -> TokenStream {
     let mut parts = Parts::default();
     let nodes: Vec<TokenStream> = table.nodes().map(|node| self::node(node, &mut parts)).collect();
+    let names = parts.names.iter().map(|name| string(name));
     let parts = parts.all.iter().map(|(is_negative, part)| {
         let minus = is_negative.then(|| quote!(-));
         quote!(#minus #part)
     });
     quote! {
-        const NODES: &[FormulaNode<'static>] = &[#(#nodes),*];
+        const NODES: &[FormulaNode] = &[#(#nodes),*];
+        const NAMES: &[&str] = &[#(#names),*];
         const PARTS: &[i32] = &[#(#parts),*];
-        const T: FormulaTable<'static> = FormulaTable::new(NODES, PARTS);
+        const T: FormulaTable<'static> = FormulaTable::new(NODES, NAMES, PARTS);
     }
 }
 
-/// The terms, factors and arguments of all nodes.
+/// The names, terms, factors and arguments of all nodes.
 #[derive(Default)]
-struct Parts {
+struct Parts<'a> {
+    names: Vec<&'a str>,
     all: Vec<(bool, Number)>,
 }
 
-impl Parts {
+impl<'a> Parts<'a> {
+    /// Adds a name: its place.
+    fn name(&mut self, name: &'a str) -> Literal {
+        self.names.push(name);
+        Literal::usize_unsuffixed(self.names.len() - 1)
+    }
+
     /// Adds parts: the first place and the count.
     fn add(&mut self, parts: impl IntoIterator<Item = (bool, Number)>) -> TokenStream {
         let first = self.all.len();
@@ -149,10 +158,10 @@ impl Parts {
     }
 }
 
-fn node(node: &Node, parts: &mut Parts) -> TokenStream {
+fn node<'a>(node: &'a Node, parts: &mut Parts<'a>) -> TokenStream {
     match node {
         Node::Name(name) => {
-            let name = string(name);
+            let name = parts.name(name);
             quote!(Name(#name))
         }
         Node::Rate(name) => quote!(Rate(#name)),
@@ -189,7 +198,7 @@ fn node(node: &Node, parts: &mut Parts) -> TokenStream {
             quote!(Call(#function, #arguments))
         }
         Node::External(name, order, arguments) => {
-            let (name, order) = (string(name), Literal::usize_unsuffixed(*order));
+            let (name, order) = (parts.name(name), Literal::usize_unsuffixed(*order));
             let arguments = parts.unsigned(arguments);
             quote!(External(#name, #order, #arguments))
         }

@@ -8,9 +8,9 @@ use super::{Entry, Equation, Symbol};
 /// A node of a [`FormulaTable`]. It refers to nodes before it by their numbers, which count from 1, and to several by a
 /// place in the list of parts and a count.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FormulaNode<'a> {
-    /// A quantity by its name in the `linkage!` language: `theta3`.
-    Name(&'a str),
+pub enum FormulaNode {
+    /// A quantity by the place of its name in the `linkage!` language: `theta3`.
+    Name(u32),
     /// The first derivative of a name with respect to time.
     Rate(u32),
     /// The second derivative of a name with respect to time.
@@ -41,8 +41,8 @@ pub enum FormulaNode<'a> {
     Power(u32, u32),
     /// An elementary function and its arguments.
     Call(ElementaryFunction, u32, u32),
-    /// A user function, the order of its derivative, and its arguments.
-    External(&'a str, u32, u32, u32),
+    /// A user function by the place of its name, the order of its derivative, and its arguments.
+    External(u32, u32, u32, u32),
     /// A product of two with a sign between them in every notation.
     Multiple(u32, u32),
     /// a ≤ b ≤ ….
@@ -77,7 +77,9 @@ pub enum ElementaryFunction {
 /// The nodes of the formulas of one derivation. Each refers to nodes before it only, so that a formula ends.
 #[derive(Clone, Copy, PartialEq)]
 pub struct FormulaTable<'a> {
-    nodes: &'a [FormulaNode<'a>],
+    nodes: &'a [FormulaNode],
+    /// The names of quantities and of user functions.
+    names: &'a [&'a str],
     /// The numbers of terms, factors and arguments.
     parts: &'a [i32],
 }
@@ -142,11 +144,11 @@ pub struct Terms<'a> {
 }
 
 impl<'a> FormulaTable<'a> {
-    /// The table of these nodes and parts; none if one refers to a node that does not come before it, takes the derivative,
+    /// The table of these nodes, names and parts; none if one refers to a node that does not come before it, takes the derivative,
     /// determinant or inverse of a node that is not a name, or has no parts.
     #[must_use]
-    pub const fn checked(nodes: &'a [FormulaNode<'a>], parts: &'a [i32]) -> Option<Self> {
-        let table = Self { nodes, parts };
+    pub const fn checked(nodes: &'a [FormulaNode], names: &'a [&'a str], parts: &'a [i32]) -> Option<Self> {
+        let table = Self { nodes, names, parts };
         let mut place = 0;
         while place < nodes.len() {
             if !table.is_sound(place) {
@@ -180,8 +182,8 @@ impl<'a> FormulaTable<'a> {
 #[doc(hidden)]
 impl<'a> FormulaTable<'a> {
     #[must_use]
-    pub const fn new(nodes: &'a [FormulaNode<'a>], parts: &'a [i32]) -> Self {
-        match Self::checked(nodes, parts) {
+    pub const fn new(nodes: &'a [FormulaNode], names: &'a [&'a str], parts: &'a [i32]) -> Self {
+        match Self::checked(nodes, names, parts) {
             Some(table) => table,
             None => panic!("a formula refers to a node that is not before it"),
         }
@@ -244,7 +246,7 @@ impl<'a> FormulaTable<'a> {
         while place < N {
             let formula = self.formula(numbers[place]);
             all[place] = match self.nodes[numbers[place] as usize - 1] {
-                FormulaNode::Name(name) => Symbol { name, formula },
+                FormulaNode::Name(name) => Symbol { name: self.names[name as usize], formula },
                 _ => panic!("a symbol is a name"),
             };
             place += 1;
@@ -258,7 +260,12 @@ const fn is_before(number: u32, place: usize) -> bool {
     number != 0 && number as usize <= place
 }
 
-impl FormulaTable<'_> {
+impl<'a> FormulaTable<'a> {
+    /// The name at a place; checked tables have those of their nodes.
+    fn name(self, place: u32) -> &'a str {
+        self.names.get(place as usize).copied().unwrap_or_default()
+    }
+
     /// True if the node at a place refers to nodes before it, by their meaning.
     const fn is_sound(self, place: usize) -> bool {
         match self.nodes[place] {
@@ -270,11 +277,8 @@ impl FormulaTable<'_> {
             FormulaNode::RatioDerivative(of, first, second) => {
                 self.is_name(of, place) && self.is_name(first, place) && self.is_name(second, place)
             }
-            FormulaNode::Name(_)
-            | FormulaNode::Integer(_)
-            | FormulaNode::Decimal(_)
-            | FormulaNode::Pi
-            | FormulaNode::Ellipsis => true,
+            FormulaNode::Name(name) => self.has_name(name),
+            FormulaNode::Integer(_) | FormulaNode::Decimal(_) | FormulaNode::Pi | FormulaNode::Ellipsis => true,
             FormulaNode::Quotient(one, other) | FormulaNode::Multiple(one, other) => {
                 is_before(one, place) && is_before(other, place)
             }
@@ -283,10 +287,16 @@ impl FormulaTable<'_> {
             }
             FormulaNode::Product(first, count)
             | FormulaNode::Call(_, first, count)
-            | FormulaNode::External(_, _, first, count)
             | FormulaNode::AtMost(first, count) => self.has_parts(first, count, place, false),
+            FormulaNode::External(name, _, first, count) => {
+                self.has_name(name) && self.has_parts(first, count, place, false)
+            }
             FormulaNode::Sum(first, count) => self.has_parts(first, count, place, true),
         }
+    }
+
+    const fn has_name(self, name: u32) -> bool {
+        (name as usize) < self.names.len()
     }
 
     const fn is_name(self, number: u32, place: usize) -> bool {
@@ -345,7 +355,9 @@ impl<'a> Formula<'a> {
             FormulaNode::Quotient(above, below) => FormulaView::Quotient(at(above), at(below)),
             FormulaNode::Power(base, exponent) => FormulaView::Power(at(base), exponent),
             FormulaNode::Call(function, first, count) => FormulaView::Call(function, all(first, count)),
-            FormulaNode::External(name, order, first, count) => FormulaView::External(name, order, all(first, count)),
+            FormulaNode::External(name, order, first, count) => {
+                FormulaView::External(table.name(name), order, all(first, count))
+            }
             FormulaNode::Multiple(one, other) => FormulaView::Multiple(at(one), at(other)),
             FormulaNode::AtMost(first, count) => FormulaView::AtMost(all(first, count)),
             FormulaNode::NonZero(inside) => FormulaView::NonZero(at(inside)),
@@ -353,14 +365,14 @@ impl<'a> Formula<'a> {
         }
     }
 
-    fn node(self) -> FormulaNode<'a> {
+    fn node(self) -> FormulaNode {
         self.table.nodes[self.number as usize - 1]
     }
 
     /// The name that it is; checked tables have names where derivatives are taken.
     fn name(self) -> Name<'a> {
         let text = |number| match (Self { number, ..self }).node() {
-            FormulaNode::Name(name) => name,
+            FormulaNode::Name(name) => self.table.name(name),
             _ => "",
         };
         match self.node() {
@@ -462,8 +474,8 @@ mod tests {
     #[test]
     fn references_lead_to_nodes() {
         let parts = [1, -2, 3, 0, i32::MIN, 1];
-        let sound = [Name("x"), Rate(1), Sum(0, 2), Power(3, 2), Quotient(2, 4)];
-        assert!(FormulaTable::checked(&sound, &parts).is_some());
+        let sound = [Name(0), Rate(1), Sum(0, 2), Power(3, 2), Quotient(2, 4)];
+        assert!(FormulaTable::checked(&sound, &["x"], &parts).is_some());
         for wrong in [
             Sum(0, 2),
             Sum(3, 1),
@@ -480,23 +492,24 @@ mod tests {
             AtMost(2, 1),
             NonZero(2),
             Rate(2),
+            Name(1),
         ] {
-            assert!(FormulaTable::checked(&[Name("x"), wrong], &parts).is_none(), "{wrong:?}");
+            assert!(FormulaTable::checked(&[Name(0), wrong], &["x"], &parts).is_none(), "{wrong:?}");
         }
         // Factors have no signs.
-        assert!(FormulaTable::checked(&[Name("x"), Name("y"), Product(0, 2)], &parts).is_none());
+        assert!(FormulaTable::checked(&[Name(0), Name(0), Product(0, 2)], &["x"], &parts).is_none());
         // The rate of a sum, and the determinant of a number.
-        assert!(FormulaTable::checked(&[Name("x"), Sum(0, 1), Rate(2)], &parts).is_none());
-        assert!(FormulaTable::checked(&[FormulaNode::Pi, Determinant(1)], &parts).is_none());
-        let table = FormulaTable::new(&[Name("x")], &[]);
+        assert!(FormulaTable::checked(&[Name(0), Sum(0, 1), Rate(2)], &["x"], &parts).is_none());
+        assert!(FormulaTable::checked(&[FormulaNode::Pi, Determinant(1)], &[], &parts).is_none());
+        let table = FormulaTable::new(&[Name(0)], &["x"], &[]);
         assert!(table.get(1).is_some() && table.get(0).is_none() && table.get(2).is_none());
     }
 
     #[test]
     fn formulas_of_two_tables_are_equal_by_their_nodes() {
-        let one = FormulaTable::new(&[Name("x"), Power(1, 2), Sum(0, 2)], &[2, -1]);
-        let nodes = [Name("y"), Name("x"), Power(2, 2), Sum(0, 2), Sum(2, 2)];
-        let other = FormulaTable::new(&nodes, &[3, -2, 3, 2]);
+        let one = FormulaTable::new(&[Name(0), Power(1, 2), Sum(0, 2)], &["x"], &[2, -1]);
+        let nodes = [Name(0), Name(1), Power(2, 2), Sum(0, 2), Sum(2, 2)];
+        let other = FormulaTable::new(&nodes, &["y", "x"], &[3, -2, 3, 2]);
         assert_eq!(one.formula(3), other.formula(4));
         assert_ne!(one.formula(3), other.formula(5));
         assert_eq!(std::format!("{:?} {}", one.formula(3), one.formula(1)), "\"x² − x\" x");
