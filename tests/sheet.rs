@@ -102,7 +102,7 @@ fn equations_are_numbered_as_in_the_text() {
 
 #[test]
 fn large_matrices_are_lists_of_entries() {
-    let table = FormulaTable::checked(&[FormulaNode::Integer(1)]).unwrap();
+    let table = FormulaTable::checked(&[FormulaNode::Integer(1)], &[], &[]).unwrap();
     let entries = [Entry { row: 6, column: 0, value: table.get(1).unwrap() }];
     let mut large = *FourBar::DERIVATION;
     let name = FourBar::DERIVATION.jacobian_inputs.name;

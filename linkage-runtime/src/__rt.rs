@@ -41,6 +41,8 @@ pub use crate::{
 pub mod derivation {
     /// What the constants name.
     pub mod prelude {
+        pub use core::option::Option::{None, Some};
+
         pub use crate::derivation::ElementaryFunction::*;
         pub use crate::derivation::FormulaNode::*;
         pub use crate::derivation::*;

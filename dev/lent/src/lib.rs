@@ -86,8 +86,9 @@ pub fn scene(document: &SceneDocument) -> SceneDerivation<'static> {
 /// If one refers to what is not before it.
 #[must_use]
 pub fn table(table: &document::Table) -> FormulaTable<'static> {
-    let nodes: Vec<FormulaNode<'static>> = table.nodes().map(node).collect();
-    FormulaTable::checked(nodes.leak()).expect("a sound table")
+    let (mut names, mut parts) = (Vec::new(), Vec::new());
+    let nodes: Vec<FormulaNode> = table.nodes().map(|one| node(one, &mut names, &mut parts)).collect();
+    FormulaTable::checked(nodes.leak(), names.leak(), parts.leak()).expect("a sound table")
 }
 
 fn text(text: &str) -> &'static str {
@@ -198,10 +199,22 @@ impl Table {
     }
 }
 
-fn node(node: &Node) -> FormulaNode<'static> {
-    let parts = |parts: &[Number]| list(parts, |part| part.get());
+fn node(node: &Node, names: &mut Vec<&'static str>, all: &mut Vec<i32>) -> FormulaNode {
+    let mut named = |name: &str| {
+        names.push(text(name));
+        u32::try_from(names.len() - 1).expect("a short table")
+    };
+    let signed = |(is_negative, part): &(bool, Number)| {
+        let number = i32::try_from(part.get()).expect("a short table");
+        if *is_negative { -number } else { number }
+    };
+    let mut add = |parts: &[(bool, Number)]| {
+        let first = all.len();
+        all.extend(parts.iter().map(signed));
+        [first, parts.len()].map(|place| u32::try_from(place).expect("a short table"))
+    };
     match node {
-        Node::Name(name) => FormulaNode::Name(text(name)),
+        Node::Name(name) => FormulaNode::Name(named(name)),
         Node::Rate(name) => FormulaNode::Rate(name.get()),
         Node::Acceleration(name) => FormulaNode::Acceleration(name.get()),
         Node::Ratio(of, by) => FormulaNode::Ratio(of.get(), by.get()),
@@ -212,22 +225,37 @@ fn node(node: &Node) -> FormulaNode<'static> {
         Node::Decimal(bits) => FormulaNode::Decimal(f64::from_bits(*bits)),
         Node::Pi => FormulaNode::Pi,
         Node::Ellipsis => FormulaNode::Ellipsis,
-        Node::Sum(terms) => FormulaNode::Sum(list(terms, |(is_negative, term)| {
-            let number = i32::try_from(term.get()).expect("a short table");
-            if *is_negative { -number } else { number }
-        })),
-        Node::Product(factors) => FormulaNode::Product(parts(factors)),
+        Node::Sum(terms) => {
+            let [first, count] = add(terms);
+            FormulaNode::Sum(first, count)
+        }
+        Node::Product(factors) => {
+            let [first, count] = unsigned(factors, &mut add);
+            FormulaNode::Product(first, count)
+        }
         Node::Quotient(above, below) => FormulaNode::Quotient(above.get(), below.get()),
         Node::Power(base, exponent) => FormulaNode::Power(base.get(), *exponent),
-        Node::Call(function, arguments) => FormulaNode::Call(elementary(*function), parts(arguments)),
+        Node::Call(function, arguments) => {
+            let [first, count] = unsigned(arguments, &mut add);
+            FormulaNode::Call(elementary(*function), first, count)
+        }
         Node::External(name, order, arguments) => {
-            FormulaNode::External(text(name), u32::try_from(*order).expect("a low order"), parts(arguments))
+            let [first, count] = unsigned(arguments, &mut add);
+            FormulaNode::External(named(name), u32::try_from(*order).expect("a low order"), first, count)
         }
         Node::Multiple(one, other) => FormulaNode::Multiple(one.get(), other.get()),
-        Node::AtMost(all) => FormulaNode::AtMost(parts(all)),
+        Node::AtMost(all) => {
+            let [first, count] = unsigned(all, &mut add);
+            FormulaNode::AtMost(first, count)
+        }
         Node::NonZero(inside) => FormulaNode::NonZero(inside.get()),
         Node::Exists(inside) => FormulaNode::Exists(inside.get()),
     }
+}
+
+/// Adds parts without signs.
+fn unsigned(parts: &[Number], mut add: impl FnMut(&[(bool, Number)]) -> [u32; 2]) -> [u32; 2] {
+    add(&parts.iter().map(|part| (false, *part)).collect::<Vec<_>>())
 }
 
 fn elementary(function: Function) -> ElementaryFunction {

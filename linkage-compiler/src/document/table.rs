@@ -72,6 +72,12 @@ impl Table {
         self.nodes.iter()
     }
 
+    /// True if a node is this name.
+    #[must_use]
+    pub fn is_name(&self, number: Number, name: &str) -> bool {
+        matches!(self.node(number), Node::Name(text) if text == name)
+    }
+
     /// The number of a node, which is added if it is new.
     pub fn add(&mut self, node: Node) -> Number {
         if let Some(number) = self.numbers.get(&node) {

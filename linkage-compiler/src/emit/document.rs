@@ -13,23 +13,27 @@ use crate::program::Operations;
 
 /// The constant `DERIVATION` of a driver.
 pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream) -> TokenStream {
-    let (table, mechanism) = (table(&document.table), string(&document.mechanism));
-    let [parameters, inputs, unknowns] =
-        [&document.parameters, &document.inputs, &document.unknowns].map(|symbols| self::symbols(symbols));
+    let mut lists = Lists::default();
+    let mechanism = string(&document.mechanism);
+    let [parameters, inputs, unknowns] = [&document.parameters, &document.inputs, &document.unknowns]
+        .map(|symbols| lists.symbols(&document.table, symbols));
     let [residual, implied, ratios, gamma] =
-        [&document.residual, &document.implied, &document.ratios, &document.gamma].map(|all| equations(all));
-    let [jacobian_unknowns, jacobian_inputs] = [&document.jacobian_unknowns, &document.jacobian_inputs].map(matrix);
-    let blocks = list(document.blocks.iter().map(block));
+        [&document.residual, &document.implied, &document.ratios, &document.gamma].map(|all| lists.equations(all));
+    let [jacobian_unknowns, jacobian_inputs] =
+        [&document.jacobian_unknowns, &document.jacobian_inputs].map(|matrix| lists.matrix(matrix));
+    let blocks = list(document.blocks.iter().map(|block| lists.block(block)));
     let determinant = option(document.determinant.as_ref().map(equation));
-    let second = option(document.ratio_derivatives.as_deref().map(equations));
-    let jerk = option(document.jerk.as_deref().map(equations));
-    let sensitivity = option(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
-        let (jacobian, formulas) = (matrix(jacobian), equations(formulas));
+    let second = constant(document.ratio_derivatives.as_deref().map(|all| lists.equations(all)));
+    let jerk = constant(document.jerk.as_deref().map(|all| lists.equations(all)));
+    let sensitivity = constant(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
+        let (jacobian, formulas) = (lists.matrix(jacobian), lists.equations(formulas));
         quote!(Sensitivity { jacobian: #jacobian, formulas: #formulas })
     }));
-    let [points, outputs] = [&document.points, &document.outputs].map(|all| list(all.iter().map(quantity)));
-    let conditions = formulas(&document.conditions);
-    let kernels = list(document.kernels.iter().map(kernel));
+    let [points, outputs] =
+        [&document.points, &document.outputs].map(|all| list(all.iter().map(|one| lists.quantity(one))));
+    let conditions = lists.formulas(&document.conditions);
+    let kernels = list(document.kernels.iter().map(|kernel| lists.kernel(kernel)));
+    let table = table(&document.table, &lists);
     quote! {
         impl #name {
             /// The derivation as data: every formula, the order of solution and the operations of each function. If it
@@ -65,22 +69,24 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
 
 /// The constant `DERIVATION` of a scene: its equations of motion.
 pub(super) fn of_scene(name: &TypeName, document: &SceneDocument, root: &TokenStream) -> TokenStream {
-    let table = table(&document.table);
+    let mut lists = Lists::default();
     let [scene, mechanism] = [&document.scene, &document.mechanism].map(|name| string(name));
-    let [parameters, contacts] = [&document.parameters, &document.contacts].map(|symbols| self::symbols(symbols));
-    let [mass_matrix, drives] = [&document.mass_matrix, &document.drives].map(|all| equations(all));
+    let [parameters, contacts] =
+        [&document.parameters, &document.contacts].map(|symbols| lists.symbols(&document.table, symbols));
+    let [mass_matrix, drives] = [&document.mass_matrix, &document.drives].map(|all| lists.equations(all));
     let forces = list(document.forces.iter().map(|Effect { name, forces }| {
-        let (name, forces) = (string(name), equations(forces));
+        let (name, forces) = (string(name), lists.equations(forces));
         quote!(Effect { name: #name, forces: #forces })
     }));
-    let frictions_and_stops = list(document.frictions_and_stops.iter().map(contact));
+    let frictions_and_stops = list(document.frictions_and_stops.iter().map(|contact| lists.contact(contact)));
     let potential = option(document.potential.as_ref().map(equation));
     let joints = list(document.joints.iter().map(|JointForce { name, components }| {
         let (name, [first, second]) = (string(name), components.each_ref().map(equation));
         quote!(JointForce { name: #name, components: [#first, #second] })
     }));
-    let multipliers = formulas(&document.multipliers);
-    let kernels = list(document.kernels.iter().map(kernel));
+    let multipliers = lists.formulas(&document.multipliers);
+    let kernels = list(document.kernels.iter().map(|kernel| lists.kernel(kernel)));
+    let table = table(&document.table, &lists);
     quote! {
         impl #name {
             /// The equations of motion as data: every formula, and the operations of each function. If it is not used, it
@@ -113,17 +119,56 @@ impl ToTokens for Number {
     }
 }
 
-/// The table of formulas, `T`.
-fn table(table: &Table) -> TokenStream {
-    let nodes = table.nodes().map(node);
-    quote!(const T: FormulaTable<'static> = FormulaTable::new(&[#(#nodes),*]);)
+/// The table of formulas, `T`. Its constants have no references within them, which would be a constant each.
+fn table(table: &Table, lists: &Lists) -> TokenStream {
+    let mut parts = Parts::default();
+    let nodes: Vec<TokenStream> = table.nodes().map(|node| self::node(node, &mut parts)).collect();
+    let names = parts.names.iter().map(|name| string(name));
+    let parts = parts.all.iter().map(|(is_negative, part)| {
+        let minus = is_negative.then(|| quote!(-));
+        quote!(#minus #part)
+    });
+    let numbers = lists.numbers.iter().map(|number| Literal::u32_unsuffixed(*number));
+    quote! {
+        const NODES: &[FormulaNode] = &[#(#nodes),*];
+        const NAMES: &[&str] = &[#(#names),*];
+        const PARTS: &[i32] = &[#(#parts),*];
+        const NUMBERS: &[u32] = &[#(#numbers),*];
+        const T: FormulaNumbers<'static> = FormulaNumbers::new(NODES, NAMES, PARTS, NUMBERS);
+    }
 }
 
-fn node(node: &Node) -> TokenStream {
-    let list = |all: &[Number]| quote!(&[#(#all),*]);
+/// The names, terms, factors and arguments of all nodes.
+#[derive(Default)]
+struct Parts<'a> {
+    names: Vec<&'a str>,
+    all: Vec<(bool, Number)>,
+}
+
+impl<'a> Parts<'a> {
+    /// Adds a name: its place.
+    fn name(&mut self, name: &'a str) -> Literal {
+        self.names.push(name);
+        Literal::usize_unsuffixed(self.names.len() - 1)
+    }
+
+    /// Adds parts: the first place and the count.
+    fn add(&mut self, parts: impl IntoIterator<Item = (bool, Number)>) -> TokenStream {
+        let first = self.all.len();
+        self.all.extend(parts);
+        let [first, count] = [first, self.all.len() - first].map(Literal::usize_unsuffixed);
+        quote!(#first, #count)
+    }
+
+    fn unsigned(&mut self, parts: &[Number]) -> TokenStream {
+        self.add(parts.iter().map(|part| (false, *part)))
+    }
+}
+
+fn node<'a>(node: &'a Node, parts: &mut Parts<'a>) -> TokenStream {
     match node {
         Node::Name(name) => {
-            let name = string(name);
+            let name = parts.name(name);
             quote!(Name(#name))
         }
         Node::Rate(name) => quote!(Rate(#name)),
@@ -143,14 +188,11 @@ fn node(node: &Node) -> TokenStream {
         Node::Pi => quote!(Pi),
         Node::Ellipsis => quote!(Ellipsis),
         Node::Sum(terms) => {
-            let terms = terms.iter().map(|(is_negative, term)| {
-                let minus = is_negative.then(|| quote!(-));
-                quote!(#minus #term)
-            });
-            quote!(Sum(&[#(#terms),*]))
+            let terms = parts.add(terms.iter().copied());
+            quote!(Sum(#terms))
         }
         Node::Product(factors) => {
-            let factors = list(factors);
+            let factors = parts.unsigned(factors);
             quote!(Product(#factors))
         }
         Node::Quotient(above, below) => quote!(Quotient(#above, #below)),
@@ -159,17 +201,18 @@ fn node(node: &Node) -> TokenStream {
             quote!(Power(#base, #exponent))
         }
         Node::Call(function, arguments) => {
-            let (function, arguments) = (format_ident!("{function:?}"), list(arguments));
+            let (function, arguments) = (format_ident!("{function:?}"), parts.unsigned(arguments));
             quote!(Call(#function, #arguments))
         }
         Node::External(name, order, arguments) => {
-            let (name, order, arguments) = (string(name), Literal::usize_unsuffixed(*order), list(arguments));
+            let (name, order) = (parts.name(name), Literal::usize_unsuffixed(*order));
+            let arguments = parts.unsigned(arguments);
             quote!(External(#name, #order, #arguments))
         }
         Node::Multiple(one, other) => quote!(Multiple(#one, #other)),
-        Node::AtMost(parts) => {
-            let parts = list(parts);
-            quote!(AtMost(#parts))
+        Node::AtMost(all) => {
+            let all = parts.unsigned(all);
+            quote!(AtMost(#all))
         }
         Node::NonZero(inside) => quote!(NonZero(#inside)),
         Node::Exists(inside) => quote!(Exists(#inside)),
@@ -194,39 +237,24 @@ fn list(items: impl IntoIterator<Item = TokenStream>) -> TokenStream {
     quote!(&[#(#items),*])
 }
 
-/// A value with references is a constant of its own.
 fn option(value: Option<TokenStream>) -> TokenStream {
     match value {
-        Some(value) => quote!(::core::option::Option::Some(const { #value })),
-        None => quote!(::core::option::Option::None),
+        Some(value) => quote!(Some(#value)),
+        None => quote!(None),
     }
+}
+
+/// An optional value with references to others, which is a constant of its own.
+fn constant(value: Option<TokenStream>) -> TokenStream {
+    option(value.map(|value| quote!(const { #value })))
 }
 
 fn formula(number: &Number) -> TokenStream {
     quote!(T.formula(#number))
 }
 
-/// `&[Formula]`.
-fn formulas(all: &[Number]) -> TokenStream {
-    if all.is_empty() { quote!(&[]) } else { quote!(&T.formulas([#(#all),*])) }
-}
-
 fn equation([left, right]: &Equation) -> TokenStream {
-    quote!(T.equation([#left, #right]))
-}
-
-/// `&[Equation]`.
-fn equations(all: &[Equation]) -> TokenStream {
-    if all.is_empty() {
-        return quote!(&[]);
-    }
-    let all = all.iter().map(|[left, right]| quote!([#left, #right]));
-    quote!(&T.equations([#(#all),*]))
-}
-
-/// `&[Symbol]`.
-fn symbols(symbols: &[Symbol]) -> TokenStream {
-    list(symbols.iter().map(symbol))
+    quote!(T.equation(#left, #right))
 }
 
 fn symbol(symbol: &Symbol) -> TokenStream {
@@ -234,96 +262,136 @@ fn symbol(symbol: &Symbol) -> TokenStream {
     quote!(Symbol { name: #name, formula: #formula })
 }
 
-fn matrix(Matrix { name, factor, rows, columns, entries }: &Matrix) -> TokenStream {
-    let (name, factor) = (formula(name), option(factor.as_ref().map(formula)));
-    let [rows, columns] = [*rows, *columns].map(Literal::usize_unsuffixed);
-    let entries = entries.iter().map(|(place, value)| {
-        let [row, column] = place.map(Literal::usize_unsuffixed);
-        quote!([#row, #column, #value])
-    });
-    quote! {
-        FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: &T.entries([#(#entries),*]) }
-    }
+/// The numbers of all lists of formulas.
+#[derive(Default)]
+struct Lists {
+    numbers: Vec<u32>,
 }
 
-fn block(block: &Block) -> TokenStream {
-    let (unknowns, group, position) = (formulas(&block.unknowns), string(&block.group), equations(&block.position));
-    let of_block = block.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
-    let root = option(block.root.as_ref().map(|Root { formula, branches }| {
-        let root = self::formula(formula);
-        quote!(Root { formula: #root, branches: [#(#branches),*] })
-    }));
-    let method = match block.method {
-        Method::ClosedForm => quote!(ClosedForm),
-        Method::Factorization => quote!(Factorization),
-    };
-    let determinant = option(block.determinant.as_ref().map(equation));
-    let inverse = option(block.inverse.as_ref().map(matrix));
-    quote! {
-        Block {
-            unknowns: #unknowns,
-            equations: &[#(#of_block),*],
-            group: #group,
-            position: #position,
-            root: #root,
-            method: BlockMethod::#method,
-            determinant: #determinant,
-            inverse: #inverse,
+impl Lists {
+    /// A list that a function of the runtime makes of numbers, `each` for an entry.
+    fn add(&mut self, function: &str, each: usize, numbers: impl IntoIterator<Item = u32>) -> TokenStream {
+        let first = self.numbers.len();
+        self.numbers.extend(numbers);
+        let count = (self.numbers.len() - first) / each;
+        if count == 0 {
+            return quote!(&[]);
+        }
+        let (function, [first, count]) = (format_ident!("{function}"), [first, count].map(Literal::usize_unsuffixed));
+        quote!(&T.#function::<#count>(#first))
+    }
+
+    /// `&[Formula]`.
+    fn formulas(&mut self, all: &[Number]) -> TokenStream {
+        self.add("formulas", 1, all.iter().map(|number| number.get()))
+    }
+
+    /// `&[Equation]`.
+    fn equations(&mut self, all: &[Equation]) -> TokenStream {
+        self.add("equations", 2, all.iter().flatten().map(|number| number.get()))
+    }
+
+    /// `&[Symbol]`; a name is its own formula, but for forces.
+    fn symbols(&mut self, table: &Table, symbols: &[Symbol]) -> TokenStream {
+        if symbols.iter().all(|symbol| table.is_name(symbol.formula, &symbol.name)) {
+            return self.add("symbols", 1, symbols.iter().map(|symbol| symbol.formula.get()));
+        }
+        list(symbols.iter().map(symbol))
+    }
+
+    fn matrix(&mut self, Matrix { name, factor, rows, columns, entries }: &Matrix) -> TokenStream {
+        let (name, factor) = (formula(name), option(factor.as_ref().map(formula)));
+        let [rows, columns] = [*rows, *columns].map(Literal::usize_unsuffixed);
+        // A place is less than the number of nodes.
+        let numbers = entries.iter().flat_map(|(place, value)| {
+            let [row, column] = place.map(|place| u32::try_from(place).unwrap_or(u32::MAX));
+            [row, column, value.get()]
+        });
+        let entries = self.add("entries", 3, numbers);
+        quote!(FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: #entries })
+    }
+
+    fn block(&mut self, block: &Block) -> TokenStream {
+        let (unknowns, position) = (self.formulas(&block.unknowns), self.equations(&block.position));
+        let group = string(&block.group);
+        let of_block = block.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
+        let root = option(block.root.as_ref().map(|Root { formula, branches }| {
+            let root = self::formula(formula);
+            quote!(Root { formula: #root, branches: [#(#branches),*] })
+        }));
+        let method = match block.method {
+            Method::ClosedForm => quote!(ClosedForm),
+            Method::Factorization => quote!(Factorization),
+        };
+        let determinant = option(block.determinant.as_ref().map(equation));
+        let inverse = constant(block.inverse.as_ref().map(|matrix| self.matrix(matrix)));
+        quote! {
+            Block {
+                unknowns: #unknowns,
+                equations: &[#(#of_block),*],
+                group: #group,
+                position: #position,
+                root: #root,
+                method: BlockMethod::#method,
+                determinant: #determinant,
+                inverse: #inverse,
+            }
         }
     }
-}
 
-fn quantity(quantity: &Quantity) -> TokenStream {
-    let name = string(&quantity.name);
-    let [value, ratios, second, first] =
-        [&quantity.value, &quantity.ratios, &quantity.ratio_derivatives, &quantity.sensitivities]
-            .map(|all| equations(all));
-    quote! {
-        Quantity { name: #name, value: #value, ratios: #ratios, ratio_derivatives: #second, sensitivities: #first }
-    }
-}
-
-fn contact(contact: &ContactEffect) -> TokenStream {
-    let (name, along, forces) = (string(&contact.name), equation(&contact.along), equations(&contact.forces));
-    let [force, bound] = [&contact.force, &contact.bound].map(formula);
-    let bearing = option(contact.bearing.as_ref().map(symbol));
-    let rebound = option(contact.rebound.as_ref().map(formula));
-    quote! {
-        ContactEffect {
-            name: #name,
-            force: #force,
-            along: #along,
-            bound: #bound,
-            bearing: #bearing,
-            rebound: #rebound,
-            forces: #forces,
+    fn quantity(&mut self, quantity: &Quantity) -> TokenStream {
+        let name = string(&quantity.name);
+        let [value, ratios, second, first] =
+            [&quantity.value, &quantity.ratios, &quantity.ratio_derivatives, &quantity.sensitivities]
+                .map(|all| self.equations(all));
+        quote! {
+            Quantity { name: #name, value: #value, ratios: #ratios, ratio_derivatives: #second, sensitivities: #first }
         }
     }
-}
 
-/// A function with its operations, and its code if that is requested.
-fn kernel(Kernel { function, operations, code }: &Kernel) -> TokenStream {
-    let Operations { functions, divisions, multiplications, additions } = *operations;
-    let operations = [functions, divisions, multiplications, additions].map(Literal::usize_unsuffixed);
-    let (function, KernelCode { steps, checks, results }) = (string(function), code);
-    if results.is_empty() {
-        return quote!(Kernel::new(#function, [#(#operations),*]));
+    fn contact(&mut self, contact: &ContactEffect) -> TokenStream {
+        let (name, along, forces) = (string(&contact.name), equation(&contact.along), self.equations(&contact.forces));
+        let [force, bound] = [&contact.force, &contact.bound].map(formula);
+        let bearing = option(contact.bearing.as_ref().map(symbol));
+        let rebound = option(contact.rebound.as_ref().map(formula));
+        quote! {
+            ContactEffect {
+                name: #name,
+                force: #force,
+                along: #along,
+                bound: #bound,
+                bearing: #bearing,
+                rebound: #rebound,
+                forces: #forces,
+            }
+        }
     }
-    let steps = equations(steps);
-    let checks = list(checks.iter().map(|(word, of)| {
-        let (first, rest) = word.split_at(1);
-        let check = format_ident!("{}{rest}", first.to_uppercase());
-        quote!(KernelCheck::#check(T.formulas([#(#of),*])))
-    }));
-    let results = list(results.iter().map(|(place, value)| {
-        let (place, value) = (string(place), formula(value));
-        quote!(KernelResult { place: #place, value: #value })
-    }));
-    quote! {
-        Kernel {
-            function: #function,
-            operations: Operations::new([#(#operations),*]),
-            code: KernelCode { steps: #steps, checks: #checks, results: #results },
+
+    /// A function with its operations, and its code if that is requested.
+    fn kernel(&mut self, Kernel { function, operations, code }: &Kernel) -> TokenStream {
+        let Operations { functions, divisions, multiplications, additions } = *operations;
+        let operations = [functions, divisions, multiplications, additions].map(Literal::usize_unsuffixed);
+        let (function, KernelCode { steps, checks, results }) = (string(function), code);
+        if results.is_empty() {
+            return quote!(Kernel::new(#function, [#(#operations),*]));
+        }
+        let steps = self.equations(steps);
+        let checks = list(checks.iter().map(|(word, of)| {
+            let (first, rest) = word.split_at(1);
+            let check = format_ident!("{}{rest}", first.to_uppercase());
+            let of = of.iter().map(formula);
+            quote!(KernelCheck::#check([#(#of),*]))
+        }));
+        let results = list(results.iter().map(|(place, value)| {
+            let (place, value) = (string(place), formula(value));
+            quote!(KernelResult { place: #place, value: #value })
+        }));
+        quote! {
+            Kernel {
+                function: #function,
+                operations: Operations::new([#(#operations),*]),
+                code: KernelCode { steps: #steps, checks: #checks, results: #results },
+            }
         }
     }
 }

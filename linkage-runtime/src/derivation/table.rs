@@ -3,13 +3,13 @@
 use core::fmt;
 
 use super::notation::{Name, Unicode, write};
-use super::{Entry, Equation, Symbol};
 
-/// A node of a [`FormulaTable`]. It refers to nodes before it by their numbers, which count from 1.
+/// A node of a [`FormulaTable`]. It refers to nodes before it by their numbers, which count from 1, and to several by a
+/// place in the list of parts and a count.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FormulaNode<'a> {
-    /// A quantity by its name in the `linkage!` language: `theta3`.
-    Name(&'a str),
+pub enum FormulaNode {
+    /// A quantity by the place of its name in the `linkage!` language: `theta3`.
+    Name(u32),
     /// The first derivative of a name with respect to time.
     Rate(u32),
     /// The second derivative of a name with respect to time.
@@ -31,21 +31,21 @@ pub enum FormulaNode<'a> {
     /// The place of a part that is too long to be printed.
     Ellipsis,
     /// Terms from left to right; the number of a term that is subtracted has a minus sign.
-    Sum(&'a [i32]),
+    Sum(u32, u32),
     /// Factors from left to right.
-    Product(&'a [u32]),
+    Product(u32, u32),
     /// A numerator and a denominator.
     Quotient(u32, u32),
     /// A power of the first with the second, a number by itself, as the exponent.
     Power(u32, u32),
     /// An elementary function and its arguments.
-    Call(ElementaryFunction, &'a [u32]),
-    /// A user function, the order of its derivative, and its arguments.
-    External(&'a str, u32, &'a [u32]),
+    Call(ElementaryFunction, u32, u32),
+    /// A user function by the place of its name, the order of its derivative, and its arguments.
+    External(u32, u32, u32, u32),
     /// A product of two with a sign between them in every notation.
     Multiple(u32, u32),
     /// a ≤ b ≤ ….
-    AtMost(&'a [u32]),
+    AtMost(u32, u32),
     /// a ≠ 0.
     NonZero(u32),
     /// The statement that a formula has a value.
@@ -76,7 +76,11 @@ pub enum ElementaryFunction {
 /// The nodes of the formulas of one derivation. Each refers to nodes before it only, so that a formula ends.
 #[derive(Clone, Copy, PartialEq)]
 pub struct FormulaTable<'a> {
-    nodes: &'a [FormulaNode<'a>],
+    pub(super) nodes: &'a [FormulaNode],
+    /// The names of quantities and of user functions.
+    pub(super) names: &'a [&'a str],
+    /// The numbers of terms, factors and arguments.
+    parts: &'a [i32],
 }
 
 /// A formula: a node of a table. Its [`Display`](fmt::Display) is one line of Unicode, such as `−l₃·l₄·sin(θ₃ − θ₄)`;
@@ -128,7 +132,7 @@ pub enum FormulaView<'a> {
 #[derive(Debug, Clone, Copy)]
 pub struct FormulaList<'a> {
     table: FormulaTable<'a>,
-    numbers: &'a [u32],
+    numbers: &'a [i32],
 }
 
 /// The terms of a sum.
@@ -139,18 +143,19 @@ pub struct Terms<'a> {
 }
 
 impl<'a> FormulaTable<'a> {
-    /// The table of these nodes; none if one refers to a node that does not come before it, takes the derivative,
+    /// The table of these nodes, names and parts; none if one refers to a node that does not come before it, takes the derivative,
     /// determinant or inverse of a node that is not a name, or has no parts.
     #[must_use]
-    pub const fn checked(nodes: &'a [FormulaNode<'a>]) -> Option<Self> {
+    pub const fn checked(nodes: &'a [FormulaNode], names: &'a [&'a str], parts: &'a [i32]) -> Option<Self> {
+        let table = Self { nodes, names, parts };
         let mut place = 0;
         while place < nodes.len() {
-            if !is_sound(nodes, place) {
+            if !table.is_sound(place) {
                 return None;
             }
             place += 1;
         }
-        Some(Self { nodes })
+        Some(table)
     }
 
     /// The formula with this number; none if there is none.
@@ -172,137 +177,70 @@ impl<'a> FormulaTable<'a> {
     }
 }
 
-/// Functions for emitted constants: a number without a node ends the compilation.
-#[doc(hidden)]
-impl<'a> FormulaTable<'a> {
-    #[must_use]
-    pub const fn new(nodes: &'a [FormulaNode<'a>]) -> Self {
-        match Self::checked(nodes) {
-            Some(table) => table,
-            None => panic!("a formula refers to a node that is not before it"),
-        }
-    }
-
-    #[must_use]
-    pub const fn formula(self, number: u32) -> Formula<'a> {
-        match self.get(number) {
-            Some(formula) => formula,
-            None => panic!("no formula has this number"),
-        }
-    }
-
-    #[must_use]
-    pub const fn formulas<const N: usize>(self, numbers: [u32; N]) -> [Formula<'a>; N] {
-        let mut all = [Formula { table: self, number: 0 }; N];
-        let mut place = 0;
-        while place < N {
-            all[place] = self.formula(numbers[place]);
-            place += 1;
-        }
-        all
-    }
-
-    #[must_use]
-    pub const fn equation(self, [left, right]: [u32; 2]) -> Equation<'a> {
-        Equation { left: self.formula(left), right: self.formula(right) }
-    }
-
-    #[must_use]
-    pub const fn equations<const N: usize>(self, numbers: [[u32; 2]; N]) -> [Equation<'a>; N] {
-        let none = Formula { table: self, number: 0 };
-        let mut all = [Equation { left: none, right: none }; N];
-        let mut place = 0;
-        while place < N {
-            all[place] = self.equation(numbers[place]);
-            place += 1;
-        }
-        all
-    }
-
-    /// Entries of a matrix, each a row, a column and a formula.
-    #[must_use]
-    pub const fn entries<const N: usize>(self, numbers: [[u32; 3]; N]) -> [Entry<'a>; N] {
-        let mut all = [Entry { row: 0, column: 0, value: Formula { table: self, number: 0 } }; N];
-        let mut place = 0;
-        while place < N {
-            let [row, column, value] = numbers[place];
-            all[place] = Entry { row: row as usize, column: column as usize, value: self.formula(value) };
-            place += 1;
-        }
-        all
-    }
-
-    /// Names as symbols.
-    #[must_use]
-    pub const fn symbols<const N: usize>(self, numbers: [u32; N]) -> [Symbol<'a>; N] {
-        let mut all = [Symbol { name: "", formula: Formula { table: self, number: 0 } }; N];
-        let mut place = 0;
-        while place < N {
-            let formula = self.formula(numbers[place]);
-            all[place] = match self.nodes[numbers[place] as usize - 1] {
-                FormulaNode::Name(name) => Symbol { name, formula },
-                _ => panic!("a symbol is a name"),
-            };
-            place += 1;
-        }
-        all
-    }
-}
-
 /// True if this is the number of a node before a place.
 const fn is_before(number: u32, place: usize) -> bool {
     number != 0 && number as usize <= place
 }
 
-/// True if the node at a place refers to nodes before it, by their meaning.
-const fn is_sound(nodes: &[FormulaNode<'_>], place: usize) -> bool {
-    match nodes[place] {
-        FormulaNode::Rate(name)
-        | FormulaNode::Acceleration(name)
-        | FormulaNode::Determinant(name)
-        | FormulaNode::Inverse(name) => is_name(nodes, name, place),
-        FormulaNode::Ratio(of, by) => is_name(nodes, of, place) && is_name(nodes, by, place),
-        FormulaNode::RatioDerivative(of, first, second) => {
-            is_name(nodes, of, place) && is_name(nodes, first, place) && is_name(nodes, second, place)
-        }
-        FormulaNode::Name(_)
-        | FormulaNode::Integer(_)
-        | FormulaNode::Decimal(_)
-        | FormulaNode::Pi
-        | FormulaNode::Ellipsis => true,
-        FormulaNode::Quotient(above, below) => is_before(above, place) && is_before(below, place),
-        FormulaNode::Multiple(one, other) => is_before(one, place) && is_before(other, place),
-        FormulaNode::Power(inside, _) | FormulaNode::NonZero(inside) | FormulaNode::Exists(inside) => {
-            is_before(inside, place)
-        }
-        FormulaNode::Product(parts)
-        | FormulaNode::Call(_, parts)
-        | FormulaNode::External(_, _, parts)
-        | FormulaNode::AtMost(parts) => {
-            let mut at = 0;
-            while at < parts.len() {
-                if !is_before(parts[at], place) {
-                    return false;
-                }
-                at += 1;
+impl<'a> FormulaTable<'a> {
+    /// The name at a place; checked tables have those of their nodes.
+    fn name(self, place: u32) -> &'a str {
+        self.names.get(place as usize).copied().unwrap_or_default()
+    }
+
+    /// True if the node at a place refers to nodes before it, by their meaning.
+    const fn is_sound(self, place: usize) -> bool {
+        match self.nodes[place] {
+            FormulaNode::Rate(name)
+            | FormulaNode::Acceleration(name)
+            | FormulaNode::Determinant(name)
+            | FormulaNode::Inverse(name) => self.is_name(name, place),
+            FormulaNode::Ratio(of, by) => self.is_name(of, place) && self.is_name(by, place),
+            FormulaNode::RatioDerivative(of, first, second) => {
+                self.is_name(of, place) && self.is_name(first, place) && self.is_name(second, place)
             }
-            !parts.is_empty()
-        }
-        FormulaNode::Sum(terms) => {
-            let mut at = 0;
-            while at < terms.len() {
-                if !is_before(terms[at].unsigned_abs(), place) {
-                    return false;
-                }
-                at += 1;
+            FormulaNode::Name(name) => self.has_name(name),
+            FormulaNode::Integer(_) | FormulaNode::Decimal(_) | FormulaNode::Pi | FormulaNode::Ellipsis => true,
+            FormulaNode::Quotient(one, other) | FormulaNode::Multiple(one, other) => {
+                is_before(one, place) && is_before(other, place)
             }
-            !terms.is_empty()
+            FormulaNode::Power(inside, _) | FormulaNode::NonZero(inside) | FormulaNode::Exists(inside) => {
+                is_before(inside, place)
+            }
+            FormulaNode::Product(first, count)
+            | FormulaNode::Call(_, first, count)
+            | FormulaNode::AtMost(first, count) => self.has_parts(first, count, place, false),
+            FormulaNode::External(name, _, first, count) => {
+                self.has_name(name) && self.has_parts(first, count, place, false)
+            }
+            FormulaNode::Sum(first, count) => self.has_parts(first, count, place, true),
         }
     }
-}
 
-const fn is_name(nodes: &[FormulaNode<'_>], number: u32, place: usize) -> bool {
-    is_before(number, place) && matches!(nodes[number as usize - 1], FormulaNode::Name(_))
+    const fn has_name(self, name: u32) -> bool {
+        (name as usize) < self.names.len()
+    }
+
+    const fn is_name(self, number: u32, place: usize) -> bool {
+        is_before(number, place) && matches!(self.nodes[number as usize - 1], FormulaNode::Name(_))
+    }
+
+    /// True if there are these parts, and if they are nodes before a place; only terms have signs.
+    const fn has_parts(self, first: u32, count: u32, place: usize, are_terms: bool) -> bool {
+        let (first, count) = (first as usize, count as usize);
+        if count == 0 || first > self.parts.len() || count > self.parts.len() - first {
+            return false;
+        }
+        let mut at = first;
+        while at < first + count {
+            let number = self.parts[at];
+            if !is_before(number.unsigned_abs(), place) || (number < 0 && !are_terms) {
+                return false;
+            }
+            at += 1;
+        }
+        true
+    }
 }
 
 impl<'a> Formula<'a> {
@@ -317,7 +255,11 @@ impl<'a> Formula<'a> {
     pub fn view(self) -> FormulaView<'a> {
         let Self { table, .. } = self;
         let at = |number| Self { table, number };
-        let all = |numbers| FormulaList { table, numbers };
+        // Checked tables have these parts.
+        let parts = |first: u32, count: u32| {
+            table.parts.get(first as usize..).and_then(|from| from.get(..count as usize)).unwrap_or_default()
+        };
+        let all = |first, count| FormulaList { table, numbers: parts(first, count) };
         match self.node() {
             FormulaNode::Name(_)
             | FormulaNode::Rate(_)
@@ -330,27 +272,29 @@ impl<'a> Formula<'a> {
             FormulaNode::Decimal(number) => FormulaView::Decimal(number),
             FormulaNode::Pi => FormulaView::Pi,
             FormulaNode::Ellipsis => FormulaView::Ellipsis,
-            FormulaNode::Sum(numbers) => FormulaView::Sum(Terms { table, numbers }),
-            FormulaNode::Product(factors) => FormulaView::Product(all(factors)),
+            FormulaNode::Sum(first, count) => FormulaView::Sum(Terms { table, numbers: parts(first, count) }),
+            FormulaNode::Product(first, count) => FormulaView::Product(all(first, count)),
             FormulaNode::Quotient(above, below) => FormulaView::Quotient(at(above), at(below)),
             FormulaNode::Power(base, exponent) => FormulaView::Power(at(base), exponent),
-            FormulaNode::Call(function, arguments) => FormulaView::Call(function, all(arguments)),
-            FormulaNode::External(name, order, arguments) => FormulaView::External(name, order, all(arguments)),
+            FormulaNode::Call(function, first, count) => FormulaView::Call(function, all(first, count)),
+            FormulaNode::External(name, order, first, count) => {
+                FormulaView::External(table.name(name), order, all(first, count))
+            }
             FormulaNode::Multiple(one, other) => FormulaView::Multiple(at(one), at(other)),
-            FormulaNode::AtMost(parts) => FormulaView::AtMost(all(parts)),
+            FormulaNode::AtMost(first, count) => FormulaView::AtMost(all(first, count)),
             FormulaNode::NonZero(inside) => FormulaView::NonZero(at(inside)),
             FormulaNode::Exists(inside) => FormulaView::Exists(at(inside)),
         }
     }
 
-    fn node(self) -> FormulaNode<'a> {
+    fn node(self) -> FormulaNode {
         self.table.nodes[self.number as usize - 1]
     }
 
     /// The name that it is; checked tables have names where derivatives are taken.
     fn name(self) -> Name<'a> {
         let text = |number| match (Self { number, ..self }).node() {
-            FormulaNode::Name(name) => name,
+            FormulaNode::Name(name) => self.table.name(name),
             _ => "",
         };
         match self.node() {
@@ -371,14 +315,14 @@ impl<'a> FormulaList<'a> {
     /// The formulas in order.
     pub fn iter(self) -> impl DoubleEndedIterator<Item = Formula<'a>> + ExactSizeIterator + Clone {
         let Self { table, numbers } = self;
-        numbers.iter().map(move |&number| Formula { table, number })
+        numbers.iter().map(move |number| Formula { table, number: number.unsigned_abs() })
     }
 
     /// The formula, if it is the only one.
     #[must_use]
     pub fn only(self) -> Option<Formula<'a>> {
         match *self.numbers {
-            [number] => Some(Formula { table: self.table, number }),
+            [number] => Some(Formula { table: self.table, number: number.unsigned_abs() }),
             _ => None,
         }
     }
@@ -451,37 +395,45 @@ mod tests {
     /// A table with a reference to a node that is not before it, or that is not what it must be, cannot be made.
     #[test]
     fn references_lead_to_nodes() {
-        let sound: &[FormulaNode<'_>] = &[Name("x"), Rate(1), Sum(&[1, -2]), Power(3, 2), Quotient(2, 4)];
-        assert!(FormulaTable::checked(sound).is_some());
+        let parts = [1, -2, 3, 0, i32::MIN, 1];
+        let sound = [Name(0), Rate(1), Sum(0, 2), Power(3, 2), Quotient(2, 4)];
+        assert!(FormulaTable::checked(&sound, &["x"], &parts).is_some());
         for wrong in [
-            Sum(&[1, 0]),
-            Sum(&[1, -2]),
-            Sum(&[i32::MIN]),
-            Sum(&[]),
-            Product(&[1, 2]),
-            Product(&[]),
+            Sum(0, 2),
+            Sum(3, 1),
+            Sum(4, 1),
+            Sum(0, 0),
+            Sum(5, 2),
+            Sum(7, 1),
+            Sum(u32::MAX, u32::MAX),
+            Product(2, 1),
+            Product(0, 0),
             Quotient(1, 3),
             Power(0, 2),
-            Call(ElementaryFunction::Sin, &[u32::MAX]),
-            AtMost(&[2]),
+            Call(ElementaryFunction::Sin, 0, 2),
+            AtMost(2, 1),
             NonZero(2),
             Rate(2),
+            Name(1),
         ] {
-            assert!(FormulaTable::checked(&[Name("x"), wrong]).is_none(), "{wrong:?}");
+            assert!(FormulaTable::checked(&[Name(0), wrong], &["x"], &parts).is_none(), "{wrong:?}");
         }
+        // Factors have no signs.
+        assert!(FormulaTable::checked(&[Name(0), Name(0), Product(0, 2)], &["x"], &parts).is_none());
         // The rate of a sum, and the determinant of a number.
-        assert!(FormulaTable::checked(&[Name("x"), Sum(&[1]), Rate(2)]).is_none());
-        assert!(FormulaTable::checked(&[FormulaNode::Pi, Determinant(1)]).is_none());
-        let table = FormulaTable::new(&[Name("x")]);
+        assert!(FormulaTable::checked(&[Name(0), Sum(0, 1), Rate(2)], &["x"], &parts).is_none());
+        assert!(FormulaTable::checked(&[FormulaNode::Pi, Determinant(1)], &[], &parts).is_none());
+        let table = FormulaTable::checked(&[Name(0)], &["x"], &[]).unwrap();
         assert!(table.get(1).is_some() && table.get(0).is_none() && table.get(2).is_none());
     }
 
     #[test]
     fn formulas_of_two_tables_are_equal_by_their_nodes() {
-        let one = FormulaTable::new(&[Name("x"), Power(1, 2), Sum(&[2, -1])]);
-        let other = FormulaTable::new(&[Name("y"), Name("x"), Power(2, 2), Sum(&[3, -2]), Sum(&[3, 2])]);
-        assert_eq!(one.formula(3), other.formula(4));
-        assert_ne!(one.formula(3), other.formula(5));
-        assert_eq!(std::format!("{:?} {}", one.formula(3), one.formula(1)), "\"x² − x\" x");
+        let one = FormulaTable::checked(&[Name(0), Power(1, 2), Sum(0, 2)], &["x"], &[2, -1]).unwrap();
+        let nodes = [Name(0), Name(1), Power(2, 2), Sum(0, 2), Sum(2, 2)];
+        let other = FormulaTable::checked(&nodes, &["y", "x"], &[3, -2, 3, 2]).unwrap();
+        assert_eq!(one.get(3).unwrap(), other.get(4).unwrap());
+        assert_ne!(one.get(3).unwrap(), other.get(5).unwrap());
+        assert_eq!(std::format!("{:?} {}", one.get(3).unwrap(), one.get(1).unwrap()), "\"x² − x\" x");
     }
 }
