@@ -4,6 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::names::string;
+use super::rust::{separated, separated_integer};
 use crate::document::{
     Block, ContactEffect, Document, Effect, Equation, JointForce, Kernel, KernelCode, Matrix, Method, Node, Number,
     Quantity, Root, SceneDocument, Sensitivity, Symbol, Table,
@@ -134,7 +135,7 @@ fn table(table: &Table, lists: &Lists) -> TokenStream {
         const NAMES: &[&str] = &[#(#names),*];
         const PARTS: &[i32] = &[#(#parts),*];
         const NUMBERS: &[u32] = &[#(#numbers),*];
-        const T: FormulaNumbers<'static> = FormulaNumbers::new(NODES, NAMES, PARTS, NUMBERS);
+        const T: FormulaLists<'static> = FormulaLists::new(NODES, NAMES, PARTS, NUMBERS);
     }
 }
 
@@ -178,7 +179,7 @@ fn node<'a>(node: &'a Node, parts: &mut Parts<'a>) -> TokenStream {
         Node::Determinant(matrix) => quote!(Determinant(#matrix)),
         Node::Inverse(matrix) => quote!(Inverse(#matrix)),
         Node::Integer(value) => {
-            let value = Literal::u64_unsuffixed(*value);
+            let value = separated_integer(*value);
             quote!(Integer(#value))
         }
         Node::Decimal(bits) => {
@@ -225,7 +226,7 @@ fn decimal(value: f64) -> TokenStream {
         _ if value.is_infinite() && value < 0.0 => quote!(f64::NEG_INFINITY),
         _ if value.is_infinite() => quote!(f64::INFINITY),
         _ => {
-            let (minus, size) = (value.is_sign_negative().then(|| quote!(-)), Literal::f64_unsuffixed(value.abs()));
+            let (minus, size) = (value.is_sign_negative().then(|| quote!(-)), separated(value.abs()));
             quote!(#minus #size)
         }
     }

@@ -463,8 +463,16 @@ fn exact(number: Number) -> TokenStream {
     }
 }
 
+/// An integer literal with its digits in groups of three.
+pub(super) fn separated_integer(value: u64) -> TokenStream {
+    let text = value.to_string();
+    let groups: Vec<&[u8]> = text.as_bytes().rchunks(3).rev().collect();
+    let groups: Vec<_> = groups.into_iter().map(String::from_utf8_lossy).collect();
+    parsed(&groups.join("_"))
+}
+
 /// A float literal with its decimals in groups of three.
-fn separated(value: f64) -> TokenStream {
+pub(super) fn separated(value: f64) -> TokenStream {
     let text = format!("{value:?}");
     let grouped = match text.split_once('.') {
         Some((whole, fraction)) if !text.contains('e') => {

@@ -40,7 +40,7 @@ impl Writer<'_> {
         let (of_dyads, others): (Vec<_>, Vec<_>) = checked.unproven().partition(|(_, dyad)| dyad.is_some());
         let [of_dyads, others] = [of_dyads, others].map(|values| values.into_iter().map(|(value, _)| value).collect());
         self.check_finite("the position", others, None);
-        let well_conditioned: Vec<ValueId> = self.well_conditioned.values().flatten().copied().collect();
+        let well_conditioned: Vec<ValueId> = self.well_conditioned.values().copied().collect();
         let before = std::mem::take(&mut self.statements);
         self.check_finite("the position", of_dyads, None);
         let of_dyads = std::mem::replace(&mut self.statements, before);

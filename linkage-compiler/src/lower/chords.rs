@@ -1,7 +1,9 @@
 //! The half chords of groups with two solutions, as calls of the runtime.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::code::{Pattern, Statement};
-use super::naming::Hint;
+use super::naming::{Hint, Hinted};
 use super::schedule::Line;
 use super::value::{Value, ValueId};
 use super::writer::{Absorbed, Writer};
@@ -93,11 +95,25 @@ impl Writer<'_> {
 
     /// The pattern of the flag that is true if the triangle of a dyad is well conditioned.
     fn well_conditioned(&mut self, block: BlockId) -> Pattern {
-        if !self.well_conditioned.contains_key(&block) {
-            return Pattern::Ignored;
-        }
         let flag = self.bound(format!("is_well_conditioned_{}", block.number()));
-        self.well_conditioned.insert(block, Some(flag));
+        self.well_conditioned.insert(block, flag);
         Pattern::Bound(flag)
+    }
+
+    /// Keeps the flags of these dyads: nothing reads the others.
+    pub(super) fn keep_conditions(&mut self, of: &BTreeSet<BlockId>) {
+        let (kept, unused): (BTreeMap<_, _>, BTreeMap<_, _>) =
+            std::mem::take(&mut self.well_conditioned).into_iter().partition(|(block, _)| of.contains(block));
+        self.well_conditioned = kept;
+        let unused: BTreeSet<ValueId> = unused.into_values().collect();
+        for statement in &mut self.statements {
+            let Statement::Let(Pattern::Tuple(parts), _) = statement else { continue };
+            for part in parts {
+                if matches!(part, Pattern::Bound(flag) if unused.contains(flag)) {
+                    *part = Pattern::Ignored;
+                }
+            }
+        }
+        self.hints.retain(|hinted| !matches!(hinted, Hinted::Value(id, _) if unused.contains(id)));
     }
 }

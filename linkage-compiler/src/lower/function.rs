@@ -14,7 +14,7 @@ use super::scheduling::schedule;
 use super::value::{Value, ValueId};
 use super::works::{Work, Works};
 use super::writer::Writer;
-use super::{reads, stored, stretches, unneeded};
+use super::{proven, reads, stored, stretches, unneeded};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::{BlockId, FunctionId};
@@ -202,12 +202,16 @@ impl Writer<'_> {
             self.otherwise = Some(self.expression(otherwise, &Checked::default()));
         }
         let of = self.absorb(schedule, &[]);
-        let is_proven = proven(kernel, schedule);
         self.sources(of);
-        let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
-        self.well_conditioned = open.filter_map(|(dyad, _)| Some(((*dyad)?, None))).collect();
         self.write(of);
         let mut results = self.all_signed(of, &schedule.results);
+        let is_proven = proven::proven(&self.values, &self.statements, &results, kernel.conclusive.clone());
+        let is_needless = |place: usize| kernel.external.contains(&place);
+        let is_proven: Vec<bool> =
+            is_proven.into_iter().enumerate().map(|(place, is_it)| is_it || is_needless(place)).collect();
+        let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
+        let open: BTreeSet<BlockId> = open.filter_map(|(dyad, _)| *dyad).collect();
+        self.keep_conditions(&open);
         reads::parameters_where_used(&self.values, &mut self.statements);
         if self.flags.is_empty() {
             reads::passed_on(&mut self.values, &mut self.statements, &mut results);
@@ -245,14 +249,6 @@ impl Writer<'_> {
             }
         }
     }
-}
-
-/// For each result, true if it needs no check.
-fn proven(kernel: &Kernel, schedule: &Schedule) -> Vec<bool> {
-    let mut is_proven = schedule.proven(kernel.conclusive.clone());
-    let external = is_proven.iter_mut().skip(kernel.external.start).take(kernel.external.len());
-    external.for_each(|is_proven| *is_proven = true);
-    is_proven
 }
 
 /// The largest rounding errors of a kernel whose arguments are stored.

@@ -1,10 +1,20 @@
-//! Lowering: from graph nodes to straight-line code with common subexpression elimination and one sine-cosine pair for
-//! each angle.
+//! Lowering: from planned functions to typed code.
 //!
-//! The formulas of a kernel are translated to values (`translate`), common pairs of operands are eliminated
-//! (`sharing`), single uses inlined again (`joined`), factors and lines ordered ([`schedule`]). An analysis finds
-//! results that are always finite (`proven`). Then lines get names (`names`) and become statements (`lines`). Results of
-//! long kernels are stored as they become known (`stored`), and long sequences are divided into blocks (`stretches`).
+//! The formulas of a kernel become values with ids ([`Value`]), and each pass changes or reads these. In order:
+//!
+//! 1. `translate`: nodes of the graph become values; signs move to sums and results;
+//! 2. `sharing`: common pairs of operands are computed once;
+//! 3. `joined`: what is used once is written where it is used;
+//! 4. `factors`, `terms`, `order`: the order of factors, terms and lines ([`Schedule`]);
+//! 5. `works`, `operations`, `rounding`: operations are counted, rounding errors bounded;
+//! 6. `lines`, `signs`, `sources`, `chords`, `modes`: lines become statements of [`Code`], and signs return to where they
+//!    are written;
+//! 7. `proven`: results that are finite if the checks pass; `planned`, `checks`: what the plan has around the kernel;
+//! 8. `stored`, `reads`, `stretches`, `unneeded`: the places of stores, reads and long sequences, and what nothing needs;
+//!    all ask `uses` which values a statement reads;
+//! 9. `naming`: names, the only pass that knows them.
+//!
+//! A reference to something that does not exist is an error of construction ([`Dangling`]): finished code has none.
 
 mod checks;
 mod chords;

@@ -3,7 +3,7 @@
 use super::schedule::{Line, Schedule};
 use super::value::Value;
 use crate::graph::Function;
-use crate::program::Operations;
+use crate::program::{Intrinsic, Operations};
 
 impl Schedule {
     /// The operations of all lines, without those inside factorisations and Newton's method.
@@ -21,16 +21,15 @@ impl Schedule {
                 _ => {}
             }
         }
-        let chords = self.lines.iter().filter(|line| matches!(line, Line::Chord { .. })).count();
-        total.functions += chords;
-        total.multiplications += chords;
         for line in &self.lines {
-            total.functions -= match line {
-                Line::SineCosine(_) => 1,
-                Line::SinesCosines(several) => several.iter().filter(|one| one.is_pair()).count(),
-                Line::External { values, .. } => values.iter().flatten().count().saturating_sub(1),
-                _ => 0,
-            };
+            match line {
+                // Sine and cosine of an angle are one function.
+                Line::SineCosine(_) => total.functions -= 1,
+                Line::SinesCosines(several) => total.functions -= several.iter().filter(|one| one.is_pair()).count(),
+                Line::External { values, .. } => total.functions -= values.iter().flatten().count().saturating_sub(1),
+                Line::Chord { .. } => total += Intrinsic::Chord.row().cost,
+                _ => {}
+            }
         }
         total
     }

@@ -5,73 +5,99 @@ use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
-use super::schedule::{Line, Schedule};
+use super::code::{Pattern, Statement};
 use super::value::{Value, ValueId};
-use crate::graph::{Function, SymbolId};
+use super::values::Values;
+use crate::graph::Function;
+use crate::program::{Finite, Intrinsic};
 
-impl Schedule {
-    /// For each result, true if it is finite whenever all half chords pass their checks and the other results are
-    /// finite.
-    ///
-    /// The check of a half chord requires that both factors are finite. In IEEE 754 a sum, product, square, square
-    /// root, absolute value, sine or cosine is finite only if its operands are, so that these are finite, too.
-    ///
-    /// The `conclusive` results are checked, and whatever they are computed from is finite then.
-    #[must_use]
-    pub fn proven(&self, conclusive: Range<usize>) -> Vec<bool> {
-        let results = &self.results;
-        let is_chord = |line: &Line| matches!(line, Line::Chord { .. });
-        if conclusive.is_empty() && !self.lines.iter().any(is_chord) {
-            return vec![false; results.len()];
-        }
-        let mut proven = Proven {
-            schedule: self,
-            named: FxHashMap::default(),
-            finite: vec![false; self.values.len()],
-            checked: vec![false; self.values.len()],
-        };
-        let (mut chords, mut checked) = (Vec::new(), Vec::new());
-        for line in &self.lines {
-            match line {
-                // The turn is an integer, so that an angle is finite if its principal value is.
-                Line::Name { symbol, value } | Line::Turn { symbol, principal: value } => {
-                    proven.named.insert(*symbol, value.value);
-                }
-                Line::Chord { symbol, factors, .. } => {
-                    chords.push(*symbol);
-                    checked.extend(factors.map(|factor| factor.value));
-                }
-                _ => {}
-            }
-        }
-        proven.follow(checked);
-        for result in &results[conclusive] {
-            let operands = proven.operands(proven.itself(result.value));
-            proven.follow(operands);
-        }
-        for &id in self.used() {
-            if matches!(self.value(id), Value::Symbol(symbol) if chords.contains(symbol)) {
-                proven.finite[id.0] = true;
-            }
-        }
-        for result in results {
-            let id = proven.itself(result.value);
-            proven.checked[id.0] = true;
-        }
-        results.iter().map(|result| proven.is_finite(proven.itself(result.value))).collect()
+/// For each result, true if it is finite whenever all half chords pass their checks and the other results are finite.
+///
+/// The check of a half chord requires that both factors are finite. In IEEE 754 a sum, product, square, square root,
+/// absolute value, sine or cosine is finite only if its operands are, so that these are finite, too.
+///
+/// The `conclusive` results are checked, and whatever they are computed from is finite then.
+pub(super) fn proven(
+    values: &Values,
+    statements: &[Statement],
+    results: &[ValueId],
+    conclusive: Range<usize>,
+) -> Vec<bool> {
+    let mut proven = Proven {
+        values,
+        named: FxHashMap::default(),
+        finite: vec![false; values.all.len()],
+        checked: vec![false; values.all.len()],
+    };
+    let (mut chords, mut checked) = (Vec::new(), Vec::new());
+    for statement in statements {
+        proven.statement(statement, &mut chords, &mut checked);
     }
+    if conclusive.is_empty() && chords.is_empty() {
+        return vec![false; results.len()];
+    }
+    proven.follow(checked);
+    for result in &results[conclusive] {
+        let operands = proven.operands(proven.itself(*result));
+        proven.follow(operands);
+    }
+    for chord in chords {
+        proven.finite[chord.0] = true;
+    }
+    for result in results {
+        let id = proven.itself(*result);
+        proven.checked[id.0] = true;
+    }
+    results.iter().map(|result| proven.is_finite(proven.itself(*result))).collect()
 }
 
 struct Proven<'a> {
-    schedule: &'a Schedule,
-    /// The value of each named symbol.
-    named: FxHashMap<SymbolId, ValueId>,
+    values: &'a Values,
+    /// The value that each variable is finite with.
+    named: FxHashMap<ValueId, ValueId>,
     finite: Vec<bool>,
     /// True for results, which are checked.
     checked: Vec<bool>,
 }
 
 impl Proven<'_> {
+    /// Takes note of a value that is finite if the statement passes, and of factors that it checks.
+    fn statement(&mut self, statement: &Statement, chords: &mut Vec<ValueId>, checked: &mut Vec<ValueId>) {
+        let (Statement::Let(pattern, value) | Statement::LetElse(pattern, value, _)) = statement else { return };
+        let Some(bound) = first(pattern) else { return };
+        if bound != *value && matches!(pattern, Pattern::Bound(_)) {
+            self.named.insert(bound, *value);
+        }
+        let call = match self.values.get(*value) {
+            Value::Try(inside) => *inside,
+            _ => *value,
+        };
+        let Value::Intrinsic(of, _, arguments) = self.values.get(call) else { return };
+        match of.row().finite {
+            Finite::Unknown => {}
+            Finite::With(place) => {
+                self.named.insert(bound, arguments[place]);
+            }
+            Finite::Checks(place) => {
+                self.named.remove(&bound);
+                chords.push(bound);
+                checked.extend(self.factors(arguments[place]));
+            }
+        }
+    }
+
+    /// The factors in a list or a triangle.
+    fn factors(&self, id: ValueId) -> Vec<ValueId> {
+        match self.values.get(id) {
+            Value::List(all) => all.clone(),
+            Value::Struct(_, members, _) => {
+                let factors = members.iter().filter(|(field, _)| field == "factors");
+                factors.flat_map(|(_, value)| self.factors(*value)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// Marks these values and their operands as finite.
     fn follow(&mut self, mut stack: Vec<ValueId>) {
         while let Some(id) = stack.pop() {
@@ -86,9 +112,10 @@ impl Proven<'_> {
     /// The operands that are finite if a value is.
     fn operands(&self, id: ValueId) -> Vec<ValueId> {
         let mut operands = Vec::new();
-        match self.schedule.value(id) {
+        match self.values.get(id) {
             Value::Quotient(above, _) => operands.push(*above),
             value @ (Value::Call(Function::Abs | Function::Sqrt | Function::Sin | Function::Cos, _)
+            | Value::Intrinsic(Intrinsic::Square | Intrinsic::SineInLane | Intrinsic::CosineInLane, ..)
             | Value::Sum(_)
             | Value::Product(_)
             | Value::Square(_)) => value.each_part(|part| operands.push(part)),
@@ -98,30 +125,45 @@ impl Proven<'_> {
     }
 
     fn is_finite(&self, id: ValueId) -> bool {
-        let value = |id: ValueId| self.schedule.value(id);
-        let is_small = |id: ValueId| matches!(value(id), Value::Constant(number) if number.to_f64() <= 1.0);
+        let value = |id: ValueId| self.values.get(id);
+        let is_small =
+            |id: ValueId| matches!(value(id), Value::Constant(number) | Value::Exact(number) if number.to_f64() <= 1.0);
+        let is_finite = |id: ValueId| self.finite[self.itself(id).0];
+        let is_checked = |id: ValueId| self.checked[self.itself(id).0];
         self.finite[id.0]
             || match value(id) {
-                Value::Call(Function::Sin | Function::Cos, angle) => self.finite[self.itself(angle[0].value).0],
+                Value::Call(Function::Sin | Function::Cos, angle) => is_finite(angle[0].value),
+                Value::Intrinsic(Intrinsic::SineInLane | Intrinsic::CosineInLane, _, angle) => is_finite(angle[0]),
                 // `atan2` of NaN is NaN, but of infinities finite: its arguments must be checked results.
-                Value::Call(Function::Atan2, parts) => parts.iter().all(|part| self.checked[self.itself(part.value).0]),
+                Value::Call(Function::Atan2, parts) => parts.iter().all(|part| is_checked(part.value)),
+                Value::Intrinsic(Intrinsic::Arctangent2InLane, _, parts) => parts.iter().all(|part| is_checked(*part)),
                 // Half a chord, for instance.
                 Value::Product(factors) => {
-                    matches!(*factors.as_slice(), [number, other] if is_small(number) && self.finite[self.itself(other).0])
+                    matches!(*factors.as_slice(), [number, other] if is_small(number) && is_finite(other))
                 }
                 _ => false,
             }
     }
 
-    /// Resolves symbols to the values that they name.
+    /// The value that a variable, or the negative of one, is finite with.
     fn itself(&self, id: ValueId) -> ValueId {
-        let mut id = id;
-        // Bounded, since names may be circular if the budget was exceeded.
-        for _ in 0..=self.named.len() {
-            let Value::Symbol(symbol) = self.schedule.value(id) else { break };
-            let Some(value) = self.named.get(symbol) else { break };
-            id = *value;
+        let mut id = self.values.itself(id);
+        loop {
+            id = match (self.values.get(id), self.named.get(&id)) {
+                (Value::Negative(inside), _) => self.values.itself(*inside),
+                (_, Some(value)) => self.values.itself(*value),
+                _ => return id,
+            }
         }
-        id
+    }
+}
+
+/// The first value that a pattern binds: the number among what it takes apart.
+fn first(pattern: &Pattern) -> Option<ValueId> {
+    match pattern {
+        Pattern::Bound(bound) => Some(*bound),
+        Pattern::Tuple(all) => first(all.first()?),
+        Pattern::Case(_, inside) => first(inside),
+        _ => None,
     }
 }

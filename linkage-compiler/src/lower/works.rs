@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use super::schedule::{Line, Schedule};
 use super::value::{Signed, Value, ValueId};
 use crate::graph::{External, Function};
-use crate::program::Operations;
+use crate::program::{Intrinsic, Operations};
 
 /// The operations of the functions lowered so far.
 #[derive(Debug, Clone, Default)]
@@ -111,9 +111,7 @@ impl Works {
         work.others.functions += kernel.used().iter().filter(is_external).count();
         for line in &kernel.lines {
             match line {
-                Line::Chord { .. } => {
-                    work.others += Operations { functions: 1, multiplications: 1, ..Operations::default() };
-                }
+                Line::Chord { .. } => work.others += Intrinsic::Chord.row().cost,
                 // A user function and its derivatives are one function; each function calls it anew.
                 Line::External { values, .. } => {
                     work.others.functions -= values.iter().flatten().count().saturating_sub(1);

@@ -29,8 +29,8 @@ pub(super) struct Writer<'a> {
     pub(super) symbols: FxHashMap<SymbolId, ValueId>,
     /// The user functions that are called.
     pub(super) externals: BTreeSet<ExternalId>,
-    /// For each dyad with unproven results, the flag that is true if its triangle is well conditioned.
-    pub(super) well_conditioned: BTreeMap<BlockId, Option<ValueId>>,
+    /// For each dyad, the flag that is true if its triangle is well conditioned.
+    pub(super) well_conditioned: BTreeMap<BlockId, ValueId>,
     /// The checks, if a failed one is only flagged.
     pub(super) flags: Vec<ValueId>,
     /// The factorisations, by block.

@@ -303,9 +303,9 @@ intrinsics! {
     HasHypotenuseInLane "lane::has_hypotenuse" Function [Number, Number] {}
     IsSolvableInLane "lane::is_solvable" Function [Number] {}
     IsReachableInLane "lane::is_reachable" Function [Number] {}
-    ElbowChordInLane "lane::elbow_chord" Function [Data, Side] { cost: CHORD }
-    ChordInLane "lane::chord" Function [Numbers, Side] { cost: CHORD }
-    ReachChordInLane "lane::reach_chord" Function [Numbers, Number, Number, Side] { cost: CHORD }
+    ElbowChordInLane "lane::elbow_chord" Function [Data, Side] { cost: CHORD, finite: Finite::Checks(0) }
+    ChordInLane "lane::chord" Function [Numbers, Side] { cost: CHORD, finite: Finite::Checks(0) }
+    ReachChordInLane "lane::reach_chord" Function [Numbers, Number, Number, Side] { cost: CHORD, finite: Finite::Checks(0) }
 
     // Groups without closed form.
     ProductOfPivots "product_of_pivots" Function [Columns] {}

@@ -8,12 +8,12 @@ use super::{Entry, Equation, Formula, FormulaNode, FormulaTable, Symbol};
 /// A number without a node ends the compilation.
 #[doc(hidden)]
 #[derive(Debug, Clone, Copy)]
-pub struct FormulaNumbers<'a> {
+pub struct FormulaLists<'a> {
     table: FormulaTable<'a>,
     numbers: &'a [u32],
 }
 
-impl<'a> FormulaNumbers<'a> {
+impl<'a> FormulaLists<'a> {
     #[must_use]
     pub const fn new(nodes: &'a [FormulaNode], names: &'a [&'a str], parts: &'a [i32], numbers: &'a [u32]) -> Self {
         match FormulaTable::checked(nodes, names, parts) {

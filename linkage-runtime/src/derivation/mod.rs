@@ -11,7 +11,7 @@ mod table;
 
 use core::fmt;
 
-pub use constants::FormulaNumbers;
+pub use constants::FormulaLists;
 pub use scene::{ContactEffect, Effect, JointForce, SceneDerivation};
 pub use table::{ElementaryFunction, Formula, FormulaList, FormulaNode, FormulaTable, FormulaView, Terms};
 
