@@ -39,6 +39,7 @@ pub(super) trait Style {
     fn quotient(&self, above: Self::Text, below: Self::Text) -> Self::Text;
     /// The square of a base that is written as a first factor and as a later one.
     fn square(&self, first: Self::Text, later: Self::Text) -> Self::Text;
+    fn square_binding(&self) -> Binding;
     fn negative(&self, inside: Self::Text) -> Self::Text;
     /// The first argument of an elementary function, which binds like this.
     fn argument(&self, binding: Binding, first: Self::Text) -> Self::Text;
@@ -63,6 +64,8 @@ pub(super) trait Style {
     fn borrowed(&self, value: Self::Text) -> Self::Text;
     fn mutably_borrowed(&self, value: Self::Text) -> Self::Text;
     fn dereferenced(&self, value: Self::Text) -> Self::Text;
+    /// The precedence of a reference to a value, or of the value behind one, with that of the value.
+    fn reference_binding(&self, of: Binding) -> Binding;
     fn closure(
         &self,
         arguments: Vec<Self::Text>,
@@ -163,7 +166,8 @@ impl<S: Style> Printer<'_, S> {
         match self.code.operation(id) {
             _ if self.code.name(id).is_some() => Binding::Atom,
             Value::Sum(_) | Value::All(_) | Value::Closure { .. } => Binding::Sum,
-            Value::Product(_) | Value::Quotient(..) | Value::Square(_) => Binding::Product,
+            Value::Product(_) | Value::Quotient(..) => Binding::Product,
+            Value::Square(_) => self.style.square_binding(),
             Value::Constant(number) => self.style.number_binding(*number),
             Value::Exact(number) => self.style.exact_binding(*number),
             // -a * b parses as (-a) * b, which is equal and costs the same.
@@ -171,7 +175,9 @@ impl<S: Style> Printer<'_, S> {
                 Binding::Product => Binding::Product,
                 _ => Binding::Prefix,
             },
-            Value::Borrowed(_) | Value::MutablyBorrowed(_) | Value::Dereferenced(_) => Binding::Prefix,
+            Value::Borrowed(of) | Value::MutablyBorrowed(of) | Value::Dereferenced(of) => {
+                self.style.reference_binding(self.binding(*of))
+            }
             _ => Binding::Atom,
         }
     }

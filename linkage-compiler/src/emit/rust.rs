@@ -63,6 +63,10 @@ impl Style for Rust {
         quote!(#first * #later)
     }
 
+    fn square_binding(&self) -> Binding {
+        Binding::Product
+    }
+
     fn negative(&self, inside: TokenStream) -> TokenStream {
         quote!(-#inside)
     }
@@ -173,6 +177,10 @@ impl Style for Rust {
 
     fn dereferenced(&self, value: TokenStream) -> TokenStream {
         quote!(*#value)
+    }
+
+    fn reference_binding(&self, _of: Binding) -> Binding {
+        Binding::Prefix
     }
 
     fn closure(

@@ -113,6 +113,10 @@ impl Style for Plain {
         format!("{first}^2")
     }
 
+    fn square_binding(&self) -> Binding {
+        Binding::Atom
+    }
+
     fn negative(&self, inside: String) -> String {
         format!("-{inside}")
     }
@@ -199,6 +203,10 @@ impl Style for Plain {
 
     fn dereferenced(&self, value: String) -> String {
         value
+    }
+
+    fn reference_binding(&self, of: Binding) -> Binding {
+        of
     }
 
     fn closure(&self, arguments: Vec<String>, statements: Vec<String>, value: String, _moves: bool) -> String {

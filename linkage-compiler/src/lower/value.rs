@@ -2,7 +2,7 @@
 
 use super::code::{Block, Pattern};
 use crate::graph::{External, ExternalId, Function, NodeId, Number, SymbolId};
-use crate::ids::FunctionId;
+use crate::ids::{FunctionId, Id};
 use crate::program::{Constant, Intrinsic, Receiver, Type};
 
 /// A value of lowered code.
@@ -87,8 +87,18 @@ pub enum Value {
     Block(Block),
 }
 
+impl Id for ValueId {
+    fn new(index: usize) -> Self {
+        Self(index)
+    }
+
+    fn index(self) -> usize {
+        self.0
+    }
+}
+
 impl Signed {
-    pub(super) fn positive(value: ValueId) -> Self {
+    pub fn positive(value: ValueId) -> Self {
         Self { negative: false, value }
     }
 }

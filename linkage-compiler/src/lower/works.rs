@@ -9,41 +9,24 @@ use rustc_hash::FxHashMap;
 
 use super::schedule::{Line, Schedule};
 use super::value::{Signed, Value, ValueId};
-use crate::graph::{External, Function};
+use crate::graph::Function;
 use crate::program::{Intrinsic, Operations};
 
 /// The operations of the functions lowered so far.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Works {
     of: BTreeMap<String, Work>,
-    /// The numbers of operations, the same in all functions.
-    numbers: FxHashMap<Operation, usize>,
+    /// The numbers of operations whose operands are numbers as well, the same in all functions.
+    numbers: FxHashMap<Value, ValueId>,
 }
 
 /// The operations of a function.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Work {
     /// By number.
-    numbered: BTreeMap<usize, Operations>,
+    numbered: BTreeMap<ValueId, Operations>,
     others: Operations,
     is_layer: bool,
-}
-
-/// An operation of numbered operands, each with true if it is negative.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-struct Operation {
-    of: Operator,
-    operands: Vec<(bool, usize)>,
-}
-
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-enum Operator {
-    Leaf(Value),
-    Sum,
-    Product,
-    Quotient,
-    Call(Function),
-    External(External),
 }
 
 impl Work {
@@ -94,7 +77,7 @@ impl Works {
 
     /// Adds the operations of a kernel.
     fn number_all(&mut self, kernel: &Schedule, work: &mut Work) {
-        let mut numbers: FxHashMap<ValueId, usize> = FxHashMap::default();
+        let mut numbers: FxHashMap<ValueId, ValueId> = FxHashMap::default();
         let mut stack = kernel.used().to_vec();
         while let Some(&id) = stack.last() {
             let (value, depth) = (kernel.value(id), stack.len());
@@ -122,53 +105,48 @@ impl Works {
     }
 
     /// The number of a value; what it takes is added to the work. Sums and products are computed from left to right.
-    fn number(&mut self, value: &Value, numbers: &FxHashMap<ValueId, usize>, work: &mut Work) -> usize {
-        let signed = |part: &Signed| (part.negative, numbers[&part.value]);
-        let positive = |part: &ValueId| (false, numbers[part]);
+    fn number(&mut self, value: &Value, numbers: &FxHashMap<ValueId, ValueId>, work: &mut Work) -> ValueId {
         let addition = Operations { additions: 1, ..Operations::default() };
         let multiplication = Operations { multiplications: 1, ..Operations::default() };
         let division = Operations { divisions: 1, ..Operations::default() };
         let call = Operations { functions: 1, ..Operations::default() };
         let none = Operations::default();
-        let mut chain = |of: Operator, parts: Vec<(bool, usize)>, cost| {
-            let joined = parts.into_iter().reduce(|left, right| {
-                let mut operands = vec![left, right];
-                operands.sort_unstable();
-                (false, self.numbered(of.clone(), operands, cost, work))
-            });
-            joined.map_or(0, |(_, number)| number)
-        };
+        let value = value.clone().with_operands(&mut |id| numbers[&id]);
         match value {
-            Value::Sum(terms) => chain(Operator::Sum, terms.iter().map(signed).collect(), addition),
-            Value::Product(factors) => chain(Operator::Product, factors.iter().map(positive).collect(), multiplication),
-            Value::Square(base) => chain(Operator::Product, vec![positive(base); 2], multiplication),
-            Value::Quotient(above, below) => {
-                self.numbered(Operator::Quotient, vec![positive(above), positive(below)], division, work)
+            Value::Sum(terms) => {
+                let sum = terms.into_iter().reduce(|left, right| {
+                    let mut terms = vec![left, right];
+                    terms.sort_unstable_by_key(|term| (term.negative, term.value));
+                    Signed::positive(self.numbered(Value::Sum(terms), addition, work))
+                });
+                sum.map_or(ValueId(0), |sum| sum.value)
             }
-            Value::Call(function, arguments) => {
-                let operands: Vec<_> = arguments.iter().map(signed).collect();
-                match function {
-                    Function::Abs | Function::IfNonzero => {
-                        self.numbered(Operator::Call(*function), operands, none, work)
-                    }
-                    // Sine and cosine of an angle are one function.
-                    Function::Cos => {
-                        self.numbered(Operator::Call(Function::Sin), operands.clone(), call, work);
-                        self.numbered(Operator::Call(*function), operands, none, work)
-                    }
-                    _ => self.numbered(Operator::Call(*function), operands, call, work),
-                }
+            Value::Product(factors) => self.product(factors, multiplication, work),
+            Value::Square(base) => self.product(vec![base; 2], multiplication, work),
+            Value::Quotient(..) => self.numbered(value, division, work),
+            Value::Call(Function::Abs | Function::IfNonzero, _) => self.numbered(value, none, work),
+            // Sine and cosine of an angle are one function.
+            Value::Call(Function::Cos, angle) => {
+                self.numbered(Value::Call(Function::Sin, angle.clone()), call, work);
+                self.numbered(Value::Call(Function::Cos, angle), none, work)
             }
-            Value::External(external, arguments) => {
-                self.numbered(Operator::External(external.clone()), arguments.iter().map(signed).collect(), none, work)
-            }
-            _ => self.numbered(Operator::Leaf(value.clone()), Vec::new(), none, work),
+            Value::Call(..) => self.numbered(value, call, work),
+            _ => self.numbered(value, none, work),
         }
     }
 
-    fn numbered(&mut self, of: Operator, operands: Vec<(bool, usize)>, cost: Operations, work: &mut Work) -> usize {
-        let next = self.numbers.len();
-        let number = *self.numbers.entry(Operation { of, operands }).or_insert(next);
+    fn product(&mut self, factors: Vec<ValueId>, cost: Operations, work: &mut Work) -> ValueId {
+        let product = factors.into_iter().reduce(|left, right| {
+            let mut factors = vec![left, right];
+            factors.sort_unstable();
+            self.numbered(Value::Product(factors), cost, work)
+        });
+        product.unwrap_or(ValueId(0))
+    }
+
+    fn numbered(&mut self, operation: Value, cost: Operations, work: &mut Work) -> ValueId {
+        let next = ValueId(self.numbers.len());
+        let number = *self.numbers.entry(operation).or_insert(next);
         if cost != Operations::default() {
             work.numbered.insert(number, cost);
         }

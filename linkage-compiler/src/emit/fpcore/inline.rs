@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use super::operations::{Check, Operation, Operations, Place};
+use super::operations::{Check, Operations};
 use super::value::{Given, Role, Value};
 use crate::graph::Function as Elementary;
 use crate::lower::{self, Block, Code, Pattern, Signed, Statement, ValueId};
@@ -167,31 +167,32 @@ impl Inlined {
         match code.operation(id) {
             V::Itself => Value::given(Role::Parameters),
             V::Argument(place) => scope.arguments.get(*place).cloned().unwrap_or(Value::Unknown),
-            V::Constant(number) | V::Exact(number) => self.made(Operation::Number(*number)),
+            V::Constant(number) | V::Exact(number) => self.made(V::Constant(*number)),
             V::Sum(terms) => {
-                let terms = terms.iter().map(|term| Some((term.negative, self.number(term.value, scope)?)));
+                let terms = terms.iter().map(|term| Some(Signed { value: self.number(term.value, scope)?, ..*term }));
                 let terms: Option<Vec<_>> = terms.collect();
-                self.result_of(terms.map(Operation::Sum))
+                self.result_of(terms.map(V::Sum))
             }
             V::Product(factors) => {
                 let factors = self.numbers(factors, scope);
-                self.result_of(factors.map(Operation::Product))
+                self.result_of(factors.map(V::Product))
             }
             V::Quotient(above, below) => {
-                let parts = self.numbers(&[*above, *below], scope);
-                self.result_of(parts.and_then(|parts| Some(Operation::Quotient(parts.try_into().ok()?))))
+                let parts = [above, below].map(|part| self.number(*part, scope));
+                let [Some(above), Some(below)] = parts else { return Value::Unknown };
+                self.made(V::Quotient(above, below))
             }
             V::Square(base) => {
                 let base = self.number(*base, scope);
-                self.result_of(base.map(Operation::Square))
+                self.result_of(base.map(V::Square))
             }
             V::Negative(inside) => {
                 let inside = self.number(*inside, scope);
-                self.result_of(inside.map(Operation::Negative))
+                self.result_of(inside.map(V::Negative))
             }
             V::Call(function, arguments) => {
-                let arguments: Option<Vec<Place>> = arguments.iter().map(|one| self.signed(*one, scope)).collect();
-                self.result_of(arguments.map(|arguments| Operation::Call(name_of(*function), arguments)))
+                let arguments: Option<Vec<Signed>> = arguments.iter().map(|one| self.signed(*one, scope)).collect();
+                self.result_of(arguments.map(|arguments| V::Call(*function, arguments)))
             }
             V::Text(text) => Value::Text(text.clone()),
             V::Field(of, name) => self.value(*of, scope).field(name),
@@ -237,30 +238,32 @@ impl Inlined {
         values.iter().map(|value| self.value(*value, scope)).collect()
     }
 
-    fn number(&mut self, id: ValueId, scope: &mut Scope<'_>) -> Option<Place> {
+    fn number(&mut self, id: ValueId, scope: &mut Scope<'_>) -> Option<ValueId> {
         let value = self.value(id, scope);
         self.place(&value)
     }
 
-    fn numbers(&mut self, values: &[ValueId], scope: &mut Scope<'_>) -> Option<Vec<Place>> {
+    fn numbers(&mut self, values: &[ValueId], scope: &mut Scope<'_>) -> Option<Vec<ValueId>> {
         values.iter().map(|value| self.number(*value, scope)).collect()
     }
 
-    fn signed(&mut self, signed: Signed, scope: &mut Scope<'_>) -> Option<Place> {
-        let place = self.number(signed.value, scope)?;
-        Some(if signed.negative { self.operations.add(Operation::Negative(place)) } else { place })
+    fn signed(&mut self, signed: Signed, scope: &mut Scope<'_>) -> Option<Signed> {
+        let number = self.number(signed.value, scope)?;
+        let is_negative = signed.negative;
+        let number = if is_negative { self.operations.add(lower::Value::Negative(number)) } else { number };
+        Some(Signed::positive(number))
     }
 
-    fn made(&mut self, operation: Operation) -> Value {
+    fn made(&mut self, operation: lower::Value) -> Value {
         Value::Number(self.operations.add(operation))
     }
 
-    fn result_of(&mut self, operation: Option<Operation>) -> Value {
+    fn result_of(&mut self, operation: Option<lower::Value>) -> Value {
         operation.map_or(Value::Unknown, |operation| self.made(operation))
     }
 
     /// The number that a value is; a part of an argument that is read as a number is one.
-    fn place(&mut self, value: &Value) -> Option<Place> {
+    fn place(&mut self, value: &Value) -> Option<ValueId> {
         match value {
             Value::Number(place) => Some(*place),
             Value::Given(Given { role, path }) => {
@@ -274,7 +277,7 @@ impl Inlined {
         }
     }
 
-    fn places(&mut self, values: &[&Value]) -> Option<Vec<Place>> {
+    fn places(&mut self, values: &[&Value]) -> Option<Vec<ValueId>> {
         values.iter().map(|value| self.place(value)).collect()
     }
 
@@ -326,8 +329,9 @@ impl Inlined {
 
     fn sine_cosine(&mut self, angle: &Value) -> Value {
         let Some(angle) = self.place(angle) else { return Value::Unknown };
-        let both = ["sin", "cos"].map(|name| self.made(Operation::Call(name, vec![angle])));
-        Value::list(both)
+        let angle = vec![Signed::positive(angle)];
+        let both = [Elementary::Sin, Elementary::Cos];
+        Value::list(both.map(|function| self.made(lower::Value::Call(function, angle.clone()))))
     }
 
     fn check(&mut self, word: &'static str, of: &[&Value]) {
@@ -347,10 +351,11 @@ impl Inlined {
     fn chord(&mut self, factors: &Value, side: &Value) -> Value {
         let factors = self.places(&[&factors.index(0), &factors.index(1)]);
         let Some((factors, side)) = factors.zip(self.place(side)) else { return Value::Unknown };
-        let radicand = self.operations.add(Operation::Product(factors));
+        let radicand = self.operations.add(lower::Value::Product(factors));
         self.check("moderate", &[&Value::Number(radicand)]);
-        let root = self.operations.add(Operation::Call("sqrt", vec![radicand]));
-        self.made(Operation::Product(vec![side, root]))
+        let root = lower::Value::Call(Elementary::Sqrt, vec![Signed::positive(radicand)]);
+        let root = self.operations.add(root);
+        self.made(lower::Value::Product(vec![side, root]))
     }
 }
 
@@ -412,13 +417,4 @@ fn components(point: &Value) -> Value {
 /// Members of an array by these names.
 fn parts<const N: usize>(names: [&str; N], of: &Value, change: &dyn Fn(&Value) -> Value) -> Value {
     Value::members(names.into_iter().enumerate().map(|(place, name)| (name, change(&of.index(place)))))
-}
-
-/// The name of a function in FPCore.
-fn name_of(function: Elementary) -> &'static str {
-    match function {
-        Elementary::Abs => "fabs",
-        Elementary::Ln => "log",
-        other => other.operation().name,
-    }
 }

@@ -1,11 +1,13 @@
 //! Operations as formulas: steps, checks and results, in the order of the code.
 
 use super::name::{ascii, reserved, symbol};
-use super::operations::{Check, Operation, Operations, Place};
+use super::operations::{Check, Operations};
 use super::value::{Role, Value};
 use crate::document::{KernelCode, Node, Number, Table};
 use crate::emit::rust::parts_of_pi;
-use crate::graph::{self, Function, OPERATIONS};
+use crate::graph;
+use crate::ids::Id;
+use crate::lower::{self, ValueId};
 use crate::model::Mechanism;
 use crate::program::{Order, Taken};
 
@@ -20,7 +22,7 @@ pub(super) fn code(
     let mut results = Vec::new();
     value.each_number("", &mut |path, place| results.push((path.to_owned(), place)));
     // An argument or a constant as a result is exact.
-    results.retain(|(_, place)| !operations.operation(*place).is_leaf());
+    results.retain(|(_, place)| !operations.is_leaf(*place));
     let uses = Uses::of(operations, checks, &results);
     if results.is_empty() {
         return KernelCode::default();
@@ -29,7 +31,7 @@ pub(super) fn code(
     let mut names = Names { operations, table, taken: Taken::new(&reserved), nodes: vec![None; count] };
     names.arguments(mechanism, &uses);
     let mut steps = Vec::new();
-    for place in operations.places().filter(|place| uses.is_used(*place)) {
+    for place in operations.ids().filter(|place| uses.is_used(*place)) {
         let formula = names.formula(place);
         names.nodes[place.index()] = Some(if uses.has_line[place.index()] {
             let name = names.unique(operations.preferred(place).unwrap_or("value"));
@@ -54,8 +56,8 @@ struct Uses {
 }
 
 impl Uses {
-    fn of(operations: &Operations, checks: &[Check], results: &[(String, Place)]) -> Self {
-        let count = operations.places().count();
+    fn of(operations: &Operations, checks: &[Check], results: &[(String, ValueId)]) -> Self {
+        let count = operations.count();
         let mut uses = Self { counts: vec![0; count], has_line: vec![false; count] };
         let mut of_checks = vec![false; count];
         for check in checks {
@@ -66,24 +68,24 @@ impl Uses {
         let mut is_inner = vec![false; count];
         results.iter().for_each(|(_, place)| uses.counts[place.index()] += 1);
         // Operands come before their operations.
-        for place in operations.places().rev() {
+        for place in operations.ids().rev() {
             if uses.is_used(place) {
-                operations.operation(place).each_operand(|operand| {
+                operations.each_operand(place, |operand| {
                     uses.counts[operand.index()] += 1;
                     is_inner[operand.index()] = true;
                 });
             }
         }
-        for place in operations.places() {
+        for place in operations.ids() {
             let at = place.index();
             let is_named = operations.preferred(place).is_some() && is_inner[at];
             let is_line = is_named || uses.counts[at] > 1 || of_checks[at];
-            uses.has_line[at] = is_line && !operations.operation(place).is_leaf();
+            uses.has_line[at] = is_line && !operations.is_leaf(place);
         }
         uses
     }
 
-    fn is_used(&self, place: Place) -> bool {
+    fn is_used(&self, place: ValueId) -> bool {
         self.counts[place.index()] > 0
     }
 }
@@ -111,10 +113,10 @@ impl Names<'_> {
                 self.nodes[place.index()] = Some(name);
             }
         }
-        let is_new = |place: &Place| uses.is_used(*place) && self.nodes[place.index()].is_none();
-        let others: Vec<Place> = self.operations.places().filter(is_new).collect();
+        let is_new = |place: &ValueId| uses.is_used(*place) && self.nodes[place.index()].is_none();
+        let others: Vec<ValueId> = self.operations.ids().filter(is_new).collect();
         for place in others {
-            if matches!(self.operations.operation(place), Operation::Argument) {
+            if matches!(self.operations.operation(place), lower::Value::Bound) {
                 let name = self.unique(self.operations.preferred(place).unwrap_or_default());
                 self.nodes[place.index()] = Some(name);
             }
@@ -127,28 +129,28 @@ impl Names<'_> {
     }
 
     /// The formula or name of an operation before; operands come before their operations.
-    fn node(&mut self, place: Place) -> Number {
+    fn node(&mut self, place: ValueId) -> Number {
         self.nodes[place.index()].unwrap_or_else(|| self.table.decimal(f64::NAN))
     }
 
-    fn all(&mut self, places: &[Place]) -> Vec<Number> {
+    fn all(&mut self, places: &[ValueId]) -> Vec<Number> {
         places.iter().map(|place| self.node(*place)).collect()
     }
 
     /// The formula of an operation whose operands have formulas.
-    fn formula(&mut self, place: Place) -> Number {
+    fn formula(&mut self, place: ValueId) -> Number {
+        use lower::Value as V;
         let node = match self.operations.operation(place) {
-            Operation::Argument => return self.node(place),
-            Operation::Number(number) => return self.constant(*number),
-            Operation::Sum(terms) => Node::Sum(terms.iter().map(|(sign, term)| (*sign, self.node(*term))).collect()),
-            Operation::Product(factors) => Node::Product(self.all(factors)),
-            Operation::Quotient([above, below]) => Node::Quotient(self.node(*above), self.node(*below)),
-            Operation::Square(base) => Node::Power(self.node(*base), 2),
-            Operation::Negative(inside) => Node::Sum(vec![(true, self.node(*inside))]),
-            Operation::Call(name, arguments) => match function(name) {
-                Some(function) => Node::Call(function, self.all(arguments)),
-                None => Node::External((*name).to_owned(), 0, self.all(arguments)),
-            },
+            V::Constant(number) => return self.constant(*number),
+            V::Sum(terms) => Node::Sum(terms.iter().map(|term| (term.negative, self.node(term.value))).collect()),
+            V::Product(factors) => Node::Product(self.all(factors)),
+            V::Quotient(above, below) => Node::Quotient(self.node(*above), self.node(*below)),
+            V::Square(base) => Node::Power(self.node(*base), 2),
+            V::Negative(inside) => Node::Sum(vec![(true, self.node(*inside))]),
+            V::Call(function, arguments) => {
+                Node::Call(*function, arguments.iter().map(|argument| self.node(argument.value)).collect())
+            }
+            _ => return self.node(place),
         };
         self.table.add(node)
     }
@@ -188,14 +190,5 @@ impl Names<'_> {
                 self.table.add(Node::Sum(vec![(true, size)]))
             }
         }
-    }
-}
-
-/// The function with this name in FPCore.
-fn function(name: &str) -> Option<Function> {
-    match name {
-        "fabs" => Some(Function::Abs),
-        "log" => Some(Function::Ln),
-        name => OPERATIONS.iter().find(|operation| operation.name == name).map(|operation| operation.function),
     }
 }

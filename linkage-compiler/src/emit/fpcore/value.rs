@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use super::operations::Place;
+use crate::lower::ValueId;
 use crate::program::Order;
 
 #[derive(Debug, Clone)]
 pub(super) enum Value {
-    Number(Place),
+    Number(ValueId),
     /// The fields of a struct.
     Members(Rc<[(String, Value)]>),
     /// An array or a tuple.
@@ -111,7 +111,7 @@ impl Value {
     }
 
     /// Visits the numbers with their places in the value, such as `points.c.x` and `jacobian(0, 1)`.
-    pub(super) fn each_number(&self, path: &str, visit: &mut dyn FnMut(&str, Place)) {
+    pub(super) fn each_number(&self, path: &str, visit: &mut dyn FnMut(&str, ValueId)) {
         match self {
             Self::Number(place) => visit(path, *place),
             Self::Members(members) => {
