@@ -39,7 +39,7 @@ pub use crate::{
 
 /// The types of emitted derivations.
 pub mod derivation {
-    /// What the constants name.
+    /// The names that constants use.
     pub mod prelude {
         pub use core::option::Option::{None, Some};
 

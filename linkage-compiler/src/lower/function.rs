@@ -41,7 +41,7 @@ pub struct Context<'a> {
     pub(super) of_driver: &'a FunctionIds,
 }
 
-/// What is known of the functions lowered so far.
+/// The functions lowered so far, as far as later ones need them.
 pub(super) struct Lowered {
     /// Their operations.
     pub(super) works: Works,
@@ -53,7 +53,7 @@ pub(super) struct Lowered {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Dangling {
     pub function: String,
-    /// What it refers to.
+    /// The thing that does not exist.
     pub what: String,
 }
 
@@ -88,7 +88,7 @@ pub(super) fn function(
     Ok(Function { name, doc, access, is_method, arguments, returns, is_fallible, body })
 }
 
-/// What a body depends on of its function.
+/// The parts of a signature that lowering a body depends on.
 struct Signature<'f> {
     is_layer: bool,
     /// True if the rounding errors of its results are of interest.

@@ -18,7 +18,7 @@ impl Values {
         self.at_hand(signed)
     }
 
-    /// The same as an operand of another value than a sum.
+    /// The value, or its negative, as an operand of another value than a sum.
     pub(super) fn signed_value(&mut self, signed: Signed) -> ValueId {
         let signed = self.signed(signed);
         self.written(signed)

@@ -23,7 +23,7 @@ pub enum Value {
     Symbol(SymbolId),
     /// The sine or cosine of an angle with known direction.
     Direction(Function, NodeId),
-    /// A part of another value, a result of a step, or an argument of a closure.
+    /// A part of another value, a result of a step, or an argument of an inner function.
     Bound,
     /// `self`
     Itself,
@@ -116,7 +116,7 @@ impl Value {
         }
     }
 
-    /// Visits the operands, without the statements of closures and blocks.
+    /// Visits the operands, without the statements of inner functions and blocks.
     pub fn each_part(&self, mut visit: impl FnMut(ValueId)) {
         match self {
             Self::Symbol(_)
@@ -167,7 +167,7 @@ impl Value {
         }
     }
 
-    /// The value with other operands, which are not in statements of closures and blocks.
+    /// The value with other operands, which are not in statements of inner functions and blocks.
     pub(super) fn with_operands(mut self, of: &mut dyn FnMut(ValueId) -> ValueId) -> Self {
         let mut change = |id: &mut ValueId| *id = of(*id);
         match &mut self {

@@ -63,7 +63,7 @@ pub enum Expression {
     Block(Vec<Statement>, Box<Expression>),
 }
 
-/// What a function of the program is called on.
+/// The value or type that a function of the program is called on.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Receiver<E> {
     /// `self.f()`

@@ -56,14 +56,14 @@ pub struct InLane {
     pub result: LaneResult,
 }
 
-/// What a form over lanes returns.
+/// The result of a form over lanes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LaneResult {
     /// The result, always right.
     Right,
     /// The result, and whether it is right.
     Flagged,
-    /// Whether the check passes.
+    /// True if the check passes.
     Flag,
 }
 

@@ -336,7 +336,7 @@ impl<'a> Terms<'a> {
     }
 }
 
-/// Formulas are equal if they have the same nodes, in whichever tables.
+/// Formulas are equal if they have the same nodes, also in different tables.
 impl PartialEq for Formula<'_> {
     fn eq(&self, other: &Self) -> bool {
         use FormulaView as V;
