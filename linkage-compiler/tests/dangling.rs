@@ -52,7 +52,7 @@ fn a_reference_to_nothing_is_an_error() {
         );
     }
     assert_eq!(error_of(value(guess().dereferenced())), None);
-    // The statements of a closure are code as well.
+    // The statements of an inner function are code as well.
     let inside = Expression::Closure {
         arguments: vec![Pattern::name("one")],
         statements: vec![Statement::Do(Expression::name("two"))],
@@ -60,7 +60,7 @@ fn a_reference_to_nothing_is_an_error() {
         moves: false,
     };
     assert!(error_of(value(inside)).is_some_and(|error| error.contains("the variable `two`")));
-    // An argument of a closure has no meaning after it.
+    // An argument of an inner function has no meaning after it.
     let closure = Expression::Closure {
         arguments: vec![Pattern::name("one")],
         statements: Vec::new(),
