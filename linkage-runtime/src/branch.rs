@@ -84,8 +84,9 @@ pub fn combinations<B, const N: usize>(
         let (mut numbers, mut left) = (counts, place);
         for number in numbers.iter_mut().rev() {
             let count = *number;
-            *number = left % count;
-            left /= count;
+            // No count is zero here, which the compiler of the emitted code cannot know.
+            *number = left.checked_rem(count).unwrap_or_default();
+            left = left.checked_div(count).unwrap_or_default();
         }
         of(numbers)
     })
