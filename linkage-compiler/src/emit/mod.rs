@@ -1,6 +1,6 @@
 //! Printers of a lowered program: as Rust with the user's names and with formulas in doc comments, and as text.
 //!
-//! A body that computes or decides is planned in [`program`](crate::program) and printed here. Written by hand are types,
+//! A body that computes or decides is planned in [`program`] and printed here. Written by hand are types,
 //! signatures, and the conversions and forwards that `tests/bodies_by_hand.rs` lists. Only the constant `DERIVATION` is
 //! made of the derivation; all else is in the program.
 
