@@ -91,7 +91,7 @@ pub(super) fn function(
 /// The parts of a signature that lowering a body depends on.
 struct Signature<'f> {
     is_layer: bool,
-    /// True if the rounding errors of its results are of interest.
+    /// True if its doc comment says how large the rounding errors of its results can be.
     has_bound: bool,
     arguments: Vec<&'f str>,
 }
@@ -164,7 +164,7 @@ impl Signature<'_> {
         schedule(&context.derivation.graph, &kernel.steps, &nodes, given, &named, self.is_layer)
     }
 
-    /// True if the rounding errors of the results are of interest, and the arguments of the kernel are stored.
+    /// True if the doc comment says how large rounding errors can be, and the arguments of the kernel are stored.
     fn has_bound(&self, kernel: &Kernel, value: &program::Value, lowered: &Lowered) -> bool {
         let is_stored = |source: &Source| match source.from.stored() {
             Some(name) => name == "self" || self.arguments.contains(&name),
