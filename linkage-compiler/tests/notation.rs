@@ -13,7 +13,8 @@ struct Formula {
 
 impl Formula {
     fn of(table: &document::Table, number: document::Number) -> Self {
-        let formula = linkage_lent::table(table).get(number.get()).unwrap();
+        let table = linkage_lent::table(table);
+        let formula = table.get(number.get()).unwrap();
         Self { text: formula.to_string(), latex: formula.to_latex(), mathml: formula.to_mathml() }
     }
 

@@ -45,6 +45,7 @@ pub mod derivation {
 
         pub use crate::derivation::ElementaryFunction::*;
         pub use crate::derivation::FormulaNode::*;
+        pub use crate::derivation::constants::{FormulaLists, table};
         pub use crate::derivation::*;
     }
 }

@@ -100,11 +100,11 @@ fn list<A, B>(all: &[A], convert: impl Fn(&A) -> B) -> &'static [B] {
 }
 
 #[derive(Clone, Copy)]
-struct Table(FormulaTable<'static>);
+struct Table(&'static FormulaTable<'static>);
 
 impl Table {
     fn of(table: &document::Table) -> Self {
-        Self(self::table(table))
+        Self(Box::leak(Box::new(self::table(table))))
     }
 
     fn formula(self, number: Number) -> Formula<'static> {

@@ -24,9 +24,9 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
         [&document.jacobian_unknowns, &document.jacobian_inputs].map(|matrix| lists.matrix(matrix));
     let blocks = list(document.blocks.iter().map(|block| lists.block(block)));
     let determinant = option(document.determinant.as_ref().map(equation));
-    let second = constant(document.ratio_derivatives.as_deref().map(|all| lists.equations(all)));
-    let jerk = constant(document.jerk.as_deref().map(|all| lists.equations(all)));
-    let sensitivity = constant(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
+    let second = option(document.ratio_derivatives.as_deref().map(|all| lists.equations(all)));
+    let jerk = option(document.jerk.as_deref().map(|all| lists.equations(all)));
+    let sensitivity = option(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
         let (jacobian, formulas) = (lists.matrix(jacobian), lists.equations(formulas));
         quote!(Sensitivity { jacobian: #jacobian, formulas: #formulas })
     }));
@@ -120,7 +120,7 @@ impl ToTokens for Number {
     }
 }
 
-/// The table of formulas, `T`. Its constants have no references within them, which would be a constant each.
+/// The table of formulas and all lists of formulas, `T`.
 fn table(table: &Table, lists: &Lists) -> TokenStream {
     let mut parts = Parts::default();
     let nodes: Vec<TokenStream> = table.nodes().map(|node| self::node(node, &mut parts)).collect();
@@ -129,13 +129,17 @@ fn table(table: &Table, lists: &Lists) -> TokenStream {
         let minus = is_negative.then(|| quote!(-));
         quote!(#minus #part)
     });
-    let numbers = lists.numbers.iter().map(|number| Literal::u32_unsuffixed(*number));
+    let Lists { formulas, symbols, equations, entries } = lists;
+    let counts = [formulas.len(), symbols.len(), equations.len(), entries.len()].map(Literal::usize_unsuffixed);
+    let numbers = formulas.iter().chain(symbols).chain(equations.as_flattened()).chain(entries.as_flattened());
+    let numbers = numbers.map(|number| Literal::u32_unsuffixed(*number));
     quote! {
         const NODES: &[FormulaNode] = &[#(#nodes),*];
         const NAMES: &[&str] = &[#(#names),*];
         const PARTS: &[i32] = &[#(#parts),*];
         const NUMBERS: &[u32] = &[#(#numbers),*];
-        const T: FormulaLists<'static> = FormulaLists::new(NODES, NAMES, PARTS, NUMBERS);
+        static TABLE: FormulaTable<'static> = table(NODES, NAMES, PARTS);
+        static T: FormulaLists<'static, #(#counts),*> = FormulaLists::new(&TABLE, NUMBERS);
     }
 }
 
@@ -245,11 +249,6 @@ fn option(value: Option<TokenStream>) -> TokenStream {
     }
 }
 
-/// An optional value with references to others, which is a constant of its own.
-fn constant(value: Option<TokenStream>) -> TokenStream {
-    option(value.map(|value| quote!(const { #value })))
-}
-
 fn formula(number: &Number) -> TokenStream {
     quote!(T.formula(#number))
 }
@@ -263,39 +262,42 @@ fn symbol(symbol: &Symbol) -> TokenStream {
     quote!(Symbol { name: #name, formula: #formula })
 }
 
-/// The numbers of all lists of formulas.
+/// The numbers of all lists of formulas, one list of a kind after the other.
 #[derive(Default)]
 struct Lists {
-    numbers: Vec<u32>,
+    formulas: Vec<u32>,
+    symbols: Vec<u32>,
+    equations: Vec<[u32; 2]>,
+    entries: Vec<[u32; 3]>,
+}
+
+/// A list that is added to all of its kind.
+fn added<N>(kind: &str, all: &mut Vec<N>, more: impl IntoIterator<Item = N>) -> TokenStream {
+    let first = all.len();
+    all.extend(more);
+    let count = all.len() - first;
+    if count == 0 {
+        return quote!(&[]);
+    }
+    let (kind, [first, count]) = (format_ident!("{kind}"), [first, count].map(Literal::usize_unsuffixed));
+    quote!(T.#kind(#first, #count))
 }
 
 impl Lists {
-    /// A list that a function of the runtime makes of numbers, `each` for an entry.
-    fn add(&mut self, function: &str, each: usize, numbers: impl IntoIterator<Item = u32>) -> TokenStream {
-        let first = self.numbers.len();
-        self.numbers.extend(numbers);
-        let count = (self.numbers.len() - first) / each;
-        if count == 0 {
-            return quote!(&[]);
-        }
-        let (function, [first, count]) = (format_ident!("{function}"), [first, count].map(Literal::usize_unsuffixed));
-        quote!(&T.#function::<#count>(#first))
-    }
-
     /// `&[Formula]`.
     fn formulas(&mut self, all: &[Number]) -> TokenStream {
-        self.add("formulas", 1, all.iter().map(|number| number.get()))
+        added("formulas", &mut self.formulas, all.iter().map(|number| number.get()))
     }
 
     /// `&[Equation]`.
     fn equations(&mut self, all: &[Equation]) -> TokenStream {
-        self.add("equations", 2, all.iter().flatten().map(|number| number.get()))
+        added("equations", &mut self.equations, all.iter().map(|sides| sides.map(|side| side.get())))
     }
 
     /// `&[Symbol]`; a name is its own formula, but for forces.
     fn symbols(&mut self, table: &Table, symbols: &[Symbol]) -> TokenStream {
         if symbols.iter().all(|symbol| table.is_name(symbol.formula, &symbol.name)) {
-            return self.add("symbols", 1, symbols.iter().map(|symbol| symbol.formula.get()));
+            return added("symbols", &mut self.symbols, symbols.iter().map(|symbol| symbol.formula.get()));
         }
         list(symbols.iter().map(symbol))
     }
@@ -304,11 +306,11 @@ impl Lists {
         let (name, factor) = (formula(name), option(factor.as_ref().map(formula)));
         let [rows, columns] = [*rows, *columns].map(Literal::usize_unsuffixed);
         // A place is less than the number of nodes.
-        let numbers = entries.iter().flat_map(|(place, value)| {
+        let numbers = entries.iter().map(|(place, value)| {
             let [row, column] = place.map(|place| u32::try_from(place).unwrap_or(u32::MAX));
             [row, column, value.get()]
         });
-        let entries = self.add("entries", 3, numbers);
+        let entries = added("entries", &mut self.entries, numbers);
         quote!(FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: #entries })
     }
 
@@ -325,7 +327,7 @@ impl Lists {
             Method::Factorization => quote!(Factorization),
         };
         let determinant = option(block.determinant.as_ref().map(equation));
-        let inverse = constant(block.inverse.as_ref().map(|matrix| self.matrix(matrix)));
+        let inverse = option(block.inverse.as_ref().map(|matrix| self.matrix(matrix)));
         quote! {
             Block {
                 unknowns: #unknowns,

@@ -2,94 +2,116 @@
 
 use super::{Entry, Equation, Formula, FormulaNode, FormulaTable, Symbol};
 
-/// The numbers of all lists of formulas, one after the other: a list is the place of its first number. rustc checks one
-/// slice of numbers at once, where lists of lists would each be a value of their own.
+/// All lists of formulas, one list of a kind after the other. The table and the lists are statics: rustc looks through
+/// the whole of a constant wherever something refers to it, and the time grows as the square of its length.
 ///
-/// A number without a node ends the compilation.
-#[doc(hidden)]
-#[derive(Debug, Clone, Copy)]
-pub struct FormulaLists<'a> {
-    table: FormulaTable<'a>,
-    numbers: &'a [u32],
+/// A number without a node, or a list out of range, ends the compilation.
+#[derive(Debug)]
+pub struct FormulaLists<'a, const FORMULAS: usize, const SYMBOLS: usize, const EQUATIONS: usize, const ENTRIES: usize> {
+    table: &'a FormulaTable<'a>,
+    formulas: [Formula<'a>; FORMULAS],
+    symbols: [Symbol<'a>; SYMBOLS],
+    equations: [Equation<'a>; EQUATIONS],
+    entries: [Entry<'a>; ENTRIES],
 }
 
-impl<'a> FormulaLists<'a> {
+impl<'a, const FORMULAS: usize, const SYMBOLS: usize, const EQUATIONS: usize, const ENTRIES: usize>
+    FormulaLists<'a, FORMULAS, SYMBOLS, EQUATIONS, ENTRIES>
+{
+    /// The lists with these numbers: of each formula, of each name, of the sides of each equation, and the row, the column
+    /// and the formula of each entry.
     #[must_use]
-    pub const fn new(nodes: &'a [FormulaNode], names: &'a [&'a str], parts: &'a [i32], numbers: &'a [u32]) -> Self {
-        match FormulaTable::checked(nodes, names, parts) {
-            Some(table) => Self { table, numbers },
-            None => panic!("a formula refers to a node that is not before it"),
+    pub const fn new(table: &'a FormulaTable<'a>, numbers: &[u32]) -> Self {
+        // All places of the lists are filled; a table without nodes has none.
+        let first = Formula { table, number: 1 };
+        let mut lists = Self {
+            table,
+            formulas: [first; FORMULAS],
+            symbols: [Symbol { name: "", formula: first }; SYMBOLS],
+            equations: [Equation { left: first, right: first }; EQUATIONS],
+            entries: [Entry { row: 0, column: 0, value: first }; ENTRIES],
+        };
+        let (mut at, mut place) = (0, 0);
+        while place < FORMULAS {
+            lists.formulas[place] = formula(table, numbers[at]);
+            (at, place) = (at + 1, place + 1);
         }
-    }
-
-    #[must_use]
-    pub const fn formula(self, number: u32) -> Formula<'a> {
-        match self.table.get(number) {
-            Some(formula) => formula,
-            None => panic!("no formula has this number"),
+        place = 0;
+        while place < SYMBOLS {
+            let formula = formula(table, numbers[at]);
+            let FormulaNode::Name(name) = table.nodes[numbers[at] as usize - 1] else { panic!("a symbol is a name") };
+            lists.symbols[place] = Symbol { name: table.names[name as usize], formula };
+            (at, place) = (at + 1, place + 1);
         }
+        place = 0;
+        while place < EQUATIONS {
+            let [left, right] = [formula(table, numbers[at]), formula(table, numbers[at + 1])];
+            lists.equations[place] = Equation { left, right };
+            (at, place) = (at + 2, place + 1);
+        }
+        place = 0;
+        while place < ENTRIES {
+            let [row, column] = [numbers[at] as usize, numbers[at + 1] as usize];
+            lists.entries[place] = Entry { row, column, value: formula(table, numbers[at + 2]) };
+            (at, place) = (at + 3, place + 1);
+        }
+        assert!(at == numbers.len(), "each number belongs to a list");
+        lists
     }
 
-    const fn at(self, place: usize) -> Formula<'a> {
-        self.formula(self.numbers[place])
-    }
-
+    /// The formula with this number.
     #[must_use]
-    pub const fn equation(self, left: u32, right: u32) -> Equation<'a> {
+    pub const fn formula(&self, number: u32) -> Formula<'a> {
+        formula(self.table, number)
+    }
+
+    /// The equation of two formulas with these numbers.
+    #[must_use]
+    pub const fn equation(&self, left: u32, right: u32) -> Equation<'a> {
         Equation { left: self.formula(left), right: self.formula(right) }
     }
 
+    /// A list of formulas by its first place and its length, and likewise the others.
     #[must_use]
-    pub const fn formulas<const N: usize>(self, first: usize) -> [Formula<'a>; N] {
-        let mut all = [self.at(first); N];
-        let mut place = 1;
-        while place < N {
-            all[place] = self.at(first + place);
-            place += 1;
-        }
-        all
+    pub const fn formulas(&self, first: usize, count: usize) -> &[Formula<'a>] {
+        part(&self.formulas, first, count)
     }
 
-    /// Equations, each by its left and its right side.
+    /// A list of names.
     #[must_use]
-    pub const fn equations<const N: usize>(self, first: usize) -> [Equation<'a>; N] {
-        let mut all = [Equation { left: self.at(first), right: self.at(first + 1) }; N];
-        let mut place = 1;
-        while place < N {
-            all[place] = Equation { left: self.at(first + 2 * place), right: self.at(first + 2 * place + 1) };
-            place += 1;
-        }
-        all
+    pub const fn symbols(&self, first: usize, count: usize) -> &[Symbol<'a>] {
+        part(&self.symbols, first, count)
     }
 
-    /// Entries of a matrix, each by its row, its column and its formula.
+    /// A list of equations.
     #[must_use]
-    pub const fn entries<const N: usize>(self, first: usize) -> [Entry<'a>; N] {
-        let mut all = [Entry { row: 0, column: 0, value: self.at(first + 2) }; N];
-        let mut place = 0;
-        while place < N {
-            let at = first + 3 * place;
-            let [row, column] = [self.numbers[at] as usize, self.numbers[at + 1] as usize];
-            all[place] = Entry { row, column, value: self.at(at + 2) };
-            place += 1;
-        }
-        all
+    pub const fn equations(&self, first: usize, count: usize) -> &[Equation<'a>] {
+        part(&self.equations, first, count)
     }
 
-    /// Names as symbols.
+    /// The entries of a matrix.
     #[must_use]
-    pub const fn symbols<const N: usize>(self, first: usize) -> [Symbol<'a>; N] {
-        let mut all = [Symbol { name: "", formula: self.at(first) }; N];
-        let mut place = 0;
-        while place < N {
-            let number = self.numbers[first + place] as usize;
-            all[place].name = match self.table.nodes[number - 1] {
-                FormulaNode::Name(name) => self.table.names[name as usize],
-                _ => panic!("a symbol is a name"),
-            };
-            all[place].formula = self.at(first + place);
-            place += 1;
-        }
-        all
+    pub const fn entries(&self, first: usize, count: usize) -> &[Entry<'a>] {
+        part(&self.entries, first, count)
     }
+}
+
+/// A table of formulas.
+#[must_use]
+pub const fn table<'a>(nodes: &'a [FormulaNode], names: &'a [&'a str], parts: &'a [i32]) -> FormulaTable<'a> {
+    match FormulaTable::checked(nodes, names, parts) {
+        Some(table) => table,
+        None => panic!("a formula refers to a node that is not before it"),
+    }
+}
+
+const fn formula<'a>(table: &'a FormulaTable<'a>, number: u32) -> Formula<'a> {
+    match table.get(number) {
+        Some(formula) => formula,
+        None => panic!("no formula has this number"),
+    }
+}
+
+const fn part<T>(all: &[T], first: usize, count: usize) -> &[T] {
+    all.split_at(first).1.split_at(count).0
 }

@@ -3,7 +3,7 @@
 //! Its formulas are numbers of nodes in one [`FormulaTable`], with terms and fractions as they are printed: nothing is
 //! parsed or laid out at run time.
 
-mod constants;
+pub(crate) mod constants;
 #[doc(hidden)]
 pub mod notation;
 mod scene;
@@ -11,7 +11,6 @@ mod table;
 
 use core::fmt;
 
-pub use constants::FormulaLists;
 pub use scene::{ContactEffect, Effect, JointForce, SceneDerivation};
 pub use table::{ElementaryFunction, Formula, FormulaList, FormulaNode, FormulaTable, FormulaView, Terms};
 

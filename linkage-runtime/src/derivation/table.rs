@@ -87,9 +87,9 @@ pub struct FormulaTable<'a> {
 /// the crate `linkage` has a trait `Notation` with LaTeX and MathML.
 #[derive(Clone, Copy)]
 pub struct Formula<'a> {
-    table: FormulaTable<'a>,
+    pub(super) table: &'a FormulaTable<'a>,
     /// From 1 to the length of the table.
-    number: u32,
+    pub(super) number: u32,
 }
 
 /// A node with the formulas that it refers to.
@@ -131,14 +131,14 @@ pub enum FormulaView<'a> {
 /// Factors or arguments.
 #[derive(Debug, Clone, Copy)]
 pub struct FormulaList<'a> {
-    table: FormulaTable<'a>,
+    table: &'a FormulaTable<'a>,
     numbers: &'a [i32],
 }
 
 /// The terms of a sum.
 #[derive(Debug, Clone, Copy)]
 pub struct Terms<'a> {
-    table: FormulaTable<'a>,
+    table: &'a FormulaTable<'a>,
     numbers: &'a [i32],
 }
 
@@ -160,19 +160,19 @@ impl<'a> FormulaTable<'a> {
 
     /// The formula with this number; none if there is none.
     #[must_use]
-    pub const fn get(self, number: u32) -> Option<Formula<'a>> {
+    pub const fn get(&'a self, number: u32) -> Option<Formula<'a>> {
         if is_before(number, self.nodes.len()) { Some(Formula { table: self, number }) } else { None }
     }
 
     /// The number of nodes.
     #[must_use]
-    pub const fn len(self) -> usize {
+    pub const fn len(&self) -> usize {
         self.nodes.len()
     }
 
     /// True for a table without nodes.
     #[must_use]
-    pub const fn is_empty(self) -> bool {
+    pub const fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 }
@@ -184,12 +184,12 @@ const fn is_before(number: u32, place: usize) -> bool {
 
 impl<'a> FormulaTable<'a> {
     /// The name at a place; checked tables have those of their nodes.
-    fn name(self, place: u32) -> &'a str {
+    fn name(&self, place: u32) -> &'a str {
         self.names.get(place as usize).copied().unwrap_or_default()
     }
 
     /// True if the node at a place refers to nodes before it, by their meaning.
-    const fn is_sound(self, place: usize) -> bool {
+    const fn is_sound(&self, place: usize) -> bool {
         match self.nodes[place] {
             FormulaNode::Rate(name)
             | FormulaNode::Acceleration(name)
@@ -217,16 +217,16 @@ impl<'a> FormulaTable<'a> {
         }
     }
 
-    const fn has_name(self, name: u32) -> bool {
+    const fn has_name(&self, name: u32) -> bool {
         (name as usize) < self.names.len()
     }
 
-    const fn is_name(self, number: u32, place: usize) -> bool {
+    const fn is_name(&self, number: u32, place: usize) -> bool {
         is_before(number, place) && matches!(self.nodes[number as usize - 1], FormulaNode::Name(_))
     }
 
     /// True if there are these parts, and if they are nodes before a place; only terms have signs.
-    const fn has_parts(self, first: u32, count: u32, place: usize, are_terms: bool) -> bool {
+    const fn has_parts(&self, first: u32, count: u32, place: usize, are_terms: bool) -> bool {
         let (first, count) = (first as usize, count as usize);
         if count == 0 || first > self.parts.len() || count > self.parts.len() - first {
             return false;
