@@ -45,9 +45,12 @@ fn with_scenes(keep: impl Fn(&str) -> bool) -> TokenStream {
     source::with_statements(kept, is_needed)
 }
 
+/// The functions that find the turns of a guess or of a branch, and assemble to do so; without turns they do not.
+const FOR_TURNS: [&str; 3] = ["assemble_near", "branch_of", "branch_near"];
+
 fn of<'a>(work: &'a Work, name: &'a str) -> impl Iterator<Item = (&'a str, Operations)> {
     work.iter()
-        .filter(move |((of, _), _)| of == name)
+        .filter(move |((of, function), _)| of == name && !FOR_TURNS.contains(&function.as_str()))
         .map(|((_, function), operations)| (function.as_str(), *operations))
 }
 

@@ -22,11 +22,10 @@ pub(super) fn function(
     // Only functions that others call show their operation counts.
     let work = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
     let bound = body.as_ref().and_then(|code| code.bound.as_ref()?.sentence());
-    let doc = description(doc, work.unwrap_or_default(), bound);
-    // The trait documents its functions.
+    // A trait documents its functions.
     let is_shown = !matches!(access, Access::OfTrait | Access::Lane) || !doc.is_empty();
     let doc = is_shown.then(|| {
-        let text = comment(&doc);
+        let text = comment(&description(doc, work.unwrap_or_default(), bound));
         quote!(#[doc = #text])
     });
     let name = identifier(name, place);

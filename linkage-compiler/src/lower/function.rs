@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 
 use rustc_hash::FxHashSet;
 
+use super::calls;
 use super::checks::Checked;
 use super::code::{Callee, Code, Returned};
 use super::naming::{self, Hint};
@@ -64,9 +65,10 @@ impl Display for Dangling {
     }
 }
 
-/// Lowers a function.
+/// Lowers a function that others call, by these, or one that none calls.
 pub(super) fn function(
     planned: Function<Body>,
+    callees: &[Callee],
     context: &Context,
     lowered: &mut Lowered,
 ) -> Result<Function<Code>, Dangling> {
@@ -81,7 +83,7 @@ pub(super) fn function(
         // A cold function is called only after an error.
         let work = if access == Access::Cold { Work::default() } else { work };
         let operations = work.total();
-        lowered.works.insert(name.clone(), work);
+        callees.iter().for_each(|callee| lowered.works.insert(*callee, work.clone()));
         Ok(Code { operations, ..code })
     });
     let body = code.transpose().map_err(|what| Dangling { function: name.clone(), what })?;
@@ -99,9 +101,8 @@ struct Signature<'f> {
 impl Signature<'_> {
     /// The code of a body and its operations; otherwise what the body refers to and does not exist.
     fn body(&self, body: Body, context: &Context, lowered: &mut Lowered) -> Result<(Code, Work), String> {
-        let Body { before, kernel, after, value, locals, calls, operations } = body;
+        let Body { before, kernel, after, value, locals, operations } = body;
         let schedule = kernel.as_ref().map(|kernel| self.scheduled(kernel, context));
-        let work = lowered.works.work(schedule.as_ref(), self.is_layer, &calls, operations);
         let bound = kernel.as_ref().zip(schedule.as_ref()).and_then(|(kernel, schedule)| {
             self.has_bound(kernel, &value, lowered).then(|| bound(kernel, schedule, context, lowered)).flatten()
         });
@@ -148,8 +149,10 @@ impl Signature<'_> {
         let graph = &context.derivation.graph;
         let names = naming::names(&hints, &values, graph, Taken::new(context.reserved), functions);
         let is_branch_free = schedule.as_ref().is_none_or(Schedule::is_branch_free);
-        let operations = work.total();
         let values = values.all;
+        let calls = calls::always(&values, &statements, value);
+        let work = lowered.works.work(schedule.as_ref(), self.is_layer, &calls, operations);
+        let operations = work.total();
         Ok((Code { values, statements, value, operations, uses, externals, is_branch_free, bound, names }, work))
     }
 

@@ -6,16 +6,18 @@
 //! 2. `sharing`: common pairs of operands are computed once;
 //! 3. `joined`: what is used once is written where it is used;
 //! 4. `factors`, `terms`, `order`: the order of factors, terms and lines ([`Schedule`]);
-//! 5. `works`, `operations`, `rounding`: operations are counted, rounding errors bounded;
+//! 5. `operations`, `rounding`: rounding errors are bounded;
 //! 6. `lines`, `signs`, `sources`, `chords`, `modes`: lines become statements of [`Code`], and signs return to where they
 //!    are written;
 //! 7. `proven`: results that are finite if the checks pass; `planned`, `checks`: what the plan has around the kernel;
 //! 8. `stored`, `reads`, `stretches`, `unneeded`: the places of stores, reads and long sequences, and what nothing needs;
 //!    all ask `uses` which values a statement reads;
-//! 9. `naming`: names, the only pass that knows them.
+//! 9. `calls`, `works`: operations are counted, with those of the functions that it calls;
+//! 10. `naming`: names, the only pass that knows them.
 //!
 //! A reference to something that does not exist is an error of construction ([`Dangling`]): finished code has none.
 
+mod calls;
 mod checks;
 mod chords;
 mod code;

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use super::code::Code;
+use super::code::{Callee, Code};
 use super::function::{Context, Dangling, FunctionIds, Lowered, function};
 use super::rounding::Roundings;
 use super::works::Works;
 use crate::derivation::Derivation;
-use crate::ids::{FunctionId, Table};
+use crate::ids::{FunctionId, Id, Table};
 use crate::program::{Access, AnyNumber, Arguments, Body, Derived, Function, Functions, Program, SceneProgram};
 
 /// Lowers all functions of a driver and of its scenes.
@@ -24,16 +24,13 @@ pub fn program<'a>(
     let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &of_driver, of_driver: &of_driver };
     let of = context(derivation, &derived, of);
     let mut lowered = Lowered { works: Works::default(), roundings: Roundings::new(&derived.pose) };
-    let functions = all(functions, &of, &mut lowered)?;
-    let order = ordered(without_branches(&functions), &functions, &signatures.all(&position));
-    let functions = Functions::listed(functions, order);
-    let works = lowered.works.renamed(|name| signatures.types.function(name));
-    let implementations = implementations.into_iter().map(|one| one.without_choice(|name| functions.has(name)));
-    let implementations = implementations.map(|one| one.try_map(|planned| function(planned, &of, &mut lowered)));
-    let implementations = implementations.collect::<Result<_, _>>()?;
+    let functions = all(functions, &of, &[Callee::Own, Callee::OfDriver], &mut lowered)?;
+    let works = lowered.works.of_driver();
+    let mut alone = |planned| function(planned, &[], &of, &mut lowered);
+    let implementations = implementations.into_iter().map(|one| one.try_map(&mut alone));
+    let implementations = implementations.collect::<Result<Vec<_>, _>>()?;
     let any_number = any_number.map(|AnyNumber { functions, user_functions }| {
-        let functions = functions.into_iter().map(|planned| function(planned, &of, &mut lowered));
-        Ok(AnyNumber { functions: functions.collect::<Result<_, _>>()?, user_functions })
+        Ok(AnyNumber { functions: functions.into_iter().map(alone).collect::<Result<_, _>>()?, user_functions })
     });
     let any_number = any_number.transpose()?;
     let scenes = scenes.into_iter().map(|SceneProgram { signatures, functions, implementation }| {
@@ -43,15 +40,44 @@ pub fn program<'a>(
         let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &own, of_driver: &of_driver };
         let of = context(derivation, &derived, of);
         let mut lowered = Lowered { works: works.clone(), roundings: Roundings::new(&derived.pose) };
-        let functions = all(functions, &of, &mut lowered)?;
+        let functions = all(functions, &of, &[Callee::Own], &mut lowered)?;
         let order = ordered(functions.ids().collect(), &functions, &signatures.all());
         let functions = Functions::listed(functions, order);
-        let implementation = implementation.map(|one| one.try_map(|planned| function(planned, &of, &mut lowered)));
+        let implementation = implementation.map(|one| one.try_map(|planned| function(planned, &[], &of, &mut lowered)));
         Ok(SceneProgram { signatures, functions, implementation: implementation.transpose()? })
     });
-    let scenes = scenes.collect::<Result<_, _>>()?;
+    let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
+    let called = called(&functions, &scenes);
+    let order = ordered(without_branches(called, &functions), &functions, &signatures.all(&position));
+    let is_listed = |callee| !matches!(callee, Callee::Own(id) if !order.contains(&id));
+    let calls_listed = |function: &Function<Code>| function.body.iter().flat_map(Code::calls).all(is_listed);
+    let implementations = implementations.into_iter().map(|one| one.without_choice(calls_listed)).collect();
+    let functions = Functions::listed(functions, order);
     let derived = Some(derived);
     Ok(Program { signatures, position, functions, implementations, columns, scenes, any_number, derived })
+}
+
+/// The functions of a driver that are called: from outside, by a scene, or by a later one of these.
+fn called(functions: &Table<FunctionId, Function<Code>>, scenes: &[SceneProgram<Code>]) -> Vec<FunctionId> {
+    let of = |function: &Function<Code>| {
+        let calls = function.body.iter().flat_map(Code::calls);
+        calls
+            .filter_map(|callee| match callee {
+                Callee::Own(id) | Callee::OfDriver(id) => Some((callee, id)),
+                Callee::User(_) => None,
+            })
+            .collect::<Vec<_>>()
+    };
+    let by_scenes = scenes.iter().flat_map(|scene| scene.functions.iter().flat_map(of));
+    let by_scenes = by_scenes.filter(|(callee, _)| matches!(callee, Callee::OfDriver(_)));
+    let mut called: BTreeSet<FunctionId> = by_scenes.map(|(_, id)| id).collect();
+    for (id, function) in functions.enumerated().collect::<Vec<_>>().into_iter().rev() {
+        if function.access.is_called_from_outside() || called.contains(&id) {
+            called.insert(id);
+            called.extend(of(function).into_iter().map(|(_, id)| id));
+        }
+    }
+    called.into_iter().collect()
 }
 
 /// The functions by name.
@@ -59,25 +85,31 @@ fn ids(functions: &Functions<Body>) -> FunctionIds {
     functions.by_id().enumerated().map(|(id, function)| (function.name.clone(), id)).collect()
 }
 
+/// Lowers the functions of a type, which others call by these.
 fn all(
     functions: Functions<Body>,
     of: &Context,
+    callees: &[fn(FunctionId) -> Callee],
     lowered: &mut Lowered,
 ) -> Result<Table<FunctionId, Function<Code>>, Dangling> {
-    functions.into_table().into_iter().map(|planned| function(planned, of, lowered)).collect()
+    let functions = functions.into_table();
+    let ids = functions.ids();
+    let one = |(id, planned)| {
+        let callees: Vec<Callee> = callees.iter().map(|callee| callee(id)).collect();
+        function(planned, &callees, of, lowered)
+    };
+    ids.zip(functions).map(one).collect()
 }
 
-/// All functions but those for a lane that have branches, and those for a lane after them: lanes are then computed one by
+/// These functions but those for a lane that have branches, and those for a lane after them: lanes are then computed one by
 /// one.
-fn without_branches(functions: &Table<FunctionId, Function<Code>>) -> Vec<FunctionId> {
+fn without_branches(ids: Vec<FunctionId>, functions: &Table<FunctionId, Function<Code>>) -> Vec<FunctionId> {
     let is_in_lane = |function: &Function<Code>| function.access == Access::Lane;
     let has_branches = |function: &Function<Code>| {
         is_in_lane(function) && function.body.as_ref().is_some_and(|code| !code.is_branch_free)
     };
     let end = functions.iter().position(has_branches).unwrap_or(functions.len());
-    let kept =
-        functions.enumerated().enumerate().filter(|(place, (_, function))| *place < end || !is_in_lane(function));
-    kept.map(|(_, (id, _))| id).collect()
+    ids.into_iter().filter(|id| id.index() < end || !is_in_lane(&functions[*id])).collect()
 }
 
 /// Sorts functions from the order of planning (callees first) to the order of their signatures; private ones come last.

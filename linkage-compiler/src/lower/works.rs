@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
+use super::code::Callee;
 use super::schedule::{Line, Schedule};
 use super::value::{Signed, Value, ValueId};
 use crate::graph::Function;
@@ -15,7 +16,7 @@ use crate::program::{Intrinsic, Operations};
 /// The operations of the functions lowered so far.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Works {
-    of: BTreeMap<String, Work>,
+    of: BTreeMap<Callee, Work>,
     /// The numbers of operations whose operands are numbers as well, the same in all functions.
     numbers: FxHashMap<Value, ValueId>,
 }
@@ -41,7 +42,7 @@ impl Works {
         &mut self,
         kernel: Option<&Schedule>,
         is_layer: bool,
-        calls: &[String],
+        calls: &[Callee],
         others: Operations,
     ) -> Work {
         let mut work = Work { others, is_layer, ..Work::default() };
@@ -64,15 +65,15 @@ impl Works {
         work
     }
 
-    pub(super) fn insert(&mut self, name: String, work: Work) {
-        self.of.insert(name, work);
+    pub(super) fn insert(&mut self, function: Callee, work: Work) {
+        self.of.insert(function, work);
     }
 
-    /// Gives the functions the names by which others call them.
+    /// Those of the driver, as the functions of a scene call them.
     #[must_use]
-    pub(super) fn renamed(&self, name: impl Fn(&str) -> String) -> Self {
-        let of = self.of.iter().map(|(old, work)| (name(old), work.clone())).collect();
-        Self { of, numbers: self.numbers.clone() }
+    pub(super) fn of_driver(&self) -> Self {
+        let of = self.of.iter().filter(|(callee, _)| matches!(callee, Callee::OfDriver(_)));
+        Self { of: of.map(|(callee, work)| (*callee, work.clone())).collect(), numbers: self.numbers.clone() }
     }
 
     /// Adds the operations of a kernel.
@@ -158,6 +159,7 @@ impl Works {
 mod tests {
     use super::*;
     use crate::graph::Graph;
+    use crate::ids::{FunctionId, Id};
     use crate::lower::schedule;
     use crate::program::Given;
 
@@ -190,8 +192,9 @@ mod tests {
 
         let layer = works.work(Some(&kernel(&[ab, sine], true)), true, &[], Operations::default());
         assert_eq!(layer.total(), Operations { multiplications: 1, functions: 1, ..Operations::default() });
-        works.insert("layer".to_owned(), layer);
-        let calls = ["layer".to_owned(), "layer".to_owned()];
+        let callee = Callee::Own(FunctionId::new(0));
+        works.insert(callee, layer);
+        let calls = [callee; 2];
         let once = works.work(Some(&whole), false, &calls[..1], Operations::default());
         assert_eq!(once.total(), expected);
         // The second call has other arguments.

@@ -96,8 +96,6 @@ pub struct Body {
     pub value: Value,
     /// The preferred names of local values that statements after the kernel define.
     pub locals: Vec<String>,
-    /// The functions called; their operations count as operations of this one.
-    pub calls: Vec<String>,
     /// Operations besides those of the kernel.
     pub operations: Operations,
 }

@@ -99,20 +99,15 @@ impl Group {
     }
 }
 
-impl Implementation<Body> {
-    /// Keeps one of several functions of the same name: the first one that calls only functions that are left.
+impl<B> Implementation<B> {
+    /// Keeps one of several functions of the same name: the first one that can be had.
     #[must_use]
-    pub fn without_choice(mut self, is_left: impl Fn(&str) -> bool) -> Self {
+    pub fn without_choice(mut self, is_had: impl Fn(&Function<B>) -> bool) -> Self {
         let mut kept = BTreeSet::new();
-        self.functions.retain(|function| {
-            let mut calls = function.body.iter().flat_map(|body| &body.calls);
-            calls.all(|call| is_left(call)) && kept.insert(function.name.clone())
-        });
+        self.functions.retain(|function| is_had(function) && kept.insert(function.name.clone()));
         self
     }
-}
 
-impl<B> Implementation<B> {
     /// This implementation with other bodies.
     ///
     /// # Errors

@@ -56,7 +56,6 @@ impl Plan<'_, '_> {
         let pose = body.bound(self.signatures.arguments.pose.clone(), pose);
         let check = Expression::own_call("check_implied", [pose.clone().borrowed()]);
         body.after.push(Statement::Do(check.tried()));
-        body.calls.push("check_implied".to_owned());
         body.value = Value::Plain(pose);
     }
 }

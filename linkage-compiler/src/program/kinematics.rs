@@ -62,7 +62,6 @@ impl Plan<'_, '_> {
         if is_long {
             body = body.stored_in("kinematics");
         }
-        body.calls.push(otherwise.to_owned());
         body.after.push(Statement::CheckKinematics { conditions, otherwise: call });
         if is_factorised {
             self.refine_kinematics(&mut body);
@@ -86,7 +85,6 @@ impl Plan<'_, '_> {
         let of_names = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
         let of_names = of_names.map(|(field, value)| (field.to_owned(), name(value)));
         body.value = Value::Plain(Expression::structure(of.clone(), of_names));
-        body.calls.push("precise_kinematics".to_owned());
     }
 
     /// The pose, the rates and the accelerations from the results of the kernel.
@@ -226,7 +224,7 @@ impl Plan<'_, '_> {
         let of = Type::Bare(self.signatures.types.full_kinematics.clone());
         let value = Expression::structure(of, members.into_iter().chain(quantities));
         let before = vec![Statement::Let(pattern, call)];
-        let body = Body { before, calls: vec![own.name], ..Body::of(kernel, value) };
+        let body = Body { before, ..Body::of(kernel, value) };
         let doc = lines([
             "The position, the rates q' and the accelerations q'' of all coordinates, and the motion of points and outputs, from the",
             "inputs, their rates v' and their accelerations v''.",

@@ -122,7 +122,6 @@ impl<B> Lanes<'_, B> {
         }
         let Columns { coordinates, angles, .. } = self.columns;
         statements.extend(stored(coordinates.iter().cloned(), 0, &place));
-        let mut calls = vec![KINEMATICS.to_owned()];
         let mut all = vec![name("is_accepted")];
         let has_quantities = self.columns.count_quantities() > 0;
         if has_quantities || !angles.is_empty() {
@@ -130,7 +129,7 @@ impl<B> Lanes<'_, B> {
         }
         if has_quantities && !with_quantities {
             let value = Expression::Constant(Constant::False);
-            return Body { after: statements, calls, ..Body::plain(value) };
+            return Body { after: statements, ..Body::plain(value) };
         }
         let pose = name("pose");
         let values = angles.iter().map(|angle| match angle.computed_from(&pose) {
@@ -149,12 +148,11 @@ impl<B> Lanes<'_, B> {
             let call = self.call(QUANTITIES_IN_LANE, ["pose", "rates", "accelerations"]);
             statements.push(Statement::Let(Pattern::Tuple(to.to_vec()), call));
             statements.extend(stored(self.quantities(), coordinates.len() + angles.len(), &place));
-            calls.push(QUANTITIES_IN_LANE.to_owned());
             all.push(name("are_accepted"));
         }
         let operations = Operations { functions: flags.len(), ..Operations::default() };
         all.extend(flags);
-        Body { after: statements, calls, operations, ..Body::plain(Expression::All(all)) }
+        Body { after: statements, operations, ..Body::plain(Expression::All(all)) }
     }
 
     /// The function for a lane alone: it calls `kinematics`, and the function for points and outputs.

@@ -90,7 +90,6 @@ impl Plan<'_, '_> {
         }
         let mut body = self.by_parts(Expression::own_call(POSITION_ALONE, arguments));
         body.before.splice(0..0, before);
-        body.calls.push(POSITION_ALONE.to_owned());
         let doc = lines(["The same by separate calls, which say what is wrong."]);
         let signature = self.signatures.kinematics_by_parts(&self.position);
         self.add(Function { name: BY_PARTS_ALONE.to_owned(), ..signature }, doc, body);

@@ -38,8 +38,6 @@ mod sensitivity;
 mod signatures;
 mod stored;
 
-use std::collections::BTreeSet;
-
 pub use any_number::AnyNumber;
 pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
@@ -118,20 +116,7 @@ pub fn plan<'a>(
     let any_number = mechanism.requests.contains(&Request::Intervals).then(|| plan.any_number());
     let closed_forms = plan.derivation.closed_forms(&plan.assembly);
     let Plan { signatures, position, functions, pose, formulas, named, derivation, .. } = plan;
-    // A private function is kept only if a function of a scene or a later function calls it.
-    let calls =
-        |function: &Function<Body>| function.body.iter().flat_map(|body| body.calls.clone()).collect::<Vec<_>>();
-    let mut called: BTreeSet<String> = scenes.iter().flat_map(|scene| &scene.functions).flat_map(calls).collect();
-    let mut kept = Vec::new();
-    for function in functions.into_iter().rev() {
-        let (name, known) = (&function.name, signatures.types.function(&function.name));
-        if function.access.is_called_from_outside() || called.contains(name) || called.contains(&known) {
-            called.extend(calls(&function));
-            kept.push(function);
-        }
-    }
-    kept.reverse();
-    let functions: Functions<Body> = kept.into_iter().collect();
+    let functions: Functions<Body> = functions.into_iter().collect();
     let derived = Derived {
         fields: pose.fields(derivation),
         held: pose.held(derivation),

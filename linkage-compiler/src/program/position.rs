@@ -199,7 +199,7 @@ impl Plan<'_, '_> {
 
         let at = [Expression::name(&inputs).converted(), Expression::name(&branch)];
         let call = self.remembering(at, self.no_memory());
-        let body = Body { calls: vec![REMEMBERING.to_owned()], ..Body::result(call) };
+        let body = Body::result(call);
         let listed: Vec<String> =
             self.position.modes.iter().map(|group| format!("`{}`", group.unknowns.replace(", ", "`, `"))).collect();
         let mut doc = lines([
@@ -241,7 +241,7 @@ impl Plan<'_, '_> {
         let fields = self.position.turns.iter().map(|turn| on.clone().field(&turn.field));
         let turns = Expression::call(Intrinsic::Turns, [Expression::List(fields.collect())]).borrowed();
         let call = Expression::own_call("assemble_in_turns", [v.converted(), on.clone(), turns]);
-        let body = Body { calls: vec!["assemble_in_turns".to_owned()], ..Body::result(call) };
+        let body = Body::result(call);
         self.add(self.signatures.assemble(), lines(ASSEMBLE), body);
 
         let names: Vec<_> = self.position.turns.iter().map(|turn| format!("`{}`", turn.coordinate)).collect();
@@ -378,7 +378,6 @@ impl Plan<'_, '_> {
         let converted = Expression::name(&inputs).converted();
         body.before = vec![Statement::Let(Pattern::name(inputs), converted)];
         if is_listed {
-            body.calls.push(REMEMBERING.to_owned());
             body.before.push(Statement::Let(Pattern::Mutable(Variable::Name(memory)), self.no_memory()));
             self.add(signature, lines(BRANCHES_BY_NUMBER), body);
             return;
@@ -400,11 +399,7 @@ impl Plan<'_, '_> {
             "The branch of a rough position, such as one read off a drawing: its coordinates need not satisfy the loop equations.",
         ]));
         let body = Body::plain(Expression::own_call("branch_of", [pose]));
-        self.add(
-            self.signatures.branch_near(),
-            doc,
-            Body { calls: ["pose_at", "branch_of"].map(str::to_owned).to_vec(), ..body },
-        );
+        self.add(self.signatures.branch_near(), doc, body);
     }
 
     fn branch_of(&mut self) {

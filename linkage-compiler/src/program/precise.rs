@@ -53,7 +53,6 @@ impl Plan<'_, '_> {
         let value = body.local("refined");
         body.after.push(Statement::Refine(Pattern::local(body.locals.len() - 1), rough, call));
         body.value = Value::Plain(value);
-        body.calls.push(precise.clone());
         self.precise(precise, signature);
         body
     }
@@ -75,8 +74,7 @@ impl Plan<'_, '_> {
             }
             returns => Expression::call(rounding(returns), [wide, Expression::name(ROUGH)]),
         };
-        let calls = [WIDENED, WIDENED_POSE, AT_NUMBERS].map(str::to_owned).to_vec();
-        let body = Body { before, calls, ..Body::plain(value) };
+        let body = Body { before, ..Body::plain(value) };
         let arguments = of.arguments.iter().cloned().map(by_value).chain([rough(of.returns.clone())]);
         let returns = Type::Around("Option", Box::new(of.returns.clone()));
         let signature = Function { access: Access::Cold, ..total(name, arguments, returns) };
@@ -126,8 +124,7 @@ impl Plan<'_, '_> {
             Expression::call(Intrinsic::RoundedByName, pair).tried()
         };
         let both = Expression::Tuple([&rates, &accelerations].into_iter().zip(&parts).map(rounded).collect());
-        let calls = [WIDENED, WIDENED_POSE, AT_NUMBERS].map(str::to_owned).to_vec();
-        let body = Body { before, calls, ..Body::plain(Expression::call(Intrinsic::Some, [both])) };
+        let body = Body { before, ..Body::plain(Expression::call(Intrinsic::Some, [both])) };
         let doc = lines([
             "The rates q' and the accelerations q'' in twice the precision, rounded once; `None` if a number is not finite.",
         ]);

@@ -123,8 +123,7 @@ impl Plan<'_, '_> {
         let values = Expression::List(Expression::nested(results(0..count), &[v, dimension]));
         let value =
             Expression::call(Intrinsic::FiniteMatrices, [Expression::mechanism(), Expression::text(word), values]);
-        let calls = called.into_iter().map(str::to_owned).collect();
-        let body = Body { kernel: Some(kernel), calls, ..Body::result(value) };
+        let body = Body { kernel: Some(kernel), ..Body::result(value) };
         self.add(self.signatures.quantity_ratios(family), doc, body);
     }
 }

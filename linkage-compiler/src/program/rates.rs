@@ -180,8 +180,7 @@ impl Plan<'_, '_> {
         let members = [("pose", name(&pose)), ("ratios", name(&ratios)), ("rates", name(&rates)), ("bias", bias)];
         let members = members.map(|(field, value)| (field.to_owned(), value));
         let value = Expression::structure(Type::Runtime("Kinematics", Vec::new()), members);
-        let calls = ["pose_at", "ratio_columns", "coordinate_rates"].map(str::to_owned).to_vec();
-        let body = Body { before: before.to_vec(), calls, ..Body::of(kernel, value) };
+        let body = Body { before: before.to_vec(), ..Body::of(kernel, value) };
         let mut signature = self.signatures.kinematics_at();
         signature.is_fallible = is_fallible;
         if !is_fallible {

@@ -103,8 +103,7 @@ impl Plan<'_, '_> {
         let called = if open { None } else { Some("sensitivity") };
         let sources = called.iter().map(|function| self.columns(function, &symbols)).collect();
         let kernel = self.on_pose(sources, Vec::new(), unnamed(nodes.iter().copied()));
-        let calls = called.into_iter().map(str::to_owned).collect();
-        let mut body = Body { kernel: Some(kernel), calls, ..Body::default() };
+        let mut body = Body { kernel: Some(kernel), ..Body::default() };
         let columns = nodes.len() / (names.len() * dimension);
         let entries: Vec<_> = nodes.iter().enumerate().collect();
         let mut members = Vec::new();

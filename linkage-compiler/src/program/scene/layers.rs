@@ -90,13 +90,12 @@ impl ScenePlan<'_, '_, '_> {
         let part = |(_, symbol): &(String, SymbolId)| Shape::Tuple(vec![Shape::Ignored, Shape::Symbol(*symbol)]);
         let shape = Shape::List(self.layers.parts.iter().map(part).collect());
         let is_varying = !self.layers.parts.is_empty();
-        let (mut sources, mut calls) = (Vec::new(), Vec::new());
+        let mut sources = Vec::new();
         if is_varying {
             sources.push(Source { from: self.call_of("effects", |argument| Expression::name(&argument.name)), shape });
-            calls.push("effects".to_owned());
         }
         let kernel = Kernel { sources, results: unnamed(sums), ..Kernel::default() };
-        let body = Body { calls, ..Body::of(kernel, Expression::List(results(0..inputs.len()))) };
+        let body = Body::of(kernel, Expression::List(results(0..inputs.len())));
         let of = Type::List(Box::new(Type::Scalar), inputs.len());
         let signature = layer("reduced_forces", self.arguments(&self.layers.parts_read), of);
         let is_method = self.find("effects").is_some_and(|effects| effects.is_method);
@@ -148,12 +147,10 @@ impl ScenePlan<'_, '_, '_> {
             let column = |row| Shape::List(inertia.ids().map(|column| entry((row, column))).collect());
             let shape = Shape::List(inertia.ids().map(column).collect());
             sources.push(Source { from: self.call_of("reduced_inertia", |argument| self.passed(argument)), shape });
-            body.calls.push("reduced_inertia".to_owned());
         }
         if own.contains(&Read::Forces) {
             let shape = Shape::list(&self.layers.forces);
             sources.push(Source { from: self.call_of("reduced_forces", |argument| self.passed(argument)), shape });
-            body.calls.push("reduced_forces".to_owned());
         }
         body.kernel = Some(Kernel { sources, results, is_on_pose: true, ..Kernel::default() });
         body
@@ -172,7 +169,6 @@ impl ScenePlan<'_, '_, '_> {
             if reads.contains(&Read::Rates) {
                 let call = Expression::called_on(driver, "coordinate_rates", [input_rates]);
                 body.before.push(Statement::Let(Pattern::name(arguments.rates.clone()), call));
-                body.calls.push(self.of_driver("coordinate_rates"));
             }
             return body;
         }
@@ -190,12 +186,10 @@ impl ScenePlan<'_, '_, '_> {
             let pattern = Pattern::Struct { of, is_whole: fields.len() == found.len(), fields };
             let call = self.driver_call("kinematics_at", vec![Expression::name(&arguments.q), input_rates]);
             body.before.push(Statement::Let(pattern, call));
-            body.calls.push(self.of_driver("kinematics_at"));
             return body;
         }
         self.pose_at(&mut body);
         let call = self.driver_call("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
-        body.calls.push(self.of_driver("ratio_columns"));
         body.before.push(match reads.contains(&Read::Ratios) || reads.contains(&Read::Rates) {
             true => Statement::Let(Pattern::name(arguments.ratios.clone()), call),
             false => Statement::Do(call),
@@ -204,7 +198,6 @@ impl ScenePlan<'_, '_, '_> {
             let on = [Expression::name(&arguments.ratios).borrowed(), input_rates];
             let call = Expression::called_on(driver, "coordinate_rates", on);
             body.before.push(Statement::Let(Pattern::name(arguments.rates.clone()), call));
-            body.calls.push(self.of_driver("coordinate_rates"));
         }
         body
     }

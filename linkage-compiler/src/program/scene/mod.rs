@@ -155,14 +155,9 @@ impl ScenePlan<'_, '_, '_> {
         let (q, pose) = (&self.signatures.arguments.q, &self.signatures.arguments.pose);
         let call = self.mechanism().driver_call("pose_at", [Expression::name(q)]);
         body.before.push(Statement::Let(Pattern::name(pose.clone()), call));
-        body.calls.push(self.of_driver("pose_at"));
     }
 
     /// The name of a function of the driver in call lists.
-    fn of_driver(&self, function: &str) -> String {
-        self.signatures.types.function(function)
-    }
-
     /// A body with parameters, coordinates and other sources. It computes only the sines that it needs, fewer than
     /// those of a pose.
     fn on_coordinates(&self, sources: Vec<Source>, steps: Vec<Step>, results: Vec<Output>) -> Body {

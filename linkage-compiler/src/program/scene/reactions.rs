@@ -135,7 +135,6 @@ impl ScenePlan<'_, '_, '_> {
         let all = self.mechanism().driver_call("acceleration", on).tried();
         body.before.push(Statement::Let(Pattern::name(accelerations.clone()), all));
         let motion = [at(time), at(q), at(rates).borrowed(), at(accelerations).borrowed()];
-        body.calls.extend(["rates".to_owned(), "reactions_of".to_owned(), self.of_driver("acceleration")]);
         Body { value: Value::Result(Expression::own_call("reactions_of", motion)), ..body }
     }
 }
