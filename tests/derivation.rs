@@ -131,7 +131,7 @@ fn singular_configurations_of_the_lecture_notes() {
 /// Section 1.3: [phi1'; phi2'] = 1/(z1 z2 sin(phi1 - phi2)) [-z2 cos phi2, -z2 sin phi2; -z1 cos phi1, -z1 sin phi1] …
 #[test]
 fn inverse_of_the_dyad_rrr() {
-    let inverse = Rrr::DERIVATION.blocks[0].inverse.unwrap();
+    let inverse = Rrr::DERIVATION.groups[0].inverse.unwrap();
     assert_eq!(inverse.factor.unwrap().to_string(), "1/(z₁·z₂·sin(φ₁ − φ₂))");
     let entries: Vec<String> = inverse.entries.iter().map(|entry| entry.value.to_string()).collect();
     assert_eq!(entries, ["−z₂·cos(φ₂)", "−z₂·sin(φ₂)", "−z₁·cos(φ₁)", "−z₁·sin(φ₁)"]);

@@ -74,7 +74,7 @@ fn arguments_of_functions_are_found_by_newton() {
     assert!((motion.rates.x - 1.0).abs() < 1e-15);
     // y'' = k (c'' x'^2 + c' x'') = 0
     assert!((motion.accelerations.x + 9.0 / 6.75).abs() < 1e-14);
-    let group = Slider::DERIVATION.blocks[0].group;
+    let group = Slider::DERIVATION.groups[0].kind;
     assert_eq!(group, "one unknown");
     // Where the cam is flat the slider cannot drive it.
     let flat = WedgeCoordinates { x: -0.5, y: 0.0, z: 0.0 };

@@ -26,16 +26,16 @@ fn velocity_and_acceleration_in_products(file: &str) -> Operations {
     let (velocity, acceleration) = (d.velocity_side(), d.acceleration_side());
     let mut steps = Vec::new();
     for step in d.solution(&[(velocity, rates.clone()), (acceleration, accelerations.clone())], Form::Entries) {
-        let Step::Guard { block, .. } = step else {
+        let Step::Guard { group, .. } = step else {
             steps.push(step);
             continue;
         };
-        let block = d.blocks[block].clone();
-        let matrix = d.block_matrix(&block);
+        let group = d.groups[group].clone();
+        let matrix = d.block_matrix(&group);
         let [[a, b], [c, e]] = [[matrix[0][0], matrix[0][1]], [matrix[1][0], matrix[1][1]]];
         let (ae, bc) = (d.graph.multiply(a, e), d.graph.multiply(b, c));
         let node = d.graph.subtract(ae, bc);
-        steps.push(Step::Let { symbol: block.determinant.unwrap().symbol, node });
+        steps.push(Step::Let { symbol: group.determinant.unwrap().symbol, node });
     }
     let results = rates.into_iter().chain(accelerations).map(|symbol| d.graph.variable(symbol));
     let results: Vec<_> = results.collect();

@@ -41,13 +41,13 @@ fn figure(figure: &Figure, picture: &str) -> String {
     let derivation = figure.derivation;
     let inputs: Vec<String> = derivation.inputs.iter().map(|input| input.formula.to_string()).collect();
     let groups: String = derivation
-        .blocks
+        .groups
         .iter()
-        .map(|block| {
-            // The text before the colon is the name of the group.
-            let group = block.group.split(':').next().unwrap_or_default();
-            let unknowns: Vec<String> = block.unknowns.iter().map(ToString::to_string).collect();
-            format!("<li>{} <i>{}</i></li>", escape(group), escape(&unknowns.join(", ")))
+        .map(|group| {
+            // The text before the colon is the name of the kind.
+            let kind = group.kind.split(':').next().unwrap_or_default();
+            let unknowns: Vec<String> = group.unknowns.iter().map(ToString::to_string).collect();
+            format!("<li>{} <i>{}</i></li>", escape(kind), escape(&unknowns.join(", ")))
         })
         .collect();
     let branches = match figure.branches {

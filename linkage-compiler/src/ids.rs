@@ -60,8 +60,8 @@ ids! {
     /// A row of Psi: a scalar equation, or one of the two of a `loop`.
     RowId
     /// A group of unknowns that are solved together, in the order of solution.
-    BlockId
-    /// The index of an equation or unknown within a block.
+    GroupId
+    /// The index of an equation or unknown within a group.
     MemberId
     /// An unordered pair of inputs, for second derivatives.
     PairId

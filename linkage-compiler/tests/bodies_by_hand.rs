@@ -95,7 +95,7 @@ fn quotes(tokens: TokenStream, found: &mut Vec<TokenStream>) {
     }
 }
 
-/// The names of the functions with a body, also of those in `impl` blocks.
+/// The names of the functions with a body, also of those in `impl` groups.
 fn bodies(tokens: &TokenStream) -> Vec<String> {
     let mut names = Vec::new();
     let mut name: Option<String> = None;

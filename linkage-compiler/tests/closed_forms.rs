@@ -6,7 +6,7 @@ use linkage_compiler::derivation::{ClosedForm, Derivation};
 use linkage_compiler::graph::{Function, Graph, Node, NodeId, SymbolId};
 use linkage_compiler::{derive, read};
 
-/// Unknowns, statements, and the roots of each block.
+/// Unknowns, statements, and the roots of each group.
 const MECHANISMS: [(&str, &str, &[bool]); 11] = [
     ("u, v", "loop a@w + b@u + c@v = d@0;", &[true]),
     ("u, v", "loop a@w + b@u = d@0 + c@v;", &[true]),
@@ -37,7 +37,7 @@ impl Values<'_> {
         self.graph.as_symbol(node).expect("a symbol")
     }
 
-    /// Solves all equations of a block; the root has this sign.
+    /// Solves all equations of a group; the root has this sign.
     fn solve(&mut self, form: &ClosedForm, sign: f64) {
         let mut cosine = f64::NAN;
         for &[left, right] in &form.equations {
@@ -117,7 +117,7 @@ fn closed_forms_solve_the_equations_on_both_branches() {
             }
             // The sign of the determinant is that of the branch.
             for chord in &assembly.chords {
-                let determinant = values.value(derivation.blocks[chord.block].determinant.unwrap().value);
+                let determinant = values.value(derivation.groups[chord.group].determinant.unwrap().value);
                 let expected = if chord.is_opposite { -sign } else { sign };
                 assert_eq!(determinant.signum(), expected, "{statements}");
             }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use linkage_compiler::derivation::Derivation;
 use linkage_compiler::graph::{NodeId, SymbolId};
-use linkage_compiler::structure::{Group, Loops, Obstacle};
+use linkage_compiler::structure::{GroupKind, Loops, Obstacle};
 use linkage_compiler::{derive, read};
 use proc_macro2::{TokenStream, TokenTree};
 
@@ -29,8 +29,8 @@ fn written(unknowns: &str, statements: &str) -> Derivation {
     derive(&read(source.parse().unwrap()).unwrap_or_else(|errors| panic!("{source}: {errors:?}"))[0]).remove(0)
 }
 
-fn groups(derivation: &Derivation) -> Vec<Group> {
-    derivation.blocks.iter().map(|block| block.group).collect()
+fn groups(derivation: &Derivation) -> Vec<GroupKind> {
+    derivation.groups.iter().map(|group| group.kind).collect()
 }
 
 /// A generator of angles and lengths (xorshift).
@@ -51,16 +51,16 @@ fn checked(derivation: &mut Derivation) -> Vec<usize> {
 
 /// At any angles the magnitudes of the loops are those of the rows, so that both vanish together: the sum of the squares
 /// of all rows. From the second loop as written, m times the first was subtracted, by which a length was eliminated.
-/// Returns the number of coefficients that are not zero, by block.
+/// Returns the number of coefficients that are not zero, by group.
 fn checked_with(derivation: &mut Derivation, m: [f64; 2]) -> Vec<usize> {
     let mut numbers = Numbers(0x9e37_79b9_7f4a_7c15);
     let mut counts = Vec::new();
-    for block in derivation.blocks.clone().iter().filter(|block| matches!(block.group, Group::Loops(_))) {
-        let rows = derivation.residual.at(&block.equations);
+    for group in derivation.groups.clone().iter().filter(|group| matches!(group.kind, GroupKind::Loops(_))) {
+        let rows = derivation.residual.at(&group.equations);
         let coordinate = |unknown| derivation.coordinates[derivation.unknowns[unknown]].value;
-        let unknowns: Vec<SymbolId> = block.unknowns.iter().map(|&unknown| coordinate(unknown)).collect();
+        let unknowns: Vec<SymbolId> = group.unknowns.iter().map(|&unknown| coordinate(unknown)).collect();
         let loops = Loops::of(&mut derivation.graph, &rows, &unknowns).unwrap();
-        assert_eq!(block.group, Group::Loops(loops.constants.len()));
+        assert_eq!(group.kind, GroupKind::Loops(loops.constants.len()));
         assert_eq!((2 * loops.constants.len(), loops.directions.len()), (rows.len(), unknowns.len()));
         for _ in 0..20 {
             let symbols = derivation.graph.symbols_of(&[rows.clone(), loops.nodes()].concat());
@@ -108,17 +108,17 @@ fn checked_with(derivation: &mut Derivation, m: [f64; 2]) -> Vec<usize> {
 #[test]
 fn of_the_gallery() {
     let mut double_butterfly = gallery("double_butterfly");
-    assert_eq!(groups(&double_butterfly), [Group::Loops(3)]);
+    assert_eq!(groups(&double_butterfly), [GroupKind::Loops(3)]);
     // Three constants, and 3 + 4 + 3 links.
     assert_eq!(checked(&mut double_butterfly), [3 + 3 + 4 + 3]);
     let mut stephenson = gallery("stephenson_far");
-    assert_eq!(groups(&stephenson), [Group::Loops(2), Group::Rrr]);
+    assert_eq!(groups(&stephenson), [GroupKind::Loops(2), GroupKind::Rrr]);
     assert_eq!(checked(&mut stephenson), [2 + 3 + 3]);
     let mut robot = gallery("three_rrr");
-    assert_eq!(groups(&robot), [Group::Loops(2), Group::Linear, Group::Linear]);
+    assert_eq!(groups(&robot), [GroupKind::Loops(2), GroupKind::Linear, GroupKind::Linear]);
     assert_eq!(checked(&mut robot), [2 + 3 + 3]);
     let mut triads = gallery("two_triads");
-    assert_eq!(groups(&triads), [Group::Rrr, Group::Loops(2), Group::Loops(2)]);
+    assert_eq!(groups(&triads), [GroupKind::Rrr, GroupKind::Loops(2), GroupKind::Loops(2)]);
     assert_eq!(checked(&mut triads).len(), 2);
 }
 
@@ -128,37 +128,37 @@ fn directions_of_links() {
         (
             "p, q, r, s",
             "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + c@s;",
-            &[Group::Loops(2)][..],
+            &[GroupKind::Loops(2)][..],
         ),
         // Clockwise angles, and angles from a known direction.
         (
             "p, q, r, s",
             "loop a@v + b@(v - p) + c@(-q) = d@0 + e@(90deg - r); loop b@(v - p) + f@(30deg - q) = (1, 2) + c@(-s);",
-            &[Group::Loops(2)],
+            &[GroupKind::Loops(2)],
         ),
         // Angles from the link before.
         (
             "p, q, r, s",
             "loop a@v + b@(v + p) + c@(v + p + q) = e@r; loop b@(v + p) + f@(v + p + q) = (1, 2) + c@(r + s);",
-            &[Group::Loops(2)],
+            &[GroupKind::Loops(2)],
         ),
         // A joint by its coordinates, and a number of one loop before the other.
         (
             "x, y, p, q, r, s",
             "loop a@v + b@p = (x, y); loop (x, y) + c@q = d@0 + e@r; loop (x, y) + f@q = (1, 2) + c@s;",
-            &[Group::Loops(2), Group::Linear, Group::Linear],
+            &[GroupKind::Loops(2), GroupKind::Linear, GroupKind::Linear],
         ),
         // x and y come from different loops.
         (
             "x, y, p, q, r, s",
             "loop (x, y) + b@p = a@v; loop c@q + e@r = (d, 0) + (x, y) - f@p; loop b@p + f@q = (1, y) + c@s + (x, 0) - (0, 2);",
-            &[Group::Loops(2), Group::Linear, Group::Linear],
+            &[GroupKind::Loops(2), GroupKind::Linear, GroupKind::Linear],
         ),
         // Two angles that are known from a group before, and gears.
         (
             "p, q, r, s, t",
             "loop a@v + b@p + c@q = d@0 + e@r; loop a@v + b@p + f@q = (1, 2) + c@s; equation t = 2*s - v;",
-            &[Group::Loops(2), Group::Linear],
+            &[GroupKind::Loops(2), GroupKind::Linear],
         ),
     ] {
         let mut derivation = written(unknowns, statements);
@@ -227,23 +227,23 @@ fn sliders() {
         ),
     ] {
         let mut derivation = written(unknowns, statements);
-        assert_eq!(groups(&derivation)[0], Group::Loops(2), "{statements}");
+        assert_eq!(groups(&derivation)[0], GroupKind::Loops(2), "{statements}");
         assert_eq!(guides_of(&mut derivation), guides, "{statements}");
         assert_eq!(checked_with(&mut derivation, m), [count], "{statements}");
     }
     let mut fixed = gallery("slider_triad");
-    assert_eq!(groups(&fixed), [Group::Loops(2)]);
+    assert_eq!(groups(&fixed), [GroupKind::Loops(2)]);
     assert_eq!(checked(&mut fixed), [2 + 2 + 3]);
     let mut turning = gallery("swivel_triad");
-    assert_eq!(groups(&turning), [Group::Loops(2)]);
+    assert_eq!(groups(&turning), [GroupKind::Loops(2)]);
     assert_eq!(checked(&mut turning), [2 + 2 + 3]);
 }
 
 /// The loop and the direction of each length, in the first group.
 fn guides_of(derivation: &mut Derivation) -> Vec<(usize, Option<usize>)> {
-    let block = derivation.blocks.iter().find(|block| matches!(block.group, Group::Loops(_))).unwrap().clone();
-    let rows = derivation.residual.at(&block.equations);
-    let unknowns = block.unknowns.iter().map(|&place| derivation.coordinates[derivation.unknowns[place]].value);
+    let group = derivation.groups.iter().find(|group| matches!(group.kind, GroupKind::Loops(_))).unwrap().clone();
+    let rows = derivation.residual.at(&group.equations);
+    let unknowns = group.unknowns.iter().map(|&place| derivation.coordinates[derivation.unknowns[place]].value);
     let unknowns: Vec<SymbolId> = unknowns.collect();
     let loops = Loops::of(&mut derivation.graph, &rows, &unknowns).unwrap();
     loops.guides.iter().flatten().map(|guide| (guide.in_loop, guide.with)).collect()
@@ -287,8 +287,8 @@ fn other_groups_need_a_guess() {
         ),
     ] {
         let derivation = written(unknowns, statements);
-        assert_eq!(groups(&derivation), [Group::Irreducible(count, obstacle)], "{statements}");
-        let found = derivation.blocks.iter().find_map(|block| block.group.obstacle()).unwrap();
+        assert_eq!(groups(&derivation), [GroupKind::Irreducible(count, obstacle)], "{statements}");
+        let found = derivation.groups.iter().find_map(|group| group.kind.obstacle()).unwrap();
         assert_eq!(found, format!("its {count} unknowns depend on one another, and {}", obstacle.text()));
     }
 }

@@ -1,4 +1,4 @@
-//! The regularity test of a Jacobian, and the LU factorisation of blocks of more than two unknowns.
+//! The regularity test of a Jacobian, and the LU factorisation of groups of more than two unknowns.
 
 use core::mem;
 
@@ -52,7 +52,7 @@ fn regularity<T: Real>(determinant: T, scale: T) -> Option<f64> {
     is_finite.then(|| if scale.is_zero() { 0.0 } else { to_f64((determinant / scale).abs()) })
 }
 
-/// J of a block of `N` unknowns, equilibrated and factorised with partial pivoting.
+/// J of a group of `N` unknowns, equilibrated and factorised with partial pivoting.
 #[derive(Debug, Clone)]
 pub struct Factorization<T: Real, const N: usize> {
     factors: Factors<T, N>,
@@ -238,7 +238,7 @@ fn by_logarithm<T: Real>(value: T) -> T {
     if power.is_finite() && power > T::zero() { power } else { T::one() }
 }
 
-/// The determinant of a block of more than two unknowns, given by columns.
+/// The determinant of a group of more than two unknowns, given by columns.
 #[must_use]
 pub fn product_of_pivots<T: Real, const N: usize>(columns: [[T; N]; N]) -> T {
     let factors = Factors::of(columns);

@@ -276,13 +276,13 @@ fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) ->
 }
 
 fn measure<M: Mechanism>(blocks: &Blocks<M>, group: usize) -> GroupMeasure<M::Scalar> {
-    let block = &M::GROUPS[group];
+    let members = &M::GROUPS[group];
     // The rest of the diagonal is larger than any singular value of the block.
     let count = u32::try_from(M::U::COUNT).map_or(f64::MAX, f64::from);
-    let sigma_min = Decomposition::of(blocks.equilibrated(block, real(count))).least();
-    let is_regular = sigma_min > threshold(block.unknowns.len());
+    let sigma_min = Decomposition::of(blocks.equilibrated(members, real(count))).least();
+    let is_regular = sigma_min > threshold(members.unknowns.len());
     let (determinant, regularity) = (blocks.determinants()[group], blocks.regularity(group));
-    GroupMeasure { name: block.name, determinant, regularity, sigma_min, is_regular }
+    GroupMeasure { name: members.name, determinant, regularity, sigma_min, is_regular }
 }
 
 impl<M: Mechanism> Singularity<M> {

@@ -11,7 +11,7 @@ fn assur_groups() {
         let drivers: Vec<String> = derivations
             .iter()
             .map(|derivation| {
-                let groups = derivation.blocks.iter().map(|block| format!("{:?}", block.group));
+                let groups = derivation.groups.iter().map(|group| format!("{:?}", group.kind));
                 groups.collect::<Vec<_>>().join(" ")
             })
             .collect();

@@ -5,9 +5,9 @@ use linkage_compiler::document::{self, Document, Node, Number, SceneDocument};
 use linkage_compiler::graph::Function;
 use linkage_compiler::program;
 use linkage_runtime::derivation::{
-    Block, BlockMethod, ContactEffect, Derivation, Effect, ElementaryFunction, Entry, Equation, Formula, FormulaMatrix,
-    FormulaNode, FormulaTable, JointForce, Kernel, KernelCheck, KernelCode, KernelResult, Operations, Quantity, Root,
-    SceneDerivation, Sensitivity, Symbol,
+    ContactEffect, Derivation, Effect, ElementaryFunction, Entry, Equation, Formula, FormulaMatrix, FormulaNode,
+    FormulaTable, Group, GroupMethod, JointForce, Kernel, KernelCheck, KernelCode, KernelResult, Operations, Quantity,
+    Root, SceneDerivation, Sensitivity, Symbol,
 };
 
 /// The derivation of a document.
@@ -26,7 +26,7 @@ pub fn derivation(document: &Document) -> Derivation<'static> {
         implied: table.equations(&document.implied),
         jacobian_unknowns: table.matrix(&document.jacobian_unknowns),
         jacobian_inputs: table.matrix(&document.jacobian_inputs),
-        blocks: list(&document.blocks, |block| table.block(block)),
+        groups: list(&document.groups, |group| table.group(group)),
         determinant: document.determinant.map(|equation| table.equation(equation)),
         ratios: table.equations(&document.ratios),
         ratio_derivatives: document.ratio_derivatives.as_deref().map(|all| table.equations(all)),
@@ -142,19 +142,19 @@ impl Table {
         }
     }
 
-    fn block(self, block: &document::Block) -> Block<'static> {
-        Block {
-            unknowns: self.formulas(&block.unknowns),
-            equations: block.equations.clone().leak(),
-            group: text(&block.group),
-            position: self.equations(&block.position),
-            root: block.root.as_ref().map(|root| Root { formula: self.formula(root.formula), branches: root.branches }),
-            method: match block.method {
-                document::Method::ClosedForm => BlockMethod::ClosedForm,
-                document::Method::Factorization => BlockMethod::Factorization,
+    fn group(self, group: &document::Group) -> Group<'static> {
+        Group {
+            unknowns: self.formulas(&group.unknowns),
+            equations: group.equations.clone().leak(),
+            kind: text(&group.kind),
+            position: self.equations(&group.position),
+            root: group.root.as_ref().map(|root| Root { formula: self.formula(root.formula), branches: root.branches }),
+            method: match group.method {
+                document::Method::ClosedForm => GroupMethod::ClosedForm,
+                document::Method::Factorization => GroupMethod::Factorization,
             },
-            determinant: block.determinant.map(|equation| self.equation(equation)),
-            inverse: block.inverse.as_ref().map(|inverse| self.matrix(inverse)),
+            determinant: group.determinant.map(|equation| self.equation(equation)),
+            inverse: group.inverse.as_ref().map(|inverse| self.matrix(inverse)),
         }
     }
 

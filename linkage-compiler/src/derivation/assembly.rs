@@ -8,25 +8,25 @@ use rustc_hash::FxHashMap;
 use super::plane::{Vector, turned};
 use super::step::Step;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::ids::{BlockId, ColumnId};
+use crate::ids::{ColumnId, GroupId};
 use crate::structure::{Choice, Loops};
 
 /// The steps that solve all groups, and their results.
 #[derive(Debug, Clone, Default)]
 pub struct Assembly {
     pub steps: Vec<Step>,
-    /// The steps of each block that has a closed form.
-    pub closed: BTreeMap<BlockId, Range<usize>>,
-    /// The determinants of the blocks that have a formula.
-    pub determinants: BTreeMap<BlockId, NodeId>,
-    /// The blocks that have two solutions, in the order of solution.
+    /// The steps of each group that has a closed form.
+    pub closed: BTreeMap<GroupId, Range<usize>>,
+    /// The determinants of the groups that have a formula.
+    pub determinants: BTreeMap<GroupId, NodeId>,
+    /// The groups that have two solutions, in the order of solution.
     pub chords: Vec<Chord>,
-    /// The block of each angle of an RRR dyad.
-    pub of_dyads: BTreeMap<SymbolId, BlockId>,
-    /// Functions that must be non-negative for a block with two solutions to be assembled.
-    pub bounds: Vec<(BlockId, Vec<NodeId>)>,
-    /// The loops of the blocks of which all positions can be listed, in terms of what is known before.
-    pub loops: BTreeMap<BlockId, Loops>,
+    /// The group of each angle of an RRR dyad.
+    pub of_dyads: BTreeMap<SymbolId, GroupId>,
+    /// Functions that must be non-negative for a group with two solutions to be assembled.
+    pub bounds: Vec<(GroupId, Vec<NodeId>)>,
+    /// The loops of the groups of which all positions can be listed, in terms of what is known before.
+    pub loops: BTreeMap<GroupId, Loops>,
     /// The coordinates without closed form, and the symbols of their guesses.
     pub guesses: Vec<(ColumnId, SymbolId)>,
     /// The cosine and sine of each solved angle, for formulas.
@@ -35,12 +35,12 @@ pub struct Assembly {
     pub named_directions: BTreeMap<SymbolId, Vector>,
 }
 
-/// A block with two solutions, which differ in the sign of its half chord.
+/// A group with two solutions, which differ in the sign of its half chord.
 #[derive(Debug, Clone, Copy)]
 pub struct Chord {
-    pub block: BlockId,
+    pub group: GroupId,
     pub choice: Choice,
-    /// True if the determinant of the block and the half chord have opposite signs.
+    /// True if the determinant of the group and the half chord have opposite signs.
     pub is_opposite: bool,
 }
 
@@ -49,9 +49,9 @@ impl Assembly {
     #[must_use]
     pub fn listed_steps(&self) -> Option<Vec<Step>> {
         let listed = |step: &Step| match step.clone() {
-            Step::Newton { block, targets, known, system, .. } => {
-                let loops = self.loops.get(&block)?.clone();
-                Some(Step::Modes { block, targets, loops, known, system })
+            Step::Newton { group, targets, known, system, .. } => {
+                let loops = self.loops.get(&group)?.clone();
+                Some(Step::Modes { group, targets, loops, known, system })
             }
             step => Some(step),
         };

@@ -57,9 +57,9 @@ pub fn check(
     if !given(mechanism, derivation, diagnostics) {
         return false;
     }
-    for block in &derivation.blocks {
-        if block.determinant.is_some_and(|determinant| derivation.graph.is_zero(determinant.value)) {
-            let names: Vec<String> = block
+    for group in &derivation.groups {
+        if group.determinant.is_some_and(|determinant| derivation.graph.is_zero(determinant.value)) {
+            let names: Vec<String> = group
                 .unknowns
                 .iter()
                 .map(|&place| format!("`{}`", mechanism.coordinates[driver.unknowns[place]].name.text))

@@ -21,13 +21,13 @@ use super::scale;
 use super::step::{ChordGeometry, Step};
 use crate::algebra::{cramer, simplify};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::ids::{BlockId, Id};
-use crate::structure::Group;
+use crate::ids::{GroupId, Id};
+use crate::structure::GroupKind;
 
 /// The state of the solution of one group.
 pub(super) struct Solver<'a> {
     pub(super) graph: &'a mut Graph,
-    pub(super) block: BlockId,
+    pub(super) group: GroupId,
     /// The residuals in terms of the unknowns of earlier groups.
     pub(super) equations: Vec<NodeId>,
     pub(super) assembly: &'a mut Assembly,
@@ -79,7 +79,7 @@ impl Solver<'_> {
 
     /// Names the vector between the outer joints.
     pub(super) fn line(&mut self, [x, y]: Vector) -> Vector {
-        let number = self.block.number();
+        let number = self.group.number();
         [("x", x), ("y", y)].map(|(axis, part)| match self.graph.node(part) {
             Node::Sum { .. } | Node::Product { .. } => self.fresh(&format!("line_{number}_{axis}"), part),
             _ => part,
@@ -137,9 +137,9 @@ impl Solver<'_> {
 
     /// The square root of a product of two non-negative factors, with the sign of the branch; see [`Step::Chord`].
     fn chord(&mut self, factors: [NodeId; 2], size: NodeId, of: ChordGeometry<NodeId>) -> NodeId {
-        self.assembly.bounds.push((self.block, factors.to_vec()));
-        let symbol = self.graph.symbol(format!("chord_{}", self.block.number()));
-        self.assembly.steps.push(Step::Chord { block: self.block, symbol, factors, size, of });
+        self.assembly.bounds.push((self.group, factors.to_vec()));
+        let symbol = self.graph.symbol(format!("chord_{}", self.group.number()));
+        self.assembly.steps.push(Step::Chord { group: self.group, symbol, factors, size, of });
         self.graph.variable(symbol)
     }
 
@@ -180,15 +180,15 @@ impl Solver<'_> {
     /// Adds the checks that some numbers are not negative: distances or their squares.
     pub(super) fn reach_to(&mut self, bounds: &[Option<NodeId>]) {
         for &bound in bounds.iter().flatten() {
-            self.assembly.steps.push(Step::Reach { block: self.block, length: bound });
-            self.assembly.bounds.push((self.block, vec![bound]));
+            self.assembly.steps.push(Step::Reach { group: self.group, length: bound });
+            self.assembly.bounds.push((self.group, vec![bound]));
         }
     }
 
     /// Adds a check that a determinant is not zero, unless it is a constant.
     fn solvable(&mut self, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId>) {
         if self.graph.constant_value(determinant).is_none() {
-            self.assembly.steps.push(Step::Solvable { block: self.block, determinant, numerators, scales });
+            self.assembly.steps.push(Step::Solvable { group: self.group, determinant, numerators, scales });
         }
     }
 
@@ -295,7 +295,7 @@ impl Solver<'_> {
             }
             self.direction(a, first);
         }
-        self.assembly.of_dyads.extend([(a, self.block), (b, self.block)]);
+        self.assembly.of_dyads.extend([(a, self.group), (b, self.group)]);
         Some(cross_product)
     }
 
@@ -304,7 +304,7 @@ impl Solver<'_> {
     pub(super) fn guide(&mut self, d: Vector, line: Vector, p: NodeId, scales: [NodeId; 2]) -> Guide {
         let n = length(self.graph, line);
         let across = cross(self.graph, d, line);
-        let across = self.fresh(&format!("offset_{}", self.block.number()), across);
+        let across = self.fresh(&format!("offset_{}", self.group.number()), across);
         let g = &mut *self.graph;
         let reach = g.multiply(p, n);
         let factors = [g.subtract(reach, across), g.add(reach, across)];
@@ -322,7 +322,7 @@ impl Solver<'_> {
         let [p, q] = lengths.map(|length| unsigned(self.graph, length));
         let g = &mut *self.graph;
         let distance_squared = dot(g, d, d);
-        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
+        let distance_squared = self.fresh(&format!("distance_squared_{}", self.group.number()), distance_squared);
         let g = &mut *self.graph;
         let (sum, difference) = (g.add(p, q), g.subtract(p, q));
         let squares = g.multiply(sum, difference);
@@ -338,7 +338,7 @@ impl Solver<'_> {
         let divisor = g.scale(Number::integer(2), distance_squared);
         // The line is divided, and not the link, so that little is left to do when the root of the chord is there.
         let [x, y] = d.map(|part| g.divide(part, divisor));
-        let number = self.block.number();
+        let number = self.group.number();
         let divided = [("x", x), ("y", y)].map(|(axis, part)| match self.graph.node(part) {
             Node::Product { .. } => self.fresh(&format!("divided_line_{number}_{axis}"), part),
             _ => part,
@@ -347,10 +347,10 @@ impl Solver<'_> {
         (half_chord, with_products(self.graph, divided, one, along, across))
     }
 
-    pub(super) fn slider(&mut self, rows: [NodeId; 2], phi: SymbolId, s: SymbolId, group: Group) -> Option<NodeId> {
+    pub(super) fn slider(&mut self, rows: [NodeId; 2], phi: SymbolId, s: SymbolId, group: GroupKind) -> Option<NodeId> {
         let slope = self.graph.partial(&rows, s);
         let line = [slope[0], slope[1]];
-        if group == Group::Rrp {
+        if group == GroupKind::Rrp {
             let (v, rest) = self.parted(rows, phi);
             let rest = self.at_zero(rest, &[s]);
             let d = self.negated(rest);
@@ -379,7 +379,7 @@ impl Solver<'_> {
         let g = &mut *self.graph;
         let square = square_of(g, n);
         let distance_squared = dot(g, d, d);
-        let distance_squared = self.fresh(&format!("distance_squared_{}", self.block.number()), distance_squared);
+        let distance_squared = self.fresh(&format!("distance_squared_{}", self.group.number()), distance_squared);
         let g = &mut *self.graph;
         let across = cross(g, p, e);
         let across = simplify(g, &[across], &BTreeSet::new())[0];
@@ -395,7 +395,7 @@ impl Solver<'_> {
         let (whole, part) = (g.multiply(distance_squared, square), g.power(across, 2));
         let bound = g.subtract(whole, part);
         self.assembly.bounds.pop();
-        self.assembly.bounds.push((self.block, vec![bound]));
+        self.assembly.bounds.push((self.group, vec![bound]));
         let g = &mut *self.graph;
         let offset = dot(g, p, e);
         let offset = simplify(g, &[offset], &BTreeSet::new())[0];

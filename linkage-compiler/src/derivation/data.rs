@@ -1,12 +1,12 @@
-//! The data of a derivation: coordinates, blocks, points, outputs, scenes, and the results of `derive` statements.
+//! The data of a derivation: coordinates, groups, points, outputs, scenes, and the results of `derive` statements.
 
 use super::joints::Joints;
 use super::linear::{Row, Solutions};
 use super::scene::Scene;
 use super::skeleton::Skeleton;
 use crate::graph::{Graph, NodeId, SymbolId};
-use crate::ids::{BlockId, ColumnId, InputId, PairId, ParameterId, RowId, Table, UnknownId};
-use crate::structure::{Group, Slide};
+use crate::ids::{ColumnId, GroupId, InputId, PairId, ParameterId, RowId, Table, UnknownId};
+use crate::structure::{GroupKind, Slide};
 
 /// A coordinate with the symbols of its rate, acceleration and jerk.
 #[derive(Debug, Clone)]
@@ -37,7 +37,7 @@ pub struct Quantity {
     pub by_parameters: Vec<Row<ParameterId>>,
 }
 
-/// The determinant of a block in closed form.
+/// The determinant of a group in closed form.
 #[derive(Debug, Clone, Copy)]
 pub struct Determinant {
     pub value: NodeId,
@@ -47,19 +47,19 @@ pub struct Determinant {
     pub scale: NodeId,
 }
 
-/// Unknowns that are solved together, once all blocks before are solved.
+/// Unknowns that are solved together, once all groups before are solved.
 #[derive(Debug, Clone)]
-pub struct Block {
+pub struct Group {
     pub equations: Vec<RowId>,
     pub unknowns: Vec<UnknownId>,
-    pub group: Group,
-    /// The slider, if it is the angle of a dyad whose length another block has.
+    pub kind: GroupKind,
+    /// The slider, if it is the angle of a dyad whose length another group has.
     pub slide: Option<Slide>,
     /// The joints of two links.
     pub joints: Option<Joints>,
     /// Its mirrored angles.
     pub mirrored: Vec<SymbolId>,
-    /// The determinant, if the block has at most two unknowns.
+    /// The determinant, if the group has at most two unknowns.
     pub determinant: Option<Determinant>,
 }
 
@@ -113,8 +113,8 @@ pub struct Derivation {
     pub implied: Vec<Implied>,
     /// Psi_q.
     pub jacobian: Table<RowId, Row<ColumnId>>,
-    pub blocks: Table<BlockId, Block>,
-    /// True if det J is the negative of the product of the determinants of the blocks.
+    pub groups: Table<GroupId, Group>,
+    /// True if det J is the negative of the product of the determinants of the groups.
     pub is_odd: bool,
     /// The symbols of W.
     pub ratios: Solutions<InputId, SymbolId>,
@@ -132,7 +132,7 @@ pub struct Derivation {
     pub scenes: Vec<Scene>,
 }
 
-impl Block {
+impl Group {
     /// The name of its field in the branch: the names of the unknowns of its dyad.
     #[must_use]
     pub fn branch(&self, derivation: &Derivation) -> String {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::angles::angles;
-use super::data::{Block, Coordinate, Derivation, Determinant, Implied, Quantity};
+use super::data::{Coordinate, Derivation, Determinant, Group, Implied, Quantity};
 use super::jacobian::{along_rates, jacobian, places_of};
 use super::joints::Joints;
 use super::linear::Row;
@@ -11,14 +11,14 @@ use super::skeleton::Skeleton;
 use super::{ratios, scale};
 use crate::algebra::{self, simplify};
 use crate::graph::{Graph, NodeId, SymbolId};
-use crate::ids::{BlockId, ColumnId, CoordinateId, Id, InputId, RowId, Table, UnknownId};
+use crate::ids::{ColumnId, CoordinateId, GroupId, Id, InputId, RowId, Table, UnknownId};
 use crate::model::{Driver, Mechanism, Request};
-use crate::structure::{self, Class, Group, Method};
+use crate::structure::{self, Class, GroupKind, Method};
 
-/// Derives a checked mechanism, which can be solved in the order of the blocks of its driver.
+/// Derives a checked mechanism, which can be solved in the order of the groups of its driver.
 #[must_use]
 pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
-    let blocks = driver.system.blocks.clone();
+    let groups = driver.system.groups.clone();
     let mut graph = mechanism.graph.clone();
     let order = mechanism.coordinate_order(driver);
     let columns: BTreeMap<CoordinateId, ColumnId> = order.enumerated().map(|(column, &id)| (id, column)).collect();
@@ -46,15 +46,15 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let psi_rate = graph.differentiate(&residual, &rates);
     let gamma = graph.differentiate(&psi_rate, &rates).into();
 
-    let is_odd = structure::is_odd(&blocks);
+    let is_odd = structure::is_odd(&groups);
     let mut parts = Table::default();
-    for block in blocks {
-        let symbols: Vec<SymbolId> = block.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
-        let class = Class::of(&mut graph, &residual.at(&block.equations), &symbols);
-        let determinant = determinant(&mut graph, &jacobian, &unknowns, &block);
-        parts.push((block, class, determinant));
+    for group in groups {
+        let symbols: Vec<SymbolId> = group.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
+        let class = Class::of(&mut graph, &residual.at(&group.equations), &symbols);
+        let determinant = determinant(&mut graph, &jacobian, &unknowns, &group);
+        parts.push((group, class, determinant));
     }
-    let blocks = with_names(&mut graph, parts);
+    let groups = with_names(&mut graph, parts);
     let ratios = ratios::names(&mut graph, &coordinates, &unknowns, &inputs);
     // A pose holds the sines and cosines of the loop equations.
     let given = angles(&graph, &residual);
@@ -72,7 +72,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         residual_scales,
         implied,
         jacobian,
-        blocks,
+        groups,
         is_odd,
         ratios,
         gamma,
@@ -107,10 +107,10 @@ impl Derivation {
     /// Finds the joints of the dyads of two links.
     fn find_joints(&mut self, mechanism: &Mechanism) {
         let (unknowns, coordinates) = (&self.unknowns, &self.coordinates);
-        for block in self.blocks.iter_mut().filter(|block| block.group == Group::Rrr) {
-            if let &[first, second] = block.unknowns.as_slice() {
+        for group in self.groups.iter_mut().filter(|group| group.kind == GroupKind::Rrr) {
+            if let &[first, second] = group.unknowns.as_slice() {
                 let angles = [first, second].map(|unknown| coordinates[unknowns[unknown]].value);
-                block.joints = Joints::of(mechanism, &mut self.graph, angles);
+                group.joints = Joints::of(mechanism, &mut self.graph, angles);
             }
         }
     }
@@ -133,19 +133,19 @@ fn implied(graph: &mut Graph, mechanism: &Mechanism) -> Vec<Implied> {
     all
 }
 
-/// The determinant of a block in closed form, and its scale.
+/// The determinant of a group in closed form, and its scale.
 fn determinant(
     graph: &mut Graph,
     jacobian: &Table<RowId, Row<ColumnId>>,
     unknowns: &Table<UnknownId, ColumnId>,
-    block: &structure::Block,
+    group: &structure::Group,
 ) -> Option<(NodeId, NodeId)> {
     let zero = graph.zero();
     let entry = |row: usize, column: usize| {
-        jacobian[block.equations[row]].get(&unknowns[block.unknowns[column]]).copied().unwrap_or(zero)
+        jacobian[group.equations[row]].get(&unknowns[group.unknowns[column]]).copied().unwrap_or(zero)
     };
-    (block.method() == Method::ClosedForm).then(|| {
-        let value = match block.unknowns.len() {
+    (group.method() == Method::ClosedForm).then(|| {
+        let value = match group.unknowns.len() {
             1 => entry(0, 0),
             _ => algebra::determinant(graph, [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]),
         };
@@ -153,23 +153,23 @@ fn determinant(
     })
 }
 
-/// A block with the value and the scale of its determinant, which has no name yet.
-type Unnamed = (structure::Block, Class, Option<(NodeId, NodeId)>);
+/// A group with the value and the scale of its determinant, which has no name yet.
+type Unnamed = (structure::Group, Class, Option<(NodeId, NodeId)>);
 
-/// Names the determinants of blocks: `determinant` if only one varies, else with the numbers of their blocks.
-fn with_names(graph: &mut Graph, parts: Table<BlockId, Unnamed>) -> Table<BlockId, Block> {
+/// Names the determinants of groups: `determinant` if only one varies, else with the numbers of their groups.
+fn with_names(graph: &mut Graph, parts: Table<GroupId, Unnamed>) -> Table<GroupId, Group> {
     let is_variable = |graph: &Graph, value: NodeId| graph.constant_value(value).is_none();
     let values = parts.iter().filter_map(|(_, _, determinant)| Some(determinant.as_ref()?.0));
     let is_single = values.filter(|&value| is_variable(graph, value)).count() == 1;
-    let named = parts.ids().zip(parts).map(|(id, (block, class, determinant))| {
-        let structure::Block { equations, unknowns, slide } = block;
+    let named = parts.ids().zip(parts).map(|(id, (group, class, determinant))| {
+        let structure::Group { equations, unknowns, slide } = group;
         let determinant = determinant.map(|(value, scale)| {
             let is_only = is_single && is_variable(graph, value);
             let name = if is_only { "determinant".to_owned() } else { format!("determinant_{}", id.number()) };
             Determinant { value, symbol: graph.symbol(name), scale }
         });
-        let Class { group, mirrored } = class;
-        Block { equations, unknowns, group, mirrored, slide, joints: None, determinant }
+        let Class { kind, mirrored } = class;
+        Group { equations, unknowns, kind, mirrored, slide, joints: None, determinant }
     });
     named.collect()
 }

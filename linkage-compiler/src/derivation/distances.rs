@@ -44,7 +44,7 @@ impl Solver<'_> {
         let square = square_of(self.graph, p);
         let v = self.link(phi, solved);
         self.direction_of_link(phi, v, at_zero, square);
-        self.assembly.of_dyads.insert(phi, self.block);
+        self.assembly.of_dyads.insert(phi, self.group);
         // (V - D) . i V = D x V
         Some(self.graph.multiply(distance.weight, half_chord))
     }

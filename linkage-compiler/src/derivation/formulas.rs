@@ -7,15 +7,15 @@ use super::data::{Derivation, Quantity};
 use super::linear::{Row, Solutions};
 use crate::algebra::adjugate;
 use crate::graph::{Condition, NodeId};
-use crate::ids::{BlockId, InputId, MemberId, PairId, ParameterId, Table};
+use crate::ids::{GroupId, InputId, MemberId, PairId, ParameterId, Table};
 
-/// 1 / det J of a block, and adj J by rows.
+/// 1 / det J of a group, and adj J by rows.
 pub type Inverse = (NodeId, Table<MemberId, Row<MemberId>>);
 
 /// Formulas for documentation only.
 #[derive(Debug, Clone)]
 pub struct Formulas {
-    /// W; `None` in blocks that are solved by factorisation.
+    /// W; `None` in groups that are solved by factorisation.
     pub ratios: Solutions<InputId, Option<NodeId>>,
     /// L; empty without a `derive` statement, like `sensitivities`.
     pub ratio_derivatives: Solutions<PairId, Option<NodeId>>,
@@ -23,7 +23,7 @@ pub struct Formulas {
     pub sensitivities: Solutions<ParameterId, Option<NodeId>>,
     /// det J.
     pub determinant: Option<NodeId>,
-    pub inverses: Table<BlockId, Option<Inverse>>,
+    pub inverses: Table<GroupId, Option<Inverse>>,
     pub points: Vec<QuantityFormulas>,
     pub outputs: Vec<QuantityFormulas>,
     /// The conditions that the formulas assume.
@@ -49,9 +49,9 @@ impl Formulas {
         let (sensitivities, by_parameters) = derivation.sensitivity_formulas();
         let determinant = derivation.determinant();
         let mut inverses = Table::default();
-        for block in derivation.blocks.clone() {
-            let matrix = derivation.block_matrix(&block);
-            inverses.push(match (block.determinant, matrix.as_slice()) {
+        for group in derivation.groups.clone() {
+            let matrix = derivation.block_matrix(&group);
+            inverses.push(match (group.determinant, matrix.as_slice()) {
                 (Some(determinant), [first, second]) => {
                     let graph = &mut derivation.graph;
                     let rows = adjugate(graph, [[first[0], first[1]], [second[0], second[1]]]);

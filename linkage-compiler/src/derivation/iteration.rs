@@ -4,19 +4,19 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::assembly::Assembly;
-use super::data::{Block, Derivation};
+use super::data::{Derivation, Group};
 use super::step::Step;
 use crate::graph::{Node, NodeId, Number, SymbolId};
-use crate::ids::{BlockId, ColumnId};
+use crate::ids::{ColumnId, GroupId};
 
 impl Derivation {
     /// Adds steps that name the invariant subexpressions, and the step of Newton's method.
-    pub(super) fn iterate(&mut self, id: BlockId, block: &Block, assembly: &mut Assembly) {
-        let columns = self.unknowns.at(&block.unknowns);
+    pub(super) fn iterate(&mut self, id: GroupId, group: &Group, assembly: &mut Assembly) {
+        let columns = self.unknowns.at(&group.unknowns);
         let targets: Vec<SymbolId> = columns.iter().map(|&column| self.coordinates[column].value).collect();
-        let mut system = self.residual.at(&block.equations);
-        system.extend(self.residual_scales.at(&block.equations));
-        system.extend(self.block_matrix(block).into_iter().flatten());
+        let mut system = self.residual.at(&group.equations);
+        system.extend(self.residual_scales.at(&group.equations));
+        system.extend(self.block_matrix(group).into_iter().flatten());
         let system = assembly.solved(&mut self.graph, &system);
         let mut split = Split::new(self, &targets, &system);
         let system = split.changing(&system);
@@ -31,7 +31,7 @@ impl Derivation {
         let guesses: Vec<(ColumnId, SymbolId)> = guesses.collect();
         let start = guesses.iter().map(|&(_, symbol)| self.graph.variable(symbol)).collect();
         assembly.guesses.extend(guesses);
-        assembly.steps.push(Step::Newton { block: id, targets, start, known, system });
+        assembly.steps.push(Step::Newton { group: id, targets, start, known, system });
     }
 }
 

@@ -13,13 +13,13 @@ use super::data::Derivation;
 use super::step::Step;
 use crate::algebra::simplify;
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::ids::{BlockId, InputId, Table};
-use crate::structure::Group;
+use crate::ids::{GroupId, InputId, Table};
+use crate::structure::GroupKind;
 
-/// The condition f(v) >= 0 under which a block can be assembled.
+/// The condition f(v) >= 0 under which a group can be assembled.
 #[derive(Debug, Clone, Copy)]
 pub struct Bound {
-    pub block: BlockId,
+    pub group: GroupId,
     /// k, if f is periodic.
     pub rate: Option<NodeId>,
     /// a, b and c, free of v.
@@ -40,9 +40,9 @@ impl Derivation {
             .collect();
         let mut bounds = Vec::new();
         let on_inputs = self.on_inputs();
-        for (block, functions) in &assembly.bounds {
+        for (group, functions) in &assembly.bounds {
             for &function in functions {
-                let bound = on_inputs[*block].then(|| self.bound(*block, function, input, &formulas));
+                let bound = on_inputs[*group].then(|| self.bound(*group, function, input, &formulas));
                 match bound {
                     Some(Some(bound)) => bounds.extend(bound),
                     _ => is_searched = true,
@@ -52,18 +52,18 @@ impl Derivation {
         (bounds, is_searched)
     }
 
-    /// For each block, true if it depends on the inputs alone, directly or through linear blocks.
-    fn on_inputs(&self) -> Table<BlockId, bool> {
+    /// For each group, true if it depends on the inputs alone, directly or through linear groups.
+    fn on_inputs(&self) -> Table<GroupId, bool> {
         let mut on_inputs = Table::default();
-        // The unknowns of linear blocks that depend on the inputs alone.
+        // The unknowns of linear groups that depend on the inputs alone.
         let mut known = BTreeSet::new();
-        for block in &self.blocks {
-            let symbols = self.graph.symbols_of(&self.residual.at(&block.equations));
+        for group in &self.groups {
+            let symbols = self.graph.symbols_of(&self.residual.at(&group.equations));
             let is_on_inputs = (self.unknowns.enumerated())
-                .filter(|(unknown, _)| !block.unknowns.contains(unknown) && !known.contains(unknown))
+                .filter(|(unknown, _)| !group.unknowns.contains(unknown) && !known.contains(unknown))
                 .all(|(_, &column)| !symbols.contains(&self.coordinates[column].value));
-            if is_on_inputs && matches!(block.group, Group::Linear | Group::Sliders) {
-                known.extend(block.unknowns.iter().copied());
+            if is_on_inputs && matches!(group.kind, GroupKind::Linear | GroupKind::Sliders) {
+                known.extend(group.unknowns.iter().copied());
             }
             on_inputs.push(is_on_inputs);
         }
@@ -74,7 +74,7 @@ impl Derivation {
     /// input.
     fn bound(
         &mut self,
-        block: BlockId,
+        group: GroupId,
         function: NodeId,
         input: InputId,
         formulas: &FxHashMap<NodeId, NodeId>,
@@ -114,7 +114,7 @@ impl Derivation {
             [value, slope, graph.scale(Number::ratio(1, 2), curvature)]
         };
         let coefficients = coefficients.map(|node| simplify(graph, &[node], &BTreeSet::new())[0]);
-        Some(Some(Bound { block, rate, coefficients }))
+        Some(Some(Bound { group, rate, coefficients }))
     }
 
     /// Replaces names in a function by their formulas.

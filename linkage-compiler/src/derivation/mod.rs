@@ -40,7 +40,7 @@ mod unreduced;
 
 pub use assembly::{Assembly, Chord};
 pub use check::{LARGEST, check, check_numbers, matrices};
-pub use data::{Block, Coordinate, Derivation, Determinant, Implied, Quantity, RatioDerivatives, Sensitivity};
+pub use data::{Coordinate, Derivation, Determinant, Group, Implied, Quantity, RatioDerivatives, Sensitivity};
 pub use derive::derive;
 pub use formulas::{Formulas, Inverse, QuantityFormulas};
 pub use joints::{Joint, Joints};

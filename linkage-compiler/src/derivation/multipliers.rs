@@ -1,7 +1,7 @@
 //! The Lagrange multipliers of the loop equations and constraints.
 //!
 //! The rows of the unknowns in M q'' + `Psi_q'` lambda = F give J' lambda = F_u - (M q'')_u. This is solved from the
-//! last block to the first, each block of J transposed. For a `loop`, lambda is the force of the left side on the right
+//! last group to the first, each block of J transposed. For a `loop`, lambda is the force of the left side on the right
 //! side at the point where they meet.
 //!
 //! The rows of Psi may be those of an elimination, row j less m times row i. With lambda_i - sum m lambda_j in place of
@@ -73,17 +73,17 @@ impl Derivation {
         self.graph.differentiate(&[rate], &seeds)[0]
     }
 
-    /// The steps that check each block and solve J' lambda = side.
+    /// The steps that check each group and solve J' lambda = side.
     pub fn transposed_solution(&mut self, multipliers: &Multipliers) -> Vec<Step> {
         let mut steps = Vec::new();
         let mut solved: Vec<(RowId, NodeId)> = Vec::new();
-        for id in self.blocks.ids().rev() {
-            let block = self.blocks[id].clone();
-            let rows = self.block_matrix(&block);
+        for id in self.groups.ids().rev() {
+            let group = self.groups[id].clone();
+            let rows = self.block_matrix(&group);
             let columns = |place: usize| rows.iter().map(|row| row[place]).collect::<Vec<NodeId>>();
             let matrix: Vec<Vec<NodeId>> = (0..rows.len()).map(columns).collect();
             let mut right = Vec::new();
-            for &unknown in &block.unknowns {
+            for &unknown in &group.unknowns {
                 let mut terms = vec![(Number::ONE, multipliers.side[unknown])];
                 for &(equation, lambda) in &solved {
                     if let Some(&entry) = self.jacobian[equation].get(&self.unknowns[unknown]) {
@@ -92,19 +92,19 @@ impl Derivation {
                 }
                 right.push(self.graph.sum(&terms));
             }
-            let targets = multipliers.solved.at(&block.equations);
-            if block.determinant.is_some() {
-                if let Some(divisor) = self.check_block(id, &block, &mut steps) {
+            let targets = multipliers.solved.at(&group.equations);
+            if group.determinant.is_some() {
+                if let Some(divisor) = self.check_group(id, &group, &mut steps) {
                     let values = solve_closed(&mut self.graph, &matrix, divisor, &right, Form::Entries);
                     let named = targets.iter().zip(values);
                     steps.extend(named.map(|(&symbol, node)| Step::Let { symbol, node }));
                 }
             } else {
                 let row_scales = matrix.iter().map(|row| self.row_scale(row)).collect();
-                steps.push(Step::Factor { block: id, matrix, row_scales });
-                steps.push(Step::Solve { block: id, targets: targets.clone(), right });
+                steps.push(Step::Factor { group: id, matrix, row_scales });
+                steps.push(Step::Solve { group: id, targets: targets.clone(), right });
             }
-            solved.extend(block.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
+            solved.extend(group.equations.iter().zip(targets).map(|(&at, name)| (at, self.graph.variable(name))));
         }
         steps.extend(self.as_written(multipliers));
         steps

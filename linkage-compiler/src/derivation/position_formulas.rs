@@ -1,4 +1,4 @@
-//! The closed form of each block as formulas for documentation: what the steps of its position name, one after the other.
+//! The closed form of each group as formulas for documentation: what the steps of its position name, one after the other.
 //!
 //! The steps keep a cosine and a sine of each solved angle under names of their own; here they are cos θ and sin θ again. The
 //! other names are letters: Δ for the vector between the outer joints of a dyad, δ for Δ / 2Δ², κ for the root whose sign is the
@@ -12,10 +12,10 @@ use super::assembly::Assembly;
 use super::data::Derivation;
 use super::step::Step;
 use crate::graph::{Function, NodeId, SymbolId};
-use crate::ids::{BlockId, Id, Table};
+use crate::ids::{GroupId, Id, Table};
 use crate::structure::Choice;
 
-/// The closed form of a block.
+/// The closed form of a group.
 #[derive(Debug, Clone, Default)]
 pub struct ClosedForm {
     /// The equations, left and right: each in terms of those before it.
@@ -27,7 +27,7 @@ pub struct ClosedForm {
 /// The beginning of the name of a squared distance.
 const SQUARE: &str = "distance_squared_";
 
-/// The letters for what a block computes on the way: the first that the mechanism leaves free, else the word.
+/// The letters for what a group computes on the way: the first that the mechanism leaves free, else the word.
 const LETTERS: [(&str, [&str; 3]); 5] = [
     ("line_", ["Delta", "rho", "distance"]),
     (SQUARE, ["Delta", "rho", "distance"]),
@@ -37,10 +37,10 @@ const LETTERS: [(&str, [&str; 3]); 5] = [
 ];
 
 impl Derivation {
-    /// The closed form of each block; without equations where Newton's method finds the position.
-    pub fn closed_forms(&mut self, assembly: &Assembly) -> Table<BlockId, ClosedForm> {
-        let blocks: Vec<BlockId> = self.blocks.ids().collect();
-        let mut forms: Vec<ClosedForm> = blocks.into_iter().map(|id| self.closed_form(id, assembly)).collect();
+    /// The closed form of each group; without equations where Newton's method finds the position.
+    pub fn closed_forms(&mut self, assembly: &Assembly) -> Table<GroupId, ClosedForm> {
+        let groups: Vec<GroupId> = self.groups.ids().collect();
+        let mut forms: Vec<ClosedForm> = groups.into_iter().map(|id| self.closed_form(id, assembly)).collect();
         let shown = self.shown(assembly);
         let nodes = |form: &ClosedForm| {
             form.equations.iter().flatten().copied().chain(form.root.map(|(root, _)| root)).collect::<Vec<_>>()
@@ -54,7 +54,7 @@ impl Derivation {
         forms.into()
     }
 
-    fn closed_form(&mut self, id: BlockId, assembly: &Assembly) -> ClosedForm {
+    fn closed_form(&mut self, id: GroupId, assembly: &Assembly) -> ClosedForm {
         let mut form = ClosedForm::default();
         for step in assembly.closed.get(&id).into_iter().flat_map(|steps| &assembly.steps[steps.clone()]) {
             match step {
@@ -63,7 +63,7 @@ impl Derivation {
                     let root = self.graph.variable(*symbol);
                     let square = self.graph.power(root, 2);
                     form.equations.push([square, self.graph.multiply(*low, *high)]);
-                    let chord = assembly.chords.iter().find(|chord| chord.block == id);
+                    let chord = assembly.chords.iter().find(|chord| chord.group == id);
                     form.root = chord.map(|chord| (root, chord.choice));
                 }
                 // The angle of a direction, and checks.
@@ -85,7 +85,7 @@ impl Derivation {
         let known: BTreeSet<SymbolId> = self.graph.symbols_of(&self.residual).into_iter().collect();
         let taken: Vec<String> = known.iter().map(|&symbol| self.graph.symbol_name(symbol).to_owned()).collect();
         let letters = LETTERS.map(|(prefix, letters)| (prefix, free(letters, &taken)));
-        let is_alone = self.blocks.len() == 1;
+        let is_alone = self.groups.len() == 1;
         for (&id, steps) in &assembly.closed {
             for symbol in assembly.steps[steps.clone()].iter().flat_map(Step::introduced) {
                 let name = self.graph.symbol_name(symbol).to_owned();
@@ -107,7 +107,7 @@ impl Derivation {
     }
 }
 
-/// The letter for the symbol of a step in the block with this number, if it has one.
+/// The letter for the symbol of a step in the group with this number, if it has one.
 fn letter(name: &str, number: &str, letters: &[(&str, &str)]) -> Option<String> {
     let as_letter = |(prefix, letter): &(&str, &str)| {
         let axis = name.strip_prefix(prefix)?.trim_start_matches(|letter: char| letter.is_ascii_digit());

@@ -1,4 +1,4 @@
-//! Formulas of the velocity ratios: W of each block by Cramer's rule, in terms of the ratios of earlier blocks, which
+//! Formulas of the velocity ratios: W of each group by Cramer's rule, in terms of the ratios of earlier groups, which
 //! keep their names.
 
 use super::data::{Coordinate, Derivation};
@@ -34,7 +34,7 @@ impl Derivation {
         self.graph.sum(&terms)
     }
 
-    /// The simplified formulas of W; `None` in blocks that are solved by factorisation.
+    /// The simplified formulas of W; `None` in groups that are solved by factorisation.
     pub fn ratio_formulas(&mut self) -> Solutions<InputId, Option<NodeId>> {
         let formulas = self.ratios.ids().map(|input| {
             let system = (self.ratio_side(input), self.ratios[input].clone());
@@ -43,7 +43,7 @@ impl Derivation {
         formulas.collect()
     }
 
-    /// The formulas of x in J x = `side` by Cramer's rule, `None` in blocks that are solved by factorisation; and x for
+    /// The formulas of x in J x = `side` by Cramer's rule, `None` in groups that are solved by factorisation; and x for
     /// use in later formulas: its symbol or zero.
     pub(super) fn solution_formulas(
         &mut self,
@@ -51,11 +51,11 @@ impl Derivation {
     ) -> (Table<UnknownId, Option<NodeId>>, Table<UnknownId, NodeId>) {
         let mut formulas = self.unknowns.filled(None);
         let mut solved = Row::new();
-        for block in self.blocks.clone() {
+        for group in self.groups.clone() {
             let right: Vec<NodeId> =
-                block.equations.iter().map(|&equation| self.remainder(equation, side[equation], &solved)).collect();
-            let matrix = self.block_matrix(&block);
-            let solution: Vec<Option<NodeId>> = match (block.determinant, matrix.as_slice(), right.as_slice()) {
+                group.equations.iter().map(|&equation| self.remainder(equation, side[equation], &solved)).collect();
+            let matrix = self.block_matrix(&group);
+            let solution: Vec<Option<NodeId>> = match (group.determinant, matrix.as_slice(), right.as_slice()) {
                 _ if right.iter().all(|&side| self.graph.is_zero(side)) => right.into_iter().map(Some).collect(),
                 (Some(determinant), [_], &[right]) => {
                     let right = factor(&mut self.graph, right);
@@ -65,9 +65,9 @@ impl Derivation {
                     let rows = [[first[0], first[1]], [second[0], second[1]]];
                     cramer(&mut self.graph, rows, determinant.value, [p, q]).map(Some).to_vec()
                 }
-                _ => vec![None; block.unknowns.len()],
+                _ => vec![None; group.unknowns.len()],
             };
-            for (&place, formula) in block.unknowns.iter().zip(solution) {
+            for (&place, formula) in group.unknowns.iter().zip(solution) {
                 let still = formula.is_some_and(|formula| self.graph.is_zero(formula));
                 let name = self.graph.variable(names[place]);
                 solved.insert(self.unknowns[place], if still { self.graph.zero() } else { name });

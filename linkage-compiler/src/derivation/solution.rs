@@ -1,17 +1,17 @@
-//! The solution of linear systems in J as steps of a kernel, block by block.
+//! The solution of linear systems in J as steps of a kernel, group by group.
 
 use super::assembly::Assembly;
-use super::data::{Block, Derivation};
+use super::data::{Derivation, Group};
 use super::linear::{Form, Row, System, solve_closed};
 use super::plane::dot;
 use super::step::Step;
 use crate::graph::NodeId;
-use crate::ids::{BlockId, ColumnId, Table, UnknownId};
+use crate::ids::{ColumnId, GroupId, Table, UnknownId};
 
 impl Derivation {
-    /// The steps that solve J x = right for several right sides: each block is checked, then solved for all systems.
+    /// The steps that solve J x = right for several right sides: each group is checked, then solved for all systems.
     ///
-    /// A system may use the solution of an earlier one, since each block solves the systems in order.
+    /// A system may use the solution of an earlier one, since each group solves the systems in order.
     pub fn solution(&mut self, systems: &[System], form: Form<'_>) -> Vec<Step> {
         self.solve(systems, form).0
     }
@@ -20,20 +20,20 @@ impl Derivation {
     pub fn solve(&mut self, systems: &[System], form: Form<'_>) -> (Vec<Step>, Vec<Table<UnknownId, NodeId>>) {
         let mut steps = Vec::new();
         let mut solved: Vec<Row<ColumnId>> = vec![Row::new(); systems.len()];
-        for id in self.blocks.ids() {
-            let block = self.blocks[id].clone();
-            let divisor = self.check_block(id, &block, &mut steps);
-            let matrix = self.block_matrix(&block);
+        for id in self.groups.ids() {
+            let group = self.groups[id].clone();
+            let divisor = self.check_group(id, &group, &mut steps);
+            let matrix = self.block_matrix(&group);
             let inverse = match (form, divisor) {
                 (Form::Inverse(assembly), Some(divisor)) => {
-                    self.named_inverse(assembly, &block, &matrix, divisor, &mut steps)
+                    self.named_inverse(assembly, &group, &matrix, divisor, &mut steps)
                 }
                 _ => None,
             };
             for ((right, targets), solved) in systems.iter().zip(&mut solved) {
                 let right: Vec<NodeId> =
-                    block.equations.iter().map(|&equation| self.remainder(equation, right[equation], solved)).collect();
-                let targets = targets.at(&block.unknowns);
+                    group.equations.iter().map(|&equation| self.remainder(equation, right[equation], solved)).collect();
+                let targets = targets.at(&group.unknowns);
                 let mut solution = targets.iter().map(|&symbol| self.graph.variable(symbol)).collect::<Vec<_>>();
                 let formulas = match (divisor, inverse) {
                     _ if right.iter().all(|&side| self.graph.is_zero(side)) => right,
@@ -47,7 +47,7 @@ impl Derivation {
                     }
                     (Some(divisor), None) => solve_closed(&mut self.graph, &matrix, divisor, &right, form),
                     (None, _) => {
-                        steps.push(Step::Solve { block: id, targets: targets.clone(), right });
+                        steps.push(Step::Solve { group: id, targets: targets.clone(), right });
                         Vec::new()
                     }
                 };
@@ -58,7 +58,7 @@ impl Derivation {
                         *name = node;
                     }
                 }
-                solved.extend(self.unknowns.at(&block.unknowns).into_iter().zip(solution));
+                solved.extend(self.unknowns.at(&group.unknowns).into_iter().zip(solution));
             }
         }
         let columns = &self.unknowns;
@@ -71,7 +71,7 @@ impl Derivation {
     fn named_inverse(
         &mut self,
         assembly: &Assembly,
-        block: &Block,
+        group: &Group,
         matrix: &[Vec<NodeId>],
         divisor: NodeId,
         steps: &mut Vec<Step>,
@@ -83,7 +83,7 @@ impl Derivation {
         }
         let entries = assembly.solved(&mut self.graph, &[a, b, c, d]);
         let &[a, b, c, d] = entries.as_slice() else { return None };
-        let names = self.unknowns.at(&block.unknowns);
+        let names = self.unknowns.at(&group.unknowns);
         let names = [names[0], names[1]].map(|column| self.coordinates[column].name.clone());
         let (minus_b, minus_c) = (self.graph.negate(b), self.graph.negate(c));
         let [first, second] = names;
@@ -106,11 +106,11 @@ impl Derivation {
         self.graph.variable(symbol)
     }
 
-    /// Adds the check of a block; returns the divisor of its closed form.
-    pub(super) fn check_block(&mut self, id: BlockId, block: &Block, steps: &mut Vec<Step>) -> Option<NodeId> {
-        let Some(determinant) = block.determinant else {
-            let row_scales = self.residual_scales.at(&block.equations);
-            steps.push(Step::Factor { block: id, matrix: self.block_matrix(block), row_scales });
+    /// Adds the check of a group; returns the divisor of its closed form.
+    pub(super) fn check_group(&mut self, id: GroupId, group: &Group, steps: &mut Vec<Step>) -> Option<NodeId> {
+        let Some(determinant) = group.determinant else {
+            let row_scales = self.residual_scales.at(&group.equations);
+            steps.push(Step::Factor { group: id, matrix: self.block_matrix(group), row_scales });
             return None;
         };
         // A determinant that is a number other than zero needs no check.
@@ -118,15 +118,15 @@ impl Derivation {
             return Some(determinant.value);
         }
         let node = self.graph.variable(determinant.symbol);
-        steps.push(Step::Guard { block: id, determinant: node, scale: determinant.scale });
+        steps.push(Step::Guard { group: id, determinant: node, scale: determinant.scale });
         Some(node)
     }
 
-    /// The submatrix of J of a block, by rows.
-    pub fn block_matrix(&mut self, block: &Block) -> Vec<Vec<NodeId>> {
+    /// The submatrix of J of a group, by rows.
+    pub fn block_matrix(&mut self, group: &Group) -> Vec<Vec<NodeId>> {
         let zero = self.graph.zero();
-        let columns = self.unknowns.at(&block.unknowns);
+        let columns = self.unknowns.at(&group.unknowns);
         let row = |row: &Row<ColumnId>| columns.iter().map(|column| row.get(column).copied().unwrap_or(zero)).collect();
-        block.equations.iter().map(|&equation| row(&self.jacobian[equation])).collect()
+        group.equations.iter().map(|&equation| row(&self.jacobian[equation])).collect()
     }
 }

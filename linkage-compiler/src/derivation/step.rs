@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Graph, NodeId, SymbolId};
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 use crate::structure::Loops;
 
 /// One step of a solution. Later steps refer to its results by their symbols.
@@ -14,26 +14,26 @@ pub enum Step {
     /// Names an angle: its principal value plus a given number of turns.
     Turn { symbol: SymbolId, principal: NodeId },
     /// Fails if a determinant is zero relative to `scale`.
-    Guard { block: BlockId, determinant: NodeId, scale: NodeId },
-    /// Factorises the matrix of a block, given by rows with their scales; fails if it is singular.
-    Factor { block: BlockId, matrix: Vec<Vec<NodeId>>, row_scales: Vec<NodeId> },
-    /// Solves the factorised system of a block and names the solution.
-    Solve { block: BlockId, targets: Vec<SymbolId>, right: Vec<NodeId> },
+    Guard { group: GroupId, determinant: NodeId, scale: NodeId },
+    /// Factorises the matrix of a group, given by rows with their scales; fails if it is singular.
+    Factor { group: GroupId, matrix: Vec<Vec<NodeId>>, row_scales: Vec<NodeId> },
+    /// Solves the factorised system of a group and names the solution.
+    Solve { group: GroupId, targets: Vec<SymbolId>, right: Vec<NodeId> },
     /// Names the square root of a product of two factors, with the sign of the branch; fails if a factor is negative by
     /// more than the rounding error of its terms. `size` is n of the factors n - h and n + h, or (p + q)^2 of a
     /// triangle.
-    Chord { block: BlockId, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordGeometry<NodeId> },
+    Chord { group: GroupId, symbol: SymbolId, factors: [NodeId; 2], size: NodeId, of: ChordGeometry<NodeId> },
     /// Fails if the determinant of linear unknowns is zero; `numerators` are their numerators by Cramer's rule,
     /// `scales` the sums of the magnitudes of the terms of each numerator.
-    Solvable { block: BlockId, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
+    Solvable { group: GroupId, determinant: NodeId, numerators: Vec<NodeId>, scales: Vec<NodeId> },
     /// Fails if a distance that an equation gives is negative.
-    Reach { block: BlockId, length: NodeId },
-    /// Names the unknowns of a block, found by Newton's method from `start`. `system` holds its residuals, their scales
+    Reach { group: GroupId, length: NodeId },
+    /// Names the unknowns of a group, found by Newton's method from `start`. `system` holds its residuals, their scales
     /// and its Jacobian by rows, in terms of the unknowns and of `known`.
-    Newton { block: BlockId, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
-    /// Names the unknowns of a block of loops: of all its positions the one whose number the branch has. `system` and
+    Newton { group: GroupId, targets: Vec<SymbolId>, start: Vec<NodeId>, known: Vec<NodeId>, system: Vec<NodeId> },
+    /// Names the unknowns of a group of loops: of all its positions the one whose number the branch has. `system` and
     /// `known` are those of Newton's method.
-    Modes { block: BlockId, targets: Vec<SymbolId>, loops: Loops, known: Vec<NodeId>, system: Vec<NodeId> },
+    Modes { group: GroupId, targets: Vec<SymbolId>, loops: Loops, known: Vec<NodeId>, system: Vec<NodeId> },
     /// Names the product of the pivots of a matrix given by rows.
     Pivots { symbol: SymbolId, matrix: Vec<Vec<NodeId>> },
 }
@@ -97,25 +97,25 @@ impl Step {
         match self {
             Self::Let { symbol, node } => Self::Let { symbol, node: f(node) },
             Self::Turn { symbol, principal } => Self::Turn { symbol, principal: f(principal) },
-            Self::Guard { block, determinant, scale } => {
-                Self::Guard { block, determinant: f(determinant), scale: f(scale) }
+            Self::Guard { group, determinant, scale } => {
+                Self::Guard { group, determinant: f(determinant), scale: f(scale) }
             }
-            Self::Factor { block, matrix, row_scales } => {
-                Self::Factor { block, matrix: matrix.into_iter().map(all).collect(), row_scales: all(row_scales) }
+            Self::Factor { group, matrix, row_scales } => {
+                Self::Factor { group, matrix: matrix.into_iter().map(all).collect(), row_scales: all(row_scales) }
             }
-            Self::Solve { block, targets, right } => Self::Solve { block, targets, right: all(right) },
-            Self::Chord { block, symbol, factors, size, of } => {
-                Self::Chord { block, symbol, factors: factors.map(&f), size: f(size), of: of.map(f) }
+            Self::Solve { group, targets, right } => Self::Solve { group, targets, right: all(right) },
+            Self::Chord { group, symbol, factors, size, of } => {
+                Self::Chord { group, symbol, factors: factors.map(&f), size: f(size), of: of.map(f) }
             }
-            Self::Solvable { block, determinant, numerators, scales } => {
-                Self::Solvable { block, determinant: f(determinant), numerators: all(numerators), scales: all(scales) }
+            Self::Solvable { group, determinant, numerators, scales } => {
+                Self::Solvable { group, determinant: f(determinant), numerators: all(numerators), scales: all(scales) }
             }
-            Self::Reach { block, length } => Self::Reach { block, length: f(length) },
-            Self::Newton { block, targets, start, known, system } => {
-                Self::Newton { block, targets, start: all(start), known: all(known), system: all(system) }
+            Self::Reach { group, length } => Self::Reach { group, length: f(length) },
+            Self::Newton { group, targets, start, known, system } => {
+                Self::Newton { group, targets, start: all(start), known: all(known), system: all(system) }
             }
-            Self::Modes { block, targets, loops, known, system } => {
-                Self::Modes { block, targets, loops: loops.map(&f), known: all(known), system: all(system) }
+            Self::Modes { group, targets, loops, known, system } => {
+                Self::Modes { group, targets, loops: loops.map(&f), known: all(known), system: all(system) }
             }
             Self::Pivots { symbol, matrix } => Self::Pivots { symbol, matrix: matrix.into_iter().map(all).collect() },
         }

@@ -102,7 +102,7 @@ impl Derivation {
         self.graph.sum(&terms)
     }
 
-    /// The right side of a block after the unknowns of earlier blocks are solved: r - J x, where `solved` holds x by
+    /// The right side of a group after the unknowns of earlier groups are solved: r - J x, where `solved` holds x by
     /// column.
     pub fn remainder(&mut self, equation: RowId, right: NodeId, solved: &Row<ColumnId>) -> NodeId {
         let mut terms = vec![(Number::ONE, right)];
@@ -114,10 +114,10 @@ impl Derivation {
         self.graph.sum(&terms)
     }
 
-    /// det J as the product of the determinants of the blocks; `None` if a block has more than two unknowns.
+    /// det J as the product of the determinants of the groups; `None` if a group has more than two unknowns.
     pub fn determinant(&mut self) -> Option<NodeId> {
         let values: Option<Vec<NodeId>> =
-            self.blocks.iter().map(|block| block.determinant.map(|determinant| determinant.value)).collect();
+            self.groups.iter().map(|group| group.determinant.map(|determinant| determinant.value)).collect();
         let product: Vec<_> = values?.into_iter().map(|value| (value, 1)).collect();
         let product = self.graph.product(&product);
         Some(if self.is_odd { self.graph.negate(product) } else { product })

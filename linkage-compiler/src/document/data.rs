@@ -38,10 +38,10 @@ pub struct Root {
 
 /// Unknowns that are solved for together.
 #[derive(Debug, Clone)]
-pub struct Block {
+pub struct Group {
     pub unknowns: Vec<Number>,
     pub equations: Vec<usize>,
-    pub group: String,
+    pub kind: String,
     pub position: Vec<Equation>,
     pub root: Option<Root>,
     pub method: Method,
@@ -93,7 +93,7 @@ pub struct Document {
     pub implied: Vec<Equation>,
     pub jacobian_unknowns: Matrix,
     pub jacobian_inputs: Matrix,
-    pub blocks: Vec<Block>,
+    pub groups: Vec<Group>,
     pub determinant: Option<Equation>,
     pub ratios: Vec<Equation>,
     pub ratio_derivatives: Option<Vec<Equation>>,
@@ -195,12 +195,12 @@ numbers! {
     Symbol: formula;
     Matrix: name factor entries;
     Root: formula;
-    Block: unknowns position root determinant inverse;
+    Group: unknowns position root determinant inverse;
     Quantity: value ratios ratio_derivatives sensitivities;
     Sensitivity: jacobian formulas;
     Kernel: code;
     KernelCode: steps checks results;
-    Document: parameters inputs unknowns residual implied jacobian_unknowns jacobian_inputs blocks determinant ratios
+    Document: parameters inputs unknowns residual implied jacobian_unknowns jacobian_inputs groups determinant ratios
         ratio_derivatives gamma jerk sensitivity points outputs conditions kernels;
     Effect: forces;
     ContactEffect: force along bound bearing rebound forces;

@@ -2,13 +2,13 @@
 
 use std::ops::Deref;
 
-use super::data::{Block, Document, Equation, Kernel, Matrix, Method, Quantity, Root, Sensitivity, Symbol};
+use super::data::{Document, Equation, Group, Kernel, Matrix, Method, Quantity, Root, Sensitivity, Symbol};
 use super::layout::Layout;
 use super::name::{Name, names, texts};
 use super::table::{Number, Table};
 use crate::derivation::{self, ClosedForm, Derivation, Inverse, QuantityFormulas, Row};
 use crate::graph::{NodeId, SymbolId};
-use crate::ids::{self, BlockId, Id, InputId, UnknownId};
+use crate::ids::{self, GroupId, Id, InputId, UnknownId};
 use crate::model::{Driver, Mechanism};
 use crate::program::Derived;
 
@@ -36,7 +36,7 @@ pub fn of_driver(
     };
     let (by_inputs, by_pairs, by_parameters) = (writer.by_inputs(), writer.by_pairs(), writer.by_parameters());
     let implied: Vec<NodeId> = derivation.implied.iter().map(|implied| implied.residual).collect();
-    let blocks = formulas.inverses.enumerated();
+    let groups = formulas.inverses.enumerated();
     let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
     let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
     let document = Document {
@@ -49,7 +49,7 @@ pub fn of_driver(
         implied: writer.numbered("chi", &implied),
         jacobian_unknowns: writer.matrix(Name::Plain("J"), None, &derivation.jacobian_unknowns(), unknowns.len()),
         jacobian_inputs: writer.matrix(Name::Plain("A"), None, &derivation.jacobian_inputs(), inputs.len()),
-        blocks: blocks.map(|(number, inverse)| writer.block(number, &closed_forms[number], inverse.as_ref())).collect(),
+        groups: groups.map(|(number, inverse)| writer.group(number, &closed_forms[number], inverse.as_ref())).collect(),
         determinant: formulas.determinant.map(|node| writer.equation(Name::Determinant(None), node)),
         ratios: writer.derivatives(&unknowns, &by_inputs, &formulas.ratios),
         ratio_derivatives: derivation
@@ -154,14 +154,14 @@ impl<'a> Writer<'a> {
         Matrix { name, factor, rows: rows.len(), columns, entries }
     }
 
-    fn block(&mut self, id: BlockId, position: &ClosedForm, inverse: Option<&Inverse>) -> Block {
-        let block = &self.derivation.blocks[id];
-        let number = (self.derivation.blocks.len() > 1).then_some(id.number());
-        let determinant = block.determinant.as_ref().map(|determinant| determinant.value);
-        Block {
-            unknowns: block.unknowns.iter().map(|&place| self.plain(self.unknowns[place])).collect(),
-            equations: block.equations.iter().map(|&equation| equation.index()).collect(),
-            group: block.group.description().to_string(),
+    fn group(&mut self, id: GroupId, position: &ClosedForm, inverse: Option<&Inverse>) -> Group {
+        let group = &self.derivation.groups[id];
+        let number = (self.derivation.groups.len() > 1).then_some(id.number());
+        let determinant = group.determinant.as_ref().map(|determinant| determinant.value);
+        Group {
+            unknowns: group.unknowns.iter().map(|&place| self.plain(self.unknowns[place])).collect(),
+            equations: group.equations.iter().map(|&equation| equation.index()).collect(),
+            kind: group.kind.description(),
             method: if determinant.is_some() { Method::ClosedForm } else { Method::Factorization },
             determinant: determinant.map(|value| self.equation(Name::Determinant(number), value)),
             inverse: inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())),

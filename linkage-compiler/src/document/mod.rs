@@ -11,7 +11,7 @@ mod scene;
 mod table;
 
 pub use data::{
-    Block, ContactEffect, Document, Effect, Equation, JointForce, Kernel, KernelCode, Matrix, Method, Quantity, Root,
+    ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Quantity, Root,
     SceneDocument, Sensitivity, Symbol,
 };
 pub use driver::of_driver;

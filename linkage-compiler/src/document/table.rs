@@ -124,12 +124,12 @@ impl Table {
                 let [of, first, second] = [of, first, second].map(|name| self.plain(name));
                 self.add(Node::RatioDerivative(of, [first, second]))
             }
-            Name::Determinant(block) => {
-                let matrix = self.plain(&matrix_name(block));
+            Name::Determinant(group) => {
+                let matrix = self.plain(&matrix_name(group));
                 self.add(Node::Determinant(matrix))
             }
-            Name::Inverse(block) => {
-                let matrix = self.plain(&matrix_name(block));
+            Name::Inverse(group) => {
+                let matrix = self.plain(&matrix_name(group));
                 self.add(Node::Inverse(matrix))
             }
         }
@@ -273,6 +273,6 @@ impl Node {
 }
 
 /// The name of J, or of the block of J with this number.
-fn matrix_name(block: Option<usize>) -> String {
-    block.map_or_else(|| "J".to_owned(), |block| format!("J{block}"))
+fn matrix_name(group: Option<usize>) -> String {
+    group.map_or_else(|| "J".to_owned(), |group| format!("J{group}"))
 }

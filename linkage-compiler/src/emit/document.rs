@@ -6,7 +6,7 @@ use quote::{ToTokens, format_ident, quote};
 use super::names::string;
 use super::rust::{separated, separated_integer};
 use crate::document::{
-    Block, ContactEffect, Document, Effect, Equation, JointForce, Kernel, KernelCode, Matrix, Method, Node, Number,
+    ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Node, Number,
     Quantity, Root, SceneDocument, Sensitivity, Symbol, Table,
 };
 use crate::model::TypeName;
@@ -22,7 +22,7 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
         [&document.residual, &document.implied, &document.ratios, &document.gamma].map(|all| lists.equations(all));
     let [jacobian_unknowns, jacobian_inputs] =
         [&document.jacobian_unknowns, &document.jacobian_inputs].map(|matrix| lists.matrix(matrix));
-    let blocks = list(document.blocks.iter().map(|block| lists.block(block)));
+    let groups = list(document.groups.iter().map(|group| lists.group(group)));
     let determinant = option(document.determinant.as_ref().map(equation));
     let second = option(document.ratio_derivatives.as_deref().map(|all| lists.equations(all)));
     let jerk = option(document.jerk.as_deref().map(|all| lists.equations(all)));
@@ -51,7 +51,7 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
                     implied: #implied,
                     jacobian_unknowns: #jacobian_unknowns,
                     jacobian_inputs: #jacobian_inputs,
-                    blocks: #blocks,
+                    groups: #groups,
                     determinant: #determinant,
                     ratios: #ratios,
                     ratio_derivatives: #second,
@@ -314,28 +314,28 @@ impl Lists {
         quote!(FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: #entries })
     }
 
-    fn block(&mut self, block: &Block) -> TokenStream {
-        let (unknowns, position) = (self.formulas(&block.unknowns), self.equations(&block.position));
-        let group = string(&block.group);
-        let of_block = block.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
-        let root = option(block.root.as_ref().map(|Root { formula, branches }| {
+    fn group(&mut self, group: &Group) -> TokenStream {
+        let (unknowns, position) = (self.formulas(&group.unknowns), self.equations(&group.position));
+        let kind = string(&group.kind);
+        let of_group = group.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
+        let root = option(group.root.as_ref().map(|Root { formula, branches }| {
             let root = self::formula(formula);
             quote!(Root { formula: #root, branches: [#(#branches),*] })
         }));
-        let method = match block.method {
+        let method = match group.method {
             Method::ClosedForm => quote!(ClosedForm),
             Method::Factorization => quote!(Factorization),
         };
-        let determinant = option(block.determinant.as_ref().map(equation));
-        let inverse = option(block.inverse.as_ref().map(|matrix| self.matrix(matrix)));
+        let determinant = option(group.determinant.as_ref().map(equation));
+        let inverse = option(group.inverse.as_ref().map(|matrix| self.matrix(matrix)));
         quote! {
-            Block {
+            Group {
                 unknowns: #unknowns,
-                equations: &[#(#of_block),*],
-                group: #group,
+                equations: &[#(#of_group),*],
+                kind: #kind,
                 position: #position,
                 root: #root,
-                method: BlockMethod::#method,
+                method: GroupMethod::#method,
                 determinant: #determinant,
                 inverse: #inverse,
             }

@@ -6,7 +6,7 @@ use super::code::Statement;
 use super::naming::Hint;
 use super::value::{Signed, Value, ValueId};
 use super::writer::Writer;
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 use crate::program::{self, Expression, Intrinsic, Variable};
 
 /// The results of a kernel, and what is known of them.
@@ -16,7 +16,7 @@ pub(super) struct Checked {
     /// For each result, true if it needs no check: it is finite if the checks before it pass, or need not be finite.
     pub(super) is_proven: Vec<bool>,
     /// For each result the dyad, if any, whose well-conditioned triangle guarantees that it is finite.
-    pub(super) dyads: Vec<Option<BlockId>>,
+    pub(super) dyads: Vec<Option<GroupId>>,
 }
 
 impl Checked {
@@ -28,7 +28,7 @@ impl Checked {
     }
 
     /// The results that need a check, each with its dyad.
-    fn unproven(&self) -> impl Iterator<Item = (ValueId, Option<BlockId>)> {
+    fn unproven(&self) -> impl Iterator<Item = (ValueId, Option<GroupId>)> {
         let all = self.results.iter().zip(&self.dyads).zip(&self.is_proven);
         all.filter(|(_, is_proven)| !**is_proven).map(|((value, dyad), _)| (*value, *dyad))
     }

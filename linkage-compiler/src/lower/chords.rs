@@ -8,19 +8,19 @@ use super::schedule::Line;
 use super::value::{Value, ValueId};
 use super::writer::{Absorbed, Writer};
 use crate::derivation::ChordGeometry;
-use crate::ids::{BlockId, Id};
+use crate::ids::{GroupId, Id};
 use crate::program::{Intrinsic, LaneResult, Type};
 
 impl Writer<'_> {
     pub(super) fn chord(&mut self, of: Absorbed<'_>, line: &Line) {
-        let Line::Chord { block, symbol, factors, size, of: geometry } = line else { return };
+        let Line::Chord { group, symbol, factors, size, of: geometry } = line else { return };
         let factors = self.all_signed(of, factors);
         let factors = self.list(factors);
         let size = self.signed(of, *size);
         let geometry = geometry.map(|value| self.signed(of, value));
         let branch = self.variable(self.context.branch);
-        let side = self.field(branch, self.context.derivation.blocks[*block].branch(self.context.derivation));
-        let (function, arguments) = self.chord_call(*block, (factors, size, side), geometry);
+        let side = self.field(branch, self.context.derivation.groups[*group].branch(self.context.derivation));
+        let (function, arguments) = self.chord_call(*group, (factors, size, side), geometry);
         if self.is_flagged() {
             let Some(form) = function.row().in_lane.filter(|form| form.result == LaneResult::Flagged) else {
                 self.dangle(|| format!("the form of `{}` over lanes", function.row().name));
@@ -38,7 +38,7 @@ impl Writer<'_> {
         let name = Pattern::Bound(self.introduce(of, *symbol));
         // The check of a triangle says how well it is conditioned.
         let pattern = match function {
-            Intrinsic::ElbowChord => Pattern::Tuple(vec![name, self.well_conditioned(*block)]),
+            Intrinsic::ElbowChord => Pattern::Tuple(vec![name, self.well_conditioned(*group)]),
             _ => name,
         };
         match self.otherwise {
@@ -56,7 +56,7 @@ impl Writer<'_> {
     /// The function of the runtime that computes a chord, and its arguments.
     fn chord_call(
         &mut self,
-        block: BlockId,
+        group: GroupId,
         (factors, size, side): (ValueId, ValueId, ValueId),
         of: ChordGeometry<ValueId>,
     ) -> (Intrinsic, Vec<ValueId>) {
@@ -78,13 +78,13 @@ impl Writer<'_> {
                 if is_regular {
                     (Intrinsic::RegularElbowChord, vec![triangle, side])
                 } else {
-                    (Intrinsic::ElbowChord, vec![self.error_name(), self.group(block), triangle, side])
+                    (Intrinsic::ElbowChord, vec![self.error_name(), self.group(group), triangle, side])
                 }
             }
             ChordGeometry::Circle { scales, may_cancel } => {
                 let chord = if may_cancel { Intrinsic::ReachChord } else { Intrinsic::Chord };
                 let scales = self.list(scales);
-                (chord, vec![self.error_name(), self.group(block), factors, size, scales, side])
+                (chord, vec![self.error_name(), self.group(group), factors, size, scales, side])
             }
             ChordGeometry::RegularCircle { scale: None } => (Intrinsic::RegularChord, vec![factors, size, side]),
             ChordGeometry::RegularCircle { scale: Some(scale) } => {
@@ -94,16 +94,16 @@ impl Writer<'_> {
     }
 
     /// The pattern of the flag that is true if the triangle of a dyad is well conditioned.
-    fn well_conditioned(&mut self, block: BlockId) -> Pattern {
-        let flag = self.bound(format!("is_well_conditioned_{}", block.number()));
-        self.well_conditioned.insert(block, flag);
+    fn well_conditioned(&mut self, group: GroupId) -> Pattern {
+        let flag = self.bound(format!("is_well_conditioned_{}", group.number()));
+        self.well_conditioned.insert(group, flag);
         Pattern::Bound(flag)
     }
 
     /// Keeps the flags of these dyads: nothing reads the others.
-    pub(super) fn keep_conditions(&mut self, of: &BTreeSet<BlockId>) {
+    pub(super) fn keep_conditions(&mut self, of: &BTreeSet<GroupId>) {
         let (kept, unused): (BTreeMap<_, _>, BTreeMap<_, _>) =
-            std::mem::take(&mut self.well_conditioned).into_iter().partition(|(block, _)| of.contains(block));
+            std::mem::take(&mut self.well_conditioned).into_iter().partition(|(group, _)| of.contains(group));
         self.well_conditioned = kept;
         let unused: BTreeSet<ValueId> = unused.into_values().collect();
         for statement in &mut self.statements {

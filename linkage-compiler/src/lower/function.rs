@@ -18,7 +18,7 @@ use super::writer::Writer;
 use super::{proven, reads, stored, stretches, unneeded};
 use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
-use crate::ids::{BlockId, FunctionId};
+use crate::ids::{FunctionId, GroupId};
 use crate::program::{self, Access, Body, Failure, Function, Given, Kernel, Output, PosePlan, Source, Taken, call_of};
 
 /// The functions of a type by their names in planned code.
@@ -213,7 +213,7 @@ impl Writer<'_> {
         let is_proven: Vec<bool> =
             is_proven.into_iter().enumerate().map(|(place, is_it)| is_it || is_needless(place)).collect();
         let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
-        let open: BTreeSet<BlockId> = open.filter_map(|(dyad, _)| *dyad).collect();
+        let open: BTreeSet<GroupId> = open.filter_map(|(dyad, _)| *dyad).collect();
         self.keep_conditions(&open);
         reads::parameters_where_used(&self.values, &mut self.statements);
         if self.flags.is_empty() {
@@ -279,8 +279,8 @@ fn taken_by_others(kernel: &Kernel, context: &Context) -> Vec<(usize, SymbolId)>
     let ratios: BTreeSet<SymbolId> = context.derivation.ratios.iter().flatten().copied().collect();
     let places = kernel.results.iter().enumerate();
     let of = |(place, output): (usize, &Output)| {
-        let is_it = |(block, ..): &&(BlockId, String, SymbolId)| {
-            context.derivation.blocks[*block].determinant.is_some_and(|determinant| determinant.value == output.node)
+        let is_it = |(group, ..): &&(GroupId, String, SymbolId)| {
+            context.derivation.groups[*group].determinant.is_some_and(|determinant| determinant.value == output.node)
         };
         let determinant = context.pose.determinants.iter().find(is_it).map(|(.., symbol)| *symbol);
         let ratio = graph.as_symbol(output.node).filter(|symbol| ratios.contains(symbol));

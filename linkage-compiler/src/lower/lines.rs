@@ -7,7 +7,7 @@ use super::stretches;
 use super::value::{Signed, Value, ValueId};
 use super::writer::{Absorbed, Writer};
 use crate::graph::{Function, SymbolId};
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 use crate::program::{Intrinsic, LaneResult, Type};
 
 impl Writer<'_> {
@@ -89,12 +89,12 @@ impl Writer<'_> {
                 let name = self.introduce(of, *symbol);
                 self.let_value(Pattern::Bound(name), number);
             }
-            Line::Guard { block, determinant, scale } => {
+            Line::Guard { group, determinant, scale } => {
                 let arguments = self.all_signed(of, &[*determinant, *scale]);
-                self.check(Intrinsic::Regular, *block, arguments);
+                self.check(Intrinsic::Regular, *group, arguments);
             }
-            Line::Factor { block, matrix, row_scales } => self.factor(of, *block, matrix, row_scales),
-            Line::Solve { block, targets, right } => {
+            Line::Factor { group, matrix, row_scales } => self.factor(of, *group, matrix, row_scales),
+            Line::Solve { group, targets, right } => {
                 let right = self.all_signed(of, right);
                 let right = self.list(right);
                 let targets = targets.iter().map(|target| match of.schedule.uses(*target) {
@@ -102,24 +102,24 @@ impl Writer<'_> {
                     false => Pattern::Ignored,
                 });
                 let targets = targets.collect();
-                let factors = match self.factors.get(block) {
+                let factors = match self.factors.get(group) {
                     Some(factors) => *factors,
-                    None => self.dangle(|| format!("the factorisation of group {block:?}")),
+                    None => self.dangle(|| format!("the factorisation of group {group:?}")),
                 };
                 let solution = self.call(Intrinsic::Solve, [factors, right]);
                 self.let_value(Pattern::List(targets), solution);
             }
-            Line::Solvable { block, determinant, numerators, scales } => {
+            Line::Solvable { group, determinant, numerators, scales } => {
                 let determinant = self.signed(of, *determinant);
                 let lists = [numerators, scales].map(|values| {
                     let values = self.all_signed(of, values);
                     self.list(values)
                 });
-                self.check(Intrinsic::Solvable, *block, [determinant].into_iter().chain(lists));
+                self.check(Intrinsic::Solvable, *group, [determinant].into_iter().chain(lists));
             }
-            Line::Reach { block, length } => {
+            Line::Reach { group, length } => {
                 let length = self.signed(of, *length);
-                self.check(Intrinsic::Reachable, *block, [length]);
+                self.check(Intrinsic::Reachable, *group, [length]);
             }
             Line::Chord { .. } => self.chord(of, line),
             Line::Pivots { symbol, matrix } => {
@@ -128,11 +128,11 @@ impl Writer<'_> {
                 let name = self.introduce(of, *symbol);
                 self.let_value(Pattern::Bound(name), product);
             }
-            Line::Newton { block, targets, start, system } => {
+            Line::Newton { group, targets, start, system } => {
                 let start = self.all_signed(of, start);
                 let start = self.list(start);
                 let evaluation = self.evaluation(targets, system);
-                let call = self.group_call(Intrinsic::NewtonGroup, *block, [start, evaluation]);
+                let call = self.group_call(Intrinsic::NewtonGroup, *group, [start, evaluation]);
                 let call = self.tried(call);
                 let targets = self.all_introduced(of, targets);
                 self.let_value(targets, call);
@@ -152,8 +152,8 @@ impl Writer<'_> {
     }
 
     /// Adds a call that checks a group, or the flag of its form over lanes.
-    fn check(&mut self, of: Intrinsic, block: BlockId, arguments: impl IntoIterator<Item = ValueId>) {
-        let common = [self.error_name(), self.group(block)];
+    fn check(&mut self, of: Intrinsic, group: GroupId, arguments: impl IntoIterator<Item = ValueId>) {
+        let common = [self.error_name(), self.group(group)];
         let arguments: Vec<ValueId> = common.into_iter().chain(arguments).collect();
         if self.is_flagged()
             && let Some(form) = of.row().in_lane
@@ -169,15 +169,15 @@ impl Writer<'_> {
     }
 
     /// Factorises the matrix of a group.
-    fn factor(&mut self, of: Absorbed<'_>, block: BlockId, matrix: &[Vec<Signed>], row_scales: &[Signed]) {
+    fn factor(&mut self, of: Absorbed<'_>, group: GroupId, matrix: &[Vec<Signed>], row_scales: &[Signed]) {
         let columns = self.columns(of, matrix);
         let scales = self.all_signed(of, row_scales);
         let scales = self.list(scales);
-        let arguments = vec![self.error_name(), self.group(block), columns, scales];
+        let arguments = vec![self.error_name(), self.group(group), columns, scales];
         let of_runtime = Type::Runtime("Factorization", Vec::new());
         let call = self.add(Value::Intrinsic(Intrinsic::Factorization, Some(of_runtime), arguments));
         let name = self.bound("factors");
-        let solves = |line: &Line| matches!(line, Line::Solve { block: other, .. } if *other == block);
+        let solves = |line: &Line| matches!(line, Line::Solve { group: other, .. } if *other == group);
         let is_used = of.schedule.lines.iter().any(solves);
         let pattern = if is_used { Pattern::Bound(name) } else { Pattern::Ignored };
         let statement = match self.otherwise {
@@ -189,7 +189,7 @@ impl Writer<'_> {
         };
         self.statements.push(statement);
         if is_used {
-            self.factors.insert(block, name);
+            self.factors.insert(group, name);
         }
     }
 
@@ -231,7 +231,7 @@ impl Writer<'_> {
         self.symbols.insert(symbol, value);
     }
 
-    /// The function that Newton's method evaluates: the residuals of a block, their scales, and its Jacobian by
+    /// The function that Newton's method evaluates: the residuals of a group, their scales, and its Jacobian by
     /// columns.
     pub(super) fn evaluation(&mut self, unknowns: &[SymbolId], system: &Schedule) -> ValueId {
         let outside = self.symbols.clone();
@@ -259,10 +259,10 @@ impl Writer<'_> {
     pub(super) fn group_call(
         &mut self,
         function: Intrinsic,
-        block: BlockId,
+        group: GroupId,
         arguments: impl IntoIterator<Item = ValueId>,
     ) -> ValueId {
-        let common = [self.error_name(), self.group(block)];
+        let common = [self.error_name(), self.group(group)];
         self.call(function, common.into_iter().chain(arguments))
     }
 

@@ -6,14 +6,14 @@ use super::schedule::Line;
 use super::value::{Signed, Value, ValueId};
 use super::writer::{Absorbed, Writer};
 use crate::graph::Number;
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 use crate::program::{Constant, Intrinsic, Type};
 use crate::structure::Guide;
 
 impl Writer<'_> {
     /// All positions of a group, and the unknowns of the one whose number the branch has.
     pub(super) fn modes(&mut self, of: Absorbed<'_>, line: &Line) {
-        let Line::Modes { block, targets, constants, factors, unknowns, guides, system } = line else { return };
+        let Line::Modes { group, targets, constants, factors, unknowns, guides, system } = line else { return };
         let constants: Vec<ValueId> = constants.iter().map(|part| self.complex(of, part)).collect();
         let constants = self.list(constants);
         let factors: Vec<ValueId> = factors
@@ -25,7 +25,7 @@ impl Writer<'_> {
             .collect();
         let factors = self.list(factors);
         let loops = self.structure("Loops", [("constants", constants), ("factors", factors)]);
-        let mut find = vec![self.kept(of, *block), self.error_name(), self.group(*block), loops];
+        let mut find = vec![self.kept(of, *group), self.error_name(), self.group(*group), loops];
         let method = if guides.iter().any(Option::is_some) {
             let are: Vec<ValueId> = guides.iter().map(|guide| self.unknown(of, guide)).collect();
             find.push(self.list(are));
@@ -34,9 +34,9 @@ impl Writer<'_> {
             Intrinsic::Modes
         };
         find.push(self.of_directions(unknowns));
-        let take = [self.error_name(), self.group(*block)];
+        let take = [self.error_name(), self.group(*group)];
         let branch = self.variable(self.context.branch);
-        let mode = self.field(branch, self.context.derivation.blocks[*block].branch(self.context.derivation));
+        let mode = self.field(branch, self.context.derivation.groups[*group].branch(self.context.derivation));
         find.push(self.evaluation(targets, system));
         let all = self.call(method, find);
         let all = self.tried(all);
@@ -49,15 +49,15 @@ impl Writer<'_> {
     }
 
     /// The place where the positions of a group are kept: the argument, or a part of it if there are several groups.
-    fn kept(&mut self, of: Absorbed<'_>, block: BlockId) -> ValueId {
-        let blocks = of.schedule.lines.iter().filter_map(|line| match line {
-            Line::Modes { block, .. } => Some(*block),
+    fn kept(&mut self, of: Absorbed<'_>, group: GroupId) -> ValueId {
+        let groups = of.schedule.lines.iter().filter_map(|line| match line {
+            Line::Modes { group, .. } => Some(*group),
             _ => None,
         });
         let memory = self.variable(self.context.memory);
-        match blocks.clone().count() {
+        match groups.clone().count() {
             1 => memory,
-            _ => self.field(memory, blocks.take_while(|other| *other != block).count().to_string()),
+            _ => self.field(memory, groups.take_while(|other| *other != group).count().to_string()),
         }
     }
 

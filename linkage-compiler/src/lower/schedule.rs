@@ -3,7 +3,7 @@
 use super::value::{Signed, Value, ValueId};
 use crate::derivation::ChordGeometry;
 use crate::graph::{ExternalId, Function, SymbolId};
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 use crate::structure::Guide;
 
 /// One line of straight-line code.
@@ -29,17 +29,17 @@ pub enum Line {
         principal: Signed,
     },
     Guard {
-        block: BlockId,
+        group: GroupId,
         determinant: Signed,
         scale: Signed,
     },
     Factor {
-        block: BlockId,
+        group: GroupId,
         matrix: Vec<Vec<Signed>>,
         row_scales: Vec<Signed>,
     },
     Solve {
-        block: BlockId,
+        group: GroupId,
         targets: Vec<SymbolId>,
         right: Vec<Signed>,
     },
@@ -48,31 +48,31 @@ pub enum Line {
         matrix: Vec<Vec<Signed>>,
     },
     Chord {
-        block: BlockId,
+        group: GroupId,
         symbol: SymbolId,
         factors: [Signed; 2],
         size: Signed,
         of: ChordGeometry<Signed>,
     },
     Solvable {
-        block: BlockId,
+        group: GroupId,
         determinant: Signed,
         numerators: Vec<Signed>,
         scales: Vec<Signed>,
     },
     Reach {
-        block: BlockId,
+        group: GroupId,
         length: Signed,
     },
     Newton {
-        block: BlockId,
+        group: GroupId,
         targets: Vec<SymbolId>,
         start: Vec<Signed>,
-        /// One evaluation of the block.
+        /// One evaluation of the group.
         system: Box<Schedule>,
     },
     Modes {
-        block: BlockId,
+        group: GroupId,
         targets: Vec<SymbolId>,
         /// k_i and c_ij, by loop.
         constants: Vec<[Signed; 2]>,
@@ -81,7 +81,7 @@ pub enum Line {
         unknowns: Vec<Vec<i64>>,
         /// The guide of each unknown that is a length.
         guides: Vec<Option<Guide<Signed>>>,
-        /// One evaluation of the block.
+        /// One evaluation of the group.
         system: Box<Schedule>,
     },
 }

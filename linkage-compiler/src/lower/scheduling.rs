@@ -53,26 +53,26 @@ pub fn schedule(
         ordering.lines.push(match step {
             Step::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated[node] },
             Step::Turn { symbol, principal } => Line::Turn { symbol: *symbol, principal: translated[principal] },
-            Step::Guard { block, determinant, scale } => {
-                Line::Guard { block: *block, determinant: translated[determinant], scale: translated[scale] }
+            Step::Guard { group, determinant, scale } => {
+                Line::Guard { group: *group, determinant: translated[determinant], scale: translated[scale] }
             }
-            Step::Factor { block, matrix, row_scales } => {
+            Step::Factor { group, matrix, row_scales } => {
                 let matrix = matrix.iter().map(|row| signed(row)).collect();
-                Line::Factor { block: *block, matrix, row_scales: signed(row_scales) }
+                Line::Factor { group: *group, matrix, row_scales: signed(row_scales) }
             }
-            Step::Solve { block, targets, right } => {
-                Line::Solve { block: *block, targets: targets.clone(), right: signed(right) }
+            Step::Solve { group, targets, right } => {
+                Line::Solve { group: *group, targets: targets.clone(), right: signed(right) }
             }
-            Step::Chord { block, symbol, factors, size, of } => Line::Chord {
-                block: *block,
+            Step::Chord { group, symbol, factors, size, of } => Line::Chord {
+                group: *group,
                 symbol: *symbol,
                 factors: factors.map(|node| translated[&node]),
                 size: translated[size],
                 of: of.map(|node| translated[&node]),
             },
-            Step::Reach { block, length } => Line::Reach { block: *block, length: translated[length] },
-            Step::Solvable { block, determinant, numerators, scales } => Line::Solvable {
-                block: *block,
+            Step::Reach { group, length } => Line::Reach { group: *group, length: translated[length] },
+            Step::Solvable { group, determinant, numerators, scales } => Line::Solvable {
+                group: *group,
                 determinant: translated[determinant],
                 numerators: signed(numerators),
                 scales: signed(scales),
@@ -80,15 +80,15 @@ pub fn schedule(
             Step::Pivots { symbol, matrix } => {
                 Line::Pivots { symbol: *symbol, matrix: matrix.iter().map(|row| signed(row)).collect() }
             }
-            Step::Newton { block, targets, start, system, .. } => {
+            Step::Newton { group, targets, start, system, .. } => {
                 let system = Box::new(schedule(graph, &[], system, given, &[], false));
                 let (targets, start) = (targets.clone(), signed(start));
-                Line::Newton { block: *block, targets, start, system }
+                Line::Newton { group: *group, targets, start, system }
             }
-            Step::Modes { block, targets, loops, system, .. } => {
+            Step::Modes { group, targets, loops, system, .. } => {
                 let part = |part: &[NodeId; 2]| part.map(|node| translated[&node]);
                 Line::Modes {
-                    block: *block,
+                    group: *group,
                     targets: targets.clone(),
                     constants: loops.constants.iter().map(part).collect(),
                     factors: loops.factors.iter().map(|factors| factors.iter().map(part).collect()).collect(),

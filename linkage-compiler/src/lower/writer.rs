@@ -11,7 +11,7 @@ use super::schedule::Schedule;
 use super::value::{Signed, Value, ValueId};
 use super::values::{Numbers, Values};
 use crate::graph::{ExternalId, SymbolId};
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 use crate::program::{Constant, Failure, Intrinsic, Kernel};
 
 /// The code of one function so far.
@@ -30,11 +30,11 @@ pub(super) struct Writer<'a> {
     /// The user functions that are called.
     pub(super) externals: BTreeSet<ExternalId>,
     /// For each dyad, the flag that is true if its triangle is well conditioned.
-    pub(super) well_conditioned: BTreeMap<BlockId, ValueId>,
+    pub(super) well_conditioned: BTreeMap<GroupId, ValueId>,
     /// The checks, if a failed one is only flagged.
     pub(super) flags: Vec<ValueId>,
-    /// The factorisations, by block.
-    pub(super) factors: BTreeMap<BlockId, ValueId>,
+    /// The factorisations, by group.
+    pub(super) factors: BTreeMap<GroupId, ValueId>,
     /// The value that is returned where a check of the kernel fails.
     pub(super) otherwise: Option<ValueId>,
     /// The first reference to something that does not exist.
@@ -195,8 +195,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    pub(super) fn group(&mut self, block: BlockId) -> ValueId {
-        let title = self.context.derivation.blocks[block].title(self.context.derivation);
+    pub(super) fn group(&mut self, group: GroupId) -> ValueId {
+        let title = self.context.derivation.groups[group].title(self.context.derivation);
         self.text(title)
     }
 }

@@ -122,7 +122,7 @@ pub struct Driver {
     pub attributes: Vec<Attribute>,
     pub inputs: Table<InputId, CoordinateId>,
     pub unknowns: Table<UnknownId, CoordinateId>,
-    /// Psi and its blocks in the order of solution; empty before the check and in mechanisms with mistakes.
+    /// Psi and its groups in the order of solution; empty before the check and in mechanisms with mistakes.
     pub system: System,
 }
 
@@ -275,7 +275,7 @@ impl Mechanism {
         self.constraints.iter().flat_map(|constraint| constraint.rows.iter().copied()).collect()
     }
 
-    /// Psi of a driver in the form in which it is solved, and its blocks.
+    /// Psi of a driver in the form in which it is solved, and its groups.
     ///
     /// # Errors
     /// [`StructurallySingular`] if it is singular for all values of the parameters.

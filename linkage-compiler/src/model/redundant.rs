@@ -101,13 +101,13 @@ fn determining(
     unknowns: &Table<UnknownId, SymbolId>,
     row: NodeId,
 ) -> Option<Vec<RowId>> {
-    let blocks = order(&incidence(graph, rows, unknowns), unknowns.len()).ok()?;
+    let groups = order(&incidence(graph, rows, unknowns), unknowns.len()).ok()?;
     let mut needed: BTreeSet<SymbolId> = graph.symbols_of(&[row]).into_iter().collect();
     let mut found = Vec::new();
-    for block in blocks.iter().rev() {
-        if block.unknowns.iter().any(|&unknown| needed.contains(&unknowns[unknown])) {
-            needed.extend(graph.symbols_of(&block.equations.iter().map(|&row| rows[row]).collect::<Vec<_>>()));
-            found.extend(&block.equations);
+    for group in groups.iter().rev() {
+        if group.unknowns.iter().any(|&unknown| needed.contains(&unknowns[unknown])) {
+            needed.extend(graph.symbols_of(&group.equations.iter().map(|&row| rows[row]).collect::<Vec<_>>()));
+            found.extend(&group.equations);
         }
     }
     Some(found)

@@ -15,7 +15,7 @@ use crate::ids::{ColumnId, Id, InputId, RowId, Table, UnknownId};
 /// The formulas of a driver over numbers of any kind, and facts about them.
 pub struct AnyNumber<B> {
     pub functions: Vec<Function<B>>,
-    /// For each block the name of the first user function in its equations.
+    /// For each group the name of the first user function in its equations.
     pub user_functions: Vec<Option<String>>,
 }
 
@@ -156,7 +156,7 @@ impl Plan<'_, '_> {
         (given, sources)
     }
 
-    /// For each block the name of the first user function in its equations.
+    /// For each group the name of the first user function in its equations.
     fn user_functions(&self) -> Vec<Option<String>> {
         let (derivation, mechanism) = (&self.derivation, self.signatures.mechanism);
         let name = |id: NodeId| match derivation.graph.node(id) {
@@ -166,11 +166,11 @@ impl Plan<'_, '_> {
             }
             _ => None,
         };
-        let of_block = |equations: &[RowId]| {
+        let of_group = |equations: &[RowId]| {
             let rows: Vec<NodeId> = equations.iter().map(|&row| derivation.residual[row]).collect();
             derivation.graph.reachable(&rows).into_iter().find_map(name)
         };
-        derivation.blocks.iter().map(|block| of_block(&block.equations)).collect()
+        derivation.groups.iter().map(|group| of_group(&group.equations)).collect()
     }
 }
 

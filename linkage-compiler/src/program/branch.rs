@@ -8,7 +8,7 @@ use crate::derivation::{Assembly, Chord, Derivation, Joint, Step};
 use crate::graph::SymbolId;
 use crate::ids::UnknownId;
 use crate::model::{Coordinate, Driver, Guess, Kind, Mechanism};
-use crate::structure::{Choice, Group};
+use crate::structure::{Choice, GroupKind};
 
 /// The properties of the position problem that signatures and types depend on.
 #[derive(Debug, Clone, Default)]
@@ -24,7 +24,7 @@ pub struct Position {
     /// The solved angles that a pose stores as numbers; empty unless every group has a closed form.
     pub turns: Vec<AngleTurn>,
     /// The number of groups.
-    pub blocks: usize,
+    pub groups: usize,
 }
 
 /// The choice between the two solutions of a group.
@@ -46,11 +46,11 @@ impl Side {
     }
 
     fn of(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation, chord: &Chord) -> Self {
-        let block = &derivation.blocks[chord.block];
-        let side = Self::of_unknowns(block.branch(derivation), chord.choice);
+        let group = &derivation.groups[chord.group];
+        let side = Self::of_unknowns(group.branch(derivation), chord.choice);
         let coordinate = |unknown: UnknownId| &mechanism.coordinates[driver.unknowns[unknown]];
         let name = |unknown: UnknownId| coordinate(unknown).name.text.as_str();
-        let meaning = match (chord.choice, &block.joints, block.unknowns.as_slice()) {
+        let meaning = match (chord.choice, &group.joints, group.unknowns.as_slice()) {
             (Choice::Elbow, Some(joints), &[first, second]) => {
                 let [first, second] = [first, second].map(name);
                 let graph = &derivation.graph;
@@ -69,7 +69,7 @@ impl Side {
             (Choice::Slider, _, unknowns) => {
                 let is_length = |&unknown: &UnknownId| coordinate(unknown).kind != Kind::Angle;
                 let lengths = unknowns.iter().copied().filter(is_length);
-                match block.slide.map(|slide| slide.length).into_iter().chain(lengths).next() {
+                match group.slide.map(|slide| slide.length).into_iter().chain(lengths).next() {
                     Some(length) => {
                         format!("Far is the larger, near the smaller of the two solutions for `{}`.", name(length))
                     }
@@ -100,7 +100,7 @@ pub struct Modes {
 
 impl Modes {
     /// The group of these unknowns, if its positions are listed.
-    fn of(group: Group, names: &[&str]) -> Option<Self> {
+    fn of(group: GroupKind, names: &[&str]) -> Option<Self> {
         let (most, count) = (group.most_modes()?, names.len());
         Some(Self { field: names.join("_"), unknowns: names.join(", "), loops: count / 2, count, most })
     }
@@ -152,15 +152,15 @@ impl Position {
             AngleTurn { symbol: *symbol, field, coordinate, number: number.clone() }
         });
         let turns = turns.collect();
-        let blocks = derivation.blocks.iter();
-        let open = blocks.filter_map(|block| Some((block.names(derivation), block.group.obstacle()?)));
+        let groups = derivation.groups.iter();
+        let open = groups.filter_map(|group| Some((group.names(derivation), group.kind.obstacle()?)));
         let open: Vec<_> = open.collect();
-        let modes = derivation.blocks.iter().filter(|_| open.is_empty()).filter_map(|block| {
-            let unknowns = block.names(derivation);
-            Modes::of(block.group, &unknowns.split(", ").collect::<Vec<_>>())
+        let modes = derivation.groups.iter().filter(|_| open.is_empty()).filter_map(|group| {
+            let unknowns = group.names(derivation);
+            Modes::of(group.kind, &unknowns.split(", ").collect::<Vec<_>>())
         });
         let modes = modes.collect();
-        Self { is_closed: assembly.guesses.is_empty(), open, sides, modes, turns, blocks: derivation.blocks.len() }
+        Self { is_closed: assembly.guesses.is_empty(), open, sides, modes, turns, groups: derivation.groups.len() }
     }
 
     /// The position of a mechanism with mistakes, by its guessed solution.
@@ -172,10 +172,10 @@ impl Position {
                 .map(|&unknown| mechanism.coordinates[driver.unknowns[unknown]].name.field.as_str())
                 .collect()
         };
-        let open = groups.iter().filter_map(|group| Some((names(&group.unknowns).join(", "), group.group.obstacle()?)));
+        let open = groups.iter().filter_map(|group| Some((names(&group.unknowns).join(", "), group.kind.obstacle()?)));
         let open: Vec<_> = open.collect();
         let listed = groups.iter().filter(|_| open.is_empty());
-        let modes = listed.filter_map(|group| Modes::of(group.group, &names(&group.unknowns))).collect();
+        let modes = listed.filter_map(|group| Modes::of(group.kind, &names(&group.unknowns))).collect();
         let sides = groups.iter().filter_map(|group| {
             let choice = group.choice?;
             Some(Side::of_unknowns(names(&group.dyad).join("_"), choice))
@@ -188,8 +188,8 @@ impl Position {
             AngleTurn { symbol: *symbol, field, number: name.field.clone(), coordinate: name.field.clone() }
         });
         let turns = turns.collect();
-        let is_closed = groups.iter().all(|group| group.group.is_closed());
-        Self { is_closed, open, sides, modes, turns, blocks: groups.len() }
+        let is_closed = groups.iter().all(|group| group.kind.is_closed());
+        Self { is_closed, open, sides, modes, turns, groups: groups.len() }
     }
 
     /// A sentence for each group without a closed form.

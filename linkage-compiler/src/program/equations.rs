@@ -104,22 +104,22 @@ impl Plan<'_, '_> {
         let mut doc = lines(["det J, zero in the singular configurations."]);
         match self.derivation.determinant() {
             Some(node) => doc.extend(fenced([self.law("det J", node)].into_iter())),
-            None => doc.extend(lines(["For blocks of more than two unknowns it is the product of the pivots."])),
+            None => doc.extend(lines(["For groups of more than two unknowns it is the product of the pivots."])),
         }
         let (mut steps, mut factors, mut laws) = (Vec::new(), Vec::new(), Vec::new());
-        for (id, block) in self.derivation.blocks.clone().enumerated() {
-            let names = block.title(self.derivation);
-            let Some(determinant) = block.determinant else {
+        for (id, group) in self.derivation.groups.clone().enumerated() {
+            let names = group.title(self.derivation);
+            let Some(determinant) = group.determinant else {
                 let symbol = self.derivation.graph.symbol(format!("pivots_{}", id.number()));
-                steps.push(Step::Pivots { symbol, matrix: self.derivation.block_matrix(block) });
+                steps.push(Step::Pivots { symbol, matrix: self.derivation.block_matrix(group) });
                 factors.push(self.derivation.graph.variable(symbol));
-                laws.push(format!("{names} ({}): the product of the pivots", block.group.description()));
+                laws.push(format!("{names} ({}): the product of the pivots", group.kind.description()));
                 continue;
             };
             let varies = self.derivation.graph.constant_value(determinant.value).is_none();
             let named = self.derivation.graph.variable(determinant.symbol);
             factors.push(if varies { named } else { determinant.value });
-            laws.push(format!("{names} ({}): {}", block.group.description(), self.text(determinant.value)));
+            laws.push(format!("{names} ({}): {}", group.kind.description(), self.text(determinant.value)));
         }
         let graph = &mut self.derivation.graph;
         let one = graph.one();
@@ -129,7 +129,7 @@ impl Plan<'_, '_> {
         let body = Body::of(kernel, Expression::Result(0));
         self.add(self.signatures.determinant(), without_result(doc), body);
 
-        let mut doc = lines(["The determinants of the blocks of J, in the order in which the blocks are solved."]);
+        let mut doc = lines(["The determinants of the blocks of J, in the order in which the groups are solved."]);
         doc.extend(fenced(laws.into_iter()));
         let count = factors.len();
         let kernel = self.on_pose(Vec::new(), steps, unnamed(factors));

@@ -9,7 +9,7 @@ use super::pose::Given;
 use super::stored::Stored;
 use crate::derivation::Step;
 use crate::graph::{NodeId, SymbolId};
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 
 /// A function of the emitted program, whose body is planned or lowered.
 #[derive(Debug, Clone)]
@@ -156,7 +156,7 @@ pub struct Kernel {
     /// acceleration that needs one is then not finite either, and a quantity that needs one is missing in its column.
     pub external: Range<usize>,
     /// For each result the RRR dyad, if any, whose well-conditioned triangle guarantees that it is finite.
-    pub dyads: Vec<Option<BlockId>>,
+    pub dyads: Vec<Option<GroupId>>,
 }
 
 /// The consequence of a failed check in a kernel.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use super::expression::Type;
 use super::function::{Access, Argument, Body, Function, Passed};
 use super::signatures::total;
-use crate::derivation::{Block, Derivation, Part};
+use crate::derivation::{self, Derivation, Part};
 use crate::ids::{CoordinateId, Id};
 use crate::model::{Coordinate, Kind, Mechanism};
 
@@ -90,11 +90,11 @@ pub struct Kink {
 }
 
 impl Group {
-    pub(super) fn of(block: &Block, derivation: &Derivation) -> Self {
+    pub(super) fn of(group: &derivation::Group, derivation: &Derivation) -> Self {
         Self {
-            name: block.title(derivation),
-            equations: block.equations.iter().map(|equation| equation.index()).collect(),
-            unknowns: block.unknowns.iter().map(|unknown| unknown.index()).collect(),
+            name: group.title(derivation),
+            equations: group.equations.iter().map(|equation| equation.index()).collect(),
+            unknowns: group.unknowns.iter().map(|unknown| unknown.index()).collect(),
         }
     }
 }

@@ -64,7 +64,7 @@ impl Traits<'_> {
         let [unknowns, are_unknown_angles] = named_coordinates(mechanism, driver.unknowns.iter());
         let [inputs, are_input_angles] = named_coordinates(mechanism, driver.inputs.iter());
         let groups = self.derived.map(|derived| derived.groups.clone()).unwrap_or_default();
-        let [u, v, g] = [self.signatures.unknowns(), self.signatures.inputs(), self.position.blocks];
+        let [u, v, g] = [self.signatures.unknowns(), self.signatures.inputs(), self.position.groups];
         let own = |order| Associated::Type(self.signatures.coordinates_type(order));
         let types = vec![
             ("Scalar", Associated::Type(Type::Scalar)),
@@ -108,7 +108,7 @@ impl Traits<'_> {
 
     /// Psi, its derivatives, and linear systems in J. An open chain has no equations: all of these are empty.
     fn equations(&self) -> Vec<Function<Body>> {
-        let [u, v, g] = [self.signatures.unknowns(), self.signatures.inputs(), self.position.blocks];
+        let [u, v, g] = [self.signatures.unknowns(), self.signatures.inputs(), self.position.groups];
         let is_open = self.signatures.is_open();
         let column = |rows| ("Column", Type::Column(Box::new(Type::Scalar), rows));
         let matrix = |columns| ("Matrix", Type::Sized("Matrix", vec![u, columns]));

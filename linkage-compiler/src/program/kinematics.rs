@@ -13,7 +13,7 @@ use super::precise::ROUGH;
 use super::signatures::Family;
 use crate::derivation::{ChordGeometry, Form, Quantity, Step, merged, needed_names};
 use crate::graph::NodeId;
-use crate::ids::{BlockId, ColumnId, Table};
+use crate::ids::{ColumnId, GroupId, Table};
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "The error that the separate calls for position, velocity and acceleration return first."];
@@ -152,10 +152,10 @@ impl Plan<'_, '_> {
         let moving = self.assembly.solved_steps(&mut self.derivation.graph, moving);
         let mut determinants = Vec::new();
         let mut solving = Vec::new();
-        let dyads: BTreeSet<BlockId> = self.assembly.of_dyads.values().copied().collect();
+        let dyads: BTreeSet<GroupId> = self.assembly.of_dyads.values().copied().collect();
         for step in moving {
             match step {
-                Step::Guard { block, .. } if dyads.contains(&block) => {}
+                Step::Guard { group, .. } if dyads.contains(&group) => {}
                 Step::Guard { determinant, scale, .. } => determinants.push([determinant, scale]),
                 step => solving.push(step),
             }
@@ -274,9 +274,9 @@ impl Plan<'_, '_> {
 /// A half chord that is zero or has no size is left to the separate calls.
 fn regular(step: Step) -> Step {
     match step {
-        Step::Chord { block, symbol, factors, size, of: ChordGeometry::Circle { scales: [scale, _], may_cancel } } => {
+        Step::Chord { group, symbol, factors, size, of: ChordGeometry::Circle { scales: [scale, _], may_cancel } } => {
             let of = ChordGeometry::RegularCircle { scale: may_cancel.then_some(scale) };
-            Step::Chord { block, symbol, factors, size, of }
+            Step::Chord { group, symbol, factors, size, of }
         }
         other => other,
     }

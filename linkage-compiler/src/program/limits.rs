@@ -32,8 +32,8 @@ impl Plan<'_, '_> {
         let kernel = self.kernel(vec![source], Vec::new(), nodes);
 
         let bounds = bounds.iter().enumerate().map(|(number, bound)| {
-            let group = Expression::text(self.derivation.blocks[bound.block].title(self.derivation));
-            let group = Expression::Tuple(vec![Expression::Count(bound.block.index()), group]);
+            let group = Expression::text(self.derivation.groups[bound.group].title(self.derivation));
+            let group = Expression::Tuple(vec![Expression::Count(bound.group.index()), group]);
             let result = |place: usize| Expression::Result(4 * number + place);
             let mut arguments = vec![group, Expression::List((0..3).map(result).collect())];
             let kind = if bound.rate.is_some() {

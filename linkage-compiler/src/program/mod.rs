@@ -61,7 +61,7 @@ pub use crate::derivation::Part;
 use crate::budget::Spent;
 use crate::derivation::{ClosedForm, Derivation, Formulas, Skeleton};
 use crate::graph::NodeId;
-use crate::ids::{BlockId, Table};
+use crate::ids::{GroupId, Table};
 use crate::model::{Driver, Mechanism, Request};
 use plan::Plan;
 use scene::ScenePlan;
@@ -86,8 +86,8 @@ pub struct Program<'a, B, D = Option<Derived>> {
 pub struct Derived {
     pub pose: PosePlan,
     pub formulas: Formulas,
-    /// The closed form of the position of each block.
-    pub closed_forms: Table<BlockId, ClosedForm>,
+    /// The closed form of the position of each group.
+    pub closed_forms: Table<GroupId, ClosedForm>,
     /// The expressions that have names.
     pub named: Vec<(NodeId, String)>,
     /// The fields of the pose, and those that hold each coordinate.
@@ -120,7 +120,7 @@ pub fn plan<'a>(
     let derived = Derived {
         fields: pose.fields(derivation),
         held: pose.held(derivation),
-        groups: derivation.blocks.iter().map(|block| Group::of(block, derivation)).collect(),
+        groups: derivation.groups.iter().map(|group| Group::of(group, derivation)).collect(),
         skeleton: derivation.skeleton.clone().unwrap_or_default(),
         pose,
         formulas,

@@ -154,8 +154,8 @@ impl<'d, 'a> Plan<'d, 'a> {
     /// Adds the computation of determinants before their checks, for kernels without a pose.
     pub(super) fn with_determinants(&self, steps: Vec<Step>) -> Vec<Step> {
         let with = |step: Step| {
-            let block = if let Step::Guard { block, .. } = step { Some(block) } else { None };
-            let determinant = block.and_then(|block| self.derivation.blocks[block].determinant);
+            let group = if let Step::Guard { group, .. } = step { Some(group) } else { None };
+            let determinant = group.and_then(|group| self.derivation.groups[group].determinant);
             let named = determinant.map(|d| Step::Let { symbol: d.symbol, node: d.value });
             named.into_iter().chain([step])
         };

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use super::names::{Taken, name_of};
 use crate::derivation::{ContactFormula, Derivation, Row};
 use crate::graph::{Function, Graph, Node, NodeId, SymbolId, Texts};
-use crate::ids::{BlockId, ColumnId};
+use crate::ids::{ColumnId, GroupId};
 
 /// Formulas that a kernel need not compute.
 #[derive(Debug, Clone, Default)]
@@ -43,8 +43,8 @@ pub struct PosePlan {
     pub directions: BTreeMap<NodeId, String>,
     /// Coordinates held as numbers: index, field, symbol.
     pub values: Vec<(ColumnId, String, SymbolId)>,
-    /// Determinants that vary: block, field, symbol.
-    pub determinants: Vec<(BlockId, String, SymbolId)>,
+    /// Determinants that vary: group, field, symbol.
+    pub determinants: Vec<(GroupId, String, SymbolId)>,
     /// Values of user functions: expression, field, symbol.
     pub externals: Vec<(NodeId, String, SymbolId)>,
     /// Formulas that a kernel on a pose need not compute.
@@ -83,8 +83,8 @@ impl PosePlan {
         let mut taken = Taken::unreserved();
         let mut unique = |preferred: String| taken.unique(&preferred);
         let mut determinants = Vec::new();
-        for (number, block) in derivation.blocks.enumerated() {
-            if let Some(determinant) = block.determinant
+        for (number, group) in derivation.groups.enumerated() {
+            if let Some(determinant) = group.determinant
                 && graph.constant_value(determinant.value).is_none()
             {
                 let name = graph.symbol_name(determinant.symbol).to_owned();
@@ -96,8 +96,8 @@ impl PosePlan {
         let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
         bare.extend(graph.needed_as_numbers(&numeric));
         // Near a dead point the functions need the angles of groups that are solved by factorisation in full.
-        let factorised = derivation.blocks.iter().filter(|block| block.determinant.is_none());
-        let factorised = factorised.flat_map(|block| derivation.unknowns.at(&block.unknowns));
+        let factorised = derivation.groups.iter().filter(|group| group.determinant.is_none());
+        let factorised = factorised.flat_map(|group| derivation.unknowns.at(&group.unknowns));
         bare.extend(factorised.map(|unknown| derivation.coordinates[unknown].value));
         bare.extend(derivation.inputs.iter().map(|&input| derivation.coordinates[input].value));
         let mut values = Vec::new();
@@ -155,7 +155,7 @@ fn formulas(derivation: &Derivation) -> Vec<NodeId> {
     formulas.extend(derivation.eta.iter().flatten());
     formulas.extend(derivation.ratio_derivatives.iter().flat_map(|second| second.terms.iter().flatten()));
     formulas.extend(derivation.sensitivity.iter().flat_map(|first| first.jacobian.iter().flat_map(Row::values)));
-    formulas.extend(derivation.blocks.iter().filter_map(|block| Some(block.determinant?.scale)));
+    formulas.extend(derivation.groups.iter().filter_map(|group| Some(group.determinant?.scale)));
     for quantity in derivation.points.iter().chain(&derivation.outputs) {
         formulas.extend(&quantity.value);
         formulas.extend(quantity.jacobian.iter().flat_map(Row::values));

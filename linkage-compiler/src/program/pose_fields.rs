@@ -65,12 +65,12 @@ impl PosePlan {
         for (node, name, _) in &self.externals {
             add(name, format!("`{}`.", texts.of(graph, *node)), false);
         }
-        for (block, name, _) in &self.determinants {
-            let block = &derivation.blocks[*block];
-            let Some(determinant) = block.determinant else { continue };
-            let of = match derivation.blocks.len() {
+        for (group, name, _) in &self.determinants {
+            let group = &derivation.groups[*group];
+            let Some(determinant) = group.determinant else { continue };
+            let of = match derivation.groups.len() {
                 1 => "det J".to_owned(),
-                _ => format!("The determinant of the block of `{}`,", block.names(derivation).replace(", ", "`, `")),
+                _ => format!("The determinant of the group of `{}`,", group.names(derivation).replace(", ", "`, `")),
             };
             add(name, format!("{of} = `{}`.", texts.of(graph, determinant.value)), false);
         }

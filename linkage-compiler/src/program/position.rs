@@ -9,7 +9,7 @@ use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Step, needed_names};
 use crate::graph::{Function as Elementary, NodeId, SymbolId};
-use crate::ids::BlockId;
+use crate::ids::GroupId;
 
 const ASSEMBLE: [&str; 5] = [
     "The position at these inputs in closed form, group by group, on the given branch.",
@@ -64,10 +64,10 @@ impl Plan<'_, '_> {
     }
 
     fn pose_at(&mut self) {
-        let blocks = &self.derivation.blocks;
+        let groups = &self.derivation.groups;
         let determinants = self.pose.determinants.iter();
         let determinants: Vec<NodeId> =
-            determinants.filter_map(|(block, _, _)| Some(blocks[*block].determinant?.value)).collect();
+            determinants.filter_map(|(group, _, _)| Some(groups[*group].determinant?.value)).collect();
         let circular = self.directions();
         let numbers: Vec<SymbolId> = self.pose.values.iter().map(|(_, _, symbol)| *symbol).collect();
         let numbers = self.variables(&numbers);
@@ -285,12 +285,12 @@ impl Plan<'_, '_> {
     }
 
     fn near_doc(&self) -> Vec<String> {
-        let is_iterated = |block: BlockId| {
+        let is_iterated = |group: GroupId| {
             let mut steps = self.assembly.steps.iter();
-            steps.any(|step| matches!(step, Step::Newton { block: other, .. } if *other == block))
+            steps.any(|step| matches!(step, Step::Newton { group: other, .. } if *other == group))
         };
-        let blocks = self.derivation.blocks.enumerated().filter(|(number, _)| is_iterated(*number));
-        let iterated: Vec<_> = blocks.map(|(_, block)| block.names(self.derivation)).collect();
+        let groups = self.derivation.groups.enumerated().filter(|(number, _)| is_iterated(*number));
+        let iterated: Vec<_> = groups.map(|(_, group)| group.names(self.derivation)).collect();
         let mut doc = lines([
             "The position at the inputs of a guess, group by group: in closed form on the given branch,",
             &format!("but {} by Newton's method from the guess.", iterated.join(", then ")),
@@ -309,7 +309,7 @@ impl Plan<'_, '_> {
     /// The steps of a position, and the results that form a pose.
     pub(super) fn position_steps(&mut self) -> (Vec<Step>, Vec<Output>) {
         let determinants: Vec<NodeId> =
-            self.pose.determinants.iter().map(|(block, _, _)| self.assembly.determinants[block]).collect();
+            self.pose.determinants.iter().map(|(group, _, _)| self.assembly.determinants[group]).collect();
         let circular = self.directions();
         let mut circular = self.assembly.solved(&mut self.derivation.graph, &circular);
         for (parts, angle) in circular.chunks_exact_mut(2).zip(self.pose.angles()) {
@@ -332,7 +332,7 @@ impl Plan<'_, '_> {
     }
 
     /// For each result of a position, the RRR dyad that determines it, if any.
-    pub(super) fn dyads(&self) -> Vec<Option<BlockId>> {
+    pub(super) fn dyads(&self) -> Vec<Option<GroupId>> {
         let dyad_of = |symbol: Option<SymbolId>| symbol.and_then(|s| self.assembly.of_dyads.get(&s).copied());
         let mut dyads = vec![None; self.pose.determinants.len()];
         dyads.extend(self.pose.angles().flat_map(|angle| [dyad_of(self.derivation.graph.as_symbol(angle)); 2]));
@@ -409,7 +409,7 @@ impl Plan<'_, '_> {
         let of = Type::Bare(self.signatures.types.branch.clone());
         let on = Expression::name(&pose);
         let sides = self.assembly.chords.iter().zip(&self.position.sides).filter_map(|(chord, side)| {
-            let (_, field, _) = self.pose.determinants.iter().find(|(block, ..)| *block == chord.block)?;
+            let (_, field, _) = self.pose.determinants.iter().find(|(group, ..)| *group == chord.group)?;
             let determinant = on.clone().field(field);
             let determinant = if chord.is_opposite { Expression::Negative(Box::new(determinant)) } else { determinant };
             Some((side.field.clone(), Expression::call(Intrinsic::SideOf, [determinant])))

@@ -166,7 +166,7 @@ impl Plan<'_, '_> {
 
     /// The functions that widen the mechanism and its poses, if a group is solved by factorisation.
     pub(super) fn widening(&mut self) {
-        if self.derivation.blocks.iter().all(|block| block.determinant.is_some()) {
+        if self.derivation.groups.iter().all(|group| group.determinant.is_some()) {
             return;
         }
         self.widened();

@@ -265,7 +265,7 @@ impl Plan<'_, '_> {
         ];
         let links = Assembly::default();
         // With several groups, the next one waits for the solution of a group.
-        let is_long = self.derivation.blocks.len() > 1;
+        let is_long = self.derivation.groups.len() > 1;
         let form = if is_long { Form::Inverse(&links) } else { Form::Entries };
         let steps = self.derivation.solution(&sides, form);
         let steps = self.with_determinants(steps);

@@ -1,6 +1,6 @@
 //! The choice between the two solutions of a group.
 
-use super::{Group, Slide};
+use super::{GroupKind, Slide};
 
 /// The names of the two solutions of a group; the first is that of the positive root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,13 +16,20 @@ pub enum Choice {
 impl Choice {
     /// The choice of a group with two solutions. The angle of a dyad with a slider has those of the slider.
     #[must_use]
-    pub fn of(group: Group, slide: Option<Slide>) -> Option<Self> {
+    pub fn of(group: GroupKind, slide: Option<Slide>) -> Option<Self> {
         match (group, slide) {
-            (Group::Rrr | Group::Circles | Group::LinkToCircle, _) => Some(Self::Elbow),
-            (Group::Rrp | Group::Rpr | Group::SliderToCircle, _) | (Group::Angle, Some(_)) => Some(Self::Slider),
-            (Group::Angle, None) => Some(Self::Slope),
+            (GroupKind::Rrr | GroupKind::Circles | GroupKind::LinkToCircle, _) => Some(Self::Elbow),
+            (GroupKind::Rrp | GroupKind::Rpr | GroupKind::SliderToCircle, _) | (GroupKind::Angle, Some(_)) => {
+                Some(Self::Slider)
+            }
+            (GroupKind::Angle, None) => Some(Self::Slope),
             (
-                Group::Sliders | Group::Linear | Group::Scalar | Group::Pair | Group::Loops(_) | Group::Irreducible(..),
+                GroupKind::Sliders
+                | GroupKind::Linear
+                | GroupKind::Scalar
+                | GroupKind::Pair
+                | GroupKind::Loops(_)
+                | GroupKind::Irreducible(..),
                 _,
             ) => None,
         }

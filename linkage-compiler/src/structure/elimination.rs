@@ -1,28 +1,29 @@
 //! Elimination of unknowns that enter linearly, such as the coordinates of a joint between two loops.
 //!
-//! If a row of a block is c u + r = 0 with a number c and an r free of u, then u = -r / c may be put into the other rows
-//! of the block. They then do not contain u, which is solved after them, and the rest may split into smaller blocks. The
+//! If a row of a group is c u + r = 0 with a number c and an r free of u, then u = -r / c may be put into the other rows
+//! of the group. They then do not contain u, which is solved after them, and the rest may split into smaller groups. The
 //! solutions are those of the rows as written: `loop a@phi + b@psi = (x, y); loop (x, y) = d@0 + c@chi;` becomes a dyad
 //! of psi and chi.
 //!
-//! Only blocks without a closed form are changed, loops only into parts of which all positions can be listed, and those of two unknowns only if they get one. An unknown that is an
-//! angle comes last, and only if it is an integer combination of the other angles of its row, so that no half angle
-//! results. Among equals the row with the fewest unknowns is taken: H. M. Markowitz, "The elimination form of the inverse
-//! and its application to linear programming", Management Science 3, 1957.
+//! Only groups without a closed form are changed, loops only into parts of which all positions can be listed, and those of
+//! two unknowns only if they get one. An unknown that is an angle comes last, and only if it is an integer combination of
+//! the other angles of its row, so that no half angle results. Among equals the row with the fewest unknowns is taken:
+//! H. M. Markowitz, "The elimination form of the inverse and its application to linear programming", Management Science 3,
+//! 1957.
 
 use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use super::{Block, Class, Group, StructurallySingular, find_slides, order};
+use super::{Class, Group, GroupKind, StructurallySingular, find_slides, order};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
-use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
+use crate::ids::{GroupId, Id, RowId, Table, UnknownId};
 
 /// Psi in the form in which it is solved, and the order of solution.
 #[derive(Debug, Clone, Default)]
 pub struct System {
     pub rows: Table<RowId, NodeId>,
-    pub blocks: Table<BlockId, Block>,
+    pub groups: Table<GroupId, Group>,
     /// The eliminations that lead from the rows as written to these rows, in order.
     pub eliminations: Vec<Elimination>,
 }
@@ -38,7 +39,7 @@ pub struct Elimination {
 }
 
 impl System {
-    /// Orders these rows, after the elimination of unknowns that enter linearly where it splits a block. `loops` has the
+    /// Orders these rows, after the elimination of unknowns that enter linearly where it splits a group. `loops` has the
     /// two rows of each loop.
     ///
     /// # Errors
@@ -49,24 +50,24 @@ impl System {
         unknowns: &Table<UnknownId, SymbolId>,
         loops: &[[RowId; 2]],
     ) -> Result<Self, StructurallySingular> {
-        let blocks = order(&incidence(graph, &rows, unknowns), unknowns.len())?;
+        let groups = order(&incidence(graph, &rows, unknowns), unknowns.len())?;
         let mut reduction = Reduction { graph, unknowns, rows, eliminations: Vec::new() };
-        for block in &blocks {
-            reduction.split(block.clone());
+        for group in &groups {
+            reduction.split(group.clone());
         }
         let mut incidence = incidence(reduction.graph, &reduction.rows, unknowns);
-        let mut blocks = if reduction.eliminations.is_empty() { blocks } else { order(&incidence, unknowns.len())? };
-        let joined = reduction.sliders_on_axes(&blocks, loops);
+        let mut groups = if reduction.eliminations.is_empty() { groups } else { order(&incidence, unknowns.len())? };
+        let joined = reduction.sliders_on_axes(&groups, loops);
         let Reduction { graph, rows, eliminations, .. } = reduction;
         if !joined.is_empty() {
             incidence = self::incidence(graph, &rows, unknowns);
             for (row, unknown) in joined {
                 incidence[row].push(unknown);
             }
-            blocks = order(&incidence, unknowns.len())?;
+            groups = order(&incidence, unknowns.len())?;
         }
-        find_slides(&mut blocks, &incidence, loops, graph, &rows, unknowns);
-        Ok(Self { rows, blocks, eliminations })
+        find_slides(&mut groups, &incidence, loops, graph, &rows, unknowns);
+        Ok(Self { rows, groups, eliminations })
     }
 }
 
@@ -89,7 +90,7 @@ pub fn incidence(
         .collect()
 }
 
-/// A row c u + r = 0 of a block, and u.
+/// A row c u + r = 0 of a group, and u.
 struct Pivot {
     row: RowId,
     unknown: UnknownId,
@@ -104,38 +105,38 @@ struct Reduction<'a> {
 }
 
 impl Reduction<'_> {
-    /// Eliminates unknowns of a block, and of the blocks into which it falls, until all have a closed form or no unknown
+    /// Eliminates unknowns of a group, and of the groups into which it falls, until all have a closed form or no unknown
     /// is left that enters linearly.
-    fn split(&mut self, block: Block) {
-        let mut open = vec![block];
-        while let Some(block) = open.pop() {
-            match self.group(&block) {
-                group if group.is_closed() || self.graph.budget().check().is_err() => {}
-                group if group.most_modes().is_some() => self.split_loops(&block),
-                _ => open.extend(self.parts_after_elimination(&block)),
+    fn split(&mut self, group: Group) {
+        let mut open = vec![group];
+        while let Some(group) = open.pop() {
+            match self.kind(&group) {
+                kind if kind.is_closed() || self.graph.budget().check().is_err() => {}
+                kind if kind.most_modes().is_some() => self.split_loops(&group),
+                _ => open.extend(self.parts_after_elimination(&group)),
             }
         }
     }
 
-    /// Splits a block of which all positions can be listed, such as loops with a slider along an axis, if that is so of
-    /// all its parts. Such a block is small.
-    fn split_loops(&mut self, block: &Block) {
-        if self.pivot(block).is_none() {
+    /// Splits a group of which all positions can be listed, such as loops with a slider along an axis, if that is so of
+    /// all its parts. Such a group is small.
+    fn split_loops(&mut self, group: &Group) {
+        if self.pivot(group).is_none() {
             return;
         }
         let (rows, eliminations) = (self.rows.clone(), self.eliminations.len());
-        if !self.ends(block) {
+        if !self.ends(group) {
             self.rows = rows;
             self.eliminations.truncate(eliminations);
         }
     }
 
     /// Eliminates unknowns, and returns true if all positions of each part can be listed.
-    fn ends(&mut self, block: &Block) -> bool {
-        let parts = self.parts_after_elimination(block);
-        let is_listed = |reduction: &mut Self, part: &Block| match reduction.group(part) {
+    fn ends(&mut self, group: &Group) -> bool {
+        let parts = self.parts_after_elimination(group);
+        let is_listed = |reduction: &mut Self, part: &Group| match reduction.kind(part) {
             group if group.is_closed() => true,
-            group if group.most_modes().is_some() => {
+            kind if kind.most_modes().is_some() => {
                 reduction.split_loops(part);
                 true
             }
@@ -144,12 +145,12 @@ impl Reduction<'_> {
         !parts.is_empty() && parts.iter().all(|part| is_listed(self, part))
     }
 
-    /// The blocks into which a block falls after the elimination of one unknown; none if nothing is gained.
-    fn parts_after_elimination(&mut self, block: &Block) -> Vec<Block> {
-        let Some(pivot) = self.pivot(block) else { return Vec::new() };
-        let rest = Block {
-            equations: block.equations.iter().copied().filter(|&row| row != pivot.row).collect(),
-            unknowns: block.unknowns.iter().copied().filter(|&unknown| unknown != pivot.unknown).collect(),
+    /// The groups into which a group falls after the elimination of one unknown; none if nothing is gained.
+    fn parts_after_elimination(&mut self, group: &Group) -> Vec<Group> {
+        let Some(pivot) = self.pivot(group) else { return Vec::new() };
+        let rest = Group {
+            equations: group.equations.iter().copied().filter(|&row| row != pivot.row).collect(),
+            unknowns: group.unknowns.iter().copied().filter(|&unknown| unknown != pivot.unknown).collect(),
             slide: None,
         };
         let before = self.rows.at(&rest.equations);
@@ -173,33 +174,33 @@ impl Reduction<'_> {
 
     /// Lengths that only one of the two rows of a loop has, along an axis, if all positions of the group can be listed
     /// when they are solved with it: the other rows, each with its length.
-    fn sliders_on_axes(&mut self, blocks: &Table<BlockId, Block>, loops: &[[RowId; 2]]) -> Vec<(RowId, UnknownId)> {
+    fn sliders_on_axes(&mut self, groups: &Table<GroupId, Group>, loops: &[[RowId; 2]]) -> Vec<(RowId, UnknownId)> {
         let other: FxHashMap<RowId, RowId> = loops.iter().flat_map(|&[x, y]| [(x, y), (y, x)]).collect();
-        let single: FxHashMap<RowId, UnknownId> = blocks
+        let single: FxHashMap<RowId, UnknownId> = groups
             .iter()
-            .filter_map(|block| match (block.equations.as_slice(), block.unknowns.as_slice()) {
+            .filter_map(|group| match (group.equations.as_slice(), group.unknowns.as_slice()) {
                 (&[row], &[unknown]) => Some((row, unknown)),
                 _ => None,
             })
             .collect();
         let mut joined = Vec::new();
-        for block in blocks.iter().filter(|block| block.unknowns.len() > 1) {
-            let axes: Vec<(RowId, RowId, UnknownId)> = block
+        for group in groups.iter().filter(|group| group.unknowns.len() > 1) {
+            let axes: Vec<(RowId, RowId, UnknownId)> = group
                 .equations
                 .iter()
                 .filter_map(|&row| other.get(&row).and_then(|other| Some((row, *other, *single.get(other)?))))
                 .collect();
-            if axes.is_empty() || self.group(block).obstacle().is_none() {
+            if axes.is_empty() || self.kind(group).obstacle().is_none() {
                 continue;
             }
-            let mut whole = block.clone();
+            let mut whole = group.clone();
             whole.equations.extend(axes.iter().map(|(_, other, _)| *other));
             whole.unknowns.extend(axes.iter().map(|(.., unknown)| *unknown));
             whole.equations.sort_unstable();
             whole.unknowns.sort_unstable();
             let before = (self.rows.clone(), self.eliminations.clone());
             axes.iter().for_each(|&(_, other, _)| self.follow(other));
-            if self.group(&whole).most_modes().is_some() {
+            if self.kind(&whole).most_modes().is_some() {
                 joined.extend(axes.into_iter().map(|(row, _, unknown)| (row, unknown)));
             } else {
                 (self.rows, self.eliminations) = before;
@@ -208,7 +209,7 @@ impl Reduction<'_> {
         joined
     }
 
-    /// Puts the values of the eliminated unknowns into a row of another block.
+    /// Puts the values of the eliminated unknowns into a row of another group.
     fn follow(&mut self, row: RowId) {
         for place in 0..self.eliminations.len() {
             let Elimination { unknown, pivot, .. } = self.eliminations[place];
@@ -222,29 +223,29 @@ impl Reduction<'_> {
         }
     }
 
-    fn symbols(&self, block: &Block) -> Vec<SymbolId> {
-        self.unknowns.at(&block.unknowns)
+    fn symbols(&self, group: &Group) -> Vec<SymbolId> {
+        self.unknowns.at(&group.unknowns)
     }
 
-    fn group(&mut self, block: &Block) -> Group {
-        let symbols = self.symbols(block);
-        Class::of(self.graph, &self.rows.at(&block.equations), &symbols).group
+    fn kind(&mut self, group: &Group) -> GroupKind {
+        let symbols = self.symbols(group);
+        Class::of(self.graph, &self.rows.at(&group.equations), &symbols).kind
     }
 
-    fn is_closed(&mut self, block: &Block) -> bool {
-        self.group(block).is_closed()
+    fn is_closed(&mut self, group: &Group) -> bool {
+        self.kind(group).is_closed()
     }
 
-    fn pivot(&mut self, block: &Block) -> Option<Pivot> {
-        let symbols = self.symbols(block);
+    fn pivot(&mut self, group: &Group) -> Option<Pivot> {
+        let symbols = self.symbols(group);
         let angles: BTreeSet<SymbolId> =
-            self.graph.in_directions(&self.rows.at(&block.equations)).into_iter().collect();
+            self.graph.in_directions(&self.rows.at(&group.equations)).into_iter().collect();
         let mut best: Option<((bool, usize), Pivot)> = None;
-        for &row in &block.equations {
+        for &row in &group.equations {
             let node = self.rows[row];
             let in_row: BTreeSet<SymbolId> = self.graph.symbols_of(&[node]).into_iter().collect();
             let count = symbols.iter().filter(|symbol| in_row.contains(symbol)).count();
-            for (&unknown, &symbol) in block.unknowns.iter().zip(&symbols).filter(|(_, symbol)| in_row.contains(symbol))
+            for (&unknown, &symbol) in group.unknowns.iter().zip(&symbols).filter(|(_, symbol)| in_row.contains(symbol))
             {
                 let rank = (angles.contains(&symbol), count);
                 if best.as_ref().is_some_and(|(other, _)| *other <= rank) {
@@ -292,17 +293,17 @@ impl Reduction<'_> {
         Elimination { unknown: pivot.unknown, pivot: pivot.row, multiples }
     }
 
-    /// The blocks of a part of the system.
-    fn parts(&self, part: &Block) -> Result<Vec<Block>, StructurallySingular> {
+    /// The groups of a part of the system.
+    fn parts(&self, part: &Group) -> Result<Vec<Group>, StructurallySingular> {
         let rows: Table<RowId, NodeId> = self.rows.at(&part.equations).into();
         let unknowns: Table<UnknownId, SymbolId> = self.symbols(part).into();
-        let blocks = order(&incidence(self.graph, &rows, &unknowns), unknowns.len())?;
-        let named = |block: &Block| Block {
-            equations: block.equations.iter().map(|row| part.equations[row.index()]).collect(),
-            unknowns: block.unknowns.iter().map(|unknown| part.unknowns[unknown.index()]).collect(),
+        let groups = order(&incidence(self.graph, &rows, &unknowns), unknowns.len())?;
+        let named = |group: &Group| Group {
+            equations: group.equations.iter().map(|row| part.equations[row.index()]).collect(),
+            unknowns: group.unknowns.iter().map(|unknown| part.unknowns[unknown.index()]).collect(),
             slide: None,
         };
-        Ok(blocks.iter().map(named).collect())
+        Ok(groups.iter().map(named).collect())
     }
 }
 
@@ -341,14 +342,14 @@ mod tests {
             })
         }
 
-        fn order(&mut self, rows: Vec<NodeId>, unknowns: &[&str]) -> (System, Vec<Group>) {
+        fn order(&mut self, rows: Vec<NodeId>, unknowns: &[&str]) -> (System, Vec<GroupKind>) {
             let unknowns: Table<UnknownId, SymbolId> = unknowns.iter().map(|name| self.symbol(name)).collect();
             let system = System::new(&mut self.graph, rows.into(), &unknowns, &[]).unwrap();
-            let group = |block: &Block| {
-                let (rows, symbols) = (system.rows.at(&block.equations), unknowns.at(&block.unknowns));
-                Class::of(&mut self.graph, &rows, &symbols).group
+            let group = |group: &Group| {
+                let (rows, symbols) = (system.rows.at(&group.equations), unknowns.at(&group.unknowns));
+                Class::of(&mut self.graph, &rows, &symbols).kind
             };
-            let groups = system.blocks.iter().map(group).collect();
+            let groups = system.groups.iter().map(group).collect();
             (system, groups)
         }
     }
@@ -365,7 +366,7 @@ mod tests {
         let second = [0, 1].map(|axis| g.subtract(joint[axis], rocker[axis]));
         let rows = [first, second].concat();
         let (system, groups) = plane.order(rows.clone(), &["x", "y", "psi", "chi"]);
-        assert_eq!(groups, [Group::Rrr, Group::Linear, Group::Linear]);
+        assert_eq!(groups, [GroupKind::Rrr, GroupKind::Linear, GroupKind::Linear]);
         // The rows as written are those of the system and multiples of the pivots.
         let mut written = system.rows;
         for elimination in system.eliminations.iter().rev() {
@@ -393,12 +394,12 @@ mod tests {
         // 2 phi has no half: chi is eliminated, not phi.
         let (system, groups) = plane.order(rows, &["phi", "psi", "chi"]);
         assert_eq!(system.eliminations.iter().map(|one| one.unknown.index()).collect::<Vec<_>>(), [2]);
-        assert_eq!(groups, [Group::Pair, Group::Linear]);
+        assert_eq!(groups, [GroupKind::Pair, GroupKind::Linear]);
         // x = d cos(chi), twice.
         let g = &mut plane.graph;
         let row = g.subtract(phi, third[0]);
         let (system, groups) = plane.order(vec![row, row], &["phi", "chi"]);
         assert_eq!((*system.rows).to_vec(), [row, row]);
-        assert_eq!(groups, [Group::Pair]);
+        assert_eq!(groups, [GroupKind::Pair]);
     }
 }

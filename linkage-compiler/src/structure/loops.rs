@@ -1,4 +1,4 @@
-//! Blocks whose equations are loops of links: k_i + sum_j c_ij e^(i psi_j) = 0, where each direction psi_j is an integer
+//! Groups whose equations are loops of links: k_i + sum_j c_ij e^(i psi_j) = 0, where each direction psi_j is an integer
 //! combination of the unknown angles, and loops of which some have an unknown length s along a guide: s d, or s d
 //! e^(i psi) with one psi for all guides that turn.
 //!
@@ -16,7 +16,7 @@ use crate::graph::{Graph, NodeId, Number, SymbolId};
 /// The most loops of a group of which all positions can be listed.
 pub const MOST_LOOPS: usize = 3;
 
-/// The loops of a block.
+/// The loops of a group.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Loops {
     /// The factor of each unknown in each column: a direction in the place of each angle, a length in its own place.

@@ -8,7 +8,7 @@
 mod choice;
 mod distance;
 mod elimination;
-mod group;
+mod kind;
 mod loops;
 mod matching;
 mod obstacle;
@@ -18,27 +18,27 @@ mod waves;
 pub use choice::Choice;
 pub use distance::Distance;
 pub use elimination::{Elimination, System, incidence};
-pub use group::{Circles, Class, Group, mirror};
+pub use kind::{Circles, Class, GroupKind, mirror};
 pub use loops::{Guide, Loops};
 use matching::Matching;
 pub use matching::StructurallySingular;
 pub use obstacle::Obstacle;
 pub use slide::{Slide, find_slides};
 
-use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
+use crate::ids::{GroupId, Id, RowId, Table, UnknownId};
 
-/// Unknowns that are solved together from as many equations, after all earlier blocks.
+/// Unknowns that are solved together from as many equations, after all earlier groups.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Block {
+pub struct Group {
     /// In ascending order.
     pub equations: Vec<RowId>,
     /// In ascending order.
     pub unknowns: Vec<UnknownId>,
-    /// The slider, if it is the angle of a dyad whose length another block has.
+    /// The slider, if it is the angle of a dyad whose length another group has.
     pub slide: Option<Slide>,
 }
 
-/// The solution method for the linear systems of a block.
+/// The solution method for the linear systems of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// One or two unknowns, by formula.
@@ -47,7 +47,7 @@ pub enum Method {
     Factorization,
 }
 
-impl Block {
+impl Group {
     #[must_use]
     pub fn method(&self) -> Method {
         if self.unknowns.len() <= 2 { Method::ClosedForm } else { Method::Factorization }
@@ -62,7 +62,7 @@ impl Block {
 pub fn order(
     incidence: &Table<RowId, Vec<UnknownId>>,
     unknowns: usize,
-) -> Result<Table<BlockId, Block>, StructurallySingular> {
+) -> Result<Table<GroupId, Group>, StructurallySingular> {
     let matching = Matching::new(incidence, unknowns)?;
     let depends: Table<RowId, Vec<RowId>> = incidence
         .enumerated()
@@ -71,25 +71,25 @@ pub fn order(
             others.filter(|&other| other != equation).collect()
         })
         .collect();
-    let blocks = strong_components(&depends);
-    Ok(blocks
+    let groups = strong_components(&depends);
+    Ok(groups
         .into_iter()
         .map(|mut equations| {
             equations.sort_unstable();
             let mut unknowns: Vec<UnknownId> =
                 equations.iter().filter_map(|&equation| matching.unknown(equation)).collect();
             unknowns.sort_unstable();
-            Block { equations, unknowns, slide: None }
+            Group { equations, unknowns, slide: None }
         })
         .collect())
 }
 
-/// True if det J is minus the product of the determinants of the blocks: the permutations of rows and columns to
+/// True if det J is minus the product of the determinants of the groups: the permutations of rows and columns to
 /// block-triangular form have different parity.
 #[must_use]
-pub fn is_odd(blocks: &Table<BlockId, Block>) -> bool {
-    let equations = blocks.iter().flat_map(|block| block.equations.iter().copied()).collect();
-    let unknowns = blocks.iter().flat_map(|block| block.unknowns.iter().copied()).collect();
+pub fn is_odd(groups: &Table<GroupId, Group>) -> bool {
+    let equations = groups.iter().flat_map(|group| group.equations.iter().copied()).collect();
+    let unknowns = groups.iter().flat_map(|group| group.unknowns.iter().copied()).collect();
     odd::<RowId>(&equations) != odd::<UnknownId>(&unknowns)
 }
 
@@ -171,8 +171,8 @@ mod tests {
         rows.iter().map(|row| ids(row)).collect()
     }
 
-    fn block(equations: &[usize], unknowns: &[usize]) -> Block {
-        Block { equations: ids(equations), unknowns: ids(unknowns), slide: None }
+    fn group(equations: &[usize], unknowns: &[usize]) -> Group {
+        Group { equations: ids(equations), unknowns: ids(unknowns), slide: None }
     }
 
     fn is_odd_permutation(places: &[usize]) -> bool {
@@ -180,26 +180,26 @@ mod tests {
     }
 
     #[test]
-    fn blocks_come_in_the_order_in_which_they_can_be_solved() {
+    fn groups_come_in_the_order_in_which_they_can_be_solved() {
         // Equations 2 and 3 form a dyad; that of 0 and 1 depends on it, and 4 depends on 0.
         let incidence = incidence(&[&[0, 1, 2], &[0, 1, 2], &[2, 3], &[2, 3], &[4, 0]]);
-        let blocks = order(&incidence, 5).unwrap();
-        assert_eq!(*blocks, [block(&[2, 3], &[2, 3]), block(&[0, 1], &[0, 1]), block(&[4], &[4])]);
-        assert!(!is_odd(&blocks));
+        let groups = order(&incidence, 5).unwrap();
+        assert_eq!(*groups, [group(&[2, 3], &[2, 3]), group(&[0, 1], &[0, 1]), group(&[4], &[4])]);
+        assert!(!is_odd(&groups));
     }
 
     #[test]
-    fn a_ring_is_one_block() {
+    fn a_ring_is_one_group() {
         let ring = (0..6).map(|i| ids(&[i, (i + 1) % 6])).collect();
-        assert_eq!(*order(&ring, 6).unwrap(), [block(&[0, 1, 2, 3, 4, 5], &[0, 1, 2, 3, 4, 5])]);
+        assert_eq!(*order(&ring, 6).unwrap(), [group(&[0, 1, 2, 3, 4, 5], &[0, 1, 2, 3, 4, 5])]);
     }
 
     #[test]
     fn the_sign_is_that_of_the_permutations() {
-        // J = [a 1; b 0]: block {1 | 0} before block {0 | 1}, det J = -b.
-        let blocks = order(&incidence(&[&[0, 1], &[0]]), 2).unwrap();
-        assert_eq!(*blocks, [block(&[1], &[0]), block(&[0], &[1])]);
-        assert!(is_odd(&blocks));
+        // J = [a 1; b 0]: group {1 | 0} before group {0 | 1}, det J = -b.
+        let groups = order(&incidence(&[&[0, 1], &[0]]), 2).unwrap();
+        assert_eq!(*groups, [group(&[1], &[0]), group(&[0], &[1])]);
+        assert!(is_odd(&groups));
         assert!(is_odd_permutation(&[1, 0, 2]) && !is_odd_permutation(&[1, 2, 0]) && is_odd_permutation(&[1, 2, 3, 0]));
     }
 

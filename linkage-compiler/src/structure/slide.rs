@@ -1,23 +1,23 @@
 //! Sliders on a guide along an axis.
 //!
-//! With its guide along x or y, a dyad RRP falls apart into two blocks: one row of its loop has only the angle, the
+//! With its guide along x or y, a dyad RRP falls apart into two groups: one row of its loop has only the angle, the
 //! other then gives the length. Its two solutions are named as those of a dyad along any other line: by the length.
 
-use super::{Block, Class, Group};
+use super::{Class, Group, GroupKind};
 use crate::graph::{Graph, NodeId, SymbolId};
-use crate::ids::{BlockId, Id, RowId, Table, UnknownId};
+use crate::ids::{GroupId, Id, RowId, Table, UnknownId};
 
-/// The length of a slider, for the block of the angle of its link.
+/// The length of a slider, for the group of the angle of its link.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Slide {
     pub length: UnknownId,
-    /// True if the larger length belongs to the angle at which the row of the block increases with the angle.
+    /// True if the larger length belongs to the angle at which the row of the group increases with the angle.
     pub is_far_rising: bool,
 }
 
-/// Finds the slider of each block that is the angle of a dyad RRP. `loops` has the two rows of each loop.
+/// Finds the slider of each group that is the angle of a dyad RRP. `loops` has the two rows of each loop.
 pub fn find_slides(
-    blocks: &mut Table<BlockId, Block>,
+    groups: &mut Table<GroupId, Group>,
     incidence: &Table<RowId, Vec<UnknownId>>,
     loops: &[[RowId; 2]],
     graph: &mut Graph,
@@ -26,15 +26,15 @@ pub fn find_slides(
 ) {
     let mut solved_in: Table<UnknownId, usize> = symbols.filled(0);
     let mut used_in = rows.filled(0);
-    for (place, block) in blocks.iter().enumerate() {
-        block.unknowns.iter().for_each(|&unknown| solved_in[unknown] = place);
-        block.equations.iter().for_each(|&row| used_in[row] = place);
+    for (place, group) in groups.iter().enumerate() {
+        group.unknowns.iter().for_each(|&unknown| solved_in[unknown] = place);
+        group.equations.iter().for_each(|&row| used_in[row] = place);
     }
-    let singles = |block: &Block| match block.unknowns.as_slice() {
+    let singles = |group: &Group| match group.unknowns.as_slice() {
         &[unknown] => Some(unknown),
         _ => None,
     };
-    let alone: Vec<Option<UnknownId>> = blocks.iter().map(singles).collect();
+    let alone: Vec<Option<UnknownId>> = groups.iter().map(singles).collect();
     for &[x, y] in loops {
         let (row, other) = if used_in[x] < used_in[y] { (x, y) } else { (y, x) };
         let [place, later] = [row, other].map(|row| used_in[row]);
@@ -45,7 +45,7 @@ pub fn find_slides(
             continue;
         }
         let class = Class::of(graph, &[rows[x], rows[y]], &[phi, s]);
-        if class.group != Group::Rrp {
+        if class.kind != GroupKind::Rrp {
             continue;
         }
         // With V the link and E the direction of the guide, V + s E = D and dV/dphi = i V: for a guide along x,
@@ -54,6 +54,6 @@ pub fn find_slides(
         let slope = graph.partial(&[rows[other]], s)[0];
         let Some(slope) = graph.as_number(slope) else { continue };
         let is_far_rising = ((slope.to_f64() > 0.0) == (row == x)) != class.mirrored.contains(&phi);
-        blocks[BlockId::new(place)].slide = Some(Slide { length, is_far_rising });
+        groups[GroupId::new(place)].slide = Some(Slide { length, is_far_rising });
     }
 }

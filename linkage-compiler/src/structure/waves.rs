@@ -1,4 +1,4 @@
-//! Rows of a block as k + sum (p cos psi + q sin psi) + sum s (...): each direction psi is an integer combination of the
+//! Rows of a group as k + sum (p cos psi + q sin psi) + sum s (...): each direction psi is an integer combination of the
 //! unknown angles, and each s is an unknown length with a factor of the form k + sum (p cos psi + q sin psi).
 
 use std::cmp::Reverse;
@@ -33,7 +33,7 @@ impl Waves {
     }
 }
 
-/// A row of a block.
+/// A row of a group.
 #[derive(Debug, Clone)]
 pub struct Row {
     pub free: Waves,

@@ -4,7 +4,7 @@ use core::fmt::{self, Write};
 
 use super::outline::{GeneralEquation, Pen};
 use crate::Notation;
-use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel, Root};
+use linkage_runtime::derivation::{Equation, Formula, FormulaMatrix, Group, Kernel, Root};
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
 const LARGEST_MATRIX: usize = 6;
@@ -83,10 +83,10 @@ impl Pen for Latex<'_> {
         writeln!(self.out, "\\end{{pmatrix}} \\]")
     }
 
-    fn block(&mut self, n: usize, block: &Block<'_>) -> fmt::Result {
-        let equations: Vec<_> = block.equations.iter().map(|equation| format!("({})", equation + 1)).collect();
+    fn group(&mut self, n: usize, group: &Group<'_>) -> fmt::Result {
+        let equations: Vec<_> = group.equations.iter().map(|equation| format!("({})", equation + 1)).collect();
         let equations = equations.join(", ");
-        writeln!(self.out, "\\paragraph{{Block {n}, {}}} Equations {equations}.\\par", block.group)
+        writeln!(self.out, "\\paragraph{{Group {n}, {}}} Equations {equations}.\\par", group.kind)
     }
 
     fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root<'_>) -> fmt::Result {

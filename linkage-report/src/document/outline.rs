@@ -3,7 +3,7 @@
 use core::fmt;
 
 use linkage_runtime::derivation::{
-    Block, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation, Symbol,
+    Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Quantity, Root, SceneDerivation, Symbol,
 };
 
 /// An equation of matrices that holds for every mechanism, in all notations.
@@ -124,7 +124,7 @@ pub(crate) mod words {
     pub(crate) const LEAD_IMPLIED: &str = "These equations follow, and are checked at each position:";
     pub(crate) const LEAD_JACOBIAN: &str =
         "The derivatives of the constraint equations with respect to the unknowns and the inputs:";
-    pub(crate) const LEAD_DETERMINANT: &str = "All blocks together:";
+    pub(crate) const LEAD_DETERMINANT: &str = "All groups together:";
     pub(crate) const LEAD_POSITION: &str = "The position, each formula in terms of those before it:";
     pub(crate) const LEAD_NEWTON: &str = "The position has no closed form: Newton's method finds it from a guess, and the list of branches has all positions of loops of links.";
     pub(crate) const LEAD_RATIOS: &str = "Differentiated once, the constraint equations give";
@@ -164,8 +164,8 @@ pub(super) trait Pen {
     fn display(&mut self, formula: &Formula<'_>) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result;
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result;
-    /// The n-th block, counted from 1.
-    fn block(&mut self, n: usize, block: &Block<'_>) -> fmt::Result;
+    /// The n-th group, counted from 1.
+    fn group(&mut self, n: usize, group: &Group<'_>) -> fmt::Result;
     /// The signs of a root on both branches.
     fn branches(&mut self, root: &Root<'_>) -> fmt::Result;
     fn kernels(&mut self, kernels: &[Kernel<'_>]) -> fmt::Result;
@@ -229,27 +229,27 @@ fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) ->
         pen.matrix(&matrix)?;
     }
 
-    if !derivation.blocks.is_empty() {
+    if !derivation.groups.is_empty() {
         pen.heading(words::STRUCTURE)?;
     }
-    for (index, block) in derivation.blocks.iter().enumerate() {
-        pen.block(index + 1, block)?;
-        pen.list(words::UNKNOWN, &mut block.unknowns.iter().copied())?;
-        pen.lead(if block.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION })?;
-        equations(pen, number, block.position)?;
-        if let Some(root) = &block.root {
+    for (index, group) in derivation.groups.iter().enumerate() {
+        pen.group(index + 1, group)?;
+        pen.list(words::UNKNOWN, &mut group.unknowns.iter().copied())?;
+        pen.lead(if group.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION })?;
+        equations(pen, number, group.position)?;
+        if let Some(root) = &group.root {
             pen.branches(root)?;
         }
-        pen.lead(&system(block))?;
-        if let Some(determinant) = block.determinant {
+        pen.lead(&system(group))?;
+        if let Some(determinant) = group.determinant {
             equations(pen, number, &[determinant])?;
         }
-        if let Some(inverse) = &block.inverse {
+        if let Some(inverse) = &group.inverse {
             pen.matrix(inverse)?;
         }
     }
 
-    if let (Some(determinant), [_, _, ..]) = (derivation.determinant, derivation.blocks) {
+    if let (Some(determinant), [_, _, ..]) = (derivation.determinant, derivation.groups) {
         pen.lead(words::LEAD_DETERMINANT)?;
         equations(pen, number, &[determinant])?;
     }
@@ -379,9 +379,9 @@ pub(crate) fn force_along(contact: &Symbol<'_>) -> String {
     format!("The force of {} is", contact.name)
 }
 
-/// The sentence about velocities and accelerations of a block.
-pub(crate) fn system(block: &Block<'_>) -> String {
-    format!("Velocities and accelerations solve a linear system, {}.", block.method.words())
+/// The sentence about velocities and accelerations of a group.
+pub(crate) fn system(group: &Group<'_>) -> String {
+    format!("Velocities and accelerations solve a linear system, {}.", group.method.words())
 }
 
 fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation<'_>]) -> fmt::Result {

@@ -3,7 +3,7 @@
 use core::fmt::{self, Write};
 
 use super::outline::{GeneralEquation, Pen};
-use linkage_runtime::derivation::{Block, Equation, Formula, FormulaMatrix, Kernel, Root};
+use linkage_runtime::derivation::{Equation, Formula, FormulaMatrix, Group, Kernel, Root};
 
 pub(super) struct Text<'a> {
     out: &'a mut String,
@@ -73,9 +73,9 @@ impl Pen for Text<'_> {
         Ok(())
     }
 
-    fn block(&mut self, n: usize, block: &Block<'_>) -> fmt::Result {
-        write!(self.out, "  Block {n}, {}: equations", block.group)?;
-        for (index, equation) in block.equations.iter().enumerate() {
+    fn group(&mut self, n: usize, group: &Group<'_>) -> fmt::Result {
+        write!(self.out, "  Group {n}, {}: equations", group.kind)?;
+        for (index, equation) in group.equations.iter().enumerate() {
             write!(self.out, "{} ({})", if index == 0 { "" } else { "," }, equation + 1)?;
         }
         writeln!(self.out)

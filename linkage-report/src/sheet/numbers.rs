@@ -32,7 +32,7 @@ fn formula(derivation: &Derivation<'_>, name: &str) -> Option<String> {
         .iter()
         .chain(derivation.residual)
         .chain(derivation.gamma)
-        .chain(derivation.blocks.iter().flat_map(|block| block.position.iter().chain(&block.determinant)))
+        .chain(derivation.groups.iter().flat_map(|group| group.position.iter().chain(&group.determinant)))
         .chain(derivation.ratio_derivatives.into_iter().flatten())
         .chain(derivation.sensitivity.iter().flat_map(|sensitivity| sensitivity.formulas))
         .chain(quantities.flat_map(|quantity| {

@@ -137,40 +137,40 @@ impl Page {
     }
 
     fn structure(&mut self, derivation: &Derivation<'_>) {
-        let blocks = derivation.blocks;
-        if blocks.is_empty() {
+        let groups = derivation.groups;
+        if groups.is_empty() {
             return;
         }
         self.section(words::STRUCTURE, |page| {
-            for (index, block) in blocks.iter().enumerate() {
-                let links = block.equations.iter().map(|row| format!("<a href=\"#equation-{0}\">({0})</a>", row + 1));
+            for (index, group) in groups.iter().enumerate() {
+                let links = group.equations.iter().map(|row| format!("<a href=\"#equation-{0}\">({0})</a>", row + 1));
                 let links = links.collect::<Vec<_>>().join(", ");
-                page.push("<article class=\"block\">");
-                if blocks.len() > 1 {
-                    page.push(&format!("<h3>Block {}</h3>", index + 1));
+                page.push("<article class=\"group\">");
+                if groups.len() > 1 {
+                    page.push(&format!("<h3>Group {}</h3>", index + 1));
                 }
-                let (several, verb) = if block.equations.len() == 1 { ("", "gives") } else { ("s", "give") };
+                let (several, verb) = if group.equations.len() == 1 { ("", "gives") } else { ("s", "give") };
                 page.push(&format!(
                     "<p class=\"group\">{}</p><p>Equation{several} {links} {verb} {}.</p>",
-                    escape(&sentence(block.group)),
-                    list(block.unknowns.iter()),
+                    escape(&sentence(group.kind)),
+                    list(group.unknowns.iter()),
                 ));
-                page.lead(if block.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION });
-                page.equations(block.position);
-                if let Some(Root { formula, branches: [positive, negative] }) = &block.root {
+                page.lead(if group.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION });
+                page.equations(group.position);
+                if let Some(Root { formula, branches: [positive, negative] }) = &group.root {
                     page.lead(&format!(
                         "{} is positive on the branch <code>{positive}</code>, negative on <code>{negative}</code>.",
                         inline(formula)
                     ));
                 }
-                page.lead(&outline::system(block));
-                page.equations(block.determinant.as_slice());
-                if let Some(inverse) = &block.inverse {
+                page.lead(&outline::system(group));
+                page.equations(group.determinant.as_slice());
+                if let Some(inverse) = &group.inverse {
                     page.matrix(inverse, None);
                 }
                 page.push("</article>");
             }
-            if let (Some(determinant), [_, _, ..]) = (derivation.determinant, blocks) {
+            if let (Some(determinant), [_, _, ..]) = (derivation.determinant, groups) {
                 page.lead(words::LEAD_DETERMINANT);
                 page.equations(&[determinant]);
             }

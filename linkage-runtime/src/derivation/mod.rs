@@ -62,18 +62,18 @@ pub struct FormulaMatrix<'a> {
     pub entries: &'a [Entry<'a>],
 }
 
-/// The method that solves the linear system of a [`Block`].
+/// The method that solves the linear system of a [`Group`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum BlockMethod {
+pub enum GroupMethod {
     /// The inverse by formula: the adjugate divided by the determinant.
     ClosedForm,
     /// LU factorisation with partial pivoting.
     Factorization,
 }
 
-/// The root that tells the two solutions of a [`Block`] apart by its sign.
+/// The root that tells the two solutions of a [`Group`] apart by its sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Root<'a> {
@@ -86,19 +86,19 @@ pub struct Root<'a> {
 /// Unknowns that are solved for together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Block<'a> {
+pub struct Group<'a> {
     /// The unknowns.
     pub unknowns: &'a [Formula<'a>],
     /// The constraint equations that determine them: indices of [`Derivation::residual`].
     pub equations: &'a [usize],
-    /// The Assur group, or a description of any other block.
-    pub group: &'a str,
+    /// The kind of group: the Assur group, or a description of any other.
+    pub kind: &'a str,
     /// The position in closed form, each equation in terms of those before it; empty if Newton's method finds it.
     pub position: &'a [Equation<'a>],
     /// The root that tells two solutions apart.
     pub root: Option<Root<'a>>,
     /// The method that solves the linear system.
-    pub method: BlockMethod,
+    pub method: GroupMethod,
     /// The determinant of the block of J, if it has a formula.
     pub determinant: Option<Equation<'a>>,
     /// The inverse of the block of J, if it has a formula.
@@ -223,9 +223,9 @@ pub struct Derivation<'a> {
     pub jacobian_unknowns: FormulaMatrix<'a>,
     /// A = ∂Ψ/∂v.
     pub jacobian_inputs: FormulaMatrix<'a>,
-    /// The blocks, in the order in which they are solved.
-    pub blocks: &'a [Block<'a>],
-    /// det J, the product of the determinants of the blocks; none if a block has no formula.
+    /// The groups, in the order in which they are solved.
+    pub groups: &'a [Group<'a>],
+    /// det J, the product of the determinants of the groups; none if a group has no formula.
     pub determinant: Option<Equation<'a>>,
     /// The velocity ratios ∂u/∂v.
     pub ratios: &'a [Equation<'a>],
@@ -255,7 +255,7 @@ impl<'a> FormulaMatrix<'a> {
     }
 }
 
-impl BlockMethod {
+impl GroupMethod {
     /// Describes the method, to follow the word "solved".
     #[must_use]
     pub fn words(self) -> &'static str {

@@ -37,15 +37,15 @@ impl<M: Mechanism> Blocks<M> {
     /// pivot of the equilibrated block. [`PositionError::Singular`](crate::PositionError::Singular) contains it.
     pub fn regularity(&self, group: usize) -> M::Scalar {
         // An index that is out of range has regularity 0.
-        let Some(block) = M::GROUPS.get(group) else { return M::Scalar::zero() };
-        let scale = match (block.equations, block.unknowns) {
+        let Some(members) = M::GROUPS.get(group) else { return M::Scalar::zero() };
+        let scale = match (members.equations, members.unknowns) {
             (&[i], &[j]) => self.scales.part(i, j),
             (&[i, k], &[j, l]) => {
                 let scales = &self.scales;
                 larger(scales.part(i, j) * scales.part(k, l), scales.part(i, l) * scales.part(k, j))
             }
             _ => {
-                let unknowns = self.equilibrated(block, M::Scalar::one());
+                let unknowns = self.equilibrated(members, M::Scalar::one());
                 let pivots = EliminationOf::<M>::new(Jacobian { unknowns, inputs: Matrix::zeros() }).pivots();
                 return smallest(pivots);
             }
@@ -70,13 +70,13 @@ impl<M: Mechanism> Blocks<M> {
     /// The equilibrated block of a group, in the upper left corner: its rows are divided by the scales of their
     /// residuals, its columns by the largest entry that they could then have at any angle. The rest of the matrix is
     /// `diagonal` times the identity.
-    pub fn equilibrated(&self, block: &Group, diagonal: M::Scalar) -> Matrix<M::Scalar, M::U, M::U> {
+    pub fn equilibrated(&self, group: &Group, diagonal: M::Scalar) -> Matrix<M::Scalar, M::U, M::U> {
         let rows = self.residual_scales.map(scale_or_one);
         let mut matrix = Matrix::identity() * diagonal;
-        for (column, &unknown) in block.unknowns.iter().enumerate() {
-            let possible = block.equations.iter().map(|&row| self.scales.part(row, unknown) / rows.part(row));
+        for (column, &unknown) in group.unknowns.iter().enumerate() {
+            let possible = group.equations.iter().map(|&row| self.scales.part(row, unknown) / rows.part(row));
             let scale = scale_or_one(largest(possible));
-            for (row, &equation) in block.equations.iter().enumerate() {
+            for (row, &equation) in group.equations.iter().enumerate() {
                 if let Some(entry) = matrix.get_mut(row, column) {
                     *entry = self.jacobian.part(equation, unknown) / rows.part(equation) / scale;
                 }

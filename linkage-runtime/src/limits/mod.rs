@@ -72,13 +72,13 @@ impl<T: Copy> Limit<T> {
 #[derive(Debug, Clone, Copy)]
 pub enum Bound<T> {
     /// a + b cos(k v) + c sin(k v) of an input v: a, b and c, then k.
-    Angle(Block, [T; 3], T),
+    Angle(NamedGroup, [T; 3], T),
     /// a + b v + c v^2 of an input v.
-    Length(Block, [T; 3]),
+    Length(NamedGroup, [T; 3]),
 }
 
 /// A group: its index among the determinants, and its unknowns.
-pub type Block = (usize, &'static str);
+pub type NamedGroup = (usize, &'static str);
 
 /// The range in which groups that have no [`Bound`] are searched for limits.
 #[derive(Debug, Clone, Copy)]
@@ -120,7 +120,7 @@ pub fn limits<M: Mechanism, const B: usize>(
         Search::Length(reach) => reach,
     };
     let searched = Searched { mechanism, place, reach, assemble: &assemble, coordinates: &coordinates };
-    let exact = |end: Option<(M::Scalar, Block)>| -> Result<Limit<M::Scalar>, PositionError> {
+    let exact = |end: Option<(M::Scalar, NamedGroup)>| -> Result<Limit<M::Scalar>, PositionError> {
         let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
         let input = searched.corrected(start, &position, end, place)?;
         Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })
@@ -137,10 +137,10 @@ pub fn limits<M: Mechanism, const B: usize>(
 
 /// The end nearer to the start, of two that may not exist.
 fn nearer<T: Copy>(
-    known: Option<(T, Block)>,
-    new: Option<(T, Block)>,
+    known: Option<(T, NamedGroup)>,
+    new: Option<(T, NamedGroup)>,
     is_nearer: fn(&T, &T) -> bool,
-) -> Option<(T, Block)> {
+) -> Option<(T, NamedGroup)> {
     match (known, new) {
         (Some((old, _)), Some((input, _))) if !is_nearer(&input, &old) => known,
         (_, Some(_)) => new,
@@ -151,25 +151,25 @@ fn nearer<T: Copy>(
 impl<T: Real> Bound<T> {
     /// The nearest zeros on either side of `start`, where the function is not negative up to rounding error; none if a
     /// number is not finite. With one negative length of two both functions of a group have the other sign.
-    fn about(&self, start: T) -> Option<[Option<(T, Block)>; 2]> {
+    fn about(&self, start: T) -> Option<[Option<(T, NamedGroup)>; 2]> {
         let with_sign = |coefficients: [T; 3], terms: [T; 3]| {
             let least = terms.iter().fold(T::zero(), |sum, term| sum + term.abs()) * T::default_epsilon().sqrt();
             if terms[0] + terms[1] + terms[2] < -least { coefficients.map(|part| -part) } else { coefficients }
         };
-        let (block, [lower, upper]) = match *self {
-            Self::Angle(block, [a, b, c], rate) => {
+        let (group, [lower, upper]) = match *self {
+            Self::Angle(group, [a, b, c], rate) => {
                 let (sine, cosine) = (rate * start).sine_cosine();
-                (block, of_angle(with_sign([a, b, c], [a, b * cosine, c * sine]), rate, start)?)
+                (group, of_angle(with_sign([a, b, c], [a, b * cosine, c * sine]), rate, start)?)
             }
-            Self::Length(block, [a, b, c]) => {
-                (block, of_length(with_sign([a, b, c], [a, b * start, c * start * start]), start)?)
+            Self::Length(group, [a, b, c]) => {
+                (group, of_length(with_sign([a, b, c], [a, b * start, c * start * start]), start)?)
             }
         };
         let is_finite = lower.into_iter().chain(upper).all(|input| input.is_finite());
         // At a limit a rounding error may put the zero on the other side of `start`.
         let lower = lower.map(|input| if input < start { input } else { instead(start, input) });
         let upper = upper.map(|input| if input > start { input } else { instead(start, input) });
-        is_finite.then(|| [lower, upper].map(|input| Some((input?, block))))
+        is_finite.then(|| [lower, upper].map(|input| Some((input?, group))))
     }
 }
 

@@ -80,7 +80,7 @@ pub(super) enum Found<M: Mechanism> {
     Stopped(&'static str),
 }
 
-/// A position evaluated by the search, with the magnitudes of the determinants of its blocks.
+/// A position evaluated by the search, with the magnitudes of the determinants of its groups.
 pub(super) struct Sample<M: Mechanism> {
     pub(super) input: M::Scalar,
     pub(super) position: M::Coordinates,
@@ -96,7 +96,7 @@ impl<M: Mechanism> Clone for Sample<M> {
 impl<M: Mechanism> Copy for Sample<M> {}
 
 impl<M: Mechanism> Sample<M> {
-    /// The determinant of a block; zero for an invalid index.
+    /// The determinant of a group; zero for an invalid index.
     pub(super) fn determinant(&self, place: usize) -> M::Scalar {
         self.determinants.as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero)
     }
@@ -252,12 +252,12 @@ impl<M: Mechanism> Searched<'_, M> {
             };
         }
         let (Some(after), Some(before)) = (after, before) else { return Ok(None) };
-        for block in 0..M::G::COUNT {
-            let falls = after.determinant(block) < here.determinant(block);
-            let rises = before.determinant(block) < there.determinant(block);
+        for group in 0..M::G::COUNT {
+            let falls = after.determinant(group) < here.determinant(group);
+            let rises = before.determinant(group) < there.determinant(group);
             if falls
                 && rises
-                && let Some(limit) = self.limit_at_minimum(here, there.input, block)?
+                && let Some(limit) = self.limit_at_minimum(here, there.input, group)?
             {
                 return Ok(Some(limit));
             }
@@ -269,10 +269,10 @@ impl<M: Mechanism> Searched<'_, M> {
     /// there.
     fn limit_among(&self, [before, here, there]: [&Sample<M>; 3]) -> Result<Option<Limit<M::Scalar>>, PositionError> {
         let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
-        for (block, ((a, b), c)) in determinants.enumerate() {
+        for (group, ((a, b), c)) in determinants.enumerate() {
             if b < a
                 && b <= c
-                && let Some(limit) = self.limit_at_minimum(before, there.input, block)?
+                && let Some(limit) = self.limit_at_minimum(before, there.input, group)?
             {
                 return Ok(Some(limit));
             }
@@ -372,18 +372,18 @@ impl<M: Mechanism> Searched<'_, M> {
         Ok(Bracket { assembled: nearest.input, unbuildable, group })
     }
 
-    /// Minimises the determinant of a block between two inputs, and returns the limit if the mechanism cannot be
+    /// Minimises the determinant of a group between two inputs, and returns the limit if the mechanism cannot be
     /// assembled at the minimum.
     fn limit_at_minimum(
         &self,
         from: &Sample<M>,
         to: M::Scalar,
-        block: usize,
+        group: usize,
     ) -> Result<Option<Limit<M::Scalar>>, PositionError> {
         let golden = real::<M::Scalar>(0.618_033_988_749_894_9);
         let (mut a, mut b) = (from.input, to);
         let determinant = |found: &Reached<M>| match found {
-            Reached::Assembled(sample) => sample.determinant(block),
+            Reached::Assembled(sample) => sample.determinant(group),
             _ => M::Scalar::zero(),
         };
         for _ in 0..NARROWINGS {

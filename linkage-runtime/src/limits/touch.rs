@@ -31,7 +31,7 @@ impl<M: Mechanism> Searched<'_, M> {
         end: M::Scalar,
         group: &'static str,
     ) -> Result<Option<Sample<M>>, PositionError> {
-        let Some(block) = M::GROUPS.iter().position(|other| other.name == group) else { return Ok(None) };
+        let Some(index) = M::GROUPS.iter().position(|other| other.name == group) else { return Ok(None) };
         let mut here = at;
         let mut nodes = [(end, PerUnknown::<M>::zeros()); 2 * BEFORE];
         // The square root of the determinant is proportional to the distance.
@@ -40,7 +40,7 @@ impl<M: Mechanism> Searched<'_, M> {
             let input = end + (self.reach * real(distance)).copysign(at - end);
             let Walked::Arrived(sample) = self.walk((position, here), input, group)? else { return Ok(None) };
             *node = (input, in_turn_of::<M>(M::unknowns(&sample.position), &M::unknowns(&position)));
-            *root = sample.determinant(block).sqrt();
+            *root = sample.determinant(index).sqrt();
             (position, here) = (M::with_unknowns(&sample.position, node.1), input);
         }
         let [.., one, other] = roots;

@@ -39,7 +39,7 @@ impl<M: Mechanism> Searched<'_, M> {
         to: M::Scalar,
         group: &'static str,
     ) -> Result<Walked<M>, PositionError> {
-        let block = M::GROUPS.iter().position(|other| other.name == group).unwrap_or_default();
+        let index = M::GROUPS.iter().position(|other| other.name == group).unwrap_or_default();
         let determinants = self.mechanism.block_determinants(&self.mechanism.pose_at(&position)).abs();
         let mut last = Sample { input, position, determinants };
         let (first, shortest) = (self.reach * real(FIRST), self.reach * real(SHORTEST));
@@ -52,7 +52,7 @@ impl<M: Mechanism> Searched<'_, M> {
                     return Ok(Walked::Arrived(there));
                 }
                 // Where motions touch, the square root of the determinant is proportional to the distance.
-                let [one, other] = [&last, &there].map(|sample| sample.determinant(block).sqrt());
+                let [one, other] = [&last, &there].map(|sample| sample.determinant(index).sqrt());
                 let distance = (step * (other / (other - one))).abs();
                 let longest = (distance * real(LONGEST)).max(shortest);
                 let double = step * real(2.0);

@@ -6,7 +6,7 @@ use crate::graph::{Graph, SymbolId};
 use crate::ids::{CoordinateId, UnknownId};
 use crate::model::kind::Kind;
 use crate::model::mechanism::{Driver, Mechanism};
-use crate::structure::{Choice, Class, Group};
+use crate::structure::{Choice, Class, GroupKind};
 
 /// The properties of a solution that types and signatures depend on.
 #[derive(Debug, Clone)]
@@ -23,7 +23,7 @@ pub struct GuessedGroup {
     pub unknowns: Vec<UnknownId>,
     /// Its unknowns, and the length of the slider that its angle moves.
     pub dyad: Vec<UnknownId>,
-    pub group: Group,
+    pub kind: GroupKind,
     pub choice: Option<Choice>,
 }
 
@@ -32,34 +32,34 @@ impl Guess {
     /// written; else each pair of unknowns, in the order of declaration, is a group with two solutions.
     #[must_use]
     pub fn of(mechanism: &Mechanism, driver: &Driver) -> Self {
-        if driver.system.blocks.is_empty() {
+        if driver.system.groups.is_empty() {
             let unknowns: Vec<UnknownId> = driver.unknowns.ids().collect();
             let is_length = |&unknown: &UnknownId| mechanism.coordinates[driver.unknowns[unknown]].kind == Kind::Length;
             let groups = unknowns.chunks_exact(2).map(|pair| {
-                let group = if pair.iter().any(is_length) { Group::Rrp } else { Group::Rrr };
-                let choice = Choice::of(group, None);
-                GuessedGroup { unknowns: pair.to_vec(), dyad: pair.to_vec(), group, choice }
+                let kind = if pair.iter().any(is_length) { GroupKind::Rrp } else { GroupKind::Rrr };
+                let choice = Choice::of(kind, None);
+                GuessedGroup { unknowns: pair.to_vec(), dyad: pair.to_vec(), kind, choice }
             });
             return Self { groups: groups.collect(), turns: Vec::new() };
         }
         let mut graph = mechanism.graph.clone();
         let (mut groups, mut solved) = (Vec::new(), BTreeSet::new());
-        for block in &driver.system.blocks {
-            let equations = driver.system.rows.at(&block.equations);
+        for group in &driver.system.groups {
+            let equations = driver.system.rows.at(&group.equations);
             let symbol = |&unknown: &UnknownId| mechanism.coordinates[driver.unknowns[unknown]].symbol;
-            let symbols: Vec<SymbolId> = block.unknowns.iter().map(symbol).collect();
-            let group = Class::of(&mut graph, &equations, &symbols).group;
-            let choice = Choice::of(group, block.slide);
+            let symbols: Vec<SymbolId> = group.unknowns.iter().map(symbol).collect();
+            let kind = Class::of(&mut graph, &equations, &symbols).kind;
+            let choice = Choice::of(kind, group.slide);
             if choice.is_some() {
                 let angles = graph.in_directions(&equations);
                 solved.extend(symbols.into_iter().filter(|symbol| angles.contains(symbol)));
             }
-            let mut dyad = block.unknowns.clone();
-            dyad.extend(block.slide.map(|slide| slide.length));
+            let mut dyad = group.unknowns.clone();
+            dyad.extend(group.slide.map(|slide| slide.length));
             dyad.sort_unstable();
-            groups.push(GuessedGroup { unknowns: block.unknowns.clone(), dyad, group, choice });
+            groups.push(GuessedGroup { unknowns: group.unknowns.clone(), dyad, kind, choice });
         }
-        let turns = match groups.iter().all(|group| group.group.is_closed()) {
+        let turns = match groups.iter().all(|group| group.kind.is_closed()) {
             true => turns(mechanism, driver, &mut graph, &solved),
             false => Vec::new(),
         };

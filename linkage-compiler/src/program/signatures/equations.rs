@@ -38,8 +38,8 @@ impl Signatures<'_> {
         total("determinant", [self.pose()], Type::Scalar)
     }
 
-    pub fn block_determinants(&self, blocks: usize) -> Function<Body> {
-        total("block_determinants", [self.pose()], Type::List(Box::new(Type::Scalar), blocks))
+    pub fn block_determinants(&self, groups: usize) -> Function<Body> {
+        total("block_determinants", [self.pose()], Type::List(Box::new(Type::Scalar), groups))
     }
 
     pub fn length_scale(&self) -> Function<Body> {

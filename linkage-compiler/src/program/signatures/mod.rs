@@ -88,7 +88,7 @@ impl<'a> Signatures<'a> {
             self.jacobian_unknowns_scales(),
             self.jacobian_inputs_scales(),
             self.determinant(),
-            self.block_determinants(position.blocks),
+            self.block_determinants(position.groups),
             self.gamma(),
             self.solve_jacobian(),
         ]

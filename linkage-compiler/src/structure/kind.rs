@@ -1,4 +1,4 @@
-//! Classification of a block as an Assur group.
+//! The kind of a group: which Assur group it is.
 //!
 //! A loop equation of two rows is a complex equation x + i y = 0. Let V be the sum of its terms that contain an
 //! unknown. The unknown is
@@ -17,9 +17,9 @@ use super::loops::Loops;
 use super::obstacle::Obstacle;
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 
-/// The kind of a block.
+/// The kind of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Group {
+pub enum GroupKind {
     /// Two angles: two links between three revolute joints.
     Rrr,
     /// An angle, and a length along a line that does not turn with it: a link and a slider on a guide.
@@ -48,7 +48,7 @@ pub enum Group {
     Irreducible(usize, Obstacle),
 }
 
-impl Group {
+impl GroupKind {
     /// A description for documentation.
     #[must_use]
     pub fn description(self) -> String {
@@ -100,53 +100,53 @@ impl Group {
     }
 }
 
-/// The kind of a block, and its mirrored angles.
+/// The kind of a group, and its mirrored angles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Class {
-    pub group: Group,
+    pub kind: GroupKind,
     pub mirrored: Vec<SymbolId>,
 }
 
 impl Class {
-    /// Classifies the block of these scalar equations and unknowns.
+    /// Classifies the group of these scalar equations and unknowns.
     pub fn of(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Self {
         match (rows, unknowns) {
             (&[row], &[unknown]) => Self::of_one(graph, row, unknown),
             (&[x, y], &[a, b]) => Self::of_pair(graph, [x, y], a, b),
             _ => Self::plain(match Loops::of(graph, rows, unknowns) {
-                Ok(loops) => Group::Loops(loops.constants.len()),
-                Err(obstacle) => Group::Irreducible(unknowns.len(), obstacle),
+                Ok(loops) => GroupKind::Loops(loops.constants.len()),
+                Err(obstacle) => GroupKind::Irreducible(unknowns.len(), obstacle),
             }),
         }
     }
 
-    fn plain(group: Group) -> Self {
-        Self { group, mirrored: Vec::new() }
+    fn plain(kind: GroupKind) -> Self {
+        Self { kind, mirrored: Vec::new() }
     }
 
     fn of_one(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Self {
-        let group = scalar(graph, row, unknown);
-        if group.is_closed() {
-            return Self::plain(group);
+        let kind = scalar(graph, row, unknown);
+        if kind.is_closed() {
+            return Self::plain(kind);
         }
         for mirrored in [&[][..], &[unknown]] {
             let seen = mirror(graph, &[row], mirrored)[0];
-            if let Some(group) = to_circle(graph, seen, unknown) {
-                return Self { group, mirrored: mirrored.to_vec() };
+            if let Some(kind) = to_circle(graph, seen, unknown) {
+                return Self { kind, mirrored: mirrored.to_vec() };
             }
         }
-        Self::plain(group)
+        Self::plain(kind)
     }
 
     fn of_pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Self {
         for mirrored in [&[][..], &[a], &[b], &[a, b]] {
             let seen = mirror(graph, &rows, mirrored);
-            let group = pair(graph, [seen[0], seen[1]], a, b);
-            if group.is_closed() {
-                return Self { group, mirrored: mirrored.to_vec() };
+            let kind = pair(graph, [seen[0], seen[1]], a, b);
+            if kind.is_closed() {
+                return Self { kind, mirrored: mirrored.to_vec() };
             }
         }
-        Self::plain(Group::Pair)
+        Self::plain(GroupKind::Pair)
     }
 }
 
@@ -160,26 +160,26 @@ pub fn mirror(graph: &mut Graph, rows: &[NodeId], unknowns: &[SymbolId]) -> Vec<
     graph.replace(rows, &by)
 }
 
-fn scalar(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Group {
+fn scalar(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> GroupKind {
     let slope = graph.partial(&[row], unknown)[0];
     if !graph.depends_on(slope, unknown) {
-        return Group::Linear;
+        return GroupKind::Linear;
     }
     // d^2 V / dphi^2 = -V
     let part = terms_with(graph, row, unknown);
     let curvature = graph.partial(&[slope], unknown)[0];
     let sum = graph.add(curvature, part);
-    if graph.is_zero(sum) { Group::Angle } else { Group::Scalar }
+    if graph.is_zero(sum) { GroupKind::Angle } else { GroupKind::Scalar }
 }
 
-/// The group of one unknown whose row gives the length of a vector.
-fn to_circle(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Option<Group> {
+/// The kind of a group of one unknown whose row gives the length of a vector.
+fn to_circle(graph: &mut Graph, row: NodeId, unknown: SymbolId) -> Option<GroupKind> {
     let vector = Distance::of(graph, row, &[unknown])?.vector;
     let line = direction(graph, vector, unknown);
     if line.is_some() {
-        Some(Group::SliderToCircle)
+        Some(GroupKind::SliderToCircle)
     } else {
-        is_angle(graph, vector, unknown).then_some(Group::LinkToCircle)
+        is_angle(graph, vector, unknown).then_some(GroupKind::LinkToCircle)
     }
 }
 
@@ -224,12 +224,12 @@ fn centre(graph: &mut Graph, distance: &Distance, point: [SymbolId; 2]) -> Optio
     Some(centre)
 }
 
-fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Group {
+fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> GroupKind {
     if two_links(graph, rows, a, b) || two_links(graph, rows, b, a) {
-        return Group::Rrr;
+        return GroupKind::Rrr;
     }
     if Circles::of(graph, rows, [a, b]).is_some() {
-        return Group::Circles;
+        return GroupKind::Circles;
     }
     let [angle_a, angle_b] = [a, b].map(|unknown| is_angle(graph, rows, unknown));
     let [line_a, line_b] = [a, b].map(|unknown| direction(graph, rows, unknown));
@@ -240,9 +240,9 @@ fn pair(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> Group
             if first.iter().all(|&part| !graph.depends_on(part, b))
                 && second.iter().all(|&part| !graph.depends_on(part, a)) =>
         {
-            Group::Sliders
+            GroupKind::Sliders
         }
-        _ => Group::Pair,
+        _ => GroupKind::Pair,
     }
 }
 
@@ -259,15 +259,15 @@ fn two_links(graph: &mut Graph, rows: [NodeId; 2], a: SymbolId, b: SymbolId) -> 
     (-2..=2).any(|k| derivatives == [graph.scale(Number::integer(-k), y), graph.scale(Number::integer(k), x)])
 }
 
-/// The group of an angle and a length along a line: RRP if the line does not depend on the angle, RPR if it turns with
-/// the angle.
-fn slider(graph: &mut Graph, line: [NodeId; 2], angle: SymbolId) -> Group {
+/// The kind of a group of an angle and a length along a line: RRP if the line does not depend on the angle, RPR if it
+/// turns with the angle.
+fn slider(graph: &mut Graph, line: [NodeId; 2], angle: SymbolId) -> GroupKind {
     if line.iter().all(|&part| !graph.depends_on(part, angle)) {
-        Group::Rrp
+        GroupKind::Rrp
     } else if is_angle(graph, line, angle) && line.iter().all(|&part| terms_with(graph, part, angle) == part) {
-        Group::Rpr
+        GroupKind::Rpr
     } else {
-        Group::Pair
+        GroupKind::Pair
     }
 }
 
@@ -322,8 +322,8 @@ mod tests {
             self.graph.variable(self.symbols[name])
         }
 
-        /// The group of a loop of vectors r@(phi - offset) and the ground d@0.
-        fn group(&mut self, vectors: &[(&str, &str, &str)], unknowns: [&str; 2]) -> Group {
+        /// The kind of the group of a loop of vectors r@(phi - offset) and the ground d@0.
+        fn kind(&mut self, vectors: &[(&str, &str, &str)], unknowns: [&str; 2]) -> GroupKind {
             let ground = self.variable("d");
             let (mut x, mut y) = (vec![(Number::ONE, ground)], Vec::new());
             for (modulus, angle, offset) in vectors {
@@ -340,26 +340,26 @@ mod tests {
             }
             let rows = [self.graph.sum(&x), self.graph.sum(&y)];
             let unknowns = unknowns.map(|name| self.symbols[name]);
-            Class::of(&mut self.graph, &rows, &unknowns).group
+            Class::of(&mut self.graph, &rows, &unknowns).kind
         }
     }
 
     #[test]
     fn the_four_cases_of_chace() {
-        for (vectors, unknowns, group) in [
-            (&[("l", "phi", ""), ("r", "psi", "")][..], ["phi", "psi"], Group::Rrr),
-            (&[("l", "phi", "delta"), ("r", "psi", ""), ("r", "phi", "")], ["phi", "psi"], Group::Rrr),
-            (&[("l", "phi", ""), ("s", "delta", "")], ["phi", "s"], Group::Rrp),
-            (&[("s", "delta", ""), ("l", "phi", "")], ["s", "phi"], Group::Rrp),
-            (&[("s", "phi", "delta"), ("l", "phi", "")], ["phi", "s"], Group::Rpr),
+        for (vectors, unknowns, kind) in [
+            (&[("l", "phi", ""), ("r", "psi", "")][..], ["phi", "psi"], GroupKind::Rrr),
+            (&[("l", "phi", "delta"), ("r", "psi", ""), ("r", "phi", "")], ["phi", "psi"], GroupKind::Rrr),
+            (&[("l", "phi", ""), ("s", "delta", "")], ["phi", "s"], GroupKind::Rrp),
+            (&[("s", "delta", ""), ("l", "phi", "")], ["s", "phi"], GroupKind::Rrp),
+            (&[("s", "phi", "delta"), ("l", "phi", "")], ["phi", "s"], GroupKind::Rpr),
             // A guide that turns with phi only in part.
-            (&[("s", "phi", ""), ("s", "delta", ""), ("l", "phi", "")], ["phi", "s"], Group::Pair),
-            (&[("s", "delta", ""), ("t", "psi", "")], ["s", "t"], Group::Sliders),
+            (&[("s", "phi", ""), ("s", "delta", ""), ("l", "phi", "")], ["phi", "s"], GroupKind::Pair),
+            (&[("s", "delta", ""), ("t", "psi", "")], ["s", "t"], GroupKind::Sliders),
             // An angle measured from the other link.
-            (&[("l", "phi", "psi"), ("r", "psi", "")], ["phi", "psi"], Group::Rrr),
-            (&[("l", "phi", "psi"), ("r", "psi", ""), ("r", "phi", "")], ["phi", "psi"], Group::Pair),
+            (&[("l", "phi", "psi"), ("r", "psi", "")], ["phi", "psi"], GroupKind::Rrr),
+            (&[("l", "phi", "psi"), ("r", "psi", ""), ("r", "phi", "")], ["phi", "psi"], GroupKind::Pair),
         ] {
-            assert_eq!(Plane::new().group(vectors, unknowns), group, "{vectors:?}");
+            assert_eq!(Plane::new().kind(vectors, unknowns), kind, "{vectors:?}");
         }
     }
 
@@ -387,7 +387,7 @@ mod tests {
             let unknowns = ["phi", "psi"].map(|name| plane.symbols[name]);
             let found = Class::of(&mut plane.graph, &rows, &unknowns);
             let mirrored = mirrored.iter().map(|name| plane.symbols[name]).collect();
-            assert_eq!(found, Class { group: Group::Rrr, mirrored });
+            assert_eq!(found, Class { kind: GroupKind::Rrr, mirrored });
         }
     }
 
@@ -400,12 +400,12 @@ mod tests {
         let (sine, cosine) = (g.call(Function::Sin, &[phi]), g.call(Function::Cos, &[phi]));
         let (high, wide) = (g.multiply(l, sine), g.multiply(d, cosine));
         let row = g.sum(&[(Number::ONE, high), (Number::ONE, wide), (Number::ONE, s)]);
-        assert_eq!(Class::of(g, &[row], &[phi_symbol]).group, Group::Angle);
-        assert_eq!(Class::of(g, &[row], &[s_symbol]).group, Group::Linear);
+        assert_eq!(Class::of(g, &[row], &[phi_symbol]).kind, GroupKind::Angle);
+        assert_eq!(Class::of(g, &[row], &[s_symbol]).kind, GroupKind::Linear);
         let rolled = g.add(row, phi);
-        assert_eq!(Class::of(g, &[rolled], &[phi_symbol]).group, Group::Scalar);
+        assert_eq!(Class::of(g, &[rolled], &[phi_symbol]).kind, GroupKind::Scalar);
         let (twice, symbol) = (g.scale(Number::integer(2), phi), phi_symbol);
         let double = g.call(Function::Sin, &[twice]);
-        assert_eq!(Class::of(g, &[double], &[symbol]).group, Group::Scalar);
+        assert_eq!(Class::of(g, &[double], &[symbol]).kind, GroupKind::Scalar);
     }
 }
