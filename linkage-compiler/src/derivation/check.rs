@@ -62,7 +62,7 @@ pub fn check(
             let names: Vec<String> = group
                 .unknowns
                 .iter()
-                .map(|&place| format!("`{}`", mechanism.coordinates[driver.unknowns[place]].name.text))
+                .map(|&unknown| format!("`{}`", mechanism.coordinates[driver.unknowns[unknown]].name.text))
                 .collect();
             diagnostics.error(
                 driver.name.span(),
@@ -98,15 +98,15 @@ pub fn check_numbers(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, 
 /// Reports inputs without reduced inertia at all positions, and equilibria without free inputs.
 fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation, diagnostics: &mut Diagnostics) {
     for derived in &derivation.scenes {
-        let scene = &mechanism.scenes[derived.place];
+        let scene = &mechanism.scenes[derived.id];
         if derived.equilibrium.is_some() && derived.drives.len() == driver.inputs.len() {
             let message = format!("all inputs of `{}` are driven: remove `equilibrium;`", scene.name);
             diagnostics.error(scene.name.span(), message);
         }
         let Some(mass_matrix) = &derived.mass_matrix else { continue };
-        for (place, row) in mass_matrix.enumerated() {
-            if !derived.drives.contains_key(&place) && derivation.graph.is_zero(row[place]) {
-                let input = &mechanism.coordinates[driver.inputs[place]].name.text;
+        for (id, row) in mass_matrix.enumerated() {
+            if !derived.drives.contains_key(&id) && derivation.graph.is_zero(row[id]) {
+                let input = &mechanism.coordinates[driver.inputs[id]].name.text;
                 diagnostics.error(
                     scene.name.span(),
                     format_args!(
@@ -122,7 +122,7 @@ fn without_inertia(mechanism: &Mechanism, driver: &Driver, derivation: &Derivati
 /// Reports frictions by a force in a joint that is zero in every motion.
 fn without_force(mechanism: &Mechanism, derivation: &Derivation, diagnostics: &mut Diagnostics) {
     for derived in &derivation.scenes {
-        let scene = &mechanism.scenes[derived.place];
+        let scene = &mechanism.scenes[derived.id];
         let bearings = derived.reactions.iter().flat_map(|reactions| &reactions.bearings).enumerate();
         for (contact, bearing) in bearings {
             let is_zero = bearing.as_ref().is_some_and(|rows| rows.iter().all(|row| row.is_zero(&derivation.graph)));

@@ -69,7 +69,7 @@ pub struct RatioDerivatives {
     /// The inputs j <= k, each pair once.
     pub pairs: Table<PairId, (InputId, InputId)>,
     /// The pair of two inputs in either order.
-    pub places: Table<InputId, Table<InputId, PairId>>,
+    pub indices: Table<InputId, Table<InputId, PairId>>,
     /// The ending of the names of the second derivatives for each pair.
     pub endings: Table<PairId, String>,
     /// The symbols of L.
@@ -158,5 +158,5 @@ impl Group {
 }
 
 fn named<'a>(unknowns: &[UnknownId], derivation: &'a Derivation) -> Vec<&'a str> {
-    unknowns.iter().map(|&place| derivation.coordinates[derivation.unknowns[place]].name.as_str()).collect()
+    unknowns.iter().map(|&index| derivation.coordinates[derivation.unknowns[index]].name.as_str()).collect()
 }

@@ -49,7 +49,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     let is_odd = structure::is_odd(&groups);
     let mut parts = Table::default();
     for group in groups {
-        let symbols: Vec<SymbolId> = group.unknowns.iter().map(|&place| coordinates[unknowns[place]].value).collect();
+        let symbols: Vec<SymbolId> = group.unknowns.iter().map(|&index| coordinates[unknowns[index]].value).collect();
         let class = Class::of(&mut graph, &residual.at(&group.equations), &symbols);
         let determinant = determinant(&mut graph, &jacobian, &unknowns, &group);
         parts.push((group, class, determinant));
@@ -119,9 +119,9 @@ impl Derivation {
 /// The rows of implied loops and equations, named by their number and by the first line of their doc comment.
 fn implied(graph: &mut Graph, mechanism: &Mechanism) -> Vec<Implied> {
     let mut all = Vec::new();
-    for (place, constraint) in mechanism.implied.iter().enumerate() {
+    for (index, constraint) in mechanism.implied.iter().enumerate() {
         let kind = if constraint.rows.len() == 2 { "loop" } else { "equation" };
-        let mut name = format!("implied {kind} {}", place + 1);
+        let mut name = format!("implied {kind} {}", index + 1);
         if let Some(text) = constraint.description().get(1) {
             name = format!("{name} ({})", text.trim_end_matches('.'));
         }
@@ -179,10 +179,10 @@ fn quantities(
     graph: &mut Graph,
     values: Vec<Vec<NodeId>>,
     coordinates: &Table<ColumnId, Coordinate>,
-    places: &BTreeMap<SymbolId, ColumnId>,
+    indices: &BTreeMap<SymbolId, ColumnId>,
 ) -> Vec<Quantity> {
     let rows: Vec<NodeId> = values.concat();
-    let mut jacobian = jacobian(graph, &rows, places).into_iter();
+    let mut jacobian = jacobian(graph, &rows, indices).into_iter();
     let mut seeds = along_rates(graph, coordinates);
     let rates = graph.differentiate(&rows, &seeds);
     for coordinate in coordinates {

@@ -30,7 +30,7 @@ impl Derivation {
         let mut slopes = self.inputs.filled(Table::default());
         for (k, mut seeds) in motions.ids().zip(motions) {
             for (j, ratios) in self.ratios.enumerated() {
-                let names = &second.names[second.places[j][k]];
+                let names = &second.names[second.indices[j][k]];
                 seeds.extend(ratios.iter().zip(names).map(|(&ratio, &name)| (ratio, self.graph.variable(name))));
             }
             let column = self.graph.differentiate(&forces, &seeds);

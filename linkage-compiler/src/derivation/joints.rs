@@ -47,7 +47,7 @@ impl Joints {
             } else {
                 return None;
             };
-            let joint = |place: usize| ring.joint(mechanism, graph, place);
+            let joint = |index: usize| ring.joint(mechanism, graph, index);
             Some(Self { middle: joint(middle), outer: [joint(one), joint(other)] })
         })
     }
@@ -96,8 +96,8 @@ impl Ring {
         Some(Self { links: left.links.iter().chain(right.links.iter().rev()).copied().collect(), joints })
     }
 
-    fn joint(&self, mechanism: &Mechanism, graph: &Graph, place: usize) -> Joint {
-        let here = &self.joints[place % self.links.len()];
+    fn joint(&self, mechanism: &Mechanism, graph: &Graph, index: usize) -> Joint {
+        let here = &self.joints[index % self.links.len()];
         let mut points = mechanism.points.iter();
         if let Some(point) = points.find(|point| here.contains(&[point.x, point.y])) {
             return Joint::Point(point.name.text.clone());
@@ -118,16 +118,16 @@ fn runs(graph: &Graph, links: &[Link], unknowns: [SymbolId; 2]) -> Option<[Run; 
         })
         .collect();
     let is_alone = [[true, false], [false, true]].map(|alone| turns_with.contains(&alone));
-    let belongs = |place: usize, which: usize| match turns_with[place] {
+    let belongs = |index: usize, which: usize| match turns_with[index] {
         [true, true] => !is_alone[which],
         turns => turns[which],
     };
     let count = links.len();
     let run = |which: usize| {
-        let is_in = |place: usize| belongs(place % count, which);
-        let mut starts = (0..count).filter(|&place| is_in(place) && !is_in(place + count - 1));
+        let is_in = |index: usize| belongs(index % count, which);
+        let mut starts = (0..count).filter(|&index| is_in(index) && !is_in(index + count - 1));
         let start = starts.next().filter(|_| starts.next().is_none())?;
-        let end = (start..start + count).find(|&place| !is_in(place))?;
+        let end = (start..start + count).find(|&index| !is_in(index))?;
         Some(Run { start, end: end % count })
     };
     Some([run(0)?, run(1)?])

@@ -43,8 +43,8 @@ struct ScalarMotion {
 impl Derivation {
     pub(super) fn derive_scenes(&mut self, mechanism: &Mechanism, driver: &Driver) {
         let own = |scene: &model::Scene| mechanism.drivers[scene.driver].name == driver.name;
-        for (place, scene) in mechanism.scenes.enumerated().filter(|(_, scene)| own(scene)) {
-            let mut derived = self.derive_scene(mechanism, place, scene);
+        for (id, scene) in mechanism.scenes.enumerated().filter(|(_, scene)| own(scene)) {
+            let mut derived = self.derive_scene(mechanism, id, scene);
             derived.kinks = self.derive_kinks(mechanism, driver, scene);
             derived.equilibrium =
                 scene.requests.contains(&SceneRequest::Equilibrium).then(|| self.derive_equilibrium(&derived));
@@ -52,7 +52,7 @@ impl Derivation {
         }
     }
 
-    fn derive_scene(&mut self, mechanism: &Mechanism, place: SceneId, scene: &model::Scene) -> Scene {
+    fn derive_scene(&mut self, mechanism: &Mechanism, id: SceneId, scene: &model::Scene) -> Scene {
         let bias = self.bias_symbols();
         let motion = self.motion_symbols(&bias);
         let zero = self.graph.zero();
@@ -160,9 +160,9 @@ impl Derivation {
         let drives = self.prescribed(mechanism, scene);
         let unreduced = scene.inertia.is_some().then(|| self.derive_unreduced(mechanism, scene));
         let has_joints = scene.requests.contains(&SceneRequest::Reactions) || !scene.opened().is_empty();
-        let reactions = has_joints.then(|| self.derive_reactions(mechanism, place, scene));
+        let reactions = has_joints.then(|| self.derive_reactions(mechanism, id, scene));
         Scene {
-            place,
+            id,
             bias,
             mass_matrix,
             forces,

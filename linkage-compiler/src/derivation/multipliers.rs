@@ -80,7 +80,7 @@ impl Derivation {
         for id in self.groups.ids().rev() {
             let group = self.groups[id].clone();
             let rows = self.block_matrix(&group);
-            let columns = |place: usize| rows.iter().map(|row| row[place]).collect::<Vec<NodeId>>();
+            let columns = |index: usize| rows.iter().map(|row| row[index]).collect::<Vec<NodeId>>();
             let matrix: Vec<Vec<NodeId>> = (0..rows.len()).map(columns).collect();
             let mut right = Vec::new();
             for &unknown in &group.unknowns {

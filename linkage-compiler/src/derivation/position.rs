@@ -44,7 +44,7 @@ impl Derivation {
         }
         let equations = self.residual.at(&group.equations);
         let symbols: Vec<SymbolId> =
-            group.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
+            group.unknowns.iter().map(|&index| self.coordinates[self.unknowns[index]].value).collect();
         if let Ok(loops) = Loops::of(&mut self.graph, &equations, &symbols) {
             let nodes = loops.nodes();
             let solved = assembly.solved(&mut self.graph, &nodes);
@@ -58,7 +58,7 @@ impl Derivation {
         let rows = assembly.solved(&mut self.graph, &equations);
         let rows = structure::mirror(&mut self.graph, &rows, &group.mirrored);
         let symbols: Vec<SymbolId> =
-            group.unknowns.iter().map(|&place| self.coordinates[self.unknowns[place]].value).collect();
+            group.unknowns.iter().map(|&index| self.coordinates[self.unknowns[index]].value).collect();
         let mirrored = &group.mirrored;
         let mut solver = Solver { graph: &mut self.graph, group: id, equations, assembly, mirrored };
         let determinant = match (group.kind, rows.as_slice(), symbols.as_slice()) {

@@ -48,8 +48,8 @@ impl Derivation {
         let all: Vec<NodeId> = forms.iter().flat_map(nodes).collect();
         let mut all = self.graph.replace(&all, &shown).into_iter();
         for form in &mut forms {
-            let places = form.equations.iter_mut().flatten().chain(form.root.as_mut().map(|(root, _)| root));
-            places.zip(&mut all).for_each(|(place, node)| *place = node);
+            let indices = form.equations.iter_mut().flatten().chain(form.root.as_mut().map(|(root, _)| root));
+            indices.zip(&mut all).for_each(|(index, node)| *index = node);
         }
         forms.into()
     }

@@ -23,11 +23,11 @@ impl Derivation {
 
     /// New symbols for L, and the right sides of its systems.
     pub(super) fn second_order(&mut self, motions: &Table<InputId, BTreeMap<SymbolId, NodeId>>) -> RatioDerivatives {
-        let (mut pairs, mut places) = (Table::default(), Table::<InputId, Table<InputId, PairId>>::default());
+        let (mut pairs, mut indices) = (Table::default(), Table::<InputId, Table<InputId, PairId>>::default());
         for j in self.inputs.ids() {
-            let place = |k| if k < j { places[k][j] } else { pairs.push((j, k)) };
-            let of_input = self.inputs.ids().map(place).collect();
-            places.push(of_input);
+            let index = |k| if k < j { indices[k][j] } else { pairs.push((j, k)) };
+            let of_input = self.inputs.ids().map(index).collect();
+            indices.push(of_input);
         }
         let by = |input: InputId| self.coordinates[self.inputs[input]].name.as_str();
         let ending = |&(j, k): &(InputId, InputId)| match self.inputs.len() {
@@ -42,7 +42,7 @@ impl Derivation {
         }
         let terms = second_derivatives(&mut self.graph, &self.residual, motions);
         let terms = terms.into_iter().map(Table::from).collect();
-        RatioDerivatives { pairs, places, endings, names, terms }
+        RatioDerivatives { pairs, indices, endings, names, terms }
     }
 
     /// w_j = (W_j, e_j), by coordinate symbol.

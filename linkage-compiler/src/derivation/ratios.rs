@@ -67,11 +67,11 @@ impl Derivation {
                 }
                 _ => vec![None; group.unknowns.len()],
             };
-            for (&place, formula) in group.unknowns.iter().zip(solution) {
+            for (&index, formula) in group.unknowns.iter().zip(solution) {
                 let still = formula.is_some_and(|formula| self.graph.is_zero(formula));
-                let name = self.graph.variable(names[place]);
-                solved.insert(self.unknowns[place], if still { self.graph.zero() } else { name });
-                formulas[place] = formula;
+                let name = self.graph.variable(names[index]);
+                solved.insert(self.unknowns[index], if still { self.graph.zero() } else { name });
+                formulas[index] = formula;
             }
         }
         let values = self.unknowns.iter().map(|unknown| solved[unknown]).collect();

@@ -10,8 +10,8 @@ use crate::structure::Elimination;
 /// The formulas of one scene, in terms of q, q', W and t.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// The index in [`Mechanism::scenes`](crate::model::Mechanism::scenes).
-    pub place: SceneId,
+    /// The id in [`Mechanism::scenes`](crate::model::Mechanism::scenes).
+    pub id: SceneId,
     /// The symbols of u'' at v'' = 0.
     pub bias: Table<UnknownId, SymbolId>,
     /// M by rows, if anything has inertia.

@@ -20,10 +20,10 @@ impl Derivation {
             let of = self.unknowns.iter().map(|&unknown| format!("{}_by_{by}", self.coordinates[unknown].name));
             names.push(of.map(|name| self.graph.symbol(name)).collect());
         }
-        let places = places_of(&mechanism.parameters, |p| p.symbol);
-        let by_parameters = jacobian(&mut self.graph, &self.residual, &places).into();
+        let indices = places_of(&mechanism.parameters, |p| p.symbol);
+        let by_parameters = jacobian(&mut self.graph, &self.residual, &indices).into();
         for quantity in self.points.iter_mut().chain(&mut self.outputs) {
-            quantity.by_parameters = jacobian(&mut self.graph, &quantity.value, &places);
+            quantity.by_parameters = jacobian(&mut self.graph, &quantity.value, &indices);
         }
         self.sensitivity = Some(Sensitivity { names, jacobian: by_parameters });
     }
@@ -54,10 +54,10 @@ impl Derivation {
     ) -> Table<ParameterId, Vec<NodeId>> {
         let zero = self.graph.zero();
         let (graph, unknowns) = (&mut self.graph, &self.unknowns);
-        let of_parameter = |(place, solved): (ParameterId, &Table<UnknownId, NodeId>)| {
+        let of_parameter = |(index, solved): (ParameterId, &Table<UnknownId, NodeId>)| {
             let components = quantity.by_parameters.iter().zip(&quantity.jacobian);
             let total = components.map(|(direct, row)| {
-                let direct = direct.get(&place).copied().unwrap_or(zero);
+                let direct = direct.get(&index).copied().unwrap_or(zero);
                 Quantity::through_unknowns(graph, direct, row, unknowns, solved)
             });
             total.collect()

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::graph::{Graph, NodeId, Number, SymbolId};
-use crate::model::{Chain, Driver, Link, Mechanism, Places};
+use crate::model::{Chain, Driver, Joints, Link, Mechanism};
 
 /// The joints and the parts of a drawing.
 #[derive(Debug, Clone, Default)]
@@ -47,7 +47,7 @@ impl Skeleton {
         };
         let moving = symbols(&mut mechanism.coordinates.ids());
         let driving = symbols(&mut driver.inputs.iter().copied());
-        let mut tracer = Tracer { mechanism, graph, moving, joints: Places::default(), edges: Vec::new() };
+        let mut tracer = Tracer { mechanism, graph, moving, joints: Joints::default(), edges: Vec::new() };
         for [left, right] in &mechanism.loops {
             if !left.links.is_empty() || !right.links.is_empty() {
                 let [one, other] = [left, right].map(|side| tracer.trace(side));
@@ -66,7 +66,7 @@ struct Tracer<'a> {
     graph: &'a mut Graph,
     /// The symbols of the coordinates.
     moving: BTreeSet<SymbolId>,
-    joints: Places,
+    joints: Joints,
     edges: Vec<Edge>,
 }
 
@@ -178,13 +178,13 @@ impl Tracer<'_> {
         }
         // A declared point of one body that turns about no pivot is a point of interest.
         for point in &self.mechanism.points {
-            let Some(place) = self.joints.known([point.x, point.y]) else { continue };
-            let mut holding = bodies.iter().filter(|body| body.joints.contains(&place));
+            let Some(joint) = self.joints.known([point.x, point.y]) else { continue };
+            let mut holding = bodies.iter().filter(|body| body.joints.contains(&joint));
             if let (Some(body), None) = (holding.next(), holding.next())
                 && !body.joints.iter().any(|&joint| is_fixed[joint])
-                && !parts.contains(&Part::Slider(place))
+                && !parts.contains(&Part::Slider(joint))
             {
-                parts.push(Part::Trace(place));
+                parts.push(Part::Trace(joint));
             }
         }
         let grounds = pivots.into_iter().map(Part::Ground);
@@ -200,8 +200,8 @@ impl Tracer<'_> {
         let zero = [self.graph.zero(); 2];
         let mut numbers = (1..).map(|number: usize| number.to_string());
         let mut named = Vec::new();
-        for place in 0..self.joints.len() {
-            let here: Vec<[NodeId; 2]> = self.joints.formulas(self.joints.find(place)).collect();
+        for joint in 0..self.joints.len() {
+            let here: Vec<[NodeId; 2]> = self.joints.formulas(self.joints.find(joint)).collect();
             let point = points.iter().find(|point| here.contains(&[point.x, point.y]));
             let name = match point {
                 Some(point) => point.name.text.clone(),
@@ -210,7 +210,7 @@ impl Tracer<'_> {
             };
             // Of several formulas for a joint at rest, the constant one.
             let constant = here.iter().find(|joint| !self.moves(&joint[..]));
-            named.push((name, constant.copied().unwrap_or_else(|| self.joints.position(place))));
+            named.push((name, constant.copied().unwrap_or_else(|| self.joints.position(joint))));
         }
         named
     }
@@ -222,8 +222,8 @@ impl Skeleton {
         let mut used: Vec<usize> = self.parts.iter().flat_map(Part::joints).collect();
         used.sort_unstable();
         used.dedup();
-        let place = |joint: usize| used.binary_search(&joint).unwrap_or_default();
-        let parts = self.parts.into_iter().map(|part| part.map(place)).collect();
+        let index = |joint: usize| used.binary_search(&joint).unwrap_or_default();
+        let parts = self.parts.into_iter().map(|part| part.map(index)).collect();
         Self { joints: used.iter().map(|&joint| self.joints[joint].clone()).collect(), parts }
     }
 }

@@ -88,9 +88,9 @@ impl Derivation {
         let (minus_b, minus_c) = (self.graph.negate(b), self.graph.negate(c));
         let [first, second] = names;
         let mut row = |unknown: String, entries: [NodeId; 2]| {
-            [(1, entries[0]), (2, entries[1])].map(|(place, entry)| {
+            [(1, entries[0]), (2, entries[1])].map(|(index, entry)| {
                 let entry = self.graph.divide(entry, divisor);
-                self.named(&format!("inverse_{unknown}_{place}"), entry, steps)
+                self.named(&format!("inverse_{unknown}_{index}"), entry, steps)
             })
         };
         Some([row(first, [d, minus_b]), row(second, [minus_c, a])])

@@ -147,19 +147,19 @@ impl Step {
 /// Puts each of some later steps after the last step that it depends on, in their own order.
 #[must_use]
 pub fn merged(graph: &Graph, steps: Vec<Step>, later: Vec<Step>) -> Vec<Step> {
-    let mut places: BTreeMap<SymbolId, usize> = BTreeMap::new();
-    for (place, step) in steps.iter().enumerate() {
-        places.extend(step.introduced().into_iter().map(|symbol| (symbol, place)));
+    let mut indices: BTreeMap<SymbolId, usize> = BTreeMap::new();
+    for (index, step) in steps.iter().enumerate() {
+        indices.extend(step.introduced().into_iter().map(|symbol| (symbol, index)));
     }
     let mut placed: Vec<(usize, Step)> = steps.into_iter().enumerate().collect();
-    let mut place = 0;
+    let mut index = 0;
     for step in later {
         let symbols = graph.symbols_of(&step.nodes());
-        place = symbols.iter().filter_map(|symbol| places.get(symbol)).copied().fold(place, usize::max);
-        places.extend(step.introduced().into_iter().map(|symbol| (symbol, place)));
-        placed.push((place, step));
+        index = symbols.iter().filter_map(|symbol| indices.get(symbol)).copied().fold(index, usize::max);
+        indices.extend(step.introduced().into_iter().map(|symbol| (symbol, index)));
+        placed.push((index, step));
     }
-    placed.sort_by_key(|(place, _)| *place);
+    placed.sort_by_key(|(index, _)| *index);
     placed.into_iter().map(|(_, step)| step).collect()
 }
 

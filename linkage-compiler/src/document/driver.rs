@@ -159,7 +159,7 @@ impl<'a> Writer<'a> {
         let number = (self.derivation.groups.len() > 1).then_some(id.number());
         let determinant = group.determinant.as_ref().map(|determinant| determinant.value);
         Group {
-            unknowns: group.unknowns.iter().map(|&place| self.plain(self.unknowns[place])).collect(),
+            unknowns: group.unknowns.iter().map(|&index| self.plain(self.unknowns[index])).collect(),
             equations: group.equations.iter().map(|&equation| equation.index()).collect(),
             kind: group.kind.description(),
             method: if determinant.is_some() { Method::ClosedForm } else { Method::Factorization },

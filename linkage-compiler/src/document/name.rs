@@ -28,8 +28,8 @@ pub enum Name<'a> {
 }
 
 /// The names of coordinates as the user wrote them.
-pub(super) fn texts<'a, I>(mechanism: &'a Mechanism, places: &Table<I, CoordinateId>) -> Table<I, &'a str> {
-    places.iter().map(|&place| mechanism.coordinates[place].name.text.as_str()).collect()
+pub(super) fn texts<'a, I>(mechanism: &'a Mechanism, indices: &Table<I, CoordinateId>) -> Table<I, &'a str> {
+    indices.iter().map(|&index| mechanism.coordinates[index].name.text.as_str()).collect()
 }
 
 /// The name of each symbol.
@@ -43,9 +43,9 @@ pub(super) fn names<'a>(
     for parameter in &mechanism.parameters {
         names.insert(parameter.symbol, Name::Plain(&parameter.name.text));
     }
-    let places = derivation.inputs.iter().zip(inputs).chain(derivation.unknowns.iter().zip(unknowns));
-    for (&place, &text) in places {
-        let coordinate = &derivation.coordinates[place];
+    let indices = derivation.inputs.iter().zip(inputs).chain(derivation.unknowns.iter().zip(unknowns));
+    for (&index, &text) in indices {
+        let coordinate = &derivation.coordinates[index];
         names.insert(coordinate.value, Name::Plain(text));
         names.insert(coordinate.rate, Name::Rate(text));
         names.insert(coordinate.acceleration, Name::Acceleration(text));

@@ -35,7 +35,7 @@ pub fn of_scene(
     names.extend(contacts.names());
     let graph = &graph;
     let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
-    let own = scene.parameters.iter().map(|&place| mechanism.scene_parameters[place].name.text.as_str());
+    let own = scene.parameters.iter().map(|&index| mechanism.scene_parameters[index].name.text.as_str());
     let own: Vec<&str> = own.collect();
     let mut writer = Writer {
         layout: Layout::new(graph, &shown),
@@ -53,11 +53,11 @@ pub fn of_scene(
     }
     let mut effects = Vec::new();
     let is_zero = |forces: &Table<InputId, NodeId>| forces.iter().all(|&force| graph.is_zero(force));
-    for (place, (label, forces)) in derived.parts.iter().enumerate() {
+    for (index, (label, forces)) in derived.parts.iter().enumerate() {
         let equations = writer.forces(graph, forces.iter().copied());
         // An effect without a part in Q is shown, with its other laws or once; the inertia of a body is not.
         let is_other =
-            |(at, (other, forces)): (usize, &(String, _))| other == label && (!is_zero(forces) || at < place);
+            |(at, (other, forces)): (usize, &(String, _))| other == label && (!is_zero(forces) || at < index);
         let is_alone = !derived.parts.iter().enumerate().any(is_other);
         let is_effect = || label.strip_prefix("body ").is_none_or(|body| is_heavy(mechanism, scene, body));
         if equations.is_some() || (is_alone && is_effect()) {
@@ -103,8 +103,8 @@ impl Writer<'_> {
     /// The forces in the joints that a scene shows.
     fn joints(&mut self, mechanism: &Mechanism, scene: &model::Scene, reactions: &Reactions) -> Vec<JointForce> {
         let shown = scene.loads.iter().filter_map(|load| {
-            let place = reactions.opened.iter().position(|other| other == load)?;
-            Some((&mechanism.opened.loads[*load], reactions.forces[place]))
+            let index = reactions.opened.iter().position(|other| other == load)?;
+            Some((&mechanism.opened.loads[*load], reactions.forces[index]))
         });
         let forces = shown.map(|(load, force)| {
             let parts = match &load.kind {

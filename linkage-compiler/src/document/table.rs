@@ -166,7 +166,7 @@ impl Table {
             }
         }
         let mut count = 0;
-        let places: Vec<Number> = is_needed
+        let indices: Vec<Number> = is_needed
             .iter()
             .map(|is_needed| {
                 count += u32::from(*is_needed);
@@ -176,11 +176,11 @@ impl Table {
         let mut table = Self::default();
         let kept = self.nodes.into_iter().zip(self.lengths).zip(is_needed);
         for (mut node, length) in kept.filter_map(|(node, is_needed)| is_needed.then_some(node)) {
-            node.each(&mut |part| *part = places[part.index()]);
+            node.each(&mut |part| *part = indices[part.index()]);
             table.nodes.push(node);
             table.lengths.push(length);
         }
-        numbers.each(&mut |number| *number = places[number.index()]);
+        numbers.each(&mut |number| *number = indices[number.index()]);
         table
     }
 

@@ -11,14 +11,14 @@ use crate::lower::Code;
 use crate::program::{Family, Program};
 
 /// Implements `Formulas` over every number, and `Certifiable` over `f64`.
-pub(super) fn of_driver(program: &Program<Code>, place: Span) -> Option<TokenStream> {
+pub(super) fn of_driver(program: &Program<Code>, span: Span) -> Option<TokenStream> {
     let (signatures, any) = (&program.signatures, program.any_number.as_ref()?);
     let (name, mechanism) = (&signatures.driver.name, signatures.mechanism);
     let [p, u, v, q] =
         [mechanism.parameters.len(), signatures.unknowns(), signatures.inputs(), signatures.components()].map(literal);
     let fields = mechanism.parameters.iter().map(|parameter| ident(&parameter.name.field));
     let (error, other) = (ident("PositionError"), other_scalar(mechanism));
-    let functions = any.functions.iter().map(|function| functions::function(function, &error, None, place));
+    let functions = any.functions.iter().map(|function| functions::function(function, &error, None, span));
     let parameters = mechanism.parameters.iter().map(|parameter| string(&parameter.name.text));
     let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(mechanism));
     let quantities = quantities.map(|name| string(&name));

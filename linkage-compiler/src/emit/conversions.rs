@@ -17,8 +17,8 @@ pub(super) fn of_driver(signatures: &Signatures) -> TokenStream {
     let [coordinates, rates] = [&signatures.types.coordinates, &signatures.types.rates].map(|name| ident(name));
     let [u, v] = [signatures.unknowns(), signatures.inputs()].map(literal);
     let [by_unknowns, by_inputs] = [&u, &v].map(|count| quote!(__rt::Column<T, __rt::D<#count>>));
-    let named = |places: &[CoordinateId]| -> Vec<Ident> {
-        places.iter().map(|&place| field(&mechanism.coordinates[place].name)).collect()
+    let named = |indices: &[CoordinateId]| -> Vec<Ident> {
+        indices.iter().map(|&index| field(&mechanism.coordinates[index].name)).collect()
     };
     let (unknowns, inputs) = (named(&driver.unknowns), named(&driver.inputs));
     // In the order of the fields.
@@ -77,5 +77,5 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver) -> TokenStream
 
 /// The fields of all coordinates, in their order.
 fn fields(mechanism: &Mechanism, driver: &Driver) -> Vec<Ident> {
-    mechanism.coordinate_order(driver).iter().map(|&place| field(&mechanism.coordinates[place].name)).collect()
+    mechanism.coordinate_order(driver).iter().map(|&index| field(&mechanism.coordinates[index].name)).collect()
 }

@@ -307,7 +307,7 @@ impl Lists {
         let [rows, columns] = [*rows, *columns].map(Literal::usize_unsuffixed);
         // A place is less than the number of nodes.
         let numbers = entries.iter().map(|(place, value)| {
-            let [row, column] = place.map(|place| u32::try_from(place).unwrap_or(u32::MAX));
+            let [row, column] = place.map(|index| u32::try_from(index).unwrap_or(u32::MAX));
             [row, column, value.get()]
         });
         let entries = added("entries", &mut self.entries, numbers);

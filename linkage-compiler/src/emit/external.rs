@@ -30,19 +30,19 @@ pub(super) fn calls(
 fn call(external: &ExternalFunction) -> TokenStream {
     let ExternalFunction { path, attributes, arguments, names, .. } = external;
     // Type errors are reported at the last segment of the path.
-    let place = path.segments.last().map_or_else(Span::call_site, |segment| segment.ident.span());
-    let place = Span::call_site().located_at(place);
+    let span = path.segments.last().map_or_else(Span::call_site, |segment| segment.ident.span());
+    let span = Span::call_site().located_at(span);
     // An argument must not shadow the function.
     let reserved: BTreeSet<String> = path.get_ident().map(ToString::to_string).into_iter().collect();
     let mut taken = Taken::new(&reserved);
-    let arguments: Vec<Ident> = arguments.iter().map(|name| identifier(&taken.unique(name), place)).collect();
+    let arguments: Vec<Ident> = arguments.iter().map(|name| identifier(&taken.unique(name), span)).collect();
     let fields: Vec<String> = names.iter().map(|name| name.field.clone()).collect();
     let texts: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
     let docs = attributes.iter().filter(|attribute| attribute.path().is_ident("doc"));
     let text = format!(" Returns `({})` from the user function.", texts.join(", "));
     let scalars = texts.iter().map(|_| quote!(T));
     let result = if texts.len() == 1 { quote!(T) } else { quote!((#(#scalars),*)) };
-    let (name, call) = (ident(&call_of(&fields)), quote_spanned!(place=> #path(#(#arguments),*)));
+    let (name, call) = (ident(&call_of(&fields)), quote_spanned!(span=> #path(#(#arguments),*)));
     quote! {
         #(#docs)*
         #[doc = #text]

@@ -4,9 +4,9 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::names::comment;
-use super::places;
 use super::printer::Printer;
 use super::rust::{Rust, argument};
+use super::spans;
 use crate::lower::{Code, Returned};
 use crate::program::{Access, Argument, Function, Operations, Passed, Type, count};
 use crate::syntax::identifier;
@@ -16,22 +16,22 @@ pub(super) fn function(
     function: &Function<Code>,
     error: &Ident,
     generics: Option<TokenStream>,
-    place: Span,
+    span: Span,
 ) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
     // Only functions that others call show their operation counts.
-    let work = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
+    let cost = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
     let bound = body.as_ref().and_then(|code| code.bound.as_ref()?.sentence());
     // A trait documents its functions.
     let is_shown = !matches!(access, Access::OfTrait | Access::Lane) || !doc.is_empty();
     let doc = is_shown.then(|| {
-        let text = comment(&description(doc, work.unwrap_or_default(), bound));
+        let text = comment(&description(doc, cost.unwrap_or_default(), bound));
         quote!(#[doc = #text])
     });
-    let name = identifier(name, place);
+    let name = identifier(name, span);
     let itself = is_method.then(|| quote!(&self));
-    let arguments = arguments.iter().enumerate().map(|(place, Argument { name, passed })| {
-        let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(&place)));
+    let arguments = arguments.iter().enumerate().map(|(index, Argument { name, passed })| {
+        let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(&index)));
         match passed {
             Passed::ByValue(of) => quote!(#name: #of),
             Passed::ByReference(of) => quote!(#name: &#of),
@@ -78,18 +78,18 @@ pub(super) fn function(
         None => quote!(::core::unreachable!()),
     };
     let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::#error>) } else { quote!(#returns) };
-    let attributes = places::located(attributes, place, 0);
-    quote_spanned! {place=>
+    let attributes = spans::located(attributes, span, 0);
+    quote_spanned! {span=>
         #doc
         #attributes fn #name #generics(#(#arguments),*) -> #result { #body }
     }
 }
 
 /// The doc comment: the lines, the numbers of operations, and how large the rounding errors can be, if that is known.
-fn description(lines: &[String], work: Operations, bound: Option<String>) -> String {
+fn description(lines: &[String], cost: Operations, bound: Option<String>) -> String {
     let mut lines: Vec<String> = lines.to_vec();
-    if work != Operations::default() {
-        lines.extend([String::new(), format!("Operations: {}.", count(work))]);
+    if cost != Operations::default() {
+        lines.extend([String::new(), format!("Operations: {}.", count(cost))]);
     }
     if let Some(bound) = bound {
         lines.extend([String::new(), bound]);

@@ -15,14 +15,14 @@ pub(super) fn implementation(
     implementation: &Implementation<Code>,
     owner: &TypeName,
     conversions: Option<TokenStream>,
-    place: Span,
+    span: Span,
 ) -> TokenStream {
     let Implementation { of, on, is_generic, error, types, constants, functions } = implementation;
     let on = if *owner == **on { owner.to_token_stream() } else { ident(on).to_token_stream() };
     let error = ident(error);
     let functions = functions.iter().map(|function| {
         let generics = generics(*of, &function.name);
-        functions::function(function, &error, generics, place)
+        functions::function(function, &error, generics, span)
     });
     let implemented = of.name().map(|name| {
         let name = ident(name);

@@ -47,16 +47,16 @@ pub(super) fn design(program: &Program<Code>, implementation: &Implementation<Co
         Associated::Dimension(count) if *name == "Given" => Some(literal(*count)),
         _ => None,
     });
-    let places: Vec<_> = (0..parameters.len()).map(literal).collect();
+    let indices: Vec<_> = (0..parameters.len()).map(literal).collect();
     let mark = mark(&parameters);
     let [of_given, lane] = ["given", "lane"].map(|name| argument(name, !parameters.is_empty()));
     quote! {
         fn write_parameters(&self, #of_given: &mut [T; #given]) {
-            #(given[#places] = self.#parameters;)*
+            #(given[#indices] = self.#parameters;)*
         }
         #[inline(always)]
         fn design<const W: usize>(#of_given: &[[T; W]; #given], #lane: usize) -> Self {
-            Self { #(#parameters: given[#places] [lane],)* #mark }
+            Self { #(#parameters: given[#indices] [lane],)* #mark }
         }
     }
 }
@@ -68,12 +68,12 @@ pub(super) fn batch(program: &Program<Code>) -> TokenStream {
     let [branch, of_inputs] = [&types.branch, &types.inputs].map(|name| ident(name));
     let named = |names: Vec<&Name>| -> Vec<Ident> { names.into_iter().map(field).collect() };
     let (parameters, inputs) = (parameters(program), driver.inputs.iter());
-    let inputs = named(inputs.map(|&place| &mechanism.coordinates[place].name).collect());
+    let inputs = named(inputs.map(|&index| &mechanism.coordinates[index].name).collect());
     let (start, of_start) = match program.position.is_closed {
         true => (inputs.clone(), of_inputs.clone()),
         false => {
             let order = mechanism.coordinate_order(driver);
-            let all = order.iter().map(|&place| &mechanism.coordinates[place].name).collect();
+            let all = order.iter().map(|&index| &mechanism.coordinates[index].name).collect();
             (named(all), ident(&types.coordinates))
         }
     };

@@ -14,16 +14,16 @@ mod fpcore;
 mod functions;
 mod implementations;
 mod items;
+mod kernels;
 mod lanes;
 mod names;
-mod places;
 mod printer;
 mod reactions;
 mod rust;
 mod scene;
+mod spans;
 mod text;
 mod types;
-mod work;
 
 use proc_macro2::{Span, TokenStream};
 use quote::quote_spanned;
@@ -34,9 +34,9 @@ use crate::lower::Code;
 use crate::model::{Mechanism, Request, TypeName};
 use crate::program::{self, Function, Functions, Implemented, Operations, Program};
 use fpcore::Straight;
+use kernels::kernels;
 use names::string;
 pub use text::text;
-use work::kernels;
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]
@@ -45,7 +45,7 @@ pub fn mechanism(
     drivers: impl IntoIterator<Item = TokenStream>,
     root: &TokenStream,
 ) -> TokenStream {
-    let mut tokens = places::located(types::shared(mechanism, root), places::of(mechanism.name.span()), 1);
+    let mut tokens = spans::located(types::shared(mechanism, root), spans::of(mechanism.name.span()), 1);
     tokens.extend(drivers);
     items::bearing(tokens, &mechanism.everywhere)
 }
@@ -62,8 +62,8 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
 #[must_use]
 pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
-    let place = places::of(driver.name.span());
-    let mut tokens = places::located(types::of_driver(program, root), place, 1);
+    let span = spans::of(driver.name.span());
+    let mut tokens = spans::located(types::of_driver(program, root), span, 1);
     let mut implemented = TokenStream::new();
     if mechanism.requests.contains(&Request::Lanes) {
         tokens.extend(lanes::columns(program));
@@ -77,14 +77,14 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
             }
             _ => None,
         };
-        implemented.extend(implementations::implementation(implementation, &driver.name, conversions, place));
+        implemented.extend(implementations::implementation(implementation, &driver.name, conversions, span));
     }
-    implemented.extend(any_number::of_driver(program, place));
+    implemented.extend(any_number::of_driver(program, span));
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
-    let implemented = places::located(implemented, place, 1);
-    let place_of = |function: &Function<Code>| places::of(mechanism.place_of(driver, &function.name));
-    tokens.extend(block(&driver.name, kinematics, &program.functions, &place_of, root, &implemented));
+    let implemented = spans::located(implemented, span, 1);
+    let span_of = |function: &Function<Code>| spans::of(mechanism.span_of(driver, &function.name));
+    tokens.extend(block(&driver.name, kinematics, &program.functions, &span_of, root, &implemented));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
     let straight = mechanism.requests.contains(&Request::Fpcore).then(|| Straight::of_driver(program));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
@@ -94,17 +94,17 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
     }
     for (number, scene) in program.scenes.iter().enumerate() {
         let name = &scene.signatures.scene.name;
-        let place = places::of(name.span());
-        tokens.extend(places::located(scene::types(&scene.signatures, root), place, 1));
-        tokens.extend(drives::types(&scene.signatures, driver, root).map(|types| places::located(types, place, 1)));
-        tokens.extend(reactions::types(&scene.signatures, root).map(|types| places::located(types, place, 1)));
+        let span = spans::of(name.span());
+        tokens.extend(spans::located(scene::types(&scene.signatures, root), span, 1));
+        tokens.extend(drives::types(&scene.signatures, driver, root).map(|types| spans::located(types, span, 1)));
+        tokens.extend(reactions::types(&scene.signatures, root).map(|types| spans::located(types, span, 1)));
         let implemented = scene.implementation.as_ref().map(|implementation| {
             let conversions = conversions::of_scene(&scene.signatures, driver);
-            implementations::implementation(implementation, name, Some(conversions), place)
+            implementations::implementation(implementation, name, Some(conversions), span)
         });
         let text = "The name of the scene in errors.";
-        let implemented = places::located(implemented.unwrap_or_default(), place, 1);
-        tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| place, root, &implemented));
+        let implemented = spans::located(implemented.unwrap_or_default(), span, 1);
+        tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| span, root, &implemented));
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
@@ -123,14 +123,14 @@ fn block(
     of: &TypeName,
     (text, error): (&str, &str),
     functions: &Functions<Code>,
-    place_of: &dyn Fn(&Function<Code>) -> Span,
+    span_of: &dyn Fn(&Function<Code>) -> Span,
     root: &TokenStream,
     implemented: &TokenStream,
 ) -> TokenStream {
     let (error, name) = (names::ident(error), string(&of.to_string()));
-    let functions = functions.iter().map(|function| functions::function(function, &error, None, place_of(function)));
+    let functions = functions.iter().map(|function| functions::function(function, &error, None, span_of(function)));
     let text = names::comment(&format!(" {text}"));
-    quote_spanned! {places::of(of.span())=>
+    quote_spanned! {spans::of(of.span())=>
         const _: () = {
             use #root::__rt::{self, prelude::*};
             impl<T: __rt::Real> #of<T> {

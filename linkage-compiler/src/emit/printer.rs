@@ -51,8 +51,8 @@ pub(super) trait Style {
     fn count(&self, count: usize) -> Self::Text;
     fn constant(&self, constant: Constant) -> Self::Text;
     fn field(&self, of: Self::Text, name: &str) -> Self::Text;
-    fn index(&self, of: Self::Text, place: usize) -> Self::Text;
-    fn entry(&self, of: Self::Text, place: Self::Text) -> Self::Text;
+    fn index(&self, of: Self::Text, index: usize) -> Self::Text;
+    fn entry(&self, of: Self::Text, index: Self::Text) -> Self::Text;
     fn list(&self, values: Vec<Self::Text>) -> Self::Text;
     fn repeated(&self, value: Self::Text, count: usize) -> Self::Text;
     fn tuple(&self, values: Vec<Self::Text>) -> Self::Text;
@@ -78,7 +78,7 @@ pub(super) trait Style {
 
     fn let_statement(&self, pattern: Self::Text, value: Self::Text) -> Self::Text;
     fn do_statement(&self, value: Self::Text) -> Self::Text;
-    fn assignment(&self, place: Self::Text, value: Self::Text) -> Self::Text;
+    fn assignment(&self, index: Self::Text, value: Self::Text) -> Self::Text;
     fn return_statement(&self, value: Self::Text) -> Self::Text;
     fn let_else(&self, pattern: Self::Text, value: Self::Text, otherwise: Self::Text) -> Self::Text;
     fn unless(&self, conditions: Vec<Self::Text>, inside: Vec<Self::Text>) -> Self::Text;
@@ -112,7 +112,7 @@ impl<S: Style> Printer<'_, S> {
                 self.style.let_statement(self.pattern(pattern), value)
             }
             Statement::Do(value) => self.style.do_statement(self.value(*value)),
-            Statement::Assign(place, value) => self.style.assignment(self.value(*place), self.value(*value)),
+            Statement::Assign(index, value) => self.style.assignment(self.value(*index), self.value(*value)),
             Statement::Return(value) => self.style.return_statement(self.value(*value)),
             Statement::LetElse(pattern, value, otherwise) => {
                 self.style.let_else(self.pattern(pattern), self.value(*value), self.value(*otherwise))
@@ -189,15 +189,15 @@ impl<S: Style> Printer<'_, S> {
             Value::Constant(number) => style.number(*number),
             Value::Exact(number) => style.exact(*number),
             Value::Sum(terms) => {
-                let term = |(place, term): (usize, &Signed)| {
-                    let least = if place == 0 && !term.negative { Binding::Sum } else { Binding::Product };
+                let term = |(index, term): (usize, &Signed)| {
+                    let least = if index == 0 && !term.negative { Binding::Sum } else { Binding::Product };
                     (term.negative, self.operand(term.value, least))
                 };
                 style.sum(terms.iter().enumerate().map(term).collect())
             }
             Value::Product(factors) => {
-                let least = |place| if place == 0 { Binding::Product } else { Binding::Prefix };
-                let factors = factors.iter().enumerate().map(|(place, factor)| self.operand(*factor, least(place)));
+                let least = |index| if index == 0 { Binding::Product } else { Binding::Prefix };
+                let factors = factors.iter().enumerate().map(|(index, factor)| self.operand(*factor, least(index)));
                 style.product(factors.collect())
             }
             Value::Quotient(above, below) => {
@@ -221,8 +221,8 @@ impl<S: Style> Printer<'_, S> {
             Value::Count(count) => style.count(*count),
             Value::Path(constant) => style.constant(*constant),
             Value::Field(of, name) => style.field(self.operand(*of, Binding::Atom), name),
-            Value::Index(of, place) => style.index(self.operand(*of, Binding::Atom), *place),
-            Value::At(of, place) => style.entry(self.operand(*of, Binding::Atom), self.value(*place)),
+            Value::Index(of, index) => style.index(self.operand(*of, Binding::Atom), *index),
+            Value::At(of, index) => style.entry(self.operand(*of, Binding::Atom), self.value(*index)),
             Value::List(values) => style.list(self.values(values)),
             Value::Repeated(value, count) => style.repeated(self.value(*value), *count),
             Value::Tuple(values) => style.tuple(self.values(values)),

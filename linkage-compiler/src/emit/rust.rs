@@ -41,7 +41,7 @@ impl Style for Rust {
     }
 
     fn sum(&self, terms: Vec<(bool, TokenStream)>) -> TokenStream {
-        let terms = terms.into_iter().enumerate().map(|(place, (is_negative, term))| match (place, is_negative) {
+        let terms = terms.into_iter().enumerate().map(|(index, (is_negative, term))| match (index, is_negative) {
             (0, false) => term,
             (_, true) => quote!(- #term),
             (_, false) => quote!(+ #term),
@@ -101,13 +101,13 @@ impl Style for Rust {
         quote!(#of.#name)
     }
 
-    fn index(&self, of: TokenStream, place: usize) -> TokenStream {
-        let place = literal(place);
-        quote!(#of[#place])
+    fn index(&self, of: TokenStream, index: usize) -> TokenStream {
+        let index = literal(index);
+        quote!(#of[#index])
     }
 
-    fn entry(&self, of: TokenStream, place: TokenStream) -> TokenStream {
-        quote!(#of[#place])
+    fn entry(&self, of: TokenStream, index: TokenStream) -> TokenStream {
+        quote!(#of[#index])
     }
 
     fn list(&self, values: Vec<TokenStream>) -> TokenStream {
@@ -207,8 +207,8 @@ impl Style for Rust {
         quote!(#value;)
     }
 
-    fn assignment(&self, place: TokenStream, value: TokenStream) -> TokenStream {
-        quote!(#place = #value;)
+    fn assignment(&self, index: TokenStream, value: TokenStream) -> TokenStream {
+        quote!(#index = #value;)
     }
 
     fn return_statement(&self, value: TokenStream) -> TokenStream {
@@ -257,7 +257,7 @@ impl Style for Rust {
 /// The name of a field, or its index in a tuple.
 fn member(name: &str) -> TokenStream {
     match name.parse::<usize>() {
-        Ok(place) => literal(place).into_token_stream(),
+        Ok(index) => literal(index).into_token_stream(),
         Err(_) => ident(name).into_token_stream(),
     }
 }

@@ -14,8 +14,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenSt
     let SceneSignatures { mechanism, scene, .. } = signatures;
     let (visibility, name, of) = (&mechanism.visibility, &scene.name, &mechanism.drivers[scene.driver].name);
     let (inner, other_scalar) = (ident(&signatures.field), other_scalar(mechanism));
-    let parameters: Vec<&Parameter> =
-        scene.parameters.iter().map(|&place| &mechanism.scene_parameters[place]).collect();
+    let parameters: Vec<&Parameter> = scene.parameters.iter().map(|&span| &mechanism.scene_parameters[span]).collect();
     let fields: Vec<Ident> = parameters.iter().map(|parameter| field(&parameter.name)).collect();
     let members = parameters.iter().zip(&fields).map(|(parameter, field)| {
         let docs = docs_of_parameter(mechanism, parameter);

@@ -87,7 +87,7 @@ impl Style for Plain {
     }
 
     fn sum(&self, terms: Vec<(bool, String)>) -> String {
-        let terms = terms.into_iter().enumerate().map(|(place, (is_negative, term))| match (place, is_negative) {
+        let terms = terms.into_iter().enumerate().map(|(index, (is_negative, term))| match (index, is_negative) {
             (0, false) => term,
             (0, true) => format!("-{term}"),
             (_, false) => format!(" + {term}"),
@@ -98,7 +98,7 @@ impl Style for Plain {
 
     fn product(&self, factors: Vec<String>) -> String {
         // Two signs side by side are hard to read.
-        let apart = |(place, factor): (usize, String)| match place > 0 && factor.starts_with('-') {
+        let apart = |(index, factor): (usize, String)| match index > 0 && factor.starts_with('-') {
             true => self.brackets(factor),
             false => factor,
         };
@@ -150,12 +150,12 @@ impl Style for Plain {
         format!("{of}.{name}")
     }
 
-    fn index(&self, of: String, place: usize) -> String {
-        format!("{of}[{place}]")
+    fn index(&self, of: String, index: usize) -> String {
+        format!("{of}[{index}]")
     }
 
-    fn entry(&self, of: String, place: String) -> String {
-        format!("{of}[{place}]")
+    fn entry(&self, of: String, index: String) -> String {
+        format!("{of}[{index}]")
     }
 
     fn list(&self, values: Vec<String>) -> String {
@@ -227,8 +227,8 @@ impl Style for Plain {
         value
     }
 
-    fn assignment(&self, place: String, value: String) -> String {
-        format!("{place} := {value}")
+    fn assignment(&self, index: String, value: String) -> String {
+        format!("{index} := {value}")
     }
 
     fn return_statement(&self, value: String) -> String {

@@ -125,18 +125,18 @@ impl Graph {
 
     /// |x|^2 = x^2, and x^2 / |x| = |x|: factors with fewer magnitudes, if there are any.
     fn without_magnitudes(&self, factors: &[(NodeId, i32)]) -> Option<Vec<(NodeId, i32)>> {
-        factors.iter().enumerate().find_map(|(place, &(modulus, exponent))| {
+        factors.iter().enumerate().find_map(|(index, &(modulus, exponent))| {
             let &Node::Call(Function::Abs, ref arguments) = self.node(modulus) else { return None };
             let &[x] = arguments.as_slice() else { return None };
             let square = factors.iter().position(|&(base, power)| base == x && power >= 2);
             let mut items = factors.to_vec();
             match square {
                 _ if exponent.unsigned_abs() >= 2 => {
-                    items[place].1 = exponent % 2;
+                    items[index].1 = exponent % 2;
                     items.push((x, exponent - exponent % 2));
                 }
                 Some(square) if exponent == -1 => {
-                    items[place].1 = 1;
+                    items[index].1 = 1;
                     items[square].1 -= 2;
                 }
                 _ => return None,
@@ -237,11 +237,11 @@ impl Graph {
 
 /// The entry of a key in a sorted list; inserts it if it is missing.
 fn entry<V>(list: &mut Vec<(NodeId, V)>, key: NodeId, empty: V) -> &mut V {
-    let place = list.binary_search_by_key(&key, |(key, _)| *key).unwrap_or_else(|place| {
-        list.insert(place, (key, empty));
-        place
+    let index = list.binary_search_by_key(&key, |(key, _)| *key).unwrap_or_else(|index| {
+        list.insert(index, (key, empty));
+        index
     });
-    &mut list[place].1
+    &mut list[index].1
 }
 
 #[cfg(test)]

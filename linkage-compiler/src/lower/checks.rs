@@ -22,7 +22,7 @@ pub(super) struct Checked {
 impl Checked {
     pub(super) fn is_proven(&self, value: &Expression) -> bool {
         match value {
-            Expression::Result(place) => self.is_proven.get(*place).copied().unwrap_or_default(),
+            Expression::Result(index) => self.is_proven.get(*index).copied().unwrap_or_default(),
             _ => false,
         }
     }

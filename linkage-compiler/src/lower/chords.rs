@@ -26,7 +26,7 @@ impl Writer<'_> {
                 self.dangle(|| format!("the form of `{}` over lanes", function.row().name));
                 return;
             };
-            let call = self.call(form.function, form.takes.iter().map(|&place| arguments[place]));
+            let call = self.call(form.function, form.takes.iter().map(|&index| arguments[index]));
             let name = self.introduce(of, *symbol);
             let flag = self.values.bound();
             self.hint(flag, Hint::Regular(name));

@@ -8,12 +8,12 @@ use rustc_hash::FxHashSet;
 use super::calls;
 use super::checks::Checked;
 use super::code::{Callee, Code, Returned};
+use super::counts::{Count, Counts};
 use super::naming::{self, Hint};
 use super::rounding::{Bound, DIRECTION, Roundings};
 use super::schedule::Schedule;
 use super::scheduling::schedule;
 use super::value::{Value, ValueId};
-use super::works::{Work, Works};
 use super::writer::Writer;
 use super::{proven, reads, stored, stretches, unneeded};
 use crate::derivation::Derivation;
@@ -45,7 +45,7 @@ pub struct Context<'a> {
 /// The functions lowered so far, as far as later ones need them.
 pub(super) struct Lowered {
     /// Their operations.
-    pub(super) works: Works,
+    pub(super) counts: Counts,
     /// The rounding errors of a pose.
     pub(super) roundings: Roundings,
 }
@@ -79,11 +79,11 @@ pub(super) fn function(
         arguments: arguments.iter().map(|argument| argument.name.as_str()).collect(),
     };
     let code = body.map(|body| {
-        let (code, work) = signature.body(body, context, lowered)?;
+        let (code, count) = signature.body(body, context, lowered)?;
         // A cold function is called only after an error.
-        let work = if access == Access::Cold { Work::default() } else { work };
-        let operations = work.total();
-        callees.iter().for_each(|callee| lowered.works.insert(*callee, work.clone()));
+        let count = if access == Access::Cold { Count::default() } else { count };
+        let operations = count.total();
+        callees.iter().for_each(|callee| lowered.counts.insert(*callee, count.clone()));
         Ok(Code { operations, ..code })
     });
     let body = code.transpose().map_err(|what| Dangling { function: name.clone(), what })?;
@@ -100,7 +100,7 @@ struct Signature<'f> {
 
 impl Signature<'_> {
     /// The code of a body and its operations; otherwise what the body refers to and does not exist.
-    fn body(&self, body: Body, context: &Context, lowered: &mut Lowered) -> Result<(Code, Work), String> {
+    fn body(&self, body: Body, context: &Context, lowered: &mut Lowered) -> Result<(Code, Count), String> {
         let Body { before, kernel, after, value, locals, operations } = body;
         let schedule = kernel.as_ref().map(|kernel| self.scheduled(kernel, context));
         let bound = kernel.as_ref().zip(schedule.as_ref()).and_then(|(kernel, schedule)| {
@@ -141,7 +141,7 @@ impl Signature<'_> {
         let mut statements = unneeded::taken_apart_at_once(&mut values, statements, value);
         let value = unneeded::unnamed(&mut values, &mut statements, value);
         let uses = used.iter().filter_map(|id| match values.get(*id) {
-            Value::Argument(place) => Some(*place),
+            Value::Argument(index) => Some(*index),
             _ => None,
         });
         let uses = uses.collect();
@@ -151,9 +151,9 @@ impl Signature<'_> {
         let is_branch_free = schedule.as_ref().is_none_or(Schedule::is_branch_free);
         let values = values.all;
         let calls = calls::always(&values, &statements, value);
-        let work = lowered.works.work(schedule.as_ref(), self.is_layer, &calls, operations);
-        let operations = work.total();
-        Ok((Code { values, statements, value, operations, uses, externals, is_branch_free, bound, names }, work))
+        let count = lowered.counts.of_body(schedule.as_ref(), self.is_layer, &calls, operations);
+        let operations = count.total();
+        Ok((Code { values, statements, value, operations, uses, externals, is_branch_free, bound, names }, count))
     }
 
     fn scheduled(&self, kernel: &Kernel, context: &Context) -> Schedule {
@@ -192,8 +192,8 @@ impl Writer<'_> {
         let own = self.values.add(Value::Itself);
         self.variables.insert("self".to_owned(), own);
         self.hint(own, Hint::Fixed("self".to_owned()));
-        for (place, name) in names.iter().enumerate() {
-            let id = self.values.add(Value::Argument(place));
+        for (index, name) in names.iter().enumerate() {
+            let id = self.values.add(Value::Argument(index));
             self.variables.insert((*name).to_owned(), id);
             self.hint(id, Hint::Fixed((*name).to_owned()));
         }
@@ -209,9 +209,9 @@ impl Writer<'_> {
         self.write(of);
         let mut results = self.all_signed(of, &schedule.results);
         let is_proven = proven::proven(&self.values, &self.statements, &results, kernel.conclusive.clone());
-        let is_needless = |place: usize| kernel.external.contains(&place);
+        let is_needless = |index: usize| kernel.external.contains(&index);
         let is_proven: Vec<bool> =
-            is_proven.into_iter().enumerate().map(|(place, is_it)| is_it || is_needless(place)).collect();
+            is_proven.into_iter().enumerate().map(|(index, is_it)| is_it || is_needless(index)).collect();
         let open = kernel.dyads.iter().zip(&is_proven).filter(|(_, is_proven)| !**is_proven);
         let open: BTreeSet<GroupId> = open.filter_map(|(dyad, _)| *dyad).collect();
         self.keep_conditions(&open);
@@ -259,9 +259,9 @@ fn bound(kernel: &Kernel, schedule: &Schedule, context: &Context, lowered: &mut 
     let graph = &context.derivation.graph;
     let fields = taken_by_others(kernel, context);
     let results = kernel.results.iter().zip(&schedule.results).enumerate();
-    let names = results.map(|(place, (output, result))| {
+    let names = results.map(|(index, (output, result))| {
         let symbol = graph.as_symbol(output.node);
-        let symbol = symbol.or_else(|| fields.iter().find(|(other, _)| *other == place).map(|(_, symbol)| *symbol));
+        let symbol = symbol.or_else(|| fields.iter().find(|(other, _)| *other == index).map(|(_, symbol)| *symbol));
         let symbol = symbol.map(|symbol| graph.symbol_name(symbol));
         let is_circular = matches!(graph.node(output.node), Node::Call(Elementary::Sin | Elementary::Cos, _));
         let symbol = if is_circular { Some(DIRECTION) } else { symbol };
@@ -277,14 +277,14 @@ fn bound(kernel: &Kernel, schedule: &Schedule, context: &Context, lowered: &mut 
 fn taken_by_others(kernel: &Kernel, context: &Context) -> Vec<(usize, SymbolId)> {
     let graph = &context.derivation.graph;
     let ratios: BTreeSet<SymbolId> = context.derivation.ratios.iter().flatten().copied().collect();
-    let places = kernel.results.iter().enumerate();
-    let of = |(place, output): (usize, &Output)| {
+    let indices = kernel.results.iter().enumerate();
+    let of = |(index, output): (usize, &Output)| {
         let is_it = |(group, ..): &&(GroupId, String, SymbolId)| {
             context.derivation.groups[*group].determinant.is_some_and(|determinant| determinant.value == output.node)
         };
         let determinant = context.pose.determinants.iter().find(is_it).map(|(.., symbol)| *symbol);
         let ratio = graph.as_symbol(output.node).filter(|symbol| ratios.contains(symbol));
-        Some((place, determinant.or(ratio)?))
+        Some((index, determinant.or(ratio)?))
     };
-    places.filter_map(of).collect()
+    indices.filter_map(of).collect()
 }

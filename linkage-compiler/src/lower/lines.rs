@@ -80,9 +80,9 @@ impl Writer<'_> {
             Line::Turn { symbol, principal } => {
                 let principal = self.signed(of, *principal);
                 let number = match self.kernel.turns.get(symbol) {
-                    Some(&place) => {
-                        let (turn, place) = (self.variable(self.context.turn), self.add(Value::Count(place)));
-                        self.call(Intrinsic::InTurn, [turn, place, principal])
+                    Some(&index) => {
+                        let (turn, index) = (self.variable(self.context.turn), self.add(Value::Count(index)));
+                        self.call(Intrinsic::InTurn, [turn, index, principal])
                     }
                     None => principal,
                 };
@@ -159,7 +159,7 @@ impl Writer<'_> {
             && let Some(form) = of.row().in_lane
         {
             debug_assert_eq!(form.result, LaneResult::Flag);
-            let flag = self.call(form.function, form.takes.iter().map(|&place| arguments[place]));
+            let flag = self.call(form.function, form.takes.iter().map(|&index| arguments[index]));
             self.flags.push(flag);
             return;
         }

@@ -12,7 +12,7 @@
 //! 7. `proven`: results that are finite if the checks pass; `planned`, `checks`: what the plan has around the kernel;
 //! 8. `stored`, `reads`, `stretches`, `unneeded`: the places of stores, reads and long sequences, and what nothing needs;
 //!    all ask `uses` which values a statement reads;
-//! 9. `calls`, `works`: operations are counted, with those of the functions that it calls;
+//! 9. `calls`, `counts`: operations are counted, with those of the functions that it calls;
 //! 10. `naming`: names, the only pass that knows them.
 //!
 //! A reference to something that does not exist is an error of construction ([`Dangling`]): finished code has none.
@@ -21,6 +21,7 @@ mod calls;
 mod checks;
 mod chords;
 mod code;
+mod counts;
 mod factors;
 mod function;
 mod joined;
@@ -47,7 +48,6 @@ mod unneeded;
 mod uses;
 mod value;
 mod values;
-mod works;
 mod writer;
 
 pub use code::{Block, Callee, Code, Pattern, Returned, Statement};

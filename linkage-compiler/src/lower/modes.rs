@@ -65,9 +65,9 @@ impl Writer<'_> {
     fn unknown(&mut self, of: Absorbed<'_>, guide: &Option<Guide<Signed>>) -> ValueId {
         let Some(Guide { in_loop, along, with }) = guide else { return self.add(Value::Path(Constant::Angle)) };
         let with = match with {
-            Some(place) => {
-                let place = self.add(Value::Count(*place));
-                self.call(Intrinsic::Some, [place])
+            Some(index) => {
+                let index = self.add(Value::Count(*index));
+                self.call(Intrinsic::Some, [index])
             }
             None => self.add(Value::Path(Constant::None)),
         };
@@ -88,8 +88,8 @@ impl Writer<'_> {
 
     /// The function from the directions to the unknowns, each an integer combination of them.
     fn of_directions(&mut self, unknowns: &[Vec<i64>]) -> ValueId {
-        let is_same = |(place, factors): (usize, &Vec<i64>)| {
-            factors.iter().enumerate().all(|(other, factor)| *factor == i64::from(other == place))
+        let is_same = |(index, factors): (usize, &Vec<i64>)| {
+            factors.iter().enumerate().all(|(other, factor)| *factor == i64::from(other == index))
         };
         let (argument, value) = if unknowns.iter().enumerate().all(is_same) {
             let directions = self.fixed("directions");

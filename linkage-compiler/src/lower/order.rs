@@ -56,8 +56,8 @@ impl Ordering {
                     let given = graph.external_names(external.function).len();
                     let call = (external.function, arguments.clone());
                     let call = externals.entry(call).or_insert_with(|| vec![None; given]);
-                    if let Some(place) = external.order().and_then(|order| call.get_mut(order)) {
-                        *place = Some(id);
+                    if let Some(index) = external.order().and_then(|order| call.get_mut(order)) {
+                        *index = Some(id);
                     }
                 }
                 Value::Square(base) => squared[base.0] = true,
@@ -136,7 +136,7 @@ impl Ordering {
         // A fifth angle needs a vector operation of its own: if some angle needs no pair, compute it separately.
         let is_fifth = several.len() % SIDE_BY_SIDE == 1;
         let alone = several.iter().rposition(|one| !one.is_pair()).filter(|_| is_fifth);
-        let alone = alone.map(|place| several.remove(place));
+        let alone = alone.map(|index| several.remove(index));
         for one in &several {
             self.require(one.angle.value, false);
             self.give_names(one);

@@ -35,9 +35,9 @@ impl Writer<'_> {
                 let value = self.expression(value, checked);
                 self.statements.push(Statement::Do(value));
             }
-            S::Assign(place, value) => {
-                let [place, value] = [place, value].map(|part| self.expression(part, checked));
-                self.statements.push(Statement::Assign(place, value));
+            S::Assign(index, value) => {
+                let [index, value] = [index, value].map(|part| self.expression(part, checked));
+                self.statements.push(Statement::Assign(index, value));
             }
             S::LetElse(pattern, value, otherwise) => {
                 let [value, otherwise] = [value, otherwise].map(|part| self.expression(part, checked));
@@ -95,14 +95,14 @@ impl Writer<'_> {
                 self.variables.insert(name, id);
                 id
             }
-            Variable::Local(place) => self.local(place),
+            Variable::Local(index) => self.local(index),
         })
     }
 
-    fn local(&mut self, place: usize) -> ValueId {
-        match self.locals.get(place) {
+    fn local(&mut self, index: usize) -> ValueId {
+        match self.locals.get(index) {
             Some(id) => *id,
-            None => self.dangle(|| format!("local value {place}")),
+            None => self.dangle(|| format!("local value {index}")),
         }
     }
 
@@ -114,13 +114,13 @@ impl Writer<'_> {
         use Expression as E;
         let value = match value {
             E::Name(name) => return self.variable(name),
-            E::Result(place) => {
-                return match checked.results.get(*place) {
+            E::Result(index) => {
+                return match checked.results.get(*index) {
                     Some(result) => *result,
-                    None => self.dangle(|| format!("result {place} of the kernel")),
+                    None => self.dangle(|| format!("result {index} of the kernel")),
                 };
             }
-            E::Local(place) => return self.local(*place),
+            E::Local(index) => return self.local(*index),
             E::Number(number) => Value::Constant(*number),
             E::Sum(terms) => Value::Sum(self.expressions(terms, checked).into_iter().map(Signed::positive).collect()),
             E::Product(factors) => Value::Product(self.expressions(factors, checked)),
@@ -134,10 +134,10 @@ impl Writer<'_> {
             E::Count(count) => Value::Count(*count),
             E::Constant(constant) => Value::Path(*constant),
             E::Field(of, name) => Value::Field(self.expression(of, checked), name.clone()),
-            E::Index(of, place) => Value::Index(self.expression(of, checked), *place),
+            E::Index(of, index) => Value::Index(self.expression(of, checked), *index),
             E::At(parts) => {
-                let [of, place] = [&parts[0], &parts[1]].map(|part| self.expression(part, checked));
-                Value::At(of, place)
+                let [of, index] = [&parts[0], &parts[1]].map(|part| self.expression(part, checked));
+                Value::At(of, index)
             }
             E::List(all) => Value::List(self.expressions(all, checked)),
             E::Repeated(value, count) => Value::Repeated(self.expression(value, checked), *count),

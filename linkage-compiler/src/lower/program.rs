@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::code::{Callee, Code};
+use super::counts::Counts;
 use super::function::{Context, Dangling, FunctionIds, Lowered, function};
 use super::rounding::Roundings;
-use super::works::Works;
 use crate::derivation::Derivation;
 use crate::ids::{FunctionId, Id, Table};
 use crate::program::{Access, AnyNumber, Arguments, Body, Derived, Function, Functions, Program, SceneProgram};
@@ -23,9 +23,9 @@ pub fn program<'a>(
     let reserved = signatures.arguments.reserved();
     let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &of_driver, of_driver: &of_driver };
     let of = context(derivation, &derived, of);
-    let mut lowered = Lowered { works: Works::default(), roundings: Roundings::new(&derived.pose) };
+    let mut lowered = Lowered { counts: Counts::default(), roundings: Roundings::new(&derived.pose) };
     let functions = all(functions, &of, &[Callee::Own, Callee::OfDriver], &mut lowered)?;
-    let works = lowered.works.of_driver();
+    let counts = lowered.counts.of_driver();
     let mut alone = |planned| function(planned, &[], &of, &mut lowered);
     let implementations = implementations.into_iter().map(|one| one.try_map(&mut alone));
     let implementations = implementations.collect::<Result<Vec<_>, _>>()?;
@@ -39,7 +39,7 @@ pub fn program<'a>(
         let own = ids(&functions);
         let of = Names { reserved: &reserved, arguments: &signatures.arguments, own: &own, of_driver: &of_driver };
         let of = context(derivation, &derived, of);
-        let mut lowered = Lowered { works: works.clone(), roundings: Roundings::new(&derived.pose) };
+        let mut lowered = Lowered { counts: counts.clone(), roundings: Roundings::new(&derived.pose) };
         let functions = all(functions, &of, &[Callee::Own], &mut lowered)?;
         let order = ordered(functions.ids().collect(), &functions, &signatures.all());
         let functions = Functions::listed(functions, order);
@@ -118,8 +118,8 @@ fn ordered(
     functions: &Table<FunctionId, Function<Code>>,
     order: &[Function<Body>],
 ) -> Vec<FunctionId> {
-    let place = |id: &FunctionId| order.iter().position(|other| other.name == functions[*id].name);
-    ids.sort_by_key(|id| place(id).unwrap_or(order.len()));
+    let index = |id: &FunctionId| order.iter().position(|other| other.name == functions[*id].name);
+    ids.sort_by_key(|id| index(id).unwrap_or(order.len()));
     ids
 }
 

@@ -75,13 +75,13 @@ impl Proven<'_> {
         let Value::Intrinsic(of, _, arguments) = self.values.get(call) else { return };
         match of.row().finite {
             Finite::Unknown => {}
-            Finite::With(place) => {
-                self.named.insert(bound, arguments[place]);
+            Finite::With(index) => {
+                self.named.insert(bound, arguments[index]);
             }
-            Finite::Checks(place) => {
+            Finite::Checks(index) => {
                 self.named.remove(&bound);
                 chords.push(bound);
-                checked.extend(self.factors(arguments[place]));
+                checked.extend(self.factors(arguments[index]));
             }
         }
     }

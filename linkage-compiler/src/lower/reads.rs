@@ -42,14 +42,14 @@ pub(super) fn passed_on(values: &mut Values, statements: &mut Vec<Statement>, re
 pub(super) fn parameters_where_used(values: &Values, statements: &mut Vec<Statement>) {
     let is_parameters =
         |statement: &Statement| matches!(statement, Statement::Let(Pattern::Struct { of: Type::Itself, .. }, _));
-    let Some(place) = statements.iter().position(is_parameters) else { return };
-    let parameters = statements.remove(place);
+    let Some(index) = statements.iter().position(is_parameters) else { return };
+    let parameters = statements.remove(index);
     let bound: FxHashSet<ValueId> = parameters.bound().into_iter().collect();
     let uses = |statement: &Statement| {
         let mut is_used = false;
         values.uses().statement(statement, &mut |id| is_used |= bound.contains(&id));
         is_used
     };
-    let place = statements.iter().position(uses).unwrap_or(statements.len());
-    statements.insert(place, parameters);
+    let index = statements.iter().position(uses).unwrap_or(statements.len());
+    statements.insert(index, parameters);
 }

@@ -95,16 +95,16 @@ impl Values {
             return;
         }
         let Some(&first) = factors.first() else { return };
-        let Some(place) = factors.iter().rposition(|factor| self.is_bound[factor.0]) else { return };
+        let Some(index) = factors.iter().rposition(|factor| self.is_bound[factor.0]) else { return };
         let is_sum = matches!(self.get(first), Value::Sum(_)) && !self.is_bound[first.0];
-        if !is_sum || !self.is_earlier(factors[place], first) {
+        if !is_sum || !self.is_earlier(factors[index], first) {
             return;
         }
-        let is_negative = self.is_negative[factors[place].0];
-        let negative = self.add(Value::Negative(self.itself(factors[place])));
+        let is_negative = self.is_negative[factors[index].0];
+        let negative = self.add(Value::Negative(self.itself(factors[index])));
         self.is_negative[negative.0] = !is_negative;
         if let Value::Product(factors) = &mut self.all[product.0] {
-            factors[place] = negative;
+            factors[index] = negative;
         }
     }
 
@@ -181,7 +181,7 @@ impl Values {
     /// The terms of a sum, with a positive one first if it has one.
     fn settled_terms(&mut self, mut terms: Vec<Signed>) -> Vec<Signed> {
         terms::sort(&mut terms, |id| self.last_step(id), |term| self.is_taken_away(*term));
-        let settled = terms.into_iter().enumerate().map(|(place, term)| match place {
+        let settled = terms.into_iter().enumerate().map(|(index, term)| match index {
             // The first term may absorb its sign.
             0 => self.signed(term),
             _ => {

@@ -61,20 +61,20 @@ fn lets(statements: &[Statement]) -> usize {
 /// Moves `let`s that only read fields to their first use, so that their values cross fewer stretches.
 fn read_late(values: &Values, statements: Vec<Statement>) -> Vec<Statement> {
     let mut reads: Vec<Option<Statement>> = Vec::new();
-    let mut places: FxHashMap<ValueId, usize> = FxHashMap::default();
+    let mut indices: FxHashMap<ValueId, usize> = FxHashMap::default();
     let mut late = Vec::new();
     for statement in statements {
         let mut used: BTreeSet<usize> = BTreeSet::new();
-        values.uses().statement(&statement, &mut |id| used.extend(places.get(&id)));
+        values.uses().statement(&statement, &mut |id| used.extend(indices.get(&id)));
         match &statement {
             Statement::Let(pattern, value) if used.is_empty() && is_read(values, *value) => {
                 pattern.each(&mut |bound| {
-                    places.insert(*bound, reads.len());
+                    indices.insert(*bound, reads.len());
                 });
                 reads.push(Some(statement));
             }
             _ => {
-                late.extend(used.into_iter().filter_map(|place| reads[place].take()));
+                late.extend(used.into_iter().filter_map(|index| reads[index].take()));
                 late.push(statement);
             }
         }
@@ -97,17 +97,17 @@ fn divided_once(values: &mut Values, statements: Vec<Statement>, later: &FxHashS
     let liveness = Liveness::of(values, &statements, later);
     let mut divided = Vec::new();
     let mut statements = statements.into_iter();
-    let mut place = 0;
-    while place < liveness.bound.len() {
-        let end = liveness.end(place);
-        let inside = statements.by_ref().take(end - place);
+    let mut index = 0;
+    while index < liveness.bound.len() {
+        let end = liveness.end(index);
+        let inside = statements.by_ref().take(end - index);
         // A few statements between separate ones need no block.
-        if end - place < STRETCH - LEEWAY {
+        if end - index < STRETCH - LEEWAY {
             divided.extend(inside);
         } else {
-            divided.push(stretch(values, inside.collect(), liveness.crossing(place..end)));
+            divided.push(stretch(values, inside.collect(), liveness.crossing(index..end)));
         }
-        place = end;
+        index = end;
     }
     divided
 }
@@ -141,15 +141,15 @@ struct Liveness {
 impl Liveness {
     fn of(values: &Values, statements: &[Statement], later: &FxHashSet<ValueId>) -> Self {
         let mut last: FxHashMap<ValueId, usize> = FxHashMap::default();
-        for (place, statement) in statements.iter().enumerate() {
+        for (index, statement) in statements.iter().enumerate() {
             values.uses().statement(statement, &mut |id| {
-                last.insert(id, place);
+                last.insert(id, index);
             });
         }
         last.extend(later.iter().map(|id| (*id, usize::MAX)));
         let mut used_last = vec![Vec::new(); statements.len()];
-        for (id, &place) in &last {
-            if let Some(used_last) = used_last.get_mut(place) {
+        for (id, &index) in &last {
+            if let Some(used_last) = used_last.get_mut(index) {
                 used_last.push(*id);
             }
         }
@@ -167,20 +167,20 @@ impl Liveness {
         }
         let mut alive: FxHashSet<ValueId> = FxHashSet::default();
         let mut best = (usize::MAX, start + STRETCH);
-        for place in start..start + length {
-            alive.extend(self.bound[place].iter().filter(|id| self.is_used_after(**id, place)));
-            for id in &self.used_last[place] {
+        for index in start..start + length {
+            alive.extend(self.bound[index].iter().filter(|id| self.is_used_after(**id, index)));
+            for id in &self.used_last[index] {
                 alive.remove(id);
             }
-            if place + 1 >= start + STRETCH - LEEWAY {
-                best = best.min((alive.len(), place + 1));
+            if index + 1 >= start + STRETCH - LEEWAY {
+                best = best.min((alive.len(), index + 1));
             }
         }
         best.1
     }
 
-    fn is_used_after(&self, id: ValueId, place: usize) -> bool {
-        self.last.get(&id).is_some_and(|&last| last > place)
+    fn is_used_after(&self, id: ValueId, index: usize) -> bool {
+        self.last.get(&id).is_some_and(|&last| last > index)
     }
 
     /// The values of a stretch that are used after it.

@@ -9,8 +9,8 @@ use std::collections::BTreeSet;
 use rustc_hash::FxHashMap;
 
 use super::chain::{Chain, Chains, Link, Mean};
+use super::joints::Joints;
 use super::opened::Site;
-use super::places::Places;
 use super::scene::Body;
 use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
 use crate::ids::{BodyId, Table};
@@ -61,7 +61,7 @@ pub(super) enum LegOf {
 pub(super) struct Links {
     /// The symbols of the coordinates.
     moving: BTreeSet<SymbolId>,
-    places: Places,
+    joints: Joints,
     /// An angle of each direction but the constant one.
     directions: Vec<NodeId>,
     /// The ground comes first.
@@ -73,7 +73,7 @@ pub(super) struct Links {
     pub(super) floating: Vec<usize>,
 }
 
-/// A leg between two places.
+/// A leg between two joints.
 struct Edge {
     ends: [usize; 2],
     vector: [NodeId; 2],
@@ -92,7 +92,7 @@ impl Links {
     ) -> Self {
         let mut links = Self {
             moving,
-            places: Places::default(),
+            joints: Joints::default(),
             directions: Vec::new(),
             links: Vec::new(),
             guides: Vec::new(),
@@ -100,7 +100,7 @@ impl Links {
             floating: Vec::new(),
         };
         let zero = graph.zero();
-        let origin = links.places.add([zero; 2]);
+        let origin = links.joints.add([zero; 2]);
         let mut edges = Vec::new();
         for (sides, zeros) in chains.loops.iter().zip(&chains.zeros) {
             let mut end = |side: usize| match zeros[side] {
@@ -109,16 +109,16 @@ impl Links {
             };
             let [one, other] = [end(0), end(1)];
             if let (Some(one), Some(other)) = (one, other) {
-                links.places.merge(one, other);
+                links.joints.merge(one, other);
             }
         }
         for chain in chains.points.iter().chain(&chains.centers) {
             links.trace(graph, chain, &mut edges);
         }
         links.merge_parallel(graph, &edges);
-        links.join(links.places.find(origin), 0, &[]);
+        links.join(links.joints.find(origin), 0, &[]);
         for edge in &edges {
-            let [from, to] = edge.ends.map(|end| links.places.find(end));
+            let [from, to] = edge.ends.map(|end| links.joints.find(end));
             match edge.of {
                 LegOf::Rigid { direction } => links.join(from, direction, &[to]),
                 LegOf::Guide { direction, .. } => {
@@ -130,7 +130,7 @@ impl Links {
         links.add_bodies(graph, bodies, &chains.means);
         for Edge { ends, of, .. } in edges {
             let LegOf::Guide { direction, length, .. } = of else { continue };
-            let ends = ends.map(|end| links.places.find(end));
+            let ends = ends.map(|end| links.joints.find(end));
             let symbols = graph.symbols_of(&[length]);
             let mut coordinates = symbols.into_iter().filter(|symbol| links.moving.contains(symbol));
             let (Some(coordinate), None) = (coordinates.next(), coordinates.next()) else { continue };
@@ -145,7 +145,7 @@ impl Links {
         links
     }
 
-    /// Merges the ends of equal vectors that begin at one place, until no more are found.
+    /// Merges the ends of equal vectors that begin at one joint, until no more are found.
     fn merge_parallel(&mut self, graph: &mut Graph, edges: &[Edge]) {
         let mut directed = Vec::new();
         for Edge { ends: [from, to], vector, .. } in edges {
@@ -157,10 +157,10 @@ impl Links {
             is_changed = false;
             let mut reached = FxHashMap::default();
             for &(from, vector, to) in &directed {
-                let to = self.places.find(to);
-                let other = *reached.entry((self.places.find(from), vector)).or_insert(to);
-                if self.places.find(other) != to {
-                    self.places.merge(other, to);
+                let to = self.joints.find(to);
+                let other = *reached.entry((self.joints.find(from), vector)).or_insert(to);
+                if self.joints.find(other) != to {
+                    self.joints.merge(other, to);
                     is_changed = true;
                 }
             }
@@ -197,26 +197,26 @@ impl Links {
             let difference = graph.subtract(angle, other);
             !self.moves(graph, &[difference])
         };
-        known.position(is_parallel).map(|place| place + 1)
+        known.position(is_parallel).map(|at| at + 1)
     }
 
     pub(super) fn link(&self, index: usize) -> &RigidLink {
         &self.links[index]
     }
 
-    /// The place of a position, if a vector begins or ends there.
-    pub(super) fn place(&self, position: [NodeId; 2]) -> Option<usize> {
-        self.places.known(position)
+    /// The joint at a position, if a vector begins or ends there.
+    pub(super) fn joint(&self, position: [NodeId; 2]) -> Option<usize> {
+        self.joints.known(position)
     }
 
     /// The links in which a position is fixed.
     pub(super) fn holding(&mut self, graph: &mut Graph, position: [NodeId; 2]) -> BTreeSet<usize> {
-        let place = self.places.known(position);
+        let joint = self.joints.known(position);
         let mut holding = BTreeSet::new();
         for index in 0..self.links.len() {
             let RigidLink { direction, joints, .. } = self.links[index].clone();
-            let is_joint = place.is_some_and(|place| joints.contains(&place));
-            if is_joint || place.is_none() && self.is_fixed(graph, direction, &joints, position) {
+            let is_joint = joint.is_some_and(|joint| joints.contains(&joint));
+            if is_joint || joint.is_none() && self.is_fixed(graph, direction, &joints, position) {
                 holding.insert(index);
             }
         }
@@ -235,41 +235,41 @@ impl Links {
         holding.into_iter().filter(turns_with).collect()
     }
 
-    /// The link of a direction at a place.
-    pub(super) fn link_at(&self, place: usize, direction: usize) -> Option<usize> {
-        self.links.iter().position(|link| link.direction == direction && link.joints.contains(&place))
+    /// The link of a direction at a joint.
+    pub(super) fn link_at(&self, joint: usize, direction: usize) -> Option<usize> {
+        self.links.iter().position(|link| link.direction == direction && link.joints.contains(&joint))
     }
 
     pub(super) fn is_coordinate(&self, symbol: SymbolId) -> bool {
         self.moving.contains(&symbol)
     }
 
-    pub(super) fn is_origin(&self, graph: &mut Graph, place: usize) -> bool {
+    pub(super) fn is_origin(&self, graph: &mut Graph, joint: usize) -> bool {
         let zero = graph.zero();
-        self.places.known([zero; 2]) == Some(place)
+        self.joints.known([zero; 2]) == Some(joint)
     }
 
-    /// The links at a place.
-    pub(super) fn at(&self, place: usize) -> impl Iterator<Item = usize> {
+    /// The links at a joint.
+    pub(super) fn at(&self, joint: usize) -> impl Iterator<Item = usize> {
         let links = self.links.iter().enumerate();
-        links.filter(move |(_, link)| link.joints.contains(&place)).map(|(index, _)| index)
+        links.filter(move |(_, link)| link.joints.contains(&joint)).map(|(index, _)| index)
     }
 
     /// Makes a position a joint of the links in which it is fixed.
     pub(super) fn hold(&mut self, position: [NodeId; 2], holding: &BTreeSet<usize>) -> usize {
-        let place = self.places.add(position);
-        let place = self.places.find(place);
+        let joint = self.joints.add(position);
+        let joint = self.joints.find(joint);
         for &link in holding {
-            self.links[link].joints.insert(place);
+            self.links[link].joints.insert(joint);
         }
-        place
+        joint
     }
 
-    /// The pins: each link at each place where several meet.
+    /// The pins: each link at each joint where several meet.
     pub(super) fn pins(&self) -> Vec<Site> {
-        let places: BTreeSet<usize> = self.links.iter().flat_map(|link| link.joints.iter().copied()).collect();
-        let pins = places.into_iter().filter(|&place| self.at(place).nth(1).is_some());
-        pins.flat_map(|place| self.at(place).map(move |link| Site::Pin { place, link })).collect()
+        let joints: BTreeSet<usize> = self.links.iter().flat_map(|link| link.joints.iter().copied()).collect();
+        let pins = joints.into_iter().filter(|&joint| self.at(joint).nth(1).is_some());
+        pins.flat_map(|joint| self.at(joint).map(move |link| Site::Pin { joint, link })).collect()
     }
 
     /// The pins about which one link turns by an angle relative to another, on this one.
@@ -278,12 +278,12 @@ impl Links {
         for (index, link) in self.links.iter().enumerate().filter(|(_, link)| link.direction > 0) {
             for (_, other) in self.links.iter().enumerate().filter(|(other, _)| *other != index) {
                 let mut rest = graph.subtract(angle, self.directions[link.direction - 1]);
-                if let Some(place) = other.direction.checked_sub(1) {
-                    rest = graph.add(rest, self.directions[place]);
+                if let Some(at) = other.direction.checked_sub(1) {
+                    rest = graph.add(rest, self.directions[at]);
                 }
                 if !self.moves(graph, &[rest]) {
                     let shared = link.joints.intersection(&other.joints);
-                    pins.extend(shared.map(|&place| Site::Pin { place, link: index }));
+                    pins.extend(shared.map(|&joint| Site::Pin { joint, link: index }));
                 }
             }
         }
@@ -293,7 +293,7 @@ impl Links {
 
     /// The coordinates with which a link turns.
     pub(super) fn turns(&self, graph: &Graph, link: usize) -> Vec<SymbolId> {
-        let angle = self.links[link].direction.checked_sub(1).map(|place| self.directions[place]);
+        let angle = self.links[link].direction.checked_sub(1).map(|at| self.directions[at]);
         let symbols = angle.map(|angle| graph.symbols_of(&[angle])).unwrap_or_default();
         symbols.into_iter().filter(|symbol| self.moving.contains(symbol)).collect()
     }
@@ -312,10 +312,10 @@ impl Links {
         if !self.moves(graph, &[angle]) {
             return 0;
         }
-        for place in 0..self.directions.len() {
-            let difference = graph.subtract(angle, self.directions[place]);
+        for at in 0..self.directions.len() {
+            let difference = graph.subtract(angle, self.directions[at]);
             if !self.moves(graph, &[difference]) {
-                return place + 1;
+                return at + 1;
             }
         }
         self.directions.push(angle);
@@ -364,17 +364,17 @@ impl Links {
         Some(legs)
     }
 
-    /// Adds the places and the legs of a chain; returns its last place, or `None` if a vector is not understood.
+    /// Adds the joints and the legs of a chain; returns its last joint, or `None` if a vector is not understood.
     fn trace(&mut self, graph: &mut Graph, chain: &Chain, edges: &mut Vec<Edge>) -> Option<usize> {
         if chain.links.is_empty() && chain.start.is_none() {
             return None;
         }
         let zero = graph.zero();
-        let mut last = self.places.add(chain.start.unwrap_or([zero; 2]));
+        let mut last = self.joints.add(chain.start.unwrap_or([zero; 2]));
         for link in &chain.links {
             for Leg { vector, of } in self.legs(graph, link)? {
-                let from = self.places.position(last);
-                let next = self.places.add(moved(graph, from, vector));
+                let from = self.joints.position(last);
+                let next = self.joints.add(moved(graph, from, vector));
                 edges.push(Edge { ends: [last, next], vector, of });
                 last = next;
             }
@@ -382,9 +382,9 @@ impl Links {
         Some(last)
     }
 
-    /// Joins a place, and others on the same link, to the links of a direction that hold one of them.
-    fn join(&mut self, place: usize, direction: usize, others: &[usize]) {
-        let mut joints: BTreeSet<usize> = others.iter().copied().chain([place]).collect();
+    /// Joins a joint, and others on the same link, to the links of a direction that hold one of them.
+    fn join(&mut self, joint: usize, direction: usize, others: &[usize]) {
+        let mut joints: BTreeSet<usize> = others.iter().copied().chain([joint]).collect();
         let meets = |link: &RigidLink, joints: &BTreeSet<usize>| {
             link.direction == direction && !link.joints.is_disjoint(joints)
         };
@@ -411,10 +411,10 @@ impl Links {
             let direction = angle.map(|angle| self.direction(graph, angle));
             let Some((_, center)) = body.mass else {
                 // A moment of inertia without a mass turns with the first link of its angle.
-                let place = self.places.add([graph.zero(); 2]);
+                let joint = self.joints.add([graph.zero(); 2]);
                 let first = self.links.iter().find(|link| Some(link.direction) == direction);
-                held.push(first.map_or((place, direction.unwrap_or(0)), |link| {
-                    (link.joints.first().copied().unwrap_or(place), link.direction)
+                held.push(first.map_or((joint, direction.unwrap_or(0)), |link| {
+                    (link.joints.first().copied().unwrap_or(joint), link.direction)
                 }));
                 continue;
             };
@@ -425,30 +425,30 @@ impl Links {
             let of_angle = |index: &&usize| self.links[**index].direction == direction.unwrap_or(0);
             let only = || holding.first().filter(|_| direction.is_none() && holding.len() == 1);
             let found = holding.iter().find(of_angle).or_else(only).copied();
-            let place = self.places.add(center);
-            let place = self.places.find(place);
+            let center = self.joints.add(center);
+            let center = self.joints.find(center);
             let direction = found.map_or(direction.unwrap_or(0), |index| self.links[index].direction);
             let joint = found.and_then(|index| self.links[index].joints.first().copied());
-            self.join(place, direction, joint.as_slice());
-            held.push((place, direction));
+            self.join(center, direction, joint.as_slice());
+            held.push((center, direction));
         }
-        for (place, direction) in held {
-            self.join(place, direction, &[]);
-            self.bodies.push(self.link_at(place, direction).unwrap_or(GROUND));
+        for (joint, direction) in held {
+            self.join(joint, direction, &[]);
+            self.bodies.push(self.link_at(joint, direction).unwrap_or(GROUND));
         }
     }
 
     /// True if a position is constant in the frame of a link: with d = position - joint and the angle phi of the link,
     /// d' = phi' (-`d_y`, `d_x`) for each coordinate.
     fn is_fixed(&self, graph: &mut Graph, direction: usize, joints: &BTreeSet<usize>, position: [NodeId; 2]) -> bool {
-        let formulas: Vec<[NodeId; 2]> = joints.iter().flat_map(|&joint| self.places.formulas(joint)).collect();
+        let formulas: Vec<[NodeId; 2]> = joints.iter().flat_map(|&joint| self.joints.formulas(joint)).collect();
         formulas.into_iter().any(|joint| self.turns_with(graph, direction, joint, position))
     }
 
     /// True if the vector between two positions turns with a direction.
     fn turns_with(&self, graph: &mut Graph, direction: usize, from: [NodeId; 2], to: [NodeId; 2]) -> bool {
         let angle = match direction.checked_sub(1) {
-            Some(place) => self.directions[place],
+            Some(at) => self.directions[at],
             None => graph.zero(),
         };
         let [x, y] = [0, 1].map(|axis| graph.subtract(to[axis], from[axis]));
@@ -475,7 +475,7 @@ impl Links {
             }
             let slides_by = self.guides.iter().find(|guide| guide.links[1] == index).map(|guide| guide.coordinate);
             let symbols = match self.links[index].direction.checked_sub(1) {
-                Some(place) if slides_by.is_none() => graph.symbols_of(&[self.directions[place]]),
+                Some(at) if slides_by.is_none() => graph.symbols_of(&[self.directions[at]]),
                 _ => slides_by.into_iter().collect(),
             };
             let symbols = symbols.into_iter().filter(|symbol| self.moving.contains(symbol));

@@ -219,7 +219,7 @@ impl Mechanism {
 
     /// The place of the statement that a function of a driver comes from.
     #[must_use]
-    pub fn place_of(&self, driver: &Driver, function: &str) -> Span {
+    pub fn span_of(&self, driver: &Driver, function: &str) -> Span {
         let requests = [
             ("jerk", Request::Jerk),
             ("limits", Request::Limits),

@@ -75,8 +75,8 @@ impl Name {
     }
 
     /// The field as an identifier.
-    pub(crate) fn identifier(&self, place: Span) -> Ident {
-        identifier(&self.field, place)
+    pub(crate) fn identifier(&self, index: Span) -> Ident {
+        identifier(&self.field, index)
     }
 }
 

@@ -55,10 +55,10 @@ pub enum LoadKind {
     Guide { coordinate: String, guide: String, block: String, end: Option<String> },
 }
 
-/// An opened joint: a link at a place, or a guide by its ends.
+/// An opened joint: a link at a joint, or a guide by its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Site {
-    Pin { place: usize, link: usize },
+    Pin { joint: usize, link: usize },
     Guide { ends: [usize; 2], block: usize },
 }
 

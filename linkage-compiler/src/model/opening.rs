@@ -192,11 +192,11 @@ impl<'o> Opening<'o> {
     fn go(&mut self, mut path: Path, leg: &Leg) -> Option<Path> {
         let position = path.position?;
         let next = moved(self.graph, position, leg.vector);
-        let [here, there] = [position, next].map(|position| self.links.place(position));
-        let at = |place: Option<usize>, direction: usize| self.links.link_at(place?, direction);
+        let [here, there] = [position, next].map(|position| self.links.joint(position));
+        let at = |joint: Option<usize>, direction: usize| self.links.link_at(joint?, direction);
         let [on, ends_on] = match leg.of {
             LegOf::Rigid { direction } => {
-                // Between the joints of a link its position is no place.
+                // Between the joints of a link its position is no joint.
                 let own = path.link.filter(|&link| self.links.has_direction(link, direction));
                 [at(here, direction).or(own)?; 2].map(Some)
             }
@@ -206,8 +206,8 @@ impl<'o> Opening<'o> {
                 [None; 2]
             }
         };
-        if let Some(place) = here {
-            self.step(&mut path, place, on);
+        if let Some(joint) = here {
+            self.step(&mut path, joint, on);
         }
         path.link = ends_on;
         for (site, [first, turn]) in &self.sites {
@@ -234,21 +234,21 @@ impl<'o> Opening<'o> {
 
     /// Ends a path on its owner, or else on the pin at its end.
     fn end(&mut self, mut path: Path) -> Path {
-        if let Some(place) = path.position.and_then(|position| self.links.place(position)) {
-            self.step(&mut path, place, self.owner);
+        if let Some(joint) = path.position.and_then(|position| self.links.joint(position)) {
+            self.step(&mut path, joint, self.owner);
         }
         Path { position: None, link: None, is_fresh: false, ..path }
     }
 
-    /// Changes the link of a path at a place.
-    fn step(&mut self, path: &mut Path, place: usize, to: Option<usize>) {
+    /// Changes the link of a path at a joint.
+    fn step(&mut self, path: &mut Path, joint: usize, to: Option<usize>) {
         if path.link == to {
             return;
         }
         for (site, symbols) in &self.sites {
-            let Site::Pin { place: opened, link } = *site else { continue };
+            let Site::Pin { joint: opened, link } = *site else { continue };
             let sign = match Some(link) {
-                _ if opened != place => continue,
+                _ if opened != joint => continue,
                 link if link == to => Number::ONE,
                 link if link == path.link => Number::MINUS_ONE,
                 _ => continue,

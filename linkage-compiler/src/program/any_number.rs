@@ -98,7 +98,7 @@ impl Plan<'_, '_> {
         let rows = columns.first().map_or(0, Vec::len);
         let count = columns.len();
         let kernel = self.kernel_of_columns(unnamed(columns.concat()), false);
-        let column = |place: usize| Expression::sized_vector(results(place * rows..(place + 1) * rows));
+        let column = |index: usize| Expression::sized_vector(results(index * rows..(index + 1) * rows));
         let value = Expression::sized_vector((0..count).map(column).collect());
         Function { doc, body: Some(Body::of(kernel, value)), ..signature }
     }

@@ -63,7 +63,7 @@ impl Side {
                     Joint::Point(point) => format!("`{point}`"),
                     _ => format!("The joint of `{first}` and `{second}`"),
                 };
-                let [from, to] = [(0, first), (1, second)].map(|(place, link)| outer(&joints.outer[place], link));
+                let [from, to] = [(0, first), (1, second)].map(|(index, link)| outer(&joints.outer[index], link));
                 format!("{middle} is left or right of the line from {from} to {to}.")
             }
             (Choice::Slider, _, unknowns) => {

@@ -72,11 +72,11 @@ impl Plan<'_, '_> {
         let doc =
             vec![format!("The constraint Jacobian `Psi_q` of all coordinates; its columns are {}.", self.list(&order))];
         let pose = &self.signatures.arguments.pose;
-        let names = |places: &[CoordinateId]| -> Vec<String> {
-            places.iter().map(|&place| self.signatures.mechanism.coordinates[place].name.field.clone()).collect()
+        let names = |indices: &[CoordinateId]| -> Vec<String> {
+            indices.iter().map(|&index| self.signatures.mechanism.coordinates[index].name.field.clone()).collect()
         };
-        let part = |places: &[CoordinateId], function: &str| {
-            let columns = Pattern::List(names(places).into_iter().map(Pattern::name).collect());
+        let part = |indices: &[CoordinateId], function: &str| {
+            let columns = Pattern::List(names(indices).into_iter().map(Pattern::name).collect());
             Statement::Let(columns, Expression::own_call(function, [Expression::name(pose)]).columns())
         };
         let all = Expression::List(names(&order).into_iter().map(Expression::Name).collect());
@@ -142,7 +142,7 @@ impl Plan<'_, '_> {
         let nodes = entries.iter().map(|(_, _, node)| *node);
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
-        let matrix = body.matrix("SMatrix", &places(entries, 0), rows, columns);
+        let matrix = body.matrix("SMatrix", &as_results(entries, 0), rows, columns);
         Body { value: super::Value::Plain(matrix), ..body }
     }
 
@@ -158,8 +158,8 @@ impl Plan<'_, '_> {
     }
 
     /// The names of coordinates as the user wrote them.
-    fn list(&self, places: &[CoordinateId]) -> String {
-        let names = places.iter().map(|&place| &self.signatures.mechanism.coordinates[place].name.text);
+    fn list(&self, indices: &[CoordinateId]) -> String {
+        let names = indices.iter().map(|&index| &self.signatures.mechanism.coordinates[index].name.text);
         names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
     }
 }
@@ -171,9 +171,9 @@ fn entries<C: Id + Ord>(rows: &[Row<C>], columns: impl Iterator<Item = C>) -> Ve
 }
 
 /// Row, column and value of entries, the values being consecutive results of the kernel.
-pub(super) fn places<N>(entries: &[(usize, usize, N)], from: usize) -> Vec<(usize, usize, Expression)> {
-    let places = entries.iter().enumerate();
-    places.map(|(place, (row, column, _))| (*row, *column, Expression::Result(from + place))).collect()
+pub(super) fn as_results<N>(entries: &[(usize, usize, N)], from: usize) -> Vec<(usize, usize, Expression)> {
+    let indices = entries.iter().enumerate();
+    indices.map(|(index, (row, column, _))| (*row, *column, Expression::Result(from + index))).collect()
 }
 
 impl Body {
@@ -200,10 +200,10 @@ impl Body {
             return Expression::zeros(of);
         }
         let matrix = self.local("matrix");
-        let Expression::Local(place) = matrix else { return matrix };
+        let Expression::Local(index) = matrix else { return matrix };
         let zeros = Expression::Repeated(Box::new(Expression::zero()), rows);
         let zeros = Expression::Repeated(Box::new(zeros), columns);
-        self.after.push(Statement::Let(Pattern::Mutable(Variable::Local(place)), zeros));
+        self.after.push(Statement::Let(Pattern::Mutable(Variable::Local(index)), zeros));
         for (row, column, value) in entries {
             let entry = Expression::Index(Box::new(matrix.clone()), *column);
             let entry = Expression::Index(Box::new(entry), *row);

@@ -376,8 +376,8 @@ impl Pattern<Variable> {
         Self::Bound(Variable::Name(name.into()))
     }
 
-    pub fn local(place: usize) -> Self {
-        Self::Bound(Variable::Local(place))
+    pub fn local(index: usize) -> Self {
+        Self::Bound(Variable::Local(index))
     }
 
     /// `name: Type`

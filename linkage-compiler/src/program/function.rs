@@ -282,13 +282,13 @@ impl Body {
     /// Binds a value to a new local name.
     pub fn bound(&mut self, preferred: impl Into<String>, value: Expression) -> Expression {
         self.locals.push(preferred.into());
-        let place = self.locals.len() - 1;
-        self.after.push(Statement::Let(Pattern::local(place), value));
-        Expression::Local(place)
+        let index = self.locals.len() - 1;
+        self.after.push(Statement::Let(Pattern::local(index), value));
+        Expression::Local(index)
     }
 }
 
 /// The results of a kernel in a range.
-pub fn results(places: std::ops::Range<usize>) -> Vec<Expression> {
-    places.map(Expression::Result).collect()
+pub fn results(indices: std::ops::Range<usize>) -> Vec<Expression> {
+    indices.map(Expression::Result).collect()
 }

@@ -161,9 +161,9 @@ pub(super) fn fallible_of_trait<const N: usize>(
 /// The constants with the names of some coordinates, and with true for each angle among them.
 pub(super) fn named_coordinates<'a>(
     mechanism: &'a Mechanism,
-    places: impl Iterator<Item = &'a CoordinateId>,
+    indices: impl Iterator<Item = &'a CoordinateId>,
 ) -> [ConstantValue; 2] {
-    let all: Vec<&Coordinate> = places.map(|&place| &mechanism.coordinates[place]).collect();
+    let all: Vec<&Coordinate> = indices.map(|&index| &mechanism.coordinates[index]).collect();
     let texts = all.iter().map(|coordinate| coordinate.name.text.clone()).collect();
     let are_angles = all.iter().map(|coordinate| coordinate.kind == Kind::Angle).collect();
     [ConstantValue::Texts(texts), ConstantValue::Flags(are_angles)]

@@ -126,7 +126,7 @@ impl Plan<'_, '_> {
         let mut dyads = self.dyads();
         dyads.resize(of_motion, None);
         let kernel = Kernel {
-            turns: turns.map(|(place, turn)| (turn.symbol, place)).collect(),
+            turns: turns.map(|(index, turn)| (turn.symbol, index)).collect(),
             dyads,
             failure,
             conclusive: of_pose + columns.len()..of_motion,

@@ -63,7 +63,7 @@ fn given(signatures: &Signatures, position: &Position) -> Vec<String> {
 
 pub(super) fn inputs<'a>(signatures: &Signatures<'a>) -> Vec<&'a Name> {
     let (mechanism, inputs) = (signatures.mechanism, signatures.driver.inputs.iter());
-    inputs.map(|&place| &mechanism.coordinates[place].name).collect()
+    inputs.map(|&index| &mechanism.coordinates[index].name).collect()
 }
 
 /// The inputs, or all coordinates of a guess.
@@ -73,7 +73,7 @@ pub(super) fn start<'a>(signatures: &Signatures<'a>, position: &Position) -> Vec
         true => inputs(signatures),
         false => {
             let order = mechanism.coordinate_order(signatures.driver);
-            order.into_iter().map(|place| &mechanism.coordinates[place].name).collect()
+            order.into_iter().map(|index| &mechanism.coordinates[index].name).collect()
         }
     }
 }
@@ -97,7 +97,7 @@ impl Naming<'_> {
     /// Directions and lengths, then rates, then accelerations; and the angles.
     fn coordinates(&mut self, signatures: &Signatures, derived: Option<&Derived>) -> (Vec<Expression>, Vec<Held>) {
         let (mechanism, driver) = (signatures.mechanism, signatures.driver);
-        let unknowns: Vec<&Coordinate> = driver.unknowns.iter().map(|&place| &mechanism.coordinates[place]).collect();
+        let unknowns: Vec<&Coordinate> = driver.unknowns.iter().map(|&index| &mechanism.coordinates[index]).collect();
         let (mut values, mut angles) = (Vec::new(), Vec::new());
         let pose = Expression::name("pose");
         for coordinate in &unknowns {

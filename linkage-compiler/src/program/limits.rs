@@ -14,16 +14,16 @@ impl Plan<'_, '_> {
     pub(super) fn limits(&mut self) {
         // A second assembly, because the functions that must not be negative are expressed by its symbols.
         self.assembly = self.derivation.assembly();
-        for place in self.derivation.inputs.ids() {
-            self.limits_of(place);
+        for index in self.derivation.inputs.ids() {
+            self.limits_of(index);
         }
     }
 
-    fn limits_of(&mut self, place: InputId) {
+    fn limits_of(&mut self, index: InputId) {
         let Arguments { inputs, branch, guess, position: position_name, .. } = self.signatures.arguments.clone();
-        let coordinate = &self.signatures.mechanism.coordinates[self.signatures.driver.inputs[place]];
+        let coordinate = &self.signatures.mechanism.coordinates[self.signatures.driver.inputs[index]];
         let (name, kind) = (coordinate.name.clone(), coordinate.kind);
-        let (bounds, is_searched) = self.derivation.bounds(&self.assembly, place);
+        let (bounds, is_searched) = self.derivation.bounds(&self.assembly, index);
         let one = self.derivation.graph.one();
         let nodes = bounds.iter().flat_map(|bound| bound.coefficients.into_iter().chain([bound.rate.unwrap_or(one)]));
         let nodes = unnamed(nodes);
@@ -34,7 +34,7 @@ impl Plan<'_, '_> {
         let bounds = bounds.iter().enumerate().map(|(number, bound)| {
             let group = Expression::text(self.derivation.groups[bound.group].title(self.derivation));
             let group = Expression::Tuple(vec![Expression::Count(bound.group.index()), group]);
-            let result = |place: usize| Expression::Result(4 * number + place);
+            let result = |index: usize| Expression::Result(4 * number + index);
             let mut arguments = vec![group, Expression::List((0..3).map(result).collect())];
             let kind = if bound.rate.is_some() {
                 arguments.push(result(3));
@@ -81,7 +81,7 @@ impl Plan<'_, '_> {
             let start = Expression::of_type(inputs_type, Intrinsic::From, [Expression::name(&guess)]);
             (start, Expression::own_call("assemble_near", [Expression::name(&guess), branch_argument]))
         };
-        let number = Expression::Count(place.index());
+        let number = Expression::Count(index.index());
         let arguments = [Expression::own(), number, position().borrowed(), bounds, search, assemble, coordinates];
         let mut body = Body::result(Expression::call(Intrinsic::Limits, arguments));
         body.before = vec![
@@ -101,6 +101,6 @@ impl Plan<'_, '_> {
             "# Errors",
             "Those of the position at the given input, `PositionError::NotFinite` if a number is not finite.",
         ]);
-        self.add(self.signatures.limits(&self.position, place), doc, body);
+        self.add(self.signatures.limits(&self.position, index), doc, body);
     }
 }

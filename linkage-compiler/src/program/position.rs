@@ -151,7 +151,7 @@ impl Plan<'_, '_> {
         };
         let turns = self.position.turns.iter().enumerate();
         let kernel = Kernel {
-            turns: turns.map(|(place, turn)| (turn.symbol, place)).collect(),
+            turns: turns.map(|(index, turn)| (turn.symbol, index)).collect(),
             dyads: self.dyads(),
             ..self.kernel(vec![source], steps, results)
         };

@@ -228,8 +228,8 @@ impl Plan<'_, '_> {
         for &angle in &angles {
             parts.extend([Elementary::Cos, Elementary::Sin].map(|function| graph.call(function, &[angle])));
         }
-        let members = angles.iter().enumerate().map(|(place, &angle)| {
-            let parts = [2 * place, 2 * place + 1].map(Expression::Result);
+        let members = angles.iter().enumerate().map(|(index, &angle)| {
+            let parts = [2 * index, 2 * index + 1].map(Expression::Result);
             (self.pose.direction(angle).to_owned(), Expression::call(Intrinsic::Unit, parts))
         });
         let pose = self.signatures.arguments.pose.clone();

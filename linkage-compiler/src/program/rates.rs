@@ -125,8 +125,8 @@ impl Plan<'_, '_> {
         let rates = self.rates(&self.derivation.inputs.clone());
         let rates = self.variables(&rates);
         let mut nodes = BTreeMap::new();
-        for (place, &unknown) in self.derivation.unknowns.clone().enumerated() {
-            let ratios: Vec<SymbolId> = self.derivation.ratios.iter().map(|of_input| of_input[place]).collect();
+        for (index, &unknown) in self.derivation.unknowns.clone().enumerated() {
+            let ratios: Vec<SymbolId> = self.derivation.ratios.iter().map(|of_input| of_input[index]).collect();
             let terms = self.variables(&ratios).into_iter().zip(&rates);
             let graph = &mut self.derivation.graph;
             let terms: Vec<_> = terms.map(|(ratio, &rate)| (Number::ONE, graph.multiply(ratio, rate))).collect();

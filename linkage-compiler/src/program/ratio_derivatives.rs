@@ -27,8 +27,9 @@ impl Plan<'_, '_> {
     /// A symmetric matrix from its entries for j <= k.
     fn symmetric(&self, entries: &Table<PairId, Expression>) -> Expression {
         let Some(derivatives) = &self.derivation.ratio_derivatives else { return Expression::zero() };
-        let columns: Vec<Expression> = derivatives.places.iter().flatten().map(|&pair| entries[pair].clone()).collect();
-        Expression::matrix(&columns, derivatives.places.len())
+        let columns: Vec<Expression> =
+            derivatives.indices.iter().flatten().map(|&pair| entries[pair].clone()).collect();
+        Expression::matrix(&columns, derivatives.indices.len())
     }
 
     pub(super) fn ratio_derivatives(&mut self) {

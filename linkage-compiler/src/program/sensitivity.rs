@@ -1,7 +1,7 @@
 //! Functions for the sensitivities of unknowns, points and outputs to the parameters.
 
 use super::doc::{fenced, lines};
-use super::equations::places;
+use super::equations::as_results;
 use super::expression::{Expression, Statement};
 use super::function::{Body, Value};
 use super::intrinsics::Intrinsic;
@@ -69,7 +69,7 @@ impl Plan<'_, '_> {
         let steps = needed(&self.derivation.graph, steps, &nodes);
         let kernel = self.on_pose(Vec::new(), steps, unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
-        let matrix = body.matrix("SMatrix", &places(&entries, 0), u, p);
+        let matrix = body.matrix("SMatrix", &as_results(&entries, 0), u, p);
         let value = body.finite_matrix("sensitivity", "sensitivity", matrix);
         let body = Body { value: Value::Plain(value), ..body };
         self.add(self.signatures.sensitivity(), doc, body);

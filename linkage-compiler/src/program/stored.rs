@@ -19,13 +19,13 @@ impl Body {
     /// Stores the members of its literal as they become known, in a place with this name. Results of a factorisation are
     /// refined at the end: they are not stored before.
     #[must_use]
-    pub fn stored_in(mut self, place: &str) -> Self {
+    pub fn stored_in(mut self, index: &str) -> Self {
         let is_factorised = self.kernel.as_ref().is_some_and(Kernel::is_factorised);
         let literal = match &self.value {
             Value::Plain(literal) if !is_factorised => literal.clone(),
             _ => return self,
         };
-        let [result, place] = ["result", place].map(|name| self.local(name));
+        let [result, index] = ["result", index].map(|name| self.local(name));
         let [to_result, to_place] = [2, 1].map(|back| Variable::Local(self.locals.len() - back));
         let to_place = Box::new(Pattern::Bound(to_place));
         // The literal stands here and not in a function: LLVM copies the value that a function returns.
@@ -34,7 +34,7 @@ impl Body {
         let borrowed = result.clone().mutably_borrowed();
         self.before.push(Statement::LetElse(Pattern::Case(Intrinsic::Ok, to_place), borrowed, result.clone()));
         let mut members = Vec::new();
-        assigned(place, &literal, &mut members);
+        assigned(index, &literal, &mut members);
         // Points and outputs are checked, after all else.
         let checked = members.extract_if(.., |(_, value)| matches!(value, Expression::Try(_)));
         self.after.extend(checked.map(|(member, value)| Statement::Assign(member, value)));
@@ -64,12 +64,12 @@ fn zeroed(value: &Expression) -> Expression {
 }
 
 /// The members of a literal that are no arguments, with those of literals in it, and their values.
-fn assigned(place: Expression, value: &Expression, all: &mut Vec<(Expression, Expression)>) {
+fn assigned(index: Expression, value: &Expression, all: &mut Vec<(Expression, Expression)>) {
     match value {
         Expression::Struct(_, fields, _) => {
-            fields.iter().for_each(|(field, value)| assigned(place.clone().field(field), value, all));
+            fields.iter().for_each(|(field, value)| assigned(index.clone().field(field), value, all));
         }
         argument if argument.stored().is_some() => {}
-        result => all.push((place, result.clone())),
+        result => all.push((index, result.clone())),
     }
 }

@@ -78,12 +78,12 @@ pub fn incidence(
     rows: &Table<RowId, NodeId>,
     unknowns: &Table<UnknownId, SymbolId>,
 ) -> Table<RowId, Vec<UnknownId>> {
-    let places: FxHashMap<SymbolId, UnknownId> =
-        unknowns.enumerated().map(|(place, &symbol)| (symbol, place)).collect();
+    let indices: FxHashMap<SymbolId, UnknownId> =
+        unknowns.enumerated().map(|(index, &symbol)| (symbol, index)).collect();
     rows.iter()
         .map(|&row| {
             let symbols = graph.symbols_of(&[row]);
-            let mut found: Vec<UnknownId> = symbols.iter().filter_map(|symbol| places.get(symbol).copied()).collect();
+            let mut found: Vec<UnknownId> = symbols.iter().filter_map(|symbol| indices.get(symbol).copied()).collect();
             found.sort_unstable();
             found
         })
@@ -211,14 +211,14 @@ impl Reduction<'_> {
 
     /// Puts the values of the eliminated unknowns into a row of another group.
     fn follow(&mut self, row: RowId) {
-        for place in 0..self.eliminations.len() {
-            let Elimination { unknown, pivot, .. } = self.eliminations[place];
+        for index in 0..self.eliminations.len() {
+            let Elimination { unknown, pivot, .. } = self.eliminations[index];
             let symbol = self.unknowns[unknown];
             if pivot != row
                 && let Some(factor) = self.factor(self.rows[pivot], symbol)
             {
                 let more = self.eliminate(&Pivot { row: pivot, unknown, factor }, &[row]).multiples;
-                self.eliminations[place].multiples.extend(more);
+                self.eliminations[index].multiples.extend(more);
             }
         }
     }

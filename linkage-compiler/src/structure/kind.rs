@@ -373,7 +373,7 @@ mod tests {
             let [l, r, d, delta] = ["l", "r", "d", "delta"].map(|name| plane.variable(name));
             let angles = ["phi", "psi"].map(|name| plane.variable(name));
             let g = &mut plane.graph;
-            let [phi, psi] = [0, 1].map(|place| g.scale(Number::integer(signs[place]), angles[place]));
+            let [phi, psi] = [0, 1].map(|index| g.scale(Number::integer(signs[index]), angles[index]));
             let phi = g.subtract(phi, delta);
             let row = |g: &mut Graph, function, ground: NodeId| {
                 let [one, other] = [(l, phi), (r, psi)].map(|(length, angle)| {

@@ -9,8 +9,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::directions::{Direction, Row, Waves};
 use super::obstacle::Obstacle;
-use super::waves::{Direction, Row, Waves};
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 
 /// The most loops of a group of which all positions can be listed.
@@ -68,11 +68,11 @@ impl Loops {
         let matrix = columns(&senses, &lengths, unknowns.len()).ok_or(Obstacle::NotLoops)?;
         let inverse = inverse(&matrix).ok_or(Obstacle::NotLoops)?;
         let mut guides = vec![None; unknowns.len()];
-        let angles: Vec<usize> = (0..unknowns.len()).filter(|place| !lengths.contains(place)).collect();
+        let angles: Vec<usize> = (0..unknowns.len()).filter(|index| !lengths.contains(index)).collect();
         for &length in &lengths {
             let (in_loop, guide) = keep_in_one(graph, &mut pairs, length)?;
             let with = guide.with.map(|of| senses.keys().take_while(|other| **other != of).count());
-            let with = with.and_then(|place| angles.get(place).copied());
+            let with = with.and_then(|index| angles.get(index).copied());
             guides[length] = Some(Guide { in_loop, along: guide.along, with });
         }
         if pairs.iter().any(|pair| pair.lengths.len() > 1) {
@@ -85,8 +85,8 @@ impl Loops {
         let zero = graph.zero();
         let factors = pairs.iter().map(|pair| {
             let mut factors = vec![[zero; 2]; unknowns.len()];
-            for (&place, of) in angles.iter().zip(senses.keys()) {
-                factors[place] = pair.waves.get(of).map_or([zero; 2], |(factor, _)| *factor);
+            for (&index, of) in angles.iter().zip(senses.keys()) {
+                factors[index] = pair.waves.get(of).map_or([zero; 2], |(factor, _)| *factor);
             }
             factors
         });
@@ -120,9 +120,9 @@ fn columns(senses: &BTreeMap<Direction, i64>, lengths: &BTreeSet<usize>, unknown
     }
     let mut directions = senses.iter();
     let mut matrix = Vec::new();
-    for place in 0..unknowns {
-        if lengths.contains(&place) {
-            matrix.push((0..unknowns).map(|other| i64::from(other == place)).collect());
+    for index in 0..unknowns {
+        if lengths.contains(&index) {
+            matrix.push((0..unknowns).map(|other| i64::from(other == index)).collect());
         } else {
             let (of, sense) = directions.next()?;
             matrix.push(of.0.iter().map(|factor| factor * sense).collect());
@@ -154,9 +154,9 @@ impl Pair {
         let waves = turned(graph, &r.free, &t.free)?;
         let (mut lengths, mut guides) = (BTreeMap::new(), BTreeMap::new());
         let zero = Waves { constant: graph.zero(), parts: BTreeMap::new() };
-        let places: BTreeSet<usize> = r.lengths.keys().chain(t.lengths.keys()).copied().collect();
-        for place in places {
-            let [of_r, of_t] = [r, t].map(|row| row.lengths.get(&place).unwrap_or(&zero));
+        let indices: BTreeSet<usize> = r.lengths.keys().chain(t.lengths.keys()).copied().collect();
+        for index in indices {
+            let [of_r, of_t] = [r, t].map(|row| row.lengths.get(&index).unwrap_or(&zero));
             let mut slides = Vec::new();
             let constant = [of_r.constant, of_t.constant];
             if !constant.iter().all(|&part| graph.is_zero(part)) {
@@ -168,7 +168,7 @@ impl Pair {
                 }
                 slides.push(Slide { along, with: Some(direction) });
             }
-            lengths.insert(place, slides);
+            lengths.insert(index, slides);
         }
         let is_turning = !(waves.is_empty() && guides.is_empty());
         is_turning.then_some(Self { constant: [r.free.constant, t.free.constant], waves, lengths, guides })
@@ -249,8 +249,8 @@ fn ratio(graph: &mut Graph, a: [NodeId; 2], b: [NodeId; 2]) -> [NodeId; 2] {
 /// Eliminates a length from all loops but one, and returns that one: of the loops with the length, the one with the
 /// fewest lengths.
 fn keep_in_one(graph: &mut Graph, pairs: &mut [Pair], length: usize) -> Result<(usize, Slide), Obstacle> {
-    let with = (0..pairs.len()).filter(|&place| pairs[place].lengths.contains_key(&length));
-    let kept = with.min_by_key(|&place| pairs[place].lengths.len()).ok_or(Obstacle::NotLoops)?;
+    let with = (0..pairs.len()).filter(|&index| pairs[index].lengths.contains_key(&length));
+    let kept = with.min_by_key(|&index| pairs[index].lengths.len()).ok_or(Obstacle::NotLoops)?;
     let slide = |pair: &Pair| match pair.lengths.get(&length).map(Vec::as_slice) {
         Some([slide]) => Ok(slide.clone()),
         _ => Err(Obstacle::TwoGuides),
@@ -278,9 +278,9 @@ fn paired(graph: &mut Graph, mut rows: Vec<Row>) -> Option<Vec<Pair>> {
     let mut pairs: Vec<Pair> = Vec::new();
     while !rows.is_empty() {
         let first = rows.remove(0);
-        let found = rows.iter().enumerate().find_map(|(place, row)| Some((place, Pair::of(graph, &first, row)?)));
-        let (place, pair) = found?;
-        rows.remove(place);
+        let found = rows.iter().enumerate().find_map(|(index, row)| Some((index, Pair::of(graph, &first, row)?)));
+        let (index, pair) = found?;
+        rows.remove(index);
         pairs.push(pair);
     }
     // Most directions turn as they are written.
@@ -293,8 +293,8 @@ fn paired(graph: &mut Graph, mut rows: Vec<Row>) -> Option<Vec<Pair>> {
     let mut settled = Vec::new();
     while !pairs.is_empty() {
         let is_joined = |pair: &Pair| pair.senses().any(|(direction, _)| known.contains_key(direction));
-        let place = pairs.iter().position(is_joined).unwrap_or(0);
-        let mut pair = pairs.remove(place);
+        let index = pairs.iter().position(is_joined).unwrap_or(0);
+        let mut pair = pairs.remove(index);
         if pair.senses().any(|(direction, sense)| known.get(direction).is_some_and(|other| *other != sense)) {
             pair.conjugate(graph);
         }
@@ -319,15 +319,15 @@ fn senses(pairs: &[Pair]) -> Option<BTreeMap<Direction, i64>> {
 fn inverse(matrix: &[Vec<i64>]) -> Option<Vec<Vec<i64>>> {
     let whole = determinant(matrix);
     let minor = |row: usize, column: usize| -> i64 {
-        let rows = matrix.iter().enumerate().filter(|(place, _)| *place != row).map(|(_, entries)| {
-            entries.iter().enumerate().filter(|(place, _)| *place != column).map(|(_, entry)| *entry).collect()
+        let rows = matrix.iter().enumerate().filter(|(index, _)| *index != row).map(|(_, entries)| {
+            entries.iter().enumerate().filter(|(index, _)| *index != column).map(|(_, entry)| *entry).collect()
         });
         let sign = if (row + column).is_multiple_of(2) { 1 } else { -1 };
         sign * determinant(&rows.collect::<Vec<Vec<i64>>>())
     };
-    let places = 0..matrix.len();
-    let column = |row: usize| places.clone().map(|column| whole * minor(column, row)).collect();
-    (whole.abs() == 1).then(|| places.clone().map(column).collect())
+    let indices = 0..matrix.len();
+    let column = |row: usize| indices.clone().map(|column| whole * minor(column, row)).collect();
+    (whole.abs() == 1).then(|| indices.clone().map(column).collect())
 }
 
 fn determinant(matrix: &[Vec<i64>]) -> i64 {

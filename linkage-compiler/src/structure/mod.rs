@@ -6,6 +6,7 @@
 //! "An implementation of Tarjan's algorithm for the block triangularization of a matrix", ACM TOMS 4, 1978).
 
 mod choice;
+mod directions;
 mod distance;
 mod elimination;
 mod kind;
@@ -13,7 +14,6 @@ mod loops;
 mod matching;
 mod obstacle;
 mod slide;
-mod waves;
 
 pub use choice::Choice;
 pub use distance::Distance;
@@ -163,8 +163,8 @@ fn strong_components(depends: &Table<RowId, Vec<RowId>>) -> Vec<Vec<RowId>> {
 mod tests {
     use super::*;
 
-    pub(super) fn ids<I: Id>(places: &[usize]) -> Vec<I> {
-        places.iter().map(|&place| I::new(place)).collect()
+    pub(super) fn ids<I: Id>(indices: &[usize]) -> Vec<I> {
+        indices.iter().map(|&index| I::new(index)).collect()
     }
 
     pub(super) fn incidence(rows: &[&[usize]]) -> Table<RowId, Vec<UnknownId>> {
@@ -175,8 +175,8 @@ mod tests {
         Group { equations: ids(equations), unknowns: ids(unknowns), slide: None }
     }
 
-    fn is_odd_permutation(places: &[usize]) -> bool {
-        odd::<RowId>(&ids(places).into())
+    fn is_odd_permutation(indices: &[usize]) -> bool {
+        odd::<RowId>(&ids(indices).into())
     }
 
     #[test]

@@ -26,9 +26,9 @@ pub fn find_slides(
 ) {
     let mut solved_in: Table<UnknownId, usize> = symbols.filled(0);
     let mut used_in = rows.filled(0);
-    for (place, group) in groups.iter().enumerate() {
-        group.unknowns.iter().for_each(|&unknown| solved_in[unknown] = place);
-        group.equations.iter().for_each(|&row| used_in[row] = place);
+    for (index, group) in groups.iter().enumerate() {
+        group.unknowns.iter().for_each(|&unknown| solved_in[unknown] = index);
+        group.equations.iter().for_each(|&row| used_in[row] = index);
     }
     let singles = |group: &Group| match group.unknowns.as_slice() {
         &[unknown] => Some(unknown),
@@ -37,9 +37,9 @@ pub fn find_slides(
     let alone: Vec<Option<UnknownId>> = groups.iter().map(singles).collect();
     for &[x, y] in loops {
         let (row, other) = if used_in[x] < used_in[y] { (x, y) } else { (y, x) };
-        let [place, later] = [row, other].map(|row| used_in[row]);
-        let (Some(angle), Some(length)) = (alone[place], alone[later]) else { continue };
-        let is_known = |&unknown: &UnknownId| solved_in[unknown] <= place || unknown == length;
+        let [index, later] = [row, other].map(|row| used_in[row]);
+        let (Some(angle), Some(length)) = (alone[index], alone[later]) else { continue };
+        let is_known = |&unknown: &UnknownId| solved_in[unknown] <= index || unknown == length;
         let [phi, s] = [angle, length].map(|unknown| symbols[unknown]);
         if !incidence[other].iter().all(is_known) {
             continue;
@@ -54,6 +54,6 @@ pub fn find_slides(
         let slope = graph.partial(&[rows[other]], s)[0];
         let Some(slope) = graph.as_number(slope) else { continue };
         let is_far_rising = ((slope.to_f64() > 0.0) == (row == x)) != class.mirrored.contains(&phi);
-        groups[GroupId::new(place)].slide = Some(Slide { length, is_far_rising });
+        groups[GroupId::new(index)].slide = Some(Slide { length, is_far_rising });
     }
 }

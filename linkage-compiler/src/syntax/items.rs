@@ -10,7 +10,7 @@ use super::expression::{ExpressionId, Expressions};
 use super::kind::{Bearer, KEYWORDS, at_word};
 use super::list::names;
 use super::punctuation::{end, equals};
-use super::scene::{Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Place, Scene};
+use super::scene::{Attachment, Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Scene};
 use super::tokens::{self, name, take};
 use super::{attributes, precedence, recovery};
 use crate::diagnostics::{Diagnostics, nearest};
@@ -242,19 +242,20 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
             let stiffness = precedence::parse(stream, expressions)?;
             let free = stream.parse::<Option<Token![,]>>()?;
             let free = free.map(|_| precedence::parse(stream, expressions)).transpose()?;
-            let place = place(stream, expressions)?;
+            let attachment = attachment(stream, expressions)?;
             const FORM: &str = "spring k, s0 between P and Q;` or `spring k, phi0 on phi;";
-            let place = place.ok_or_else(|| expected(stream, FORM))?;
+            let attachment = attachment.ok_or_else(|| expected(stream, FORM))?;
             if stream.peek(Token![,]) {
                 return Err(expected(stream, FORM));
             }
-            EffectKind::Spring { stiffness, free, place }
+            EffectKind::Spring { stiffness, free, attachment }
         }
         "damper" => {
             let constant = precedence::parse(stream, expressions)?;
-            let place = place(stream, expressions)?;
-            let place = place.ok_or_else(|| expected(stream, "damper c between P and Q;` or `damper c on phi;"))?;
-            EffectKind::Damper { constant, place }
+            let attachment = attachment(stream, expressions)?;
+            let attachment =
+                attachment.ok_or_else(|| expected(stream, "damper c between P and Q;` or `damper c on phi;"))?;
+            EffectKind::Damper { constant, attachment }
         }
         "torque" => {
             let law = precedence::parse(stream, expressions)?;
@@ -343,9 +344,9 @@ fn names_reaction(stream: ParseStream) -> bool {
 }
 
 /// Parses `on phi` or `between P and Q`.
-fn place(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Option<Place>> {
+fn attachment(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Option<Attachment>> {
     if tokens::word(stream, "on") {
-        return Ok(Some(Place::On(precedence::parse(stream, expressions)?)));
+        return Ok(Some(Attachment::On(precedence::parse(stream, expressions)?)));
     }
     if !tokens::word(stream, "between") {
         return Ok(None);
@@ -354,5 +355,5 @@ fn place(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Opti
     if !tokens::word(stream, "and") {
         return Ok(None);
     }
-    Ok(Some(Place::Between(from, precedence::parse(stream, expressions)?)))
+    Ok(Some(Attachment::Between(from, precedence::parse(stream, expressions)?)))
 }

@@ -29,7 +29,7 @@ pub(crate) use foreign::constant_of_rust;
 pub use head::Mechanism;
 pub(crate) use identifier::{KEYWORD_AS_NAME, can_be_name, identifier, is_keyword};
 pub use kind::{KEYWORDS, StatementKind};
-pub use scene::{Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Place, Scene};
+pub use scene::{Attachment, Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Scene};
 pub use statement::Statement;
 
 /// The largest nesting of parentheses; it bounds the recursion of the parser.

@@ -47,11 +47,11 @@ pub enum EffectKind {
     Spring {
         stiffness: ExpressionId,
         free: Option<ExpressionId>,
-        place: Place,
+        attachment: Attachment,
     },
     Damper {
         constant: ExpressionId,
-        place: Place,
+        attachment: Attachment,
     },
     Torque {
         law: ExpressionId,
@@ -95,7 +95,7 @@ pub enum Joint {
 
 /// The scalar that a spring or damper acts along: an expression, or the distance of two points.
 #[derive(Debug, Clone, Copy)]
-pub enum Place {
+pub enum Attachment {
     On(ExpressionId),
     Between(ExpressionId, ExpressionId),
 }

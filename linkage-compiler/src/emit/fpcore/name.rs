@@ -108,11 +108,11 @@ const VARIANTS: [(char, &str); 6] =
 
 /// The name of a Greek letter.
 fn greek_name(letter: char) -> Option<String> {
-    let place =
-        |first: char| u32::from(letter).checked_sub(u32::from(first)).and_then(|place| usize::try_from(place).ok());
-    let small = place('α').and_then(|place| GREEK.get(place)).map(|name| (*name).to_owned());
+    let index =
+        |first: char| u32::from(letter).checked_sub(u32::from(first)).and_then(|index| usize::try_from(index).ok());
+    let small = index('α').and_then(|index| GREEK.get(index)).map(|name| (*name).to_owned());
     // No capital letter has the place of the final sigma.
-    let capital = place('Α').and_then(|place| GREEK.get(place)).filter(|name| **name != "varsigma");
+    let capital = index('Α').and_then(|index| GREEK.get(index)).filter(|name| **name != "varsigma");
     let capital = capital.map(|name| name[..1].to_uppercase() + &name[1..]);
     let variant = VARIANTS.iter().find(|(sign, _)| *sign == letter).map(|(_, name)| (*name).to_owned());
     small.or(capital).or(variant)

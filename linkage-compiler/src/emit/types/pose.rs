@@ -15,7 +15,7 @@ pub(super) fn guessed(mechanism: &Mechanism, driver: &Driver, root: &TokenStream
     let nothing = BTreeSet::new();
     let mut taken = Taken::new(&nothing);
     let order = mechanism.coordinate_order(driver);
-    let coordinates: Vec<&Coordinate> = order.iter().map(|&place| &mechanism.coordinates[place]).collect();
+    let coordinates: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
     let names: Vec<Ident> = coordinates.iter().map(|coordinate| ident(&taken.unique(&coordinate.name.field))).collect();
     let members = coordinates.iter().zip(&names).map(|(coordinate, name)| match coordinate.kind {
         Kind::Angle => {

@@ -23,11 +23,11 @@ impl Angles {
         if is_negative {
             terms.iter_mut().for_each(|(_, factor)| *factor = -*factor);
         }
-        let place = self.0.iter().position(|other| *other == terms).unwrap_or_else(|| {
+        let index = self.0.iter().position(|other| *other == terms).unwrap_or_else(|| {
             self.0.push(terms);
             self.0.len() - 1
         });
-        Some((AngleId(place), is_negative))
+        Some((AngleId(index), is_negative))
     }
 
     /// The angle of a direction of a pose.

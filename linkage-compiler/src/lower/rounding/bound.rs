@@ -19,7 +19,7 @@ pub struct Bound {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Of {
     /// The place among the results.
-    pub(super) place: usize,
+    pub(super) index: usize,
     pub(super) name: String,
     pub(super) relative: Law,
     pub(super) scattered: Law,
@@ -80,10 +80,10 @@ impl Names<'_> {
         Product { coefficient: of.coefficient, factors }
     }
 
-    fn of(&self, place: usize, name: String, tracked: &Tracked) -> Option<Of> {
+    fn of(&self, index: usize, name: String, tracked: &Tracked) -> Option<Of> {
         let size = tracked.size.simplified()?.0.iter().map(|one| self.product(one)).collect();
         let [relative, scattered] = [&tracked.relative, &tracked.scattered].map(|count| self.law(count));
-        Some(Of { place, name, relative, scattered, size })
+        Some(Of { index, name, relative, scattered, size })
     }
 }
 
@@ -101,15 +101,15 @@ impl Roundings {
         let rounded = tracked.iter().zip(names).enumerate();
         let rounded = rounded.filter(|(_, (of, _))| !of.relative.is_zero() || !of.scattered.is_zero());
         let results =
-            rounded.map(|(place, (of, name))| texts.of(place, name.clone(), of)).collect::<Option<Vec<_>>>()?;
+            rounded.map(|(index, (of, name))| texts.of(index, name.clone(), of)).collect::<Option<Vec<_>>>()?;
         (!results.is_empty()).then_some(Bound { results })
     }
 
     /// Keeps the errors of these results, which are fields of a pose.
     pub(in crate::lower) fn keep_pose(&mut self, graph: &Graph, schedule: &Schedule, fields: &[(usize, SymbolId)]) {
-        for &(place, symbol) in fields {
+        for &(index, symbol) in fields {
             let mut following = Following::new(graph, schedule, self);
-            let tracked = schedule.results.get(place).and_then(|result| following.signed(*result));
+            let tracked = schedule.results.get(index).and_then(|result| following.signed(*result));
             if tracked.is_some() && !self.knows(symbol) {
                 self.pose.insert(symbol, tracked);
             }
@@ -119,15 +119,15 @@ impl Roundings {
 
 impl Bound {
     /// The places of the results that are rounded.
-    pub fn places(&self) -> impl Iterator<Item = usize> {
-        self.results.iter().map(|of| of.place)
+    pub fn indices(&self) -> impl Iterator<Item = usize> {
+        self.results.iter().map(|of| of.index)
     }
 
     /// The bound of the error of a result with this value, where names have these values; `None` for a result that is
     /// exact.
     #[must_use]
-    pub fn at(&self, place: usize, result: f64, value: &dyn Fn(&str) -> f64) -> Option<f64> {
-        let of = self.results.iter().find(|of| of.place == place)?;
+    pub fn at(&self, index: usize, result: f64, value: &dyn Fn(&str) -> f64) -> Option<f64> {
+        let of = self.results.iter().find(|of| of.index == index)?;
         let size: f64 = of.size.iter().map(|product| product.at(value)).sum();
         let scattered = of.scattered.at(value) * size;
         // 2^-53

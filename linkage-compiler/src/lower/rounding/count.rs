@@ -39,8 +39,8 @@ impl Count {
 
     fn insert(&mut self, amplifier: Amplifier, angle: AngleId, factor: f64, join: fn(f64, f64) -> f64) {
         match self.amplified.binary_search_by_key(&(amplifier, angle), |(kind, of, _)| (*kind, *of)) {
-            Ok(place) => self.amplified[place].2 = join(self.amplified[place].2, factor),
-            Err(place) => self.amplified.insert(place, (amplifier, angle, factor)),
+            Ok(index) => self.amplified[index].2 = join(self.amplified[index].2, factor),
+            Err(index) => self.amplified.insert(index, (amplifier, angle, factor)),
         }
     }
 

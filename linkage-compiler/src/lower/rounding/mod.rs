@@ -14,8 +14,8 @@ mod bound;
 mod count;
 mod follow;
 mod monomial;
+mod sentence;
 mod tracked;
-mod written;
 
 pub use bound::Bound;
 

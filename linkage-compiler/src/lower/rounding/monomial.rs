@@ -40,13 +40,13 @@ impl Monomial {
             return;
         }
         match self.factors.binary_search_by_key(&factor, |(other, _)| *other) {
-            Ok(place) => {
-                self.factors[place].1 = self.factors[place].1.saturating_add(exponent);
-                if self.factors[place].1 == 0 {
-                    self.factors.remove(place);
+            Ok(index) => {
+                self.factors[index].1 = self.factors[index].1.saturating_add(exponent);
+                if self.factors[index].1 == 0 {
+                    self.factors.remove(index);
                 }
             }
-            Err(place) => self.factors.insert(place, (factor, exponent)),
+            Err(index) => self.factors.insert(index, (factor, exponent)),
         }
     }
 
@@ -155,8 +155,8 @@ impl Size {
                     other.factors == term.factors
                         || other.coefficient == term.coefficient && other.pair(&term).is_some()
                 });
-                let Some(place) = with else { break };
-                let other = all.swap_remove(place);
+                let Some(index) = with else { break };
+                let other = all.swap_remove(index);
                 if other.factors == term.factors {
                     term.coefficient += other.coefficient;
                 } else if let Some((common, _)) = other.pair(&term) {

@@ -3,15 +3,15 @@
 use crate::graph::{Function, Graph, Node, NodeId};
 use crate::model::resolver::Resolver;
 use crate::model::scope::Value;
-use crate::syntax::{ExpressionId, Place};
+use crate::syntax::{Attachment, ExpressionId};
 
 /// The scalars of one effect, as written: with displaced joints they have other formulas.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::model) enum Along {
     /// Half the square of a length or another magnitude, or another scalar.
-    Spring(Place),
+    Spring(Attachment),
     /// Half the square of a length or another magnitude, x of |x|, or another scalar.
-    Damper(Place),
+    Damper(Attachment),
     /// The two coordinates of a point.
     Point(ExpressionId),
     /// The terms of a potential energy.
@@ -32,10 +32,10 @@ impl Resolver<'_> {
     pub(in crate::model) fn along(&mut self, along: &Along, values: &[Value]) -> Vec<NodeId> {
         let value = |id: ExpressionId| values.get(id.index()).copied().unwrap_or(Value::Poison);
         let scalar = match *along {
-            Along::Spring(place) => {
-                length(&mut self.graph, place, &value).map(|scalar| self.half_square_or_self(scalar))
+            Along::Spring(attachment) => {
+                length(&mut self.graph, attachment, &value).map(|scalar| self.half_square_or_self(scalar))
             }
-            Along::Damper(place) => length(&mut self.graph, place, &value).map(|scalar| {
+            Along::Damper(attachment) => length(&mut self.graph, attachment, &value).map(|scalar| {
                 let scalar = self.signed(scalar);
                 self.half_square_or_self(scalar)
             }),
@@ -65,10 +65,14 @@ impl Resolver<'_> {
 }
 
 /// The scalar of a place: an expression, or the distance of two points.
-pub(super) fn length(graph: &mut Graph, place: Place, value: &dyn Fn(ExpressionId) -> Value) -> Option<NodeId> {
-    match place {
-        Place::On(on) => value(on).scalar(),
-        Place::Between(from, to) => {
+pub(super) fn length(
+    graph: &mut Graph,
+    attachment: Attachment,
+    value: &dyn Fn(ExpressionId) -> Value,
+) -> Option<NodeId> {
+    match attachment {
+        Attachment::On(on) => value(on).scalar(),
+        Attachment::Between(from, to) => {
             let [[ax, ay], [bx, by]] = [value(from).vector()?, value(to).vector()?];
             let (x, y) = (graph.subtract(bx, ax), graph.subtract(by, ay));
             Some(graph.call(Function::Hypot, &[x, y]))

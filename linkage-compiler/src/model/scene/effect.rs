@@ -11,16 +11,16 @@ use super::{Account, Draft, Law, Reading, SceneRequest, Wanted};
 use crate::graph::{Function, Node, NodeId, Number, SymbolId};
 use crate::model::resolver::{Mode, Resolver};
 use crate::model::scope::Value;
-use crate::syntax::{self, EffectKind, Expression, ExpressionId, Place};
+use crate::syntax::{self, Attachment, EffectKind, Expression, ExpressionId};
 
 impl Draft {
     /// Numbers the effects with equal names: `stop 1 on an expression`, `stop 2 on an expression`. `begins` has the first law
     /// and the first contact of each effect.
     fn number_labels(&mut self, begins: &[[usize; 2]]) {
-        let effect_of = |axis: usize, place: usize| begins.partition_point(|begin| begin[axis] <= place);
-        let laws = self.laws.iter_mut().enumerate().map(|(place, law)| (effect_of(0, place), &mut law.label));
+        let effect_of = |axis: usize, index: usize| begins.partition_point(|begin| begin[axis] <= index);
+        let laws = self.laws.iter_mut().enumerate().map(|(index, law)| (effect_of(0, index), &mut law.label));
         let contacts = self.contacts.iter_mut().enumerate();
-        let contacts = contacts.map(|(place, contact)| (effect_of(1, place), &mut contact.label));
+        let contacts = contacts.map(|(index, contact)| (effect_of(1, index), &mut contact.label));
         let labels: Vec<(usize, &mut String)> = laws.chain(contacts).collect();
         let mut effects: BTreeMap<String, BTreeSet<usize>> = BTreeMap::new();
         for (effect, label) in &labels {
@@ -90,10 +90,10 @@ impl Resolver<'_> {
                 }
                 scene.gravity.push(([x, y], bodies.clone()));
             }
-            EffectKind::Spring { stiffness, free, place } => {
+            EffectKind::Spring { stiffness, free, attachment } => {
                 let k = self.scalar(*stiffness);
                 let free_length = free.map(|free| self.scalar(free));
-                let Some((along, words)) = self.place(*place) else { return };
+                let Some((along, words)) = self.attachment(*attachment) else { return };
                 let (Some(k), false) = (k, free_length == Some(None)) else { return };
                 self.still(*stiffness, k, "the stiffness of a spring");
                 let mut free_node = self.graph.zero();
@@ -120,11 +120,11 @@ impl Resolver<'_> {
                 };
                 let (law, account) = (self.graph.negate(pull), Account::Stored(energy));
                 scene.laws.push(Law { label: format!("spring{words}"), law, along, account });
-                scene.written.laws.push(Along::Spring(*place));
+                scene.written.laws.push(Along::Spring(*attachment));
             }
-            EffectKind::Damper { constant, place } => {
+            EffectKind::Damper { constant, attachment } => {
                 let c = self.law(*constant);
-                let Some((along, words)) = self.place(*place) else { return };
+                let Some((along, words)) = self.attachment(*attachment) else { return };
                 let Some(c) = c else { return };
                 if self.graph.constant_value(c).is_some_and(|value| value < 0.0) {
                     let message = "the constant of a damper is negative: it would drive the mechanism";
@@ -143,7 +143,7 @@ impl Resolver<'_> {
                 let force = self.graph.multiply(per_rate, rate);
                 let law = self.graph.negate(force);
                 scene.laws.push(Law { label: format!("damper{words}"), law, along, account: Account::Dissipated });
-                scene.written.laws.push(Along::Damper(*place));
+                scene.written.laws.push(Along::Damper(*attachment));
             }
             &EffectKind::Torque { law, on } => {
                 let (law, along) = (self.law(law), self.scalar(on));
@@ -156,7 +156,7 @@ impl Resolver<'_> {
                     None => (law, along),
                 };
                 scene.laws.push(Law { label: format!("torque on {words}"), law, along, account: Account::Applied });
-                scene.written.laws.push(Along::Spring(Place::On(on)));
+                scene.written.laws.push(Along::Spring(Attachment::On(on)));
             }
             EffectKind::Force { law, at } => {
                 let force = self.within(Mode::Law, |resolver| resolver.vector(*law));
@@ -241,13 +241,13 @@ impl Resolver<'_> {
     }
 
     /// The scalar that a spring or damper acts along, and its text for the label.
-    fn place(&mut self, place: Place) -> Option<(NodeId, String)> {
-        let words = match place {
-            Place::On(on) => {
+    fn attachment(&mut self, attachment: Attachment) -> Option<(NodeId, String)> {
+        let words = match attachment {
+            Attachment::On(on) => {
                 self.scalar(on)?;
                 format!(" on {}", self.text(on)?)
             }
-            Place::Between(from, to) => {
+            Attachment::Between(from, to) => {
                 let (from_vector, to_vector) = (self.vector(from), self.vector(to));
                 from_vector.and(to_vector)?;
                 let words = self.text(from).zip(self.text(to));
@@ -255,7 +255,7 @@ impl Resolver<'_> {
             }
         };
         let values = &self.values;
-        Some((along::length(&mut self.graph, place, &|id| values[id.index()])?, words))
+        Some((along::length(&mut self.graph, attachment, &|id| values[id.index()])?, words))
     }
 
     /// Laws, scalars and energies with F = -dV: -dV/ds / s along s^2 / 2 for the terms of V that are functions of one length s, and -1 along the others.
@@ -299,7 +299,7 @@ impl Resolver<'_> {
         let is_given = self.graph.reachable(&[slope]).iter().any(is_external);
         let stiffness = if is_given { variable } else { self.graph.partial(&[slope], symbol)[0] };
         let half_square = self.half_square(length)?;
-        let at = |place| FxHashMap::from_iter([(variable, place)]);
+        let at = |attachment| FxHashMap::from_iter([(variable, attachment)]);
         let zero = self.graph.zero();
         let here = self.graph.replace(&[slope], &at(length))[0];
         let law = if self.graph.symbols_of(&[stiffness]).contains(&symbol) {

@@ -40,7 +40,7 @@ impl Wanted {
         Self { region, of: WantedOf::Friction(contact, along, pin) }
     }
 
-    /// The contact of a friction by the force of this joint, and the place of its scalar.
+    /// The contact of a friction by the force of this joint, and the index of its scalar.
     pub(in crate::model) fn of_friction(&self) -> Option<(usize, Region)> {
         match self.of {
             WantedOf::Friction(contact, ..) => Some((contact, self.region)),
@@ -97,9 +97,9 @@ impl Finder<'_, '_> {
                         let message = format!("{text} is fixed in no body and no link: name a point of a link");
                         self.resolver.diagnostics.error(region, message);
                     }
-                    let place = self.links.hold(position, &holding);
+                    let joint = self.links.hold(position, &holding);
                     for link in holding {
-                        loads.push(self.open(Site::Pin { place, link }));
+                        loads.push(self.open(Site::Pin { joint, link }));
                     }
                 }
                 WantedOf::Guide(length) => {
@@ -157,8 +157,8 @@ impl Finder<'_, '_> {
             sites = self.links.pins_of_angle(&mut self.resolver.graph, along);
         }
         if let Some(pin) = pin {
-            let pin = self.links.place(pin);
-            sites.retain(|site| matches!(site, Site::Pin { place, .. } if Some(*place) == pin));
+            let pin = self.links.joint(pin);
+            sites.retain(|site| matches!(site, Site::Pin { joint, .. } if Some(*joint) == pin));
         }
         match *sites.as_slice() {
             [site] => return Some(site),
@@ -197,8 +197,8 @@ impl Finder<'_, '_> {
 
     fn load(&mut self, site: Site) -> Load {
         let (field, kind) = match site {
-            Site::Pin { place, link } => {
-                let (joint, field) = self.name_of(place);
+            Site::Pin { joint, link } => {
+                let (joint, field) = self.name_of(joint);
                 let link = self.links.link(link).name.clone();
                 (format!("{field}_on_{link}"), LoadKind::Pin { joint, link })
             }
@@ -224,8 +224,8 @@ impl Finder<'_, '_> {
         let graph = &self.resolver.graph;
         let mut moving: BTreeSet<SymbolId> = BTreeSet::new();
         match site {
-            Site::Pin { place, .. } => {
-                moving.extend(self.links.at(place).flat_map(|link| self.links.turns(graph, link)))
+            Site::Pin { joint, .. } => {
+                moving.extend(self.links.at(joint).flat_map(|link| self.links.turns(graph, link)))
             }
             Site::Guide { ends, .. } => {
                 for guide in self.links.guides.iter().filter(|guide| guide.ends == ends) {
@@ -240,31 +240,31 @@ impl Finder<'_, '_> {
         touched.copied().collect()
     }
 
-    /// The name of the declared point at a place, as written and as a field.
-    fn point_at(&self, place: usize) -> Option<(String, String)> {
+    /// The name of the declared point at a joint, as written and as a field.
+    fn point_at(&self, joint: usize) -> Option<(String, String)> {
         let mut points = self.result.points.iter();
-        let point = points.find(|point| self.links.place([point.x, point.y]) == Some(place))?;
+        let point = points.find(|point| self.links.joint([point.x, point.y]) == Some(joint))?;
         Some((point.name.text.clone(), point.name.field.clone()))
     }
 
     /// The name of a joint: that of a point there, the origin, or the links that meet there.
-    fn name_of(&mut self, place: usize) -> (String, String) {
-        if let Some(named) = self.point_at(place) {
+    fn name_of(&mut self, joint: usize) -> (String, String) {
+        if let Some(named) = self.point_at(joint) {
             return named;
         }
-        if self.links.is_origin(&mut self.resolver.graph, place) {
+        if self.links.is_origin(&mut self.resolver.graph, joint) {
             return ("the origin".to_owned(), "origin".to_owned());
         }
-        let links: Vec<&str> = self.links.at(place).map(|link| self.links.link(link).name.as_str()).collect();
+        let links: Vec<&str> = self.links.at(joint).map(|link| self.links.link(link).name.as_str()).collect();
         (format!("the joint of {}", links.join(" and ")), links.join("_"))
     }
 }
 
 impl Scene {
-    /// The place of the friction by reaction that is this contact.
+    /// The region of the friction by reaction that is this contact.
     pub(crate) fn friction_at(&self, contact: usize) -> Option<Region> {
         let mut frictions = self.wanted.iter().filter_map(Wanted::of_friction);
-        frictions.find(|(place, _)| *place == contact).map(|(_, region)| region)
+        frictions.find(|(index, _)| *index == contact).map(|(_, region)| region)
     }
 
     /// The loads that the scene shows or needs for its frictions, as indices of those of the mechanism.

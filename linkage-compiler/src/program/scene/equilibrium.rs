@@ -15,8 +15,8 @@ impl ScenePlan<'_, '_, '_> {
     pub(super) fn equilibrium(&mut self) {
         self.balance();
         let Arguments { time, q, guess, .. } = self.signatures.arguments.clone();
-        let names = |places: &[InputId]| -> Vec<String> {
-            places.iter().map(|&at| self.signatures.inputs[at].clone()).collect()
+        let names = |indices: &[InputId]| -> Vec<String> {
+            indices.iter().map(|&at| self.signatures.inputs[at].clone()).collect()
         };
         let (free, driven) = (names(&self.signatures.free), names(&self.signatures.driven));
         let start = free.iter().map(|input| Expression::name(&guess).field(input)).collect();

@@ -224,7 +224,7 @@ impl ScenePlan<'_, '_, '_> {
         let mut reads = BTreeSet::new();
         reads.extend(swept.iter().any(|&id| given.holds(graph, id)).then_some(Read::Pose));
         let symbols: BTreeSet<SymbolId> = swept.into_iter().filter_map(|id| graph.as_symbol(id)).collect();
-        let rates = |places: &[ColumnId]| places.iter().map(|&place| derivation.coordinates[place].rate).collect();
+        let rates = |indices: &[ColumnId]| indices.iter().map(|&index| derivation.coordinates[index].rate).collect();
         let all: [(Read, Vec<SymbolId>); 8] = [
             (Read::Time, self.signatures.mechanism.time.into_iter().collect()),
             (Read::Q, derivation.coordinates.iter().map(|coordinate| coordinate.value).collect()),

@@ -202,9 +202,9 @@ impl ScenePlan<'_, '_, '_> {
     fn checked_with_effects(&mut self, mut body: Body, what: &str, values: Vec<Expression>) -> Body {
         let arguments = &self.signatures.arguments;
         let is_formula = |value: &Expression| match value {
-            Expression::Result(place) => {
+            Expression::Result(index) => {
                 let graph = &self.plan.derivation.graph;
-                let node = body.kernel.as_ref().map(|kernel| kernel.results[*place].node);
+                let node = body.kernel.as_ref().map(|kernel| kernel.results[*index].node);
                 node.is_none_or(|node| graph.as_number(node).is_none_or(|number| !number.is_zero() && !number.is_one()))
             }
             _ => true,

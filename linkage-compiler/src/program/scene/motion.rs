@@ -95,7 +95,7 @@ impl ScenePlan<'_, '_, '_> {
         let columns = Expression::List(Expression::nested(entries, &[count]));
         let arguments = [Expression::mechanism(), texts, columns, Expression::List(sides)];
         let pattern = names.iter().filter_map(|name| match name {
-            Expression::Local(place) => Some(Pattern::local(*place)),
+            Expression::Local(index) => Some(Pattern::local(*index)),
             _ => None,
         });
         let pattern = Pattern::List(pattern.collect());

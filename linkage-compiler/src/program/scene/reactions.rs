@@ -51,13 +51,13 @@ impl ScenePlan<'_, '_, '_> {
         let (mut outputs, mut members) = (Vec::new(), Vec::new());
         let loads = &self.signatures.mechanism.opened.loads;
         for &load in &self.signatures.scene.loads {
-            let Some(place) = derived.opened.iter().position(|&other| other == load) else { continue };
+            let Some(index) = derived.opened.iter().position(|&other| other == load) else { continue };
             let (load, first) = (&loads[load], outputs.len());
             let parts = match load.kind {
                 LoadKind::Pin { .. } => ["x", "y"].map(|axis| format!("{}_{axis}", load.field)).into(),
                 LoadKind::Guide { .. } => load.fields(),
             };
-            for (&node, name) in derived.forces[place].iter().zip(&parts) {
+            for (&node, name) in derived.forces[index].iter().zip(&parts) {
                 outputs.push(Output::named(node, name.clone()));
             }
             let parts = results(first..first + 2);

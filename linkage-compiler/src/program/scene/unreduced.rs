@@ -18,7 +18,7 @@ impl ScenePlan<'_, '_, '_> {
             true => format!("{}_inertia", names[row]),
             false => format!("{}_{}_inertia", names[row], names[column]),
         };
-        let entries = unreduced.mass_matrix.iter().map(|(&place, &node)| Output::named(node, inertia(place)));
+        let entries = unreduced.mass_matrix.iter().map(|(&index, &node)| Output::named(node, inertia(index)));
         let forces = unreduced.forces.iter().zip(&names);
         let forces = forces.map(|(&node, name)| Output::named(node, format!("{name}_force")));
         let outputs: Vec<Output> = entries.chain(forces).collect();
@@ -27,7 +27,7 @@ impl ScenePlan<'_, '_, '_> {
         let mut body =
             self.on_coordinates(sources, Vec::new(), outputs).checked("the equations of motion", results(0..count));
         let entries: BTreeMap<(ColumnId, ColumnId), usize> =
-            unreduced.mass_matrix.keys().enumerate().map(|(result, &place)| (place, result)).collect();
+            unreduced.mass_matrix.keys().enumerate().map(|(result, &index)| (index, result)).collect();
         // M is symmetric; only its upper triangle is computed.
         let block = |rows: &[ColumnId], columns: &[ColumnId]| -> Vec<(usize, usize, Expression)> {
             let mut block = Vec::new();
@@ -48,7 +48,7 @@ impl ScenePlan<'_, '_, '_> {
         ];
         let force = |at: &ColumnId| Expression::Result(entries.len() + at.index());
         let forces =
-            [&**unknowns, &**inputs].map(|places| Expression::sized_vector(places.iter().map(force).collect()));
+            [&**unknowns, &**inputs].map(|indices| Expression::sized_vector(indices.iter().map(force).collect()));
         let members = ["unknowns", "mixed", "inputs", "unknown_forces", "input_forces"].map(str::to_owned);
         let members = members.into_iter().zip(matrices.into_iter().chain(forces));
         let value = Expression::structure(Type::Runtime("Unreduced", Vec::new()), members);

@@ -53,7 +53,7 @@ impl ScenePlan<'_, '_, '_> {
     /// `[("label", result, …), …]`, each with the next `each` results, starting at `from`.
     fn labelled<'l>(&self, labels: impl Iterator<Item = &'l str>, from: usize, each: usize) -> Expression {
         let entry = |(at, label): (usize, &str)| {
-            let results = (0..each).map(|place| Expression::Result(from + each * at + place));
+            let results = (0..each).map(|index| Expression::Result(from + each * at + index));
             Expression::Tuple(std::iter::once(Expression::text(label)).chain(results).collect())
         };
         Expression::List(labels.enumerate().map(entry).collect())

@@ -53,7 +53,7 @@ impl<'a> Signatures<'a> {
             all.extend((0..self.orders()).map(|order| self.quantities(family, order)));
         }
         if wants(Request::Limits) {
-            all.extend(self.driver.inputs.ids().map(|place| self.limits(position, place)));
+            all.extend(self.driver.inputs.ids().map(|index| self.limits(position, index)));
         }
         if !self.is_open() {
             all.push(self.velocity_ratios());

@@ -111,14 +111,14 @@ impl Signatures<'_> {
     }
 
     /// The limits of one input.
-    pub fn limits(&self, position: &Position, place: InputId) -> Function<Body> {
+    pub fn limits(&self, position: &Position, index: InputId) -> Function<Body> {
         let from = match position.is_closed {
             true => self.inputs_by(Order::Value),
             false => self.guess(),
         };
         let name = match self.inputs() {
             1 => "limits".to_owned(),
-            _ => format!("limits_of_{}", self.mechanism.coordinates[self.driver.inputs[place]].name.field),
+            _ => format!("limits_of_{}", self.mechanism.coordinates[self.driver.inputs[index]].name.field),
         };
         fallible(name, [from, self.branch()], Type::Runtime("Limits", Vec::new()))
     }

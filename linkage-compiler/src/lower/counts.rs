@@ -15,69 +15,69 @@ use crate::program::{Intrinsic, Operations};
 
 /// The operations of the functions lowered so far.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Works {
-    of: BTreeMap<Callee, Work>,
+pub(super) struct Counts {
+    of: BTreeMap<Callee, Count>,
     /// The numbers of operations whose operands are numbers as well, the same in all functions.
     numbers: FxHashMap<Value, ValueId>,
 }
 
 /// The operations of a function.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Work {
+pub(super) struct Count {
     /// By number.
     numbered: BTreeMap<ValueId, Operations>,
     others: Operations,
     is_layer: bool,
 }
 
-impl Work {
+impl Count {
     pub(super) fn total(&self) -> Operations {
         self.numbered.values().fold(self.others, |total, operations| total.plus(*operations))
     }
 }
 
-impl Works {
-    /// The work of a function: that of its kernel, of the functions that it calls, and others.
-    pub(super) fn work(
+impl Counts {
+    /// The count of a function: that of its kernel, of the functions that it calls, and others.
+    pub(super) fn of_body(
         &mut self,
         kernel: Option<&Schedule>,
         is_layer: bool,
         calls: &[Callee],
         others: Operations,
-    ) -> Work {
-        let mut work = Work { others, is_layer, ..Work::default() };
+    ) -> Count {
+        let mut count = Count { others, is_layer, ..Count::default() };
         let mut layers = BTreeSet::new();
         for call in calls {
             let Some(called) = self.of.get(call) else { continue };
             // A second call has other arguments.
             if called.is_layer && layers.insert(call) {
-                work.numbered.extend(&called.numbered);
-                work.others += called.others;
+                count.numbered.extend(&called.numbered);
+                count.others += called.others;
             } else {
-                work.others += called.total();
+                count.others += called.total();
             }
         }
         match kernel {
-            Some(kernel) if is_layer || !layers.is_empty() => self.number_all(kernel, &mut work),
-            Some(kernel) => work.others += kernel.operations(),
+            Some(kernel) if is_layer || !layers.is_empty() => self.number_all(kernel, &mut count),
+            Some(kernel) => count.others += kernel.operations(),
             None => {}
         }
-        work
+        count
     }
 
-    pub(super) fn insert(&mut self, function: Callee, work: Work) {
-        self.of.insert(function, work);
+    pub(super) fn insert(&mut self, function: Callee, count: Count) {
+        self.of.insert(function, count);
     }
 
     /// Those of the driver, as the functions of a scene call them.
     #[must_use]
     pub(super) fn of_driver(&self) -> Self {
         let of = self.of.iter().filter(|(callee, _)| matches!(callee, Callee::OfDriver(_)));
-        Self { of: of.map(|(callee, work)| (*callee, work.clone())).collect(), numbers: self.numbers.clone() }
+        Self { of: of.map(|(callee, count)| (*callee, count.clone())).collect(), numbers: self.numbers.clone() }
     }
 
     /// Adds the operations of a kernel.
-    fn number_all(&mut self, kernel: &Schedule, work: &mut Work) {
+    fn number_all(&mut self, kernel: &Schedule, count: &mut Count) {
         let mut numbers: FxHashMap<ValueId, ValueId> = FxHashMap::default();
         let mut stack = kernel.used().to_vec();
         while let Some(&id) = stack.last() {
@@ -87,26 +87,26 @@ impl Works {
             }
             if stack.len() == depth {
                 stack.pop();
-                let number = self.number(value, &numbers, work);
+                let number = self.number(value, &numbers, count);
                 numbers.insert(id, number);
             }
         }
         let is_external = |id: &&ValueId| matches!(kernel.value(**id), Value::External(..));
-        work.others.functions += kernel.used().iter().filter(is_external).count();
+        count.others.functions += kernel.used().iter().filter(is_external).count();
         for line in &kernel.lines {
             match line {
-                Line::Chord { .. } => work.others += Intrinsic::Chord.row().cost,
+                Line::Chord { .. } => count.others += Intrinsic::Chord.row().cost,
                 // A user function and its derivatives are one function; each function calls it anew.
                 Line::External { values, .. } => {
-                    work.others.functions -= values.iter().flatten().count().saturating_sub(1);
+                    count.others.functions -= values.iter().flatten().count().saturating_sub(1);
                 }
                 _ => {}
             }
         }
     }
 
-    /// The number of a value; what it takes is added to the work. Sums and products are computed from left to right.
-    fn number(&mut self, value: &Value, numbers: &FxHashMap<ValueId, ValueId>, work: &mut Work) -> ValueId {
+    /// The number of a value; what it takes is added to the count. Sums and products are computed from left to right.
+    fn number(&mut self, value: &Value, numbers: &FxHashMap<ValueId, ValueId>, count: &mut Count) -> ValueId {
         let addition = Operations { additions: 1, ..Operations::default() };
         let multiplication = Operations { multiplications: 1, ..Operations::default() };
         let division = Operations { divisions: 1, ..Operations::default() };
@@ -118,38 +118,38 @@ impl Works {
                 let sum = terms.into_iter().reduce(|left, right| {
                     let mut terms = vec![left, right];
                     terms.sort_unstable_by_key(|term| (term.negative, term.value));
-                    Signed::positive(self.numbered(Value::Sum(terms), addition, work))
+                    Signed::positive(self.numbered(Value::Sum(terms), addition, count))
                 });
                 sum.map_or(ValueId(0), |sum| sum.value)
             }
-            Value::Product(factors) => self.product(factors, multiplication, work),
-            Value::Square(base) => self.product(vec![base; 2], multiplication, work),
-            Value::Quotient(..) => self.numbered(value, division, work),
-            Value::Call(Function::Abs | Function::IfNonzero, _) => self.numbered(value, none, work),
+            Value::Product(factors) => self.product(factors, multiplication, count),
+            Value::Square(base) => self.product(vec![base; 2], multiplication, count),
+            Value::Quotient(..) => self.numbered(value, division, count),
+            Value::Call(Function::Abs | Function::IfNonzero, _) => self.numbered(value, none, count),
             // Sine and cosine of an angle are one function.
             Value::Call(Function::Cos, angle) => {
-                self.numbered(Value::Call(Function::Sin, angle.clone()), call, work);
-                self.numbered(Value::Call(Function::Cos, angle), none, work)
+                self.numbered(Value::Call(Function::Sin, angle.clone()), call, count);
+                self.numbered(Value::Call(Function::Cos, angle), none, count)
             }
-            Value::Call(..) => self.numbered(value, call, work),
-            _ => self.numbered(value, none, work),
+            Value::Call(..) => self.numbered(value, call, count),
+            _ => self.numbered(value, none, count),
         }
     }
 
-    fn product(&mut self, factors: Vec<ValueId>, cost: Operations, work: &mut Work) -> ValueId {
+    fn product(&mut self, factors: Vec<ValueId>, cost: Operations, count: &mut Count) -> ValueId {
         let product = factors.into_iter().reduce(|left, right| {
             let mut factors = vec![left, right];
             factors.sort_unstable();
-            self.numbered(Value::Product(factors), cost, work)
+            self.numbered(Value::Product(factors), cost, count)
         });
         product.unwrap_or(ValueId(0))
     }
 
-    fn numbered(&mut self, operation: Value, cost: Operations, work: &mut Work) -> ValueId {
+    fn numbered(&mut self, operation: Value, cost: Operations, count: &mut Count) -> ValueId {
         let next = ValueId(self.numbers.len());
         let number = *self.numbers.entry(operation).or_insert(next);
         if cost != Operations::default() {
-            work.numbered.insert(number, cost);
+            count.numbered.insert(number, cost);
         }
         number
     }
@@ -182,23 +182,23 @@ mod tests {
         let kernel = |results: &[_], is_layer| schedule(&graph, &[], results, &Given::default(), &[], is_layer);
         let whole = kernel(&[sum], false);
         let expected = Operations { multiplications: 5, additions: 2, divisions: 1, functions: 1 };
-        let mut works = Works::default();
+        let mut counts = Counts::default();
         // As written, and by numbers.
-        let plain = works.work(Some(&whole), false, &[], Operations::default());
+        let plain = counts.of_body(Some(&whole), false, &[], Operations::default());
         assert_eq!(plain.total(), expected);
-        let mut numbered = Work::default();
-        works.number_all(&whole, &mut numbered);
+        let mut numbered = Count::default();
+        counts.number_all(&whole, &mut numbered);
         assert_eq!(numbered.total(), expected);
 
-        let layer = works.work(Some(&kernel(&[ab, sine], true)), true, &[], Operations::default());
+        let layer = counts.of_body(Some(&kernel(&[ab, sine], true)), true, &[], Operations::default());
         assert_eq!(layer.total(), Operations { multiplications: 1, functions: 1, ..Operations::default() });
         let callee = Callee::Own(FunctionId::new(0));
-        works.insert(callee, layer);
+        counts.insert(callee, layer);
         let calls = [callee; 2];
-        let once = works.work(Some(&whole), false, &calls[..1], Operations::default());
+        let once = counts.of_body(Some(&whole), false, &calls[..1], Operations::default());
         assert_eq!(once.total(), expected);
         // The second call has other arguments.
-        let twice = works.work(Some(&whole), false, &calls, Operations::default());
+        let twice = counts.of_body(Some(&whole), false, &calls, Operations::default());
         let more = Operations { multiplications: 6, functions: 2, ..expected };
         assert_eq!(twice.total(), more);
     }

@@ -70,11 +70,11 @@ impl Row {
                 continue;
             }
             if let Some(symbol) = graph.as_symbol(node) {
-                let place = unknowns.iter().position(|&unknown| unknown == symbol);
+                let index = unknowns.iter().position(|&unknown| unknown == symbol);
                 if term.length.is_some() {
                     return Err(Obstacle::ProductOfLengths);
                 }
-                open.push(Term { length: place, ..term });
+                open.push(Term { length: index, ..term });
                 continue;
             }
             match graph.node(node).clone() {
@@ -111,8 +111,8 @@ impl Row {
         let mut lengths = BTreeMap::new();
         for (length, parts) in parts {
             let factor = parts.total(graph);
-            if let Some(place) = length.filter(|_| !factor.is_zero(graph)) {
-                lengths.insert(place, factor);
+            if let Some(index) = length.filter(|_| !factor.is_zero(graph)) {
+                lengths.insert(index, factor);
             }
         }
         Ok(Self { free, lengths })
@@ -174,8 +174,8 @@ fn direction(graph: &mut Graph, angle: NodeId, unknowns: &[SymbolId]) -> Option<
         };
         let symbol = graph.as_symbol(symbol);
         match unknowns.iter().position(|&unknown| Some(unknown) == symbol) {
-            Some(place) => {
-                factors[place] += times.as_integer().filter(|times| times.abs() <= LARGEST_FACTOR)?;
+            Some(index) => {
+                factors[index] += times.as_integer().filter(|times| times.abs() <= LARGEST_FACTOR)?;
             }
             None if graph.symbols_of(&[term]).iter().any(|symbol| unknowns.contains(symbol)) => return None,
             None => offset.push((times, term)),

@@ -1,17 +1,17 @@
-//! The joints of a linkage as positions, merged where a loop puts two formulas at one place.
+//! The joints of a linkage: positions, merged where a loop makes two formulas one joint.
 
 use crate::graph::NodeId;
 
-/// Positions by index; merged ones are the same place.
+/// Positions by index; merged ones are the same joint.
 #[derive(Debug, Clone, Default)]
-pub struct Places {
+pub struct Joints {
     positions: Vec<[NodeId; 2]>,
-    /// For each position, itself, or an earlier one at its place.
+    /// For each position, itself, or an earlier one of its joint.
     same: Vec<usize>,
 }
 
-impl Places {
-    /// The place of a position that is known.
+impl Joints {
+    /// The joint at a position that is known.
     #[must_use]
     pub fn known(&self, position: [NodeId; 2]) -> Option<usize> {
         self.positions.iter().position(|other| *other == position).map(|at| self.find(at))
@@ -27,7 +27,7 @@ impl Places {
         self.positions.len() - 1
     }
 
-    /// The first index of a place.
+    /// The first index of a joint.
     #[must_use]
     pub fn find(&self, mut at: usize) -> usize {
         while self.same[at] != at {
@@ -36,16 +36,16 @@ impl Places {
         at
     }
 
-    /// Puts two positions at one place.
+    /// Makes two positions one joint.
     pub fn merge(&mut self, one: usize, other: usize) {
         let [one, other] = [one, other].map(|at| self.find(at));
         self.same[one.max(other)] = one.min(other);
     }
 
-    /// All formulas of a place.
-    pub fn formulas(&self, place: usize) -> impl Iterator<Item = [NodeId; 2]> {
+    /// All formulas of a joint.
+    pub fn formulas(&self, joint: usize) -> impl Iterator<Item = [NodeId; 2]> {
         let all = self.positions.iter().enumerate();
-        all.filter(move |(at, _)| self.find(*at) == place).map(|(_, position)| *position)
+        all.filter(move |(at, _)| self.find(*at) == joint).map(|(_, position)| *position)
     }
 
     #[must_use]

@@ -182,8 +182,8 @@ impl Letters {
             return None;
         }
         let mut law = first.relative.clone();
-        for (place, (_, angle, _)) in law.amplified.iter_mut().enumerate() {
-            let of = groups.iter().map(|(of, names)| (&of.relative.amplified[place].1, names));
+        for (index, (_, angle, _)) in law.amplified.iter_mut().enumerate() {
+            let of = groups.iter().map(|(of, names)| (&of.relative.amplified[index].1, names));
             if of.clone().all(|(other, _)| other == angle) {
                 continue;
             }

@@ -9,9 +9,9 @@ use crate::program::{Functions, Operations};
 /// these are requested.
 pub(super) fn kernels(functions: &Functions<Code>, straight: Option<&Straight>, table: &mut Table) -> Vec<Kernel> {
     let public = functions.iter().filter(|function| function.access.is_public());
-    let works = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
-    let works = works.filter(|(_, operations)| *operations != Operations::default());
-    let kernels = works.map(|(function, operations)| {
+    let counted = public.filter_map(|function| Some((function.name.clone(), function.body.as_ref()?.operations)));
+    let counted = counted.filter(|(_, operations)| *operations != Operations::default());
+    let kernels = counted.map(|(function, operations)| {
         let code = straight.map_or_else(KernelCode::default, |straight| straight.code(&function, table));
         Kernel { function, operations, code }
     });
