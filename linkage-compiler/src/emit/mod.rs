@@ -35,7 +35,7 @@ use crate::model::{Mechanism, Request, TypeName};
 use crate::program::{self, Function, Functions, Implemented, Operations, Program};
 use fpcore::Straight;
 use names::string;
-pub use text::text;
+pub use text::{function_as_text, text};
 use work::kernels;
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
