@@ -11,6 +11,8 @@ mod plan;
 mod printed;
 mod source;
 mod statements;
+#[cfg(test)]
+mod tests;
 
 use std::env;
 use std::process::ExitCode;
