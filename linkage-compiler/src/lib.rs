@@ -3,7 +3,8 @@
 //! [`expand_within`] runs all stages. Each depends only on stages before it: syntax (parser), graph (expressions), algebra
 //! (simplification), structure (order of solution), model (name resolution and checks), derivation (mathematics), program
 //! (the functions to emit), lower (common subexpressions, order, names), document (formulas for readers), emit
-//! (printers).
+//! (printers). `ARCHITECTURE.md`, at the root of the repository, follows one four-bar through them; the example `stage` prints
+//! any stage of any file.
 
 pub mod algebra;
 pub mod budget;

@@ -36,7 +36,7 @@ use crate::program::{self, Function, Functions, Implemented, Operations, Program
 use fpcore::Straight;
 use kernels::kernels;
 use names::string;
-pub use text::text;
+pub use text::{function_as_text, text};
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]

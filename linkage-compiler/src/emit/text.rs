@@ -26,30 +26,38 @@ pub fn text(program: &Program<Code>) -> String {
 fn functions<'f>(of: &str, functions: impl IntoIterator<Item = &'f Function<Code>>) -> String {
     let mut text = format!("{of}\n");
     for function in functions {
-        let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
-        let access = match function.access {
-            Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
-            Access::Inlined | Access::Layer | Access::Lane | Access::LaneAlone => "inlined ",
-            Access::Cold => "cold ",
-            Access::OfTrait => "of a trait ",
-            Access::Deprecated => "deprecated ",
-        };
-        let or_error = if function.is_fallible { " or an error" } else { "" };
-        let _ = writeln!(text, "\n{access}{}({}){or_error}", function.name, arguments.join(", "));
-        let Some(code) = &function.body else { continue };
-        if code.operations != Operations::default() {
-            let _ = writeln!(text, "    # {}", count(code.operations));
-        }
-        if let Some(bound) = code.bound.as_ref().and_then(Bound::sentence) {
-            let _ = writeln!(text, "    # {bound}");
-        }
-        let printer = Printer { code, style: Plain };
-        let lines = printer.statements(&code.statements).into_iter().chain([printer.value(code.value.returned())]);
-        lines.for_each(|line| {
-            let _ = writeln!(text, "    {line}");
-        });
+        text += &format!("\n{}", function_as_text(function));
     }
     text + "\n"
+}
+
+/// A function: its signature, its operations, its rounding errors, and its statements.
+#[must_use]
+pub fn function_as_text(function: &Function<Code>) -> String {
+    let mut text = String::new();
+    let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
+    let access = match function.access {
+        Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
+        Access::Inlined | Access::Layer | Access::Lane | Access::LaneAlone => "inlined ",
+        Access::Cold => "cold ",
+        Access::OfTrait => "of a trait ",
+        Access::Deprecated => "deprecated ",
+    };
+    let or_error = if function.is_fallible { " or an error" } else { "" };
+    let _ = writeln!(text, "{access}{}({}){or_error}", function.name, arguments.join(", "));
+    let Some(code) = &function.body else { return text };
+    if code.operations != Operations::default() {
+        let _ = writeln!(text, "    # {}", count(code.operations));
+    }
+    if let Some(bound) = code.bound.as_ref().and_then(Bound::sentence) {
+        let _ = writeln!(text, "    # {bound}");
+    }
+    let printer = Printer { code, style: Plain };
+    let lines = printer.statements(&code.statements).into_iter().chain([printer.value(code.value.returned())]);
+    lines.for_each(|line| {
+        let _ = writeln!(text, "    {line}");
+    });
+    text
 }
 
 /// Text without types and references.
