@@ -8,7 +8,7 @@ use linkage_compiler::diagnostics::Diagnostics;
 use linkage_compiler::graph::written;
 use linkage_compiler::model::{Request, VECTOR_FUNCTIONS};
 use linkage_compiler::syntax::{
-    self, EFFECTS, EffectKind, Expression, Expressions, Joint, KEYWORDS, Mechanism, Operator, PROPERTIES, Place,
+    self, Attachment, EFFECTS, EffectKind, Expression, Expressions, Joint, KEYWORDS, Mechanism, Operator, PROPERTIES,
     StatementKind, Unit,
 };
 use proc_macro2::{TokenStream, TokenTree};
@@ -219,14 +219,14 @@ impl Found {
             EffectKind::Gravity { bodies, .. } => {
                 self.one_of(bodies.is_empty(), ["`gravity g;`", "`gravity g on rod;`"]);
             }
-            EffectKind::Spring { free, place, .. } => match place {
-                Place::On(_) => self.add("`spring k, s0 on s;`"),
-                Place::Between(..) => {
+            EffectKind::Spring { free, attachment, .. } => match attachment {
+                Attachment::On(_) => self.add("`spring k, s0 on s;`"),
+                Attachment::Between(..) => {
                     self.one_of(free.is_none(), ["`spring k between P and Q;`", "`spring k, s0 between P and Q;`"]);
                 }
             },
-            EffectKind::Damper { place, .. } => {
-                let is_between = matches!(place, Place::Between(..));
+            EffectKind::Damper { attachment, .. } => {
+                let is_between = matches!(attachment, Attachment::Between(..));
                 self.one_of(is_between, ["`damper c between P and Q;`", "`damper c on s;`"]);
             }
             EffectKind::Friction { factors, reaction: None, .. } => {
