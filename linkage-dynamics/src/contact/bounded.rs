@@ -7,7 +7,8 @@
 //! that meets a bound is fixed there (C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter
 //! 23, here with two bounds). Each iteration decreases the function, so that no active set repeats.
 
-use super::held::{Factors, held_tolerance};
+use super::held::Factors;
+use super::tolerance::held_tolerance;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// A force between bounds.

@@ -7,16 +7,11 @@
 //! linear combination of them.
 
 use super::reduced::ReducedEquations;
+use super::tolerance::held_tolerance;
 use super::{ContactLaw, Mode};
 use crate::MotionError;
 use crate::inertia::Inertia;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
-
-/// 1024 ulps: a pivot counts as zero if it is no larger than this times its diagonal entry of A, a sum if it is no
-/// larger than this times the sum of the magnitudes of its terms.
-pub(super) fn held_tolerance<T: Real>() -> T {
-    real::<T>(1024.0) * T::default_epsilon()
-}
+use linkage_runtime::{Column, Dim, Matrix, Real};
 
 /// The accelerations due to forces along some of the contacts.
 pub(super) struct Response<T: Real, V: Dim, C: Dim> {

@@ -8,8 +8,9 @@
 //! redundancy only one contact moves in each of them; K sticking joints of a linkage with one input hold while
 //! |Q| <= sum |S| limit.
 
-use super::held::{Factors, Held, held_tolerance};
+use super::held::{Factors, Held};
 use super::reduced::ReducedEquations;
+use super::tolerance::held_tolerance;
 use super::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real};
 

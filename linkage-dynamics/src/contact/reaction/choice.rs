@@ -11,11 +11,12 @@
 //! samples are not excluded.
 
 use super::admissible::{Existence, Held};
+use super::budget::Budget;
 use super::family::Family;
+use super::modes::{Failure, in_family, samples, slipping_within};
 use super::problem::Problem;
-use super::search::Budget;
-use super::{Failure, in_family, samples, slipping_within};
-use crate::contact::held::{Factors, held_tolerance};
+use crate::contact::held::Factors;
+use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real, real};
 

@@ -5,7 +5,8 @@
 
 use super::problem::Problem;
 use super::slip::Slips;
-use crate::contact::held::{Factors, held_tolerance};
+use crate::contact::held::Factors;
+use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::{Column, Dim, Real};
 

@@ -12,7 +12,7 @@ use super::admissible::{Existence, Held};
 use super::linear::contraction;
 use super::problem::length;
 use crate::contact::Mode;
-use crate::contact::held::held_tolerance;
+use crate::contact::tolerance::held_tolerance;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// The limit on iterations for the forces at one point of the path, and on bisections.

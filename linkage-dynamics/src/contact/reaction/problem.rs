@@ -2,8 +2,8 @@
 
 use super::linear::contraction;
 use crate::MotionError;
-use crate::contact::held::{Response, held_tolerance, slipping};
-use crate::contact::state::sum_tolerance;
+use crate::contact::held::{Response, slipping};
+use crate::contact::tolerance::{held_tolerance, sum_tolerance};
 use crate::contact::{ContactLaw, Mode, ReducedEquations};
 use linkage_runtime::{Column, Dim, Matrix, PositionError, Real, real};
 
