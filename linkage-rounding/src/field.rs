@@ -8,8 +8,9 @@ use num_traits::{FromPrimitive, Num, One, Signed, Zero};
 use simba::scalar::{SubsetOf, SupersetOf};
 
 use crate::Rounded;
-use crate::functions::{self, one_of, stepped};
+use crate::functions;
 use crate::residual::half_ulp;
+use crate::rules::{one_of, stepped};
 
 impl Rounded {
     /// A double that may be the rounded value of a constant, see the type.
