@@ -11,7 +11,6 @@ mod admissible;
 mod budget;
 mod choice;
 mod family;
-mod linear;
 mod modes;
 mod path;
 mod problem;

@@ -6,9 +6,9 @@
 //! 1990, chapter 5), or the cell is divided. Enclosures are those of real arithmetic, without directed rounding.
 
 use super::budget::Budget;
-use super::linear::solve;
 use super::problem::length;
 use super::slip::{Homogeneous, Roots, Slips};
+use linkage_runtime::__shared::solve;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// A cell that is not decided at this radius, relative to the cube, is given up.

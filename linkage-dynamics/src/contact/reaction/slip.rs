@@ -6,9 +6,9 @@
 //! ([`search`](super::search)).
 
 use super::budget::Budget;
-use super::linear::{contraction, solve};
 use super::problem::length;
 use crate::contact::tolerance::sum_tolerance;
+use linkage_runtime::__shared::{contraction, solve};
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// The most solutions that are stored.
