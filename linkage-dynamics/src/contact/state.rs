@@ -69,7 +69,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// touches a stop and moves towards it. `evaluate` computes the equations at given rates.
     ///
     /// # Errors
-    /// [`InputError::BeyondStop`] if an s is beyond its stop; those of [`settle`](Self::settle).
+    /// [`InputError::BeyondStop`](linkage_runtime::InputError::BeyondStop) if an s is beyond its stop; those of
+    /// [`settle`](Self::settle).
     pub fn begin<V: Dim>(
         t: T,
         rates: &Column<T, V>,

@@ -9,7 +9,7 @@ pub enum Limit<T> {
     Unlimited,
     /// A limit v in closed form, accurate to two ulp times its condition number, 1 + the sum of |(l / v) dv/dl| over
     /// the lengths l. The links are in line there; a later group may be undetermined
-    /// ([`PositionError::Undetermined`]).
+    /// ([`PositionError::Undetermined`](crate::PositionError::Undetermined)).
     Exact {
         /// The last input at which the mechanism can be assembled.
         input: T,
