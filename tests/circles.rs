@@ -149,7 +149,7 @@ impl Crate {
         self.modules.get(&at)
     }
 
-    /// As [`Self::defining`], if the module found has the name: another glob may have it.
+    /// The module that [`Self::defining`] finds, if it has the name: another glob may have it.
     fn defined_in(&self, path: &[String], depth: usize) -> Option<&Module> {
         let module = self.defining(path, depth)?;
         path.iter().any(|name| module.defined.contains(name)).then_some(module)
