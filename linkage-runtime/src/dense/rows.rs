@@ -17,9 +17,9 @@ pub fn reduce_rows<T: Real, V: Dim>(
             let factor = entries[pivot] / row[pivot];
             if !factor.is_zero() {
                 *entries -= row * factor;
-                entries[pivot] = T::zero();
                 on_row(place, other, factor);
             }
+            entries[pivot] = T::zero();
         }
     }
     Some(())
