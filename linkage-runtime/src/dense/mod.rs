@@ -8,11 +8,11 @@
 //! | symmetric, of any rank | [`Ranked`]: L D L' with diagonal pivoting | held contacts |
 //! | wide | [`reduce_rows`]: Gauss-Jordan elimination with given pivots | rates and motions with contacts at rest |
 //!
-//! The order of their operations differs, and with it the last bits: `Lu` multiplies by reciprocals, since it is what
-//! emitted code waits for.
+//! They do not share their substitutions: the order of the operations differs, and with it the last bits. [`Lu`] multiplies
+//! by reciprocals, the others divide.
 //!
 //! Three eliminations are elsewhere, since they are more than factorisations: [`Elimination`](crate::jacobian::Elimination)
-//! finds rank and null spaces of [J A] and reuses an order of pivots; those of Dixon's determinant have complex entries
+//! finds the rank and the null spaces of [J A] and reuses an order of pivots; those of Dixon's determinant have complex entries
 //! and bound their errors; the inverse in `linkage-interval` has a size known at run time only.
 
 mod cholesky;
