@@ -1,4 +1,4 @@
-//! What all scalars that are real numbers with one lane have in common, in the traits that nalgebra requires.
+//! The part of the traits required by nalgebra that all scalars share which are real numbers with one lane.
 
 /// Writes one of these parts:
 ///

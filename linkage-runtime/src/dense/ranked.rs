@@ -64,6 +64,7 @@ impl<T: Real, C: Dim> Ranked<T, C> {
     }
 
     /// Solves A x = `side` for the independent rows; both are indexed in pivot order.
+    #[inline]
     pub fn solve(&self, side: impl Fn(usize) -> T) -> Column<T, C> {
         let mut x = Column::zeros();
         for place in 0..self.rank {
@@ -77,6 +78,7 @@ impl<T: Real, C: Dim> Ranked<T, C> {
     }
 
     /// Returns the coefficients of a row as a combination of the independent rows, in pivot order.
+    #[inline]
     pub fn combination(&self, place: usize) -> Column<T, C> {
         let mut x = Column::zeros();
         if place < self.rank {
@@ -89,6 +91,7 @@ impl<T: Real, C: Dim> Ranked<T, C> {
         self.back(x)
     }
 
+    #[inline]
     fn back(&self, mut x: Column<T, C>) -> Column<T, C> {
         for place in (0..self.rank).rev() {
             for later in place + 1..self.rank {

@@ -5,6 +5,7 @@ use crate::{Column, Dim, Real};
 /// Eliminates from all other rows the column that `pivot` chooses in each row; `None` if it chooses none.
 ///
 /// `on_row` is told the row of the pivot, the other row, and the factor by which the first is subtracted from it.
+#[inline]
 pub fn reduce_rows<T: Real, V: Dim>(
     rows: &mut [Column<T, V>],
     mut pivot: impl FnMut(usize, &Column<T, V>) -> Option<usize>,
