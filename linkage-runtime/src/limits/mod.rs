@@ -14,7 +14,8 @@ mod searched;
 mod touch;
 mod walk;
 
-use self::limit::Limit;
+pub use self::limit::Limit;
+
 use self::searched::Searched;
 use crate::bounded::{angle_but_for_turns, has_bound, instead};
 use crate::linear::power_of_two_below;
