@@ -12,7 +12,7 @@ use linkage_sweep_arrow::{Scalar, schema};
 
 use crate::EngineError;
 use crate::chunked::{ChunkReader, Chunked};
-use crate::family::CaseColumn;
+use crate::column::CaseColumn;
 use crate::positions::{CASE, compute, with_numbers};
 
 /// The column of the number of the first row.

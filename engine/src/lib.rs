@@ -35,6 +35,7 @@ mod batches;
 mod cases;
 mod chunked;
 pub mod cluster;
+mod column;
 mod error;
 mod family;
 mod function;

@@ -1,28 +1,14 @@
 //! The traits that nalgebra requires of a real scalar.
 
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
-use nalgebra::{ComplexField, Field, RealField, SimdValue};
-use num_traits::{FromPrimitive, Num, One, Signed, Zero};
-use simba::scalar::{SubsetOf, SupersetOf};
+use nalgebra::{ComplexField, RealField};
+use num_traits::{FromPrimitive, Num, Signed};
+use simba::scalar::SupersetOf;
 
 use super::{DoubleDouble, functions};
 use functions::{INVERSE_PI, LN_TEN, LN_TWO, ONE, PI, ZERO};
 
-impl Zero for DoubleDouble {
-    fn zero() -> Self {
-        ZERO
-    }
-
-    fn is_zero(&self) -> bool {
-        self.high == 0.0
-    }
-}
-
-impl One for DoubleDouble {
-    fn one() -> Self {
-        ONE
-    }
-}
+crate::__real_field! { scalar DoubleDouble, high, ZERO, ONE }
 
 impl Num for DoubleDouble {
     type FromStrRadixErr = <f64 as Num>::FromStrRadixErr;
@@ -46,13 +32,7 @@ impl Signed for DoubleDouble {
         self.high.signum().into()
     }
 
-    fn is_positive(&self) -> bool {
-        RealField::is_sign_positive(self)
-    }
-
-    fn is_negative(&self) -> bool {
-        RealField::is_sign_negative(self)
-    }
+    crate::__real_field! { signed }
 }
 
 impl FromPrimitive for DoubleDouble {
@@ -103,55 +83,6 @@ impl UlpsEq for DoubleDouble {
     }
 }
 
-/// A SIMD value of one lane.
-impl SimdValue for DoubleDouble {
-    const LANES: usize = 1;
-    type Element = Self;
-    type SimdBool = bool;
-
-    fn splat(value: Self) -> Self {
-        value
-    }
-
-    fn extract(&self, _: usize) -> Self {
-        *self
-    }
-
-    #[expect(unsafe_code, reason = "declared so by the trait")]
-    unsafe fn extract_unchecked(&self, _: usize) -> Self {
-        *self
-    }
-
-    fn replace(&mut self, _: usize, value: Self) {
-        *self = value;
-    }
-
-    #[expect(unsafe_code, reason = "declared so by the trait")]
-    unsafe fn replace_unchecked(&mut self, _: usize, value: Self) {
-        *self = value;
-    }
-
-    fn select(self, condition: bool, other: Self) -> Self {
-        if condition { self } else { other }
-    }
-}
-
-impl Field for DoubleDouble {}
-
-impl SubsetOf<Self> for DoubleDouble {
-    fn to_superset(&self) -> Self {
-        *self
-    }
-
-    fn from_superset_unchecked(element: &Self) -> Self {
-        *element
-    }
-
-    fn is_in_subset(_: &Self) -> bool {
-        true
-    }
-}
-
 impl SupersetOf<f64> for DoubleDouble {
     fn is_in_subset(&self) -> bool {
         true
@@ -191,47 +122,12 @@ macro_rules! from_functions {
 impl ComplexField for DoubleDouble {
     type RealField = Self;
 
+    crate::__real_field! { complex ZERO, ONE }
+
     from_functions! { asin acos exp exp_m1 ln ln_1p cbrt sinh tanh asinh floor }
-
-    #[inline]
-    fn from_real(re: Self) -> Self {
-        re
-    }
-
-    #[inline]
-    fn real(self) -> Self {
-        self
-    }
-
-    #[inline]
-    fn imaginary(self) -> Self {
-        ZERO
-    }
-
-    fn modulus(self) -> Self {
-        Signed::abs(&self)
-    }
-
-    fn modulus_squared(self) -> Self {
-        self * self
-    }
 
     fn argument(self) -> Self {
         if self.high < 0.0 { PI } else { ZERO }
-    }
-
-    fn norm1(self) -> Self {
-        Signed::abs(&self)
-    }
-
-    #[inline]
-    fn scale(self, factor: Self) -> Self {
-        self * factor
-    }
-
-    #[inline]
-    fn unscale(self, factor: Self) -> Self {
-        self / factor
     }
 
     fn ceil(self) -> Self {
@@ -247,31 +143,13 @@ impl ComplexField for DoubleDouble {
         if self.high < 0.0 { self.ceil() } else { functions::floor(self) }
     }
 
-    fn fract(self) -> Self {
-        self - self.trunc()
-    }
-
     #[inline]
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
     }
 
-    #[inline]
-    fn abs(self) -> Self {
-        Signed::abs(&self)
-    }
-
     fn hypot(self, other: Self) -> Self {
         functions::hypot(self, other)
-    }
-
-    fn recip(self) -> Self {
-        ONE / self
-    }
-
-    #[inline]
-    fn conjugate(self) -> Self {
-        self
     }
 
     fn sin(self) -> Self {
@@ -317,11 +195,6 @@ impl ComplexField for DoubleDouble {
 
     fn log10(self) -> Self {
         functions::ln(self) / LN_TEN
-    }
-
-    #[inline]
-    fn sqrt(self) -> Self {
-        self.root()
     }
 
     fn exp2(self) -> Self {
@@ -392,13 +265,7 @@ impl RealField for DoubleDouble {
         functions::atan2(self, other)
     }
 
-    fn min_value() -> Option<Self> {
-        Some(f64::MIN.into())
-    }
-
-    fn max_value() -> Option<Self> {
-        Some(f64::MAX.into())
-    }
+    crate::__real_field! { range }
 
     constants! {
         pi PI;

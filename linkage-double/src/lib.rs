@@ -14,6 +14,7 @@
 
 mod field;
 mod functions;
+mod real_field;
 
 use core::cmp::Ordering;
 use core::fmt;

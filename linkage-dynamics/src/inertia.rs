@@ -1,7 +1,7 @@
-//! Accelerations from a mass matrix: symmetric elimination without pivoting.
+//! Accelerations from a mass matrix.
 
 use crate::MotionError;
-use linkage_runtime::__shared::{greatest, to_f64};
+use linkage_runtime::__shared::{Definite, greatest, to_f64};
 use linkage_runtime::{Column, D, Dim, Matrix, PositionError, Real, real};
 
 /// A pivot below this many ulps of its diagonal entry counts as zero: it is rounding error.
@@ -10,7 +10,7 @@ const LEAST_PIVOT_ULPS: f64 = 4.0;
 /// The triangular factors of a positive definite mass matrix. Nothing here can panic, even without optimisation.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inertia<T: Real, N: Dim> {
-    matrix: Matrix<T, N, N>,
+    factors: Definite<T, N>,
 }
 
 impl<T: Real, N: Dim> Inertia<T, N> {
@@ -22,43 +22,20 @@ impl<T: Real, N: Dim> Inertia<T, N> {
         coordinates: &Column<&'static str, N>,
         mass: &Matrix<T, N, N>,
     ) -> Result<Self, MotionError> {
-        let mut matrix = *mass;
-        for (k, coordinate) in coordinates.iter().enumerate() {
-            let (pivot, entry) = (matrix.part(k, k), mass.part(k, k));
-            if !(pivot > real::<T>(LEAST_PIVOT_ULPS) * T::default_epsilon() * entry && pivot <= greatest()) {
-                return Err(without_inertia(scene, coordinate, pivot, entry));
+        let factors = Definite::new(mass, |k, pivot, entry| {
+            if pivot > real::<T>(LEAST_PIVOT_ULPS) * T::default_epsilon() * entry && pivot <= greatest() {
+                return Ok(());
             }
-            for i in k + 1..N::COUNT {
-                let factor = matrix.part(i, k) / pivot;
-                for column in k + 1..N::COUNT {
-                    let above = matrix.part(k, column);
-                    if let Some(entry) = matrix.get_mut(i, column) {
-                        *entry -= factor * above;
-                    }
-                }
-            }
-        }
-        Ok(Self { matrix })
+            let coordinate = coordinates.as_slice().get(k).copied().unwrap_or_default();
+            Err(without_inertia(scene, coordinate, pivot, entry))
+        })?;
+        Ok(Self { factors })
     }
 
     /// Solves M x = `forces`.
     #[inline]
     pub(crate) fn solve(&self, forces: &Column<T, N>) -> Column<T, N> {
-        let (matrix, mut x) = (&self.matrix, *forces);
-        for k in 0..N::COUNT {
-            let Some([value, below @ ..]) = x.as_mut_slice().get_mut(k..) else { continue };
-            for (i, entry) in (k + 1..).zip(below) {
-                *entry -= matrix.part(i, k) / matrix.part(k, k) * *value;
-            }
-        }
-        for k in (0..N::COUNT).rev() {
-            let Some([entry, known @ ..]) = x.as_mut_slice().get_mut(k..) else { continue };
-            for (i, known) in (k + 1..).zip(known) {
-                *entry -= matrix.part(k, i) * *known;
-            }
-            *entry /= matrix.part(k, k);
-        }
-        x
+        self.factors.solve(forces)
     }
 }
 

@@ -14,6 +14,7 @@
 #[doc(hidden)]
 pub mod __rt;
 pub mod contact;
+mod energy;
 mod equations;
 mod equilibrium;
 mod error;
@@ -22,12 +23,14 @@ pub mod integrate;
 mod reactions;
 mod scene;
 pub mod simulation;
+mod unreduced;
 
 pub use contact::{Bearing, Contact, ContactCoordinate, ContactLaw, Mode, ReactionRow};
+pub use energy::{Energy, Power};
 pub use equations::Equations;
 pub use equilibrium::Balance;
 pub use error::{CrossingRates, MotionError};
 pub use scene::{
-    Accelerations, Coordinates, Energy, Inputs, Kink, Power, Prescribed, Rates, Scene, StateColumn, StateParts,
-    StateRates, Unreduced,
+    Accelerations, Coordinates, Inputs, Kink, Prescribed, Rates, Scene, StateColumn, StateParts, StateRates,
 };
+pub use unreduced::Unreduced;

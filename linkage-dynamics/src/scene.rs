@@ -1,14 +1,12 @@
 //! The trait of mechanisms with inertia and forces, and functions that the code emitted for scenes calls.
 
 use crate::contact::within;
-use crate::simulation::Loads;
-use crate::simulation::kinks::one_sided;
 use crate::simulation::scales::resolution_by_inputs;
-use crate::{Bearing, Contact, ContactLaw, Equations, MotionError};
+use crate::{Bearing, Contact, ContactLaw, Equations, MotionError, Unreduced};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
-use linkage_runtime::{Column, Dim, InputError, Matrix, Mechanism, PerInput, PositionError, Real, newton};
+use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, PositionError, Real, newton, real};
 
 /// Values shared by the functions of a scene, at one position and one set of input rates.
 #[derive(Debug, Clone, Copy)]
@@ -286,50 +284,106 @@ pub struct Prescribed<T> {
     pub acceleration: T,
 }
 
+/// The sign of a number; zero for NaN.
+pub(crate) fn sign<T: Real>(value: T) -> i8 {
+    if value > T::zero() {
+        1
+    } else if value < T::zero() {
+        -1
+    } else {
+        0
+    }
+}
+
+/// The sign of an expression of time alone.
+pub(crate) fn sign_at<S: Scene + ?Sized>(scene: &S, place: usize, t: S::Scalar) -> i8 {
+    let q = S::Mechanism::coordinates(Column::zeros(), Column::zeros());
+    let rates = S::Mechanism::rates(Column::zeros(), Column::zeros());
+    sign(scene.kink(place, t, &q, &rates))
+}
+
+/// Returns t, or if an expression of time alone is zero there, a time next to it, in this direction, where none is.
+pub(crate) fn beside<S: Scene + ?Sized>(scene: &S, t: S::Scalar, is_forward: bool) -> S::Scalar {
+    let is_smooth = |t: S::Scalar| {
+        let mut kinks = S::KINKS.iter().enumerate();
+        kinks.all(|(place, kink)| !kink.is_timed || sign_at(scene, place, t) != 0)
+    };
+    if is_smooth(t) {
+        return t;
+    }
+    // From one ulp; at t = 0, where there is no ulp, from a time whose square does not underflow.
+    let ulp = t.abs() * S::Scalar::default_epsilon();
+    let (mut little, factor) = if ulp > S::Scalar::zero() { (ulp, 2.0) } else { (real(1e-150), 1e8) };
+    for _ in 0..20 {
+        let near = if is_forward { t + little } else { t - little };
+        if is_smooth(near) {
+            return near;
+        }
+        little *= real(factor);
+    }
+    t
+}
+
+/// The prescribed motion of each input: at a kink its rate and acceleration just after it, or before it.
+pub(crate) fn one_sided<S: Scene + ?Sized>(
+    scene: &S,
+    t: S::Scalar,
+    is_after: bool,
+) -> Column<Option<Prescribed<S::Scalar>>, S::V> {
+    let laws = scene.prescribed(t);
+    let near = beside(scene, t, is_after);
+    if near == t {
+        return laws;
+    }
+    let beside = scene.prescribed(near);
+    Column::from_fn(|input| {
+        let (law, beside) = (laws[input]?, beside[input]?);
+        Some(Prescribed { value: law.value, ..beside })
+    })
+}
+
 /// Returns the name of the coordinate of a column of [J A].
 pub(crate) fn coordinate_name<M: Mechanism>(column: usize) -> &'static str {
     M::UNKNOWNS.iter().chain(M::INPUTS).nth(column).copied().unwrap_or_default()
 }
 
-/// Inertia and forces in all coordinates, M q'' + Psi_q' lambda = F, split into unknowns u and inputs v.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The forces of frictions, stops, drives and joints.
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(
+        serialize = "S::Scalar: serde::Serialize, Inputs<S>: serde::Serialize, S::Reactions: serde::Serialize",
+        deserialize = "S::Scalar: serde::Deserialize<'de>, Inputs<S>: serde::Deserialize<'de>, \
+                       S::Reactions: serde::Deserialize<'de>"
+    ))
 )]
-pub struct Unreduced<T: Real, U: Dim, V: Dim> {
-    /// M_uu.
-    pub unknowns: Matrix<T, U, U>,
-    /// M_uv.
-    pub mixed: Matrix<T, U, V>,
-    /// M_vv.
-    pub inputs: Matrix<T, V, V>,
-    /// F_u, with the quadratic velocity terms of the inertia.
-    pub unknown_forces: Column<T, U>,
-    /// F_v, with the quadratic velocity terms of the inertia.
-    pub input_forces: Column<T, V>,
+pub struct Loads<S: Scene> {
+    /// The force of each friction and stop along its scalar s, in the order of declaration: its work is f ds. With
+    /// redundant contacts the forces are not unique; this is one solution.
+    pub contacts: Column<S::Scalar, S::Contacts>,
+    /// False if other forces of the contacts give the same motion.
+    pub are_unique: bool,
+    /// The force (for an angle, torque) of each drive; zero for inputs without a drive.
+    pub drives: Inputs<S>,
+    /// The power of the drives. dE/dt = this + the power of the scene's other forces - the dissipation of frictions and
+    /// dampers.
+    pub drive_power: S::Scalar,
+    /// The forces in the joints that `reaction` statements of the scene name.
+    pub joints: S::Reactions,
 }
 
-/// The energy of a scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Energy<T> {
-    /// The kinetic energy of the bodies listed under `inertia`.
-    pub kinetic: T,
-    /// The potential energy of gravity, springs and potentials.
-    pub potential: T,
+impl<S: Scene> Loads<S> {
+    /// Checks that all forces are finite; those in the joints are already checked.
+    pub(crate) fn finite(self, t: S::Scalar) -> Result<Self, MotionError> {
+        let drives: PerInput<S::Mechanism> = self.drives.into();
+        if !self.contacts.iter().chain(drives.iter()).chain([&self.drive_power]).all(S::Scalar::is_finite) {
+            return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
+        }
+        Ok(self)
+    }
 }
 
-/// The power of a scene: dE/dt = `applied` - `dissipated`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Power<T> {
-    /// The power of forces, torques and drives.
-    pub applied: T,
-    /// The power of dampers and frictions.
-    pub dissipated: T,
-}
+linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, are_unique, drives, drive_power, joints });
 
 /// Checks that the numbers are finite and not negative.
 ///

@@ -3,13 +3,14 @@
 use core::f64::consts;
 
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};
-use nalgebra::{ComplexField, Field, RealField, SimdValue};
+use nalgebra::{ComplexField, RealField};
 use num_traits::{FromPrimitive, Num, One, Signed, Zero};
-use simba::scalar::{SubsetOf, SupersetOf};
+use simba::scalar::SupersetOf;
 
 use crate::Rounded;
-use crate::functions::{self, one_of, stepped};
+use crate::functions;
 use crate::residual::half_ulp;
+use crate::rules::{one_of, stepped};
 
 impl Rounded {
     /// A double that may be the rounded value of a constant, see the type.
@@ -54,21 +55,7 @@ fn is_dyadic(value: f64) -> bool {
     zeros >= VERY_SHORT || (zeros >= SHORT && has_few_digits())
 }
 
-impl Zero for Rounded {
-    fn zero() -> Self {
-        Self::from(0.0)
-    }
-
-    fn is_zero(&self) -> bool {
-        self.value == 0.0
-    }
-}
-
-impl One for Rounded {
-    fn one() -> Self {
-        Self::from(1.0)
-    }
-}
+linkage_double::__real_field! { scalar Rounded, value, Self::from(0.0), Self::from(1.0) }
 
 impl Num for Rounded {
     type FromStrRadixErr = <f64 as Num>::FromStrRadixErr;
@@ -95,13 +82,7 @@ impl Signed for Rounded {
         stepped(*self, |value| value.signum())
     }
 
-    fn is_positive(&self) -> bool {
-        RealField::is_sign_positive(self)
-    }
-
-    fn is_negative(&self) -> bool {
-        RealField::is_sign_negative(self)
-    }
+    linkage_double::__real_field! { signed }
 }
 
 impl FromPrimitive for Rounded {
@@ -147,55 +128,6 @@ impl UlpsEq for Rounded {
 
     fn ulps_eq(&self, other: &Self, epsilon: Self, max_ulps: u32) -> bool {
         self.value.ulps_eq(&other.value, epsilon.value, max_ulps)
-    }
-}
-
-/// A SIMD value of one lane.
-impl SimdValue for Rounded {
-    const LANES: usize = 1;
-    type Element = Self;
-    type SimdBool = bool;
-
-    fn splat(value: Self) -> Self {
-        value
-    }
-
-    fn extract(&self, _: usize) -> Self {
-        *self
-    }
-
-    #[expect(unsafe_code, reason = "declared so by the trait")]
-    unsafe fn extract_unchecked(&self, _: usize) -> Self {
-        *self
-    }
-
-    fn replace(&mut self, _: usize, value: Self) {
-        *self = value;
-    }
-
-    #[expect(unsafe_code, reason = "declared so by the trait")]
-    unsafe fn replace_unchecked(&mut self, _: usize, value: Self) {
-        *self = value;
-    }
-
-    fn select(self, condition: bool, other: Self) -> Self {
-        if condition { self } else { other }
-    }
-}
-
-impl Field for Rounded {}
-
-impl SubsetOf<Self> for Rounded {
-    fn to_superset(&self) -> Self {
-        *self
-    }
-
-    fn from_superset_unchecked(element: &Self) -> Self {
-        *element
-    }
-
-    fn is_in_subset(_: &Self) -> bool {
-        true
     }
 }
 
@@ -259,56 +191,17 @@ macro_rules! to_whole_numbers {
 impl ComplexField for Rounded {
     type RealField = Self;
 
+    linkage_double::__real_field! { complex Self::zero(), Self::one() }
+
     from_functions! { tan asin acos atan exp exp2 exp_m1 ln ln_1p log2 }
 
     without_bound! { log10 sinh cosh tanh asinh acosh atanh cbrt }
 
     to_whole_numbers! { floor ceil round trunc }
 
-    #[inline]
-    fn from_real(re: Self) -> Self {
-        re
-    }
-
-    #[inline]
-    fn real(self) -> Self {
-        self
-    }
-
-    #[inline]
-    fn imaginary(self) -> Self {
-        Self::zero()
-    }
-
-    fn modulus(self) -> Self {
-        Signed::abs(&self)
-    }
-
-    fn modulus_squared(self) -> Self {
-        self * self
-    }
-
     fn argument(self) -> Self {
         let argument = if self.value >= 0.0 { Self::zero() } else { Self::pi() };
         if self.may_have_either_sign() { Self::bounded(argument.value, consts::PI) } else { argument }
-    }
-
-    fn norm1(self) -> Self {
-        Signed::abs(&self)
-    }
-
-    #[inline]
-    fn scale(self, factor: Self) -> Self {
-        self * factor
-    }
-
-    #[inline]
-    fn unscale(self, factor: Self) -> Self {
-        self / factor
-    }
-
-    fn fract(self) -> Self {
-        self - self.trunc()
     }
 
     #[inline]
@@ -316,22 +209,8 @@ impl ComplexField for Rounded {
         self.fused(a, b)
     }
 
-    #[inline]
-    fn abs(self) -> Self {
-        Signed::abs(&self)
-    }
-
     fn hypot(self, other: Self) -> Self {
         functions::hypot(self, other)
-    }
-
-    fn recip(self) -> Self {
-        Self::one() / self
-    }
-
-    #[inline]
-    fn conjugate(self) -> Self {
-        self
     }
 
     fn sin(self) -> Self {
@@ -348,11 +227,6 @@ impl ComplexField for Rounded {
 
     fn log(self, base: Self) -> Self {
         functions::log(self, base)
-    }
-
-    #[inline]
-    fn sqrt(self) -> Self {
-        self.root()
     }
 
     fn powi(self, n: i32) -> Self {
@@ -416,13 +290,7 @@ impl RealField for Rounded {
         functions::atan2(self, other)
     }
 
-    fn min_value() -> Option<Self> {
-        Some(f64::MIN.into())
-    }
-
-    fn max_value() -> Option<Self> {
-        Some(f64::MAX.into())
-    }
+    linkage_double::__real_field! { range }
 
     constants! {
         pi PI;

@@ -11,7 +11,7 @@ use linkage_runtime::{Real, lane};
 use nalgebra::{ComplexField, RealField};
 
 use crate::Rounded;
-use crate::residual::{TINY, UNIT, of_length, of_sum};
+use crate::residual::{TINY, UNIT, of_length};
 use crate::rules::times;
 
 /// Relative error of the platform's functions, in u: 1 ulp. This is an assumption. For exp, ln, pow, tan, asin, acos, atan
@@ -232,25 +232,4 @@ pub(crate) fn log(x: Rounded, base: Rounded) -> Rounded {
     let value = ComplexField::log(x.value, base.value);
     let quotient = ln(x).over(ln(base));
     Rounded::with_error(value, quotient.error + (value - quotient.value).abs())
-}
-
-/// A function that does not decrease and jumps, such as a rounding to a whole number: the exact result is between those
-/// of the ends of the argument's interval.
-pub(crate) fn stepped(x: Rounded, of: impl Fn(f64) -> f64) -> Rounded {
-    let value = of(x.value);
-    if x.error == 0.0 {
-        return Rounded::from(value);
-    }
-    // An end that is rounded is moved outwards.
-    let [low, high] = [x.value - x.error, x.value + x.error];
-    let low = if of_sum(x.value, -x.error, low) == 0.0 { low } else { low.next_down() };
-    let high = if of_sum(x.value, x.error, high) == 0.0 { high } else { high.next_up() };
-    let [below, above] = [value - of(low), of(high) - value];
-    // Also unknown if an end is infinite or NaN.
-    Rounded::bounded(value, if below >= above { below } else { above })
-}
-
-/// The larger or smaller of two numbers is off by at most the larger error.
-pub(crate) fn one_of(x: Rounded, y: Rounded, value: f64) -> Rounded {
-    Rounded::with_error(value, RealField::max(x.error, y.error))
 }

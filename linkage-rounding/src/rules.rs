@@ -4,10 +4,9 @@
 //! x and y are the doubles, X and Y the exact numbers, e1 >= |X - x| and e2 >= |Y - y|; z is the double that the operation
 //! gives, Z the exact result, and r the rounding error of `residual`.
 
-use nalgebra::ComplexField;
+use nalgebra::{ComplexField, RealField};
 
 use crate::Rounded;
-use crate::functions::stepped;
 use crate::residual::{TINY, UNIT, half_ulp, of_product, of_quotient, of_root, of_sum};
 
 /// 1 + 2^-49: covers the rounding errors of a bound, which is a sum of a few positive terms. Each of at most eight
@@ -97,4 +96,25 @@ impl Rounded {
         let moved = times(count.value.abs() + count.error, other.error) + times(2.0 * count.error, other.value.abs());
         Self::bounded(value, self.error + moved)
     }
+}
+
+/// A function that does not decrease and jumps, such as a rounding to a whole number: the exact result is between those
+/// of the ends of the argument's interval.
+pub(crate) fn stepped(x: Rounded, of: impl Fn(f64) -> f64) -> Rounded {
+    let value = of(x.value);
+    if x.error == 0.0 {
+        return Rounded::from(value);
+    }
+    // An end that is rounded is moved outwards.
+    let [low, high] = [x.value - x.error, x.value + x.error];
+    let low = if of_sum(x.value, -x.error, low) == 0.0 { low } else { low.next_down() };
+    let high = if of_sum(x.value, x.error, high) == 0.0 { high } else { high.next_up() };
+    let [below, above] = [value - of(low), of(high) - value];
+    // Also unknown if an end is infinite or NaN.
+    Rounded::bounded(value, if below >= above { below } else { above })
+}
+
+/// The larger or smaller of two numbers is off by at most the larger error.
+pub(crate) fn one_of(x: Rounded, y: Rounded, value: f64) -> Rounded {
+    Rounded::with_error(value, RealField::max(x.error, y.error))
 }

@@ -4,6 +4,7 @@ pub use crate::arctangent::{
     ARCTANGENT_COEFFICIENTS, ARCTANGENT_ERROR, QUARTER_PI, arctangent_polynomial, arctangent_rest, turned,
 };
 pub use crate::chord::{CANCELLATION, COINCIDENT_ULPS, smallest_product};
+pub use crate::dense::{Definite, Ranked, contraction, reduce_rows, solve};
 pub use crate::error::{all_finite, finite};
 pub use crate::hypotenuse::HYPOTENUSE_ERROR;
 pub use crate::jacobian::ulp::ZERO_ULPS;

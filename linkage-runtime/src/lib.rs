@@ -30,6 +30,7 @@ mod chord;
 pub mod circuits;
 mod column;
 pub mod continuation;
+mod dense;
 pub mod derivation;
 mod dim;
 mod error;

@@ -43,10 +43,6 @@ impl<T: Real, const N: usize> Case<'_, T, N> {
 }
 
 impl<'a, M: Lanes> Block<'a, M> {
-    pub(crate) fn new(sweep: &'a Sweep<M>, chunk: &'a Chunk<M>) -> Self {
-        Self { sweep, chunk }
-    }
-
     /// The rows.
     #[must_use]
     pub fn chunk(&self) -> &'a Chunk<M> {
@@ -88,5 +84,13 @@ impl<'a, M: Lanes> Block<'a, M> {
             let columns = columns.map(|column| column.get(from..from + accepted.len()).unwrap_or_default());
             Case { number: first_row / rows, first_row, columns, accepted }
         })
+    }
+}
+
+impl<M: Lanes> Sweep<M> {
+    /// A chunk of this sweep with its cases, as reducers see it.
+    #[must_use]
+    pub fn block<'a>(&'a self, chunk: &'a Chunk<M>) -> Block<'a, M> {
+        Block { sweep: self, chunk }
     }
 }

@@ -10,7 +10,7 @@ use crate::chunk::Chunk;
 use crate::column::places;
 use crate::count::positive;
 use crate::source::Source;
-use crate::{Block, Column, Plan, SweepError};
+use crate::{Column, Plan, SweepError};
 
 /// Half of a small second-level cache of present processors: the other half is for all else that a thread touches.
 const BYTES: usize = 1 << 18;
@@ -179,12 +179,6 @@ impl<M: Lanes> Sweep<M> {
         }
         source.fill(first_row, numbers);
         Ok(())
-    }
-
-    /// A chunk of this sweep with its cases, as reducers see it.
-    #[must_use]
-    pub fn block<'a>(&'a self, chunk: &'a Chunk<M>) -> Block<'a, M> {
-        Block::new(self, chunk)
     }
 
     /// The reason why a row with these given numbers is rejected; those of constant columns may be missing.

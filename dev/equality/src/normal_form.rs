@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use linkage_compiler::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
+use crate::constants::{Complex, Constant};
 use crate::fraction::{Denominator, Fraction};
-use crate::independence::{Complex, Constant};
 use crate::polynomial::{Index, Monomial, Polynomial, Powers, Ring};
 use crate::ratio::Ratio;
 use crate::{HIGHEST_ORDER, Outcome, Reason};

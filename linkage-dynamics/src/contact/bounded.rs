@@ -7,7 +7,8 @@
 //! that meets a bound is fixed there (C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter
 //! 23, here with two bounds). Each iteration decreases the function, so that no active set repeats.
 
-use super::held::{Factors, held_tolerance};
+use super::tolerance::held_tolerance;
+use linkage_runtime::__shared::Ranked;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// A force between bounds.
@@ -115,7 +116,7 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
         self.free[self.count] = next;
         self.count += 1;
         loop {
-            let factors = Factors::in_order(self.matrix, &self.free, self.count);
+            let factors = Ranked::in_order(self.matrix, &self.free, self.count, held_tolerance());
             let mut direction = Column::zeros();
             // If the new row depends on the others, the forces move along the null space of A up to a bound.
             let is_endless = factors.rank < self.count;

@@ -7,16 +7,12 @@
 //! linear combination of them.
 
 use super::reduced::ReducedEquations;
+use super::tolerance::held_tolerance;
 use super::{ContactLaw, Mode};
 use crate::MotionError;
 use crate::inertia::Inertia;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
-
-/// 1024 ulps: a pivot counts as zero if it is no larger than this times its diagonal entry of A, a sum if it is no
-/// larger than this times the sum of the magnitudes of its terms.
-pub(super) fn held_tolerance<T: Real>() -> T {
-    real::<T>(1024.0) * T::default_epsilon()
-}
+use linkage_runtime::__shared::{Ranked, reduce_rows};
+use linkage_runtime::{Column, Dim, Matrix, Real};
 
 /// The accelerations due to forces along some of the contacts.
 pub(super) struct Response<T: Real, V: Dim, C: Dim> {
@@ -76,106 +72,10 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
     }
 }
 
-/// The L D L' factors of some rows and columns of a symmetric matrix.
-pub(super) struct Factors<T: Real, C: Dim> {
-    /// The rows in pivot order; those from `rank` on depend on the ones before.
-    pub order: Column<usize, C>,
-    /// The number of rows factored.
-    pub count: usize,
-    pub rank: usize,
-    lower: Matrix<T, C, C>,
-    pivots: Column<T, C>,
-}
-
-impl<T: Real, C: Dim> Factors<T, C> {
-    /// Factors with pivoting: the row with the largest remaining pivot first.
-    pub(super) fn pivoted(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize) -> Self {
-        Self::new(matrix, order, count, true)
-    }
-
-    /// Factors in the given order, up to the first row that depends on those before it.
-    pub(super) fn in_order(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize) -> Self {
-        Self::new(matrix, order, count, false)
-    }
-
-    fn new(matrix: &Matrix<T, C, C>, order: &Column<usize, C>, count: usize, exchange: bool) -> Self {
-        let mut order = *order;
-        let (mut lower, mut pivots) = (Matrix::zeros(), Column::zeros());
-        // The diagonal after the elimination of the rows taken.
-        let mut remaining: Column<T, C> = Column::from_fn(|row| matrix[(row, row)]);
-        let mut rank = 0;
-        while rank < count {
-            // A row of zeros counts as dependent.
-            let relative_pivot = |row: usize| {
-                let entry = matrix[(row, row)];
-                if entry > T::zero() { remaining[row] / entry } else { T::zero() }
-            };
-            let mut best = rank;
-            for place in rank + 1..if exchange { count } else { rank } {
-                if relative_pivot(order[place]) > relative_pivot(order[best]) {
-                    best = place;
-                }
-            }
-            if relative_pivot(order[best]) <= held_tolerance() {
-                break;
-            }
-            order.as_mut_slice().swap(rank, best);
-            let row = order[rank];
-            pivots[rank] = remaining[row];
-            for &other in &order.as_slice()[rank + 1..count] {
-                let mut sum = matrix[(other, row)];
-                for before in 0..rank {
-                    sum -= lower[(other, before)] * pivots[before] * lower[(row, before)];
-                }
-                lower[(other, rank)] = sum / pivots[rank];
-                remaining[other] -= lower[(other, rank)] * sum;
-            }
-            rank += 1;
-        }
-        Self { order, count, rank, lower, pivots }
-    }
-
-    /// Solves A x = `side` for the independent rows; both are indexed in pivot order.
-    pub(super) fn solve(&self, side: impl Fn(usize) -> T) -> Column<T, C> {
-        let mut x = Column::zeros();
-        for place in 0..self.rank {
-            let row = self.order[place];
-            x[place] = (0..place).fold(side(row), |sum, before| sum - self.lower[(row, before)] * x[before]);
-        }
-        for (x, &pivot) in x.iter_mut().zip(&self.pivots).take(self.rank) {
-            *x /= pivot;
-        }
-        self.back(x)
-    }
-
-    /// Returns the coefficients of a row as a combination of the independent rows, in pivot order.
-    pub(super) fn combination(&self, place: usize) -> Column<T, C> {
-        let mut x = Column::zeros();
-        if place < self.rank {
-            x[place] = T::one();
-            return x;
-        }
-        for before in 0..self.rank {
-            x[before] = self.lower[(self.order[place], before)];
-        }
-        self.back(x)
-    }
-
-    fn back(&self, mut x: Column<T, C>) -> Column<T, C> {
-        for place in (0..self.rank).rev() {
-            for later in place + 1..self.rank {
-                let value = x[later];
-                x[place] -= self.lower[(self.order[later], place)] * value;
-            }
-        }
-        x
-    }
-}
-
 /// The held contacts and their forces.
 pub(super) struct Held<T: Real, V: Dim, C: Dim> {
     pub response: Response<T, V, C>,
-    pub factors: Factors<T, C>,
+    pub factors: Ranked<T, C>,
     /// The forces along s of the independent contacts, in pivot order.
     pub forces: Column<T, C>,
 }
@@ -215,7 +115,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             order[count] = place;
             count += 1;
         }
-        let factors = Factors::pivoted(&response.matrix, &order, count);
+        let factors = Ranked::pivoted(&response.matrix, &order, count, held_tolerance());
         let forces = factors.solve(|row| -response.bias[row].0);
         Ok(Self { response, factors, forces })
     }
@@ -253,21 +153,22 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             rows[place] = equations.contacts[contact].row;
             sides[place] = -rest(contact);
         }
-        for place in 0..rank {
-            // Dividing by the diagonal inertia makes the pivot choice independent of units.
-            let weight = |at: usize| rows[place][at] * rows[place][at] / equations.mass[(at, at)];
-            let pivot = (1..V::COUNT).fold(0, |best, at| if weight(at) > weight(best) { at } else { best });
-            pivots[place] = pivot;
-            let (row, side) = (rows[place], sides[place]);
-            for other in (0..rank).filter(|&other| other != place) {
-                let factor = rows[other][pivot] / row[pivot];
-                if !factor.is_zero() {
-                    rows[other] -= row * factor;
-                    rows[other][pivot] = T::zero();
-                    sides[other] -= side * factor;
-                }
-            }
-        }
+        // Dividing by the diagonal inertia makes the pivot choice independent of units.
+        let weight = |row: &Column<T, V>, at: usize| row[at] * row[at] / equations.mass[(at, at)];
+        let heaviest = |row: &Column<T, V>| {
+            (1..V::COUNT).fold(0, |best, at| if weight(row, at) > weight(row, best) { at } else { best })
+        };
+        reduce_rows(
+            &mut rows.as_mut_slice()[..rank],
+            |place, row| {
+                pivots[place] = heaviest(row);
+                Some(pivots[place])
+            },
+            |place, other, factor| {
+                let side = sides[place];
+                sides[other] -= side * factor;
+            },
+        );
         for place in 0..rank {
             let pivot = pivots[place];
             let mut sum = sides[place];

@@ -8,9 +8,11 @@
 //! redundancy only one contact moves in each of them; K sticking joints of a linkage with one input hold while
 //! |Q| <= sum |S| limit.
 
-use super::held::{Factors, Held, held_tolerance};
+use super::held::Held;
 use super::reduced::ReducedEquations;
+use super::tolerance::held_tolerance;
 use super::{ContactLaw, Mode};
+use linkage_runtime::__shared::{Ranked, reduce_rows};
 use linkage_runtime::{Column, Dim, Real};
 
 impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
@@ -111,7 +113,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// of s'' include those of the held forces, as in the choice of the modes, whose tolerance is an eighth of this one:
     /// a contact that is released here is not held again.
     pub(super) fn force_tolerances(&self) -> Column<T, C> {
-        let Factors { order, rank, count, .. } = &self.factors;
+        let Ranked { order, rank, count, .. } = &self.factors;
         let matrix = &self.response.matrix;
         let size = |row: usize| {
             let terms = order.iter().zip(&self.forces).take(*rank);
@@ -158,21 +160,20 @@ fn motion_with_rest<T: Real, C: Dim>(
     }
     let size = |row: &Column<T, C>| row.iter().fold(T::zero(), |size, entry| size.max(entry.abs()));
     let sizes = rows.map(|row| size(&row));
-    for step in 0..still.len() {
-        let pivot = (0..rank).fold(0, |best, at| if rows[step][at].abs() > rows[step][best].abs() { at } else { best });
-        if rows[step][pivot].abs() <= held_tolerance::<T>() * sizes[step] {
-            return None;
-        }
-        pivots[step] = pivot;
-        let row = rows[step];
-        for (_, other) in rows.iter_mut().enumerate().take(still.len()).filter(|(place, _)| *place != step) {
-            let factor = other[pivot] / row[pivot];
-            for (entry, &of_row) in other.iter_mut().zip(&row) {
-                *entry -= factor * of_row;
+    let largest =
+        |row: &Column<T, C>| (0..rank).fold(0, |best, at| if row[at].abs() > row[best].abs() { at } else { best });
+    reduce_rows(
+        &mut rows.as_mut_slice()[..still.len()],
+        |step, row| {
+            let pivot = largest(row);
+            if row[pivot].abs() <= held_tolerance::<T>() * sizes[step] {
+                return None;
             }
-            other[pivot] = T::zero();
-        }
-    }
+            pivots[step] = pivot;
+            Some(pivot)
+        },
+        |_, _, _| {},
+    )?;
     let free = (0..rank).find(|at| !pivots.as_slice()[..still.len()].contains(at))?;
     let mut z = Column::zeros();
     z[free] = T::one();

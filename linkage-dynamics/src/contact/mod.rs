@@ -20,27 +20,31 @@
 //! [`MotionError::SeveralMotions`](crate::MotionError::SeveralMotions)). Between events a motion continues in its modes
 //! while they satisfy every law.
 
+mod bearing;
 mod bounded;
 mod change;
 mod held;
 mod impact;
 mod margin;
+mod motion;
 mod position;
 mod reaction;
 mod reduced;
 mod settle;
 mod state;
+mod tolerance;
 mod validate;
 
 use linkage_runtime::{Column, Dim, Real};
 
+pub(crate) use bearing::Reduction;
+pub use bearing::{Bearing, ReactionRow, ReducedBearing, ReducedReaction};
 pub use change::Change;
 pub(crate) use change::changes;
-pub(crate) use reaction::Reduction;
-pub use reaction::{Bearing, ReactionRow, ReducedBearing, ReducedReaction};
+pub use motion::ContactMotion;
 pub use reduced::{ReducedContact, ReducedEquations};
-pub use state::{ContactMotion, ContactReview, Contacts};
-pub(crate) use state::{sum_tolerance, within};
+pub use state::{ContactReview, Contacts};
+pub(crate) use tolerance::{sum_tolerance, within};
 pub use validate::{validate_contacts, validate_stops};
 
 /// The scalar s(q), a coordinate or an output, along which a friction or a stop acts.

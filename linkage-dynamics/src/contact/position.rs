@@ -2,7 +2,8 @@
 
 use super::held::Held;
 use super::reduced::ReducedEquations;
-use super::state::{Contacts, ZERO_ULPS};
+use super::state::Contacts;
+use super::tolerance::ZERO_ULPS;
 use super::{ContactLaw, Mode};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;

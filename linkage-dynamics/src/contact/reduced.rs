@@ -1,6 +1,6 @@
 //! The equations of motion and the contacts in any choice of independent coordinates.
 
-use super::reaction::{ReducedBearing, Reduction};
+use super::bearing::{ReducedBearing, Reduction};
 use super::{Contact, ContactLaw};
 use crate::scene::{Rates, StateColumn, coordinate_name};
 use crate::{Equations, MotionError, Scene, StateParts};

@@ -1,10 +1,11 @@
 //! Contact events: impacts, and the modes that follow.
 
 use super::bounded::bounded;
-use super::held::{Held, Response, held_tolerance, slipping};
+use super::held::{Held, Response, slipping};
 use super::impact::{After, Struck, impact};
 use super::reduced::{ReducedContact, ReducedEquations};
-use super::state::{Contacts, ZERO_ULPS, is_negligible, slip_or_stick};
+use super::state::{Contacts, slip_or_stick};
+use super::tolerance::{ZERO_ULPS, held_tolerance, is_negligible};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;

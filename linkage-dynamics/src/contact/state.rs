@@ -2,15 +2,13 @@
 
 use super::bounded::{Bounds, bounded};
 use super::held::{Held, Response, slipping};
+use super::motion::{ContactMotion, nearer};
 use super::reduced::{ReducedContact, ReducedEquations};
+use super::tolerance::{gap_tolerance, is_negligible, sum_tolerance, within};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use crate::integrate::{Crossing, Guard};
-use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, InputError, Real, real};
-
-/// A rate or a gap below this many ulps of the magnitudes of its terms counts as zero.
-pub(super) const ZERO_ULPS: f64 = 16.0;
+use linkage_runtime::{Column, Dim, Real, real};
 
 /// The modes of the contacts of a scene, with the memory needed from one event to the next.
 ///
@@ -37,34 +35,6 @@ pub struct Contacts<T: Real, C: Dim> {
     pub(super) resolution: Column<T, C>,
     /// True for each stop that was hit when the contacts settled last.
     pub(super) is_hit: Column<bool, C>,
-}
-
-/// The accelerations, and the forces of the contacts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-)]
-pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
-    /// v''.
-    pub acceleration: Column<T, V>,
-    /// The force of each contact along its s: its work is f ds. With redundant contacts the forces are not unique; this
-    /// is one solution.
-    pub forces: Column<T, C>,
-    /// False if other forces give the same motion: contacts are redundant.
-    pub are_unique: bool,
-}
-
-impl<T: Real, V: Dim, C: Dim> ContactMotion<T, V, C> {
-    /// M v'' - Q - S' f of equations in which no motion is prescribed: the forces of the drives.
-    pub(crate) fn residual(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
-        let mut residual = equations.mass * self.acceleration - equations.forces;
-        for (contact, &force) in equations.contacts.iter().zip(&self.forces) {
-            residual -= contact.row * force;
-        }
-        residual
-    }
 }
 
 /// The rates at a state and the validity of the modes there: see [`Contacts::review`].
@@ -94,33 +64,13 @@ impl Mode {
     }
 }
 
-/// Returns the nearer stop and the distance to it.
-pub(super) fn nearer<T: Real, V: Dim>(contact: &ReducedContact<T, V>, lower: T, upper: T) -> (Mode, T) {
-    let (below, above) = (contact.value - lower, upper - contact.value);
-    if below <= above { (Mode::AtLower, below) } else { (Mode::AtUpper, above) }
-}
-
-/// The rounding error of the gap between s and a bound.
-fn gap_tolerance<T: Real>(value: T, bound: T) -> T {
-    sum_tolerance(value.abs() + bound.abs())
-}
-
-/// The rounding error of a sum whose terms have the magnitudes `size` in total.
-pub(crate) fn sum_tolerance<T: Real>(size: T) -> T {
-    real::<T>(ZERO_ULPS) * T::default_epsilon() * size
-}
-
-/// True if a sum is zero to rounding error, where `size` is the sum of the magnitudes of its terms.
-pub(super) fn is_negligible<T: Real>((sum, size): (T, T)) -> bool {
-    sum.abs() <= sum_tolerance(size)
-}
-
 impl<T: Real, C: Dim> Contacts<T, C> {
     /// Finds the modes at the start of a motion and the rates v': the given rates, after the impact of any s that
     /// touches a stop and moves towards it. `evaluate` computes the equations at given rates.
     ///
     /// # Errors
-    /// [`InputError::BeyondStop`] if an s is beyond its stop; those of [`settle`](Self::settle).
+    /// [`InputError::BeyondStop`](linkage_runtime::InputError::BeyondStop) if an s is beyond its stop; those of
+    /// [`settle`](Self::settle).
     pub fn begin<V: Dim>(
         t: T,
         rates: &Column<T, V>,
@@ -361,19 +311,4 @@ pub(super) fn slip_or_stick<T: Real>((rate, size): (T, T)) -> Mode {
     } else {
         Mode::SlipBackward
     }
-}
-
-/// Checks that a scalar is not beyond its stops by more than its tolerance.
-pub(crate) fn within<T: Real>(
-    scene: &'static str,
-    stop: &'static str,
-    (value, resolution): (T, T),
-    [lower, upper]: [T; 2],
-) -> Result<(), InputError> {
-    for (gap, bound) in [(lower - value, lower), (value - upper, upper)] {
-        if gap > resolution.max(gap_tolerance(value, bound)) {
-            return Err(InputError::BeyondStop { scene, stop, gap: to_f64(gap) });
-        }
-    }
-    Ok(())
 }

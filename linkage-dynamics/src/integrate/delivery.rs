@@ -1,7 +1,7 @@
 //! Delivery of the events of a step, one after the other.
 
-use super::event::Action;
-use super::run::{Integration, Place, Step, StepOf, finite};
+use super::crossing::Action;
+use super::integration::{Integration, Place, Step, StepOf, finite};
 use super::search::Found;
 use super::system::{StateOf, System};
 use super::tableau::Method;

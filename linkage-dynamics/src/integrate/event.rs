@@ -1,5 +1,6 @@
 //! Events: zeros of functions of the state, and the actions there.
 
+use super::crossing::Crossing;
 use super::sampled::{FunctionSample, Sample, is_same, sampled};
 use super::system::{StateOf, System};
 use crate::MotionError;
@@ -8,30 +9,6 @@ use linkage_runtime::{Column, Dim};
 
 /// The most events of one guard at one time: guards that are zero within rounding error may trigger each other.
 const MAX_REPEATS: u32 = 8;
-
-/// The direction in which an event function passes through zero.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Crossing {
-    /// From negative to positive.
-    Rising,
-    /// From positive to negative.
-    Falling,
-    /// Either direction.
-    Either,
-}
-
-/// The action at an event, on a state `Y`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Action<Y> {
-    /// Records the event; the motion continues.
-    Record,
-    /// Ends the integration.
-    Stop,
-    /// Restarts the motion from this state: after an impact, or where the law of the rate changes. The step length is
-    /// kept.
-    Restart(Y),
-}
 
 /// The sign of each function up to the time reached, for the user's event functions and for the guards of the system:
 /// an event is a change of sign.

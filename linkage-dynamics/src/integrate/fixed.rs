@@ -1,7 +1,7 @@
 //! Steps of fixed length for real time.
 
 use super::control::{positive, within};
-use super::run::finite;
+use super::integration::finite;
 use super::system::{IntoSystem, StateOf, System};
 use super::tableau::{self, SLOPES, Stage, Weights};
 use crate::MotionError;

@@ -65,12 +65,14 @@
 //! Arrays have fixed size: nothing is allocated.
 
 mod control;
+mod crossing;
 mod delivery;
 mod dense;
 mod dop853;
 mod dopri5;
 mod event;
 mod fixed;
+mod integration;
 mod outputs;
 mod passage;
 mod run;
@@ -83,13 +85,13 @@ mod system;
 mod tableau;
 
 pub use control::Tolerance;
+pub use crossing::{Action, Crossing};
 pub use dense::Interpolant;
 pub use dop853::Dop853;
 pub use dopri5::Dopri5;
-pub use event::{Action, Crossing};
 pub use fixed::FixedStep;
+pub use integration::{Counts, Integration, Step};
 pub use outputs::Outputs;
-pub use run::{Counts, Integration, Step};
 pub use system::{Guard, IntoSystem, Rate, StateOf, StateVector, System, Watched, watched};
 pub use tableau::{Control, Method, Stage, Tableau, Weights};
 

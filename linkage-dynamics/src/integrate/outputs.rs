@@ -1,7 +1,7 @@
 //! The states of an integration at given times.
 
 use super::control::within;
-use super::run::Integration;
+use super::integration::Integration;
 use super::system::{StateOf, System};
 use super::tableau::Method;
 use crate::MotionError;

@@ -5,13 +5,14 @@ use core::marker::PhantomData;
 use super::control::{Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
 use super::event::EventSigns;
+use super::integration::{Counts, Instant, Integration, Place, Step, StepOf, finite};
 use super::search::Found;
 use super::system::{IntoSystem, StateOf, System};
-use super::tableau::{self, Method, SLOPES, Slopes};
-use super::{Dop853, Outputs, step};
+use super::tableau::{self, Method, SLOPES};
+use super::{Outputs, step};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, InputError, Real};
+use linkage_runtime::{Column, Dim, InputError};
 
 /// The largest correction of a state by projection, divided by the tolerance, after which the rate computed before it
 /// is still used.
@@ -21,94 +22,6 @@ const NEGLIGIBLE_CORRECTION: f64 = 0.01;
 /// of the step that the tolerance allows. With 4 a guard that jumps is located with steps 16 times as long, with 6 it
 /// costs one more step.
 const MAX_SHORTENED: u32 = 5;
-
-/// The cost of an integration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Counts {
-    /// Evaluations of the rate, failed ones included.
-    pub evaluations: usize,
-    /// Accepted steps.
-    pub accepted: usize,
-    /// Rejected steps, attempts at the first step included.
-    pub rejected: usize,
-}
-
-/// A point of an integration: the end of a step, or an event within one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
-)]
-pub struct Step<T: Real, N: Dim> {
-    /// The time.
-    pub t: T,
-    /// The state; at an event, before its action.
-    pub state: Column<T, N>,
-    /// The index of the event, if there is one.
-    pub event: Option<usize>,
-}
-
-/// The [`Step`] of a system.
-pub(super) type StepOf<S> = Step<<S as System>::Scalar, <S as System>::N>;
-
-/// The last event time.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Instant<T> {
-    pub(super) t: T,
-    /// True if the motion restarted there, or at an event just before it.
-    pub(super) has_restarted: bool,
-    /// True if the motion was continued there after events without end.
-    pub(super) has_continued: bool,
-}
-
-/// The place reached by an integration.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
-    /// At the start, at the end of a step, or at a restart.
-    Boundary,
-    /// At this fraction of a step.
-    Within(f64),
-    /// The integration has ended.
-    Over,
-}
-
-/// An iterator over the steps and events of an integration. It ends with an error or at the end of the interval; the
-/// last state remains readable after an error.
-#[derive(Debug, Clone)]
-pub struct Integration<S: System, M = Dop853> {
-    pub(super) method: PhantomData<M>,
-    pub(super) system: S,
-    pub(super) tolerance: Tolerance<S::Scalar, S::N>,
-    pub(super) largest: f64,
-    pub(super) most_steps: usize,
-    pub(super) stiffness_every: usize,
-    pub(super) parts: usize,
-    pub(super) start: S::Scalar,
-    pub(super) end: S::Scalar,
-    /// The time and state reached.
-    pub(super) t: S::Scalar,
-    pub(super) state: StateOf<S>,
-    pub(super) place: Place,
-    /// The last step: its start, its end, its slopes, and its dense output once requested.
-    pub(super) from: (S::Scalar, StateOf<S>),
-    pub(super) to: (S::Scalar, StateOf<S>),
-    pub(super) slopes: Slopes<S::Scalar, S::N>,
-    pub(super) interpolant: Option<Interpolant<S::Scalar, S::N>>,
-    /// True if the last slope is the rate at the current state, so that the next step reuses it.
-    pub(super) has_rate: bool,
-    pub(super) controller: Controller,
-    pub(super) counts: Counts,
-    pub(super) stiff: u32,
-    pub(super) not_stiff: u32,
-    pub(super) signs: EventSigns<S::Events, S::Guards>,
-    pub(super) instant: Instant<S::Scalar>,
-    /// The number of times in a row that the step was shortened for its guards.
-    pub(super) shortened: u32,
-    /// True after a change of the law, at a time between two of the motion.
-    pub(super) has_crossed: bool,
-}
 
 impl<S: System, M: Method> Integration<S, M> {
     /// Starts an integration of this system from state `y` at `start` to `end`, which may be before `start`.
@@ -467,8 +380,4 @@ impl<S: System, M: Method> Iterator for Integration<S, M> {
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()
     }
-}
-
-pub(super) fn finite<T: Real, N: Dim>(quantity: &'static str, t: T, values: &Column<T, N>) -> Result<(), MotionError> {
-    if values.is_finite() { Ok(()) } else { Err(MotionError::NotFinite { quantity, t: to_f64(t) }) }
 }

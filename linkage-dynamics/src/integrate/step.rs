@@ -3,7 +3,7 @@
 use nalgebra::ComplexField;
 
 use super::control;
-use super::run::{Counts, Integration, finite};
+use super::integration::{Counts, Integration, finite};
 use super::system::{StateOf, System};
 use super::tableau::{self, Method, Weights};
 use crate::MotionError;

@@ -12,7 +12,7 @@
 //! vibration remains in it, and no method can skip it.
 
 use super::control::Tolerance;
-use super::run::Integration;
+use super::integration::Integration;
 use super::system::System;
 use super::tableau::{self, Method};
 use crate::MotionError;

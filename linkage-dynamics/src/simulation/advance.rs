@@ -1,8 +1,8 @@
 //! The main loop of a simulation: steps and events.
 
+use super::data::{AtSingularity, Simulation};
 use super::motion::{Motion, Parametrisation};
-use super::parametrisation::{AtSingularity, STEPS_BEFORE_RETURN};
-use super::run::Simulation;
+use super::parametrisation::STEPS_BEFORE_RETURN;
 use super::state::{State, Touch};
 use super::watch::{Then, Watch};
 use crate::contact::{Change, Contacts};

@@ -7,7 +7,9 @@
 //! that no change of the coordinates removes has a saddle point, so that an error of the interpolated position counts
 //! with its square only.
 
-use super::motion::{Change, Choice, FactorsOf, Motion};
+use super::frame::Change;
+use super::independent::{Choice, FactorsOf};
+use super::motion::Motion;
 use super::sheet::{ABSCISSAE, Errors, NODES, NodeOf, Sheet, SheetOf, weights};
 use crate::{Coordinates, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;

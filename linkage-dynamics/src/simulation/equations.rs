@@ -4,7 +4,8 @@
 //! [J A] and b is q'' at z'' = 0. With z = v these are the emitted equations.
 
 use super::frame::Frame;
-use super::motion::{Choice, LEAST_PIVOT_RATIO, Motion, Parametrisation, Polynomial, Reduced};
+use super::independent::{Choice, LEAST_PIVOT_RATIO};
+use super::motion::{Motion, Parametrisation, Polynomial, Reduced};
 use super::sheet::Errors;
 use super::watch::Watch;
 use crate::contact::{ReducedContact, ReducedEquations, Reduction};

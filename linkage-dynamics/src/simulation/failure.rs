@@ -2,8 +2,9 @@
 
 use nalgebra::ComplexField;
 
+use super::frame::Change;
 use super::independent::Independent;
-use super::motion::{Change, Motion, Parametrisation};
+use super::motion::{Motion, Parametrisation};
 use crate::error::CrossingRates;
 use crate::scene::coordinate_name;
 use crate::{Coordinates, MotionError, Scene, StateColumn};

@@ -1,8 +1,11 @@
 //! The tangent space of a motion at a position.
 
-use super::motion::{Change, Choice, FactorsOf, Motion};
 use crate::{Coordinates, Scene};
-use linkage_runtime::{Matrix, Mechanism, PerInput};
+use linkage_runtime::jacobian::VectorOf;
+use linkage_runtime::{Matrix, PerInput};
+
+/// Changes, rates or accelerations of u and v.
+pub(super) type Change<S> = VectorOf<<S as Scene>::Mechanism>;
 
 /// A basis of the rates.
 pub(super) type Basis<S> = (
@@ -32,32 +35,5 @@ impl<S: Scene> Frame<S> {
     /// q'' from z''.
     pub(super) fn accelerations(&self, free: &PerInput<S::Mechanism>) -> Change<S> {
         self.rates(free) + self.bias
-    }
-}
-
-impl<S: Scene, W> Motion<'_, S, W> {
-    /// The frame by the factors of [J A] at `q`.
-    pub(super) fn exact_frame(
-        &self,
-        factors: &FactorsOf<S>,
-        q: &Coordinates<S>,
-        rates: &PerInput<S::Mechanism>,
-    ) -> Frame<S> {
-        let (basis, bias) = (factors.basis(), self.bias(factors, q, rates));
-        Frame { q: *q, basis, bias, is_interpolated: false }
-    }
-
-    /// The q'' at z'' = 0.
-    pub(super) fn bias(&self, factors: &FactorsOf<S>, q: &Coordinates<S>, rates: &PerInput<S::Mechanism>) -> Change<S> {
-        let mechanism = self.scene.mechanism();
-        let velocity = factors.rates(rates);
-        let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
-        -factors.solve(&mechanism.gamma(&mechanism.pose_at(q), &rates))
-    }
-
-    /// The factors of [J A] at a position, in the order of a choice.
-    pub(super) fn factors(&self, independent: &Choice<S>, q: &Coordinates<S>) -> FactorsOf<S> {
-        let mechanism = self.scene.mechanism();
-        independent.factors(mechanism, &mechanism.pose_at(q), &self.scales)
     }
 }

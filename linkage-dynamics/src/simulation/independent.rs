@@ -3,9 +3,14 @@
 //! Elimination of [J A] with complete pivoting selects U columns as dependent coordinates, those with the largest
 //! pivots; the other V are independent. Prescribed inputs are held independent.
 
+use crate::Scene;
 use linkage_runtime::__shared::smallest;
 use linkage_runtime::jacobian::{Elimination, Order, Scales, Vector};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
+
+/// A step is rejected if a pivot falls below this fraction of the smallest pivot at its start. At half or twice this
+/// value all simulation tests pass.
+pub(super) const LEAST_PIVOT_RATIO: f64 = 0.2;
 
 /// A choice of independent coordinates, and the elimination order of the others. Coordinates are column indices of
 /// [J A]; those from U on are inputs.
@@ -23,6 +28,11 @@ pub(super) struct Factors<T: Real, U: Dim, V: Dim> {
     free: Column<usize, V>,
     scales: Scales<T, U, V>,
 }
+
+/// A choice of independent coordinates of a scene.
+pub(super) type Choice<S> = Independent<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
+/// The factored [J A] of a scene.
+pub(super) type FactorsOf<S> = Factors<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 
 impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
     /// Returns the best-conditioned choice in which the `prescribed` inputs stay independent.

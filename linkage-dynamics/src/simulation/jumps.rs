@@ -9,9 +9,9 @@
 //! jump within the step, in the rate or in the position. So kinks without an expression are found too, as in a user
 //! function.
 
-use super::kinks::Corner;
+use super::corners::Corner;
+use super::data::Simulation;
 use super::motion::{Motion, ParametrisationOf};
-use super::run::Simulation;
 use super::state::State;
 use super::watch::Watch;
 use crate::contact::{Change, ReducedEquations};

@@ -9,13 +9,15 @@
 //!
 //! An expression that touches zero without a change of sign is no kink.
 
-use super::motion::{Change, Motion, Polynomial};
-use crate::scene::Kink;
+use super::corners::Corner;
+use super::frame::Change;
+use super::motion::{Motion, Polynomial};
+use crate::scene::{Kink, beside, one_sided, sign, sign_at};
 use crate::{Coordinates, MotionError, Prescribed, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::first_not_positive;
-use linkage_runtime::{Column, Dim, Mechanism, Real, real};
+use linkage_runtime::{Column, Dim, Mechanism, real};
 
 /// The number of equal parts of a step at whose ends expressions of time are sampled: two kinks within one part are
 /// missed. A drive is checked against its integral too, which shows them.
@@ -31,116 +33,6 @@ const AT_KINK_ULPS: f64 = 24.0;
 /// of the rate of a body at rest.
 const NOISE_ULPS: f64 = 16.0;
 
-/// The most kinks in a row without a longer step between them. A force that always points towards its kink, such as
-/// -x'/|x'|, has them without end.
-const MAX_IN_A_ROW: u32 = 16;
-
-/// Kinks gather at a time if the last two are nearer to each other than two others by this factor. Those of a periodic
-/// law are not.
-const GATHERED: f64 = 1e-3;
-
-/// The change of a law between two neighbouring times.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Corner<T> {
-    /// The last time before the change.
-    pub(super) before: T,
-    /// The first time after it.
-    pub(super) after: T,
-    /// The effect with the law.
-    pub(super) effect: &'static str,
-}
-
-/// The kinks of a motion.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Corners<T> {
-    /// The start of the step.
-    pub(super) from: T,
-    is_forward: bool,
-    /// The end of the simulation.
-    end: T,
-    /// The change at the end of the step.
-    pub(super) ahead: Option<Corner<T>>,
-    /// A change that the integration of a drive has shown.
-    pub(super) found: Option<Corner<T>>,
-    /// The effect whose kink is at the end of the last step, for a kink of the state.
-    pub(super) passed: Option<&'static str>,
-    /// The kink of the state before which the last step has ended, and the sign of its expression; that before which
-    /// this step is to end.
-    towards: Option<(usize, i8)>,
-    approached: Option<(usize, i8)>,
-    /// The effect whose kink this step is to go over.
-    crossing: Option<&'static str>,
-    /// The number of times in a row that a step was shortened for a drive.
-    pub(super) shortened: u32,
-    /// The number of kinks in a row without a longer step, and the time of the first of these.
-    in_a_row: u32,
-    first: T,
-    /// The last kink, the time since the one before it, and the longest such time.
-    last: Option<(&'static str, T)>,
-    gap: T,
-    longest: T,
-}
-
-impl<T: Real> Corners<T> {
-    pub(super) fn new(start: T, end: T) -> Self {
-        Self {
-            from: start,
-            is_forward: end >= start,
-            end,
-            ahead: None,
-            found: None,
-            passed: None,
-            towards: None,
-            approached: None,
-            crossing: None,
-            shortened: 0,
-            in_a_row: 0,
-            first: start,
-            last: None,
-            gap: T::zero(),
-            longest: T::zero(),
-        }
-    }
-
-    /// Counts a kink of this effect at a time.
-    ///
-    /// # Errors
-    /// [`MotionError::KinksWithoutEnd`] after too many in a row.
-    pub(super) fn note(&mut self, scene: &'static str, effect: &'static str, t: T) -> Result<(), MotionError> {
-        if self.in_a_row == 0 {
-            self.first = t;
-        }
-        self.in_a_row += 1;
-        if let Some((_, last)) = self.last {
-            self.gap = (t - last).abs();
-            self.longest = self.longest.max(self.gap);
-        }
-        self.last = Some((effect, t));
-        if self.in_a_row > MAX_IN_A_ROW {
-            return Err(MotionError::KinksWithoutEnd { scene, effect, t: to_f64(self.first) });
-        }
-        Ok(())
-    }
-
-    /// The last step is repeated: it does not end before a kink.
-    pub(super) fn forget_approach(&mut self) {
-        self.approached = None;
-    }
-
-    /// The error of an integration, which names the effect if kinks that gather at a time have ended it.
-    pub(super) fn explained(&self, scene: &'static str, error: MotionError) -> MotionError {
-        let gather = self.gap < self.longest * real(GATHERED);
-        match (error, self.last) {
-            (MotionError::TooManySteps { t, .. } | MotionError::StepTooSmall { t, .. }, Some((effect, _)))
-                if gather || self.in_a_row > 1 =>
-            {
-                MotionError::KinksWithoutEnd { scene, effect, t }
-            }
-            _ => error,
-        }
-    }
-}
-
 /// The first kink of the state in a step.
 struct FirstKink {
     /// The fraction of the step.
@@ -148,17 +40,6 @@ struct FirstKink {
     place: usize,
     /// The sign of its expression before it.
     sign: i8,
-}
-
-/// The sign of a number; zero for NaN.
-fn sign<T: Real>(value: T) -> i8 {
-    if value > T::zero() {
-        1
-    } else if value < T::zero() {
-        -1
-    } else {
-        0
-    }
 }
 
 /// True if a kink of the scene depends on time alone.
@@ -169,53 +50,6 @@ fn has_timed<S: Scene>() -> bool {
 /// True if a kink of the scene depends on the state.
 fn has_moving<S: Scene>() -> bool {
     S::KINKS.iter().any(|kink| !kink.is_timed)
-}
-
-/// The sign of an expression of time alone.
-fn sign_at<S: Scene + ?Sized>(scene: &S, place: usize, t: S::Scalar) -> i8 {
-    let q = S::Mechanism::coordinates(Column::zeros(), Column::zeros());
-    let rates = S::Mechanism::rates(Column::zeros(), Column::zeros());
-    sign(scene.kink(place, t, &q, &rates))
-}
-
-/// Returns t, or if an expression of time alone is zero there, a time next to it, in this direction, where none is.
-fn beside<S: Scene + ?Sized>(scene: &S, t: S::Scalar, is_forward: bool) -> S::Scalar {
-    let is_smooth = |t: S::Scalar| {
-        let mut kinks = S::KINKS.iter().enumerate();
-        kinks.all(|(place, kink)| !kink.is_timed || sign_at(scene, place, t) != 0)
-    };
-    if is_smooth(t) {
-        return t;
-    }
-    // From one ulp; at t = 0, where there is no ulp, from a time whose square does not underflow.
-    let ulp = t.abs() * S::Scalar::default_epsilon();
-    let (mut little, factor) = if ulp > S::Scalar::zero() { (ulp, 2.0) } else { (real(1e-150), 1e8) };
-    for _ in 0..20 {
-        let near = if is_forward { t + little } else { t - little };
-        if is_smooth(near) {
-            return near;
-        }
-        little *= real(factor);
-    }
-    t
-}
-
-/// The prescribed motion of each input: at a kink its rate and acceleration just after it, or before it.
-pub(crate) fn one_sided<S: Scene + ?Sized>(
-    scene: &S,
-    t: S::Scalar,
-    is_after: bool,
-) -> Column<Option<Prescribed<S::Scalar>>, S::V> {
-    let laws = scene.prescribed(t);
-    let near = beside(scene, t, is_after);
-    if near == t {
-        return laws;
-    }
-    let beside = scene.prescribed(near);
-    Column::from_fn(|input| {
-        let (law, beside) = (laws[input]?, beside[input]?);
-        Some(Prescribed { value: law.value, ..beside })
-    })
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {

@@ -29,13 +29,16 @@
 
 mod advance;
 mod change_point;
+mod corners;
+mod data;
 mod equations;
 mod failure;
 mod frame;
 mod independent;
 mod jumps;
-pub(crate) mod kinks;
+mod kinks;
 mod motion;
+mod on_sheet;
 mod outputs;
 mod parametrisation;
 mod real_time;
@@ -47,11 +50,12 @@ mod state;
 mod touching;
 mod watch;
 
+pub use crate::scene::Loads;
+pub use data::{AtSingularity, Passages, Simulation};
 pub use motion::Motion;
 pub use outputs::States;
-pub use parametrisation::{AtSingularity, Passages};
 pub use real_time::RealTime;
-pub use run::{Simulation, simulate};
+pub use run::simulate;
 pub use start::Start;
-pub use state::{Loads, State, Touch};
+pub use state::{State, Touch};
 pub use watch::{EventFunctions, Then, Unwatched, Watch};

@@ -1,9 +1,9 @@
 //! A scene as a system of differential equations: its coordinates, velocities, states, and projection onto the
 //! constraints.
 
-use super::frame::Frame;
-use super::independent::{Factors, Independent};
-use super::kinks::Corners;
+use super::corners::Corners;
+use super::frame::{Change, Frame};
+use super::independent::{Choice, FactorsOf, Independent, LEAST_PIVOT_RATIO};
 use super::sheet::Sheet;
 use super::state::{State, Touch};
 use super::watch::Unwatched;
@@ -13,13 +13,9 @@ use crate::{Coordinates, MotionError, Scene, StateColumn, StateParts};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, smallest};
 use linkage_runtime::jacobian::ulp::nearly_zero;
-use linkage_runtime::jacobian::{Elimination, Iteration, Jacobian, ScalesOf, VectorOf, contract, correction};
+use linkage_runtime::jacobian::{Elimination, Iteration, Jacobian, ScalesOf, contract, correction};
 use linkage_runtime::{Column, D, Dim, Matrix, Mechanism, PerInput, Real, newton, real};
 
-/// A choice of independent coordinates of a scene.
-pub(super) type Choice<S> = Independent<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
-/// The factored [J A] of a scene.
-pub(super) type FactorsOf<S> = Factors<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The parametrisation of a scene.
 pub(super) type ParametrisationOf<S> = Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The states of a scene within a step.
@@ -30,9 +26,6 @@ pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>
 type PoseOf<S> = <<S as Scene>::Mechanism as Mechanism>::Pose;
 /// A choice of coordinates other than the inputs, and the frame at a position.
 pub(super) type ChosenFrame<'a, S> = Option<(&'a Choice<S>, Frame<S>)>;
-/// Changes, rates or accelerations of u and v.
-pub(super) type Change<S> = VectorOf<<S as Scene>::Mechanism>;
-
 /// The choice of coordinates in which the motion is integrated.
 #[allow(clippy::large_enum_variant, reason = "nothing is allocated, and one such value exists at a time")]
 #[derive(Debug, Clone, Copy)]
@@ -54,10 +47,6 @@ impl<T: Real, U: Dim, V: Dim> Parametrisation<T, U, V> {
         }
     }
 }
-
-/// A step is rejected if a pivot falls below this fraction of the smallest pivot at its start. At half or twice this
-/// value all simulation tests pass.
-pub(super) const LEAST_PIVOT_RATIO: f64 = 0.2;
 
 /// The limit on Newton iterations of the projection onto the constraints after a step: mostly one is needed; near a
 /// change point, where each at first only halves the error, a dozen.
@@ -284,5 +273,32 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
             last = Some(size);
             Ok(if is_rounding { Iteration::Converged(*q) } else { Iteration::Step(next, size) })
         })
+    }
+}
+
+impl<S: Scene, W> Motion<'_, S, W> {
+    /// The frame by the factors of [J A] at `q`.
+    pub(super) fn exact_frame(
+        &self,
+        factors: &FactorsOf<S>,
+        q: &Coordinates<S>,
+        rates: &PerInput<S::Mechanism>,
+    ) -> Frame<S> {
+        let (basis, bias) = (factors.basis(), self.bias(factors, q, rates));
+        Frame { q: *q, basis, bias, is_interpolated: false }
+    }
+
+    /// The q'' at z'' = 0.
+    pub(super) fn bias(&self, factors: &FactorsOf<S>, q: &Coordinates<S>, rates: &PerInput<S::Mechanism>) -> Change<S> {
+        let mechanism = self.scene.mechanism();
+        let velocity = factors.rates(rates);
+        let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
+        -factors.solve(&mechanism.gamma(&mechanism.pose_at(q), &rates))
+    }
+
+    /// The factors of [J A] at a position, in the order of a choice.
+    pub(super) fn factors(&self, independent: &Choice<S>, q: &Coordinates<S>) -> FactorsOf<S> {
+        let mechanism = self.scene.mechanism();
+        independent.factors(mechanism, &mechanism.pose_at(q), &self.scales)
     }
 }

@@ -1,9 +1,10 @@
 //! The states of a simulation at given times.
 
-use super::run::Simulation;
-use super::state::{Loads, State};
+use super::data::Simulation;
+use super::state::State;
 use super::watch::Watch;
 use crate::integrate::Method;
+use crate::scene::Loads;
 use crate::{MotionError, Scene};
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{InputError, real};

@@ -5,9 +5,10 @@
 //! value it can take; that of other coordinates is their smallest pivot of [J A].
 
 use super::change_point::Ahead;
-use super::independent::Independent;
-use super::motion::{Change, Choice, Motion, Parametrisation, ParametrisationOf};
-use super::run::{Signs, Simulation};
+use super::data::{AtSingularity, Signs, Simulation};
+use super::frame::Change;
+use super::independent::{Choice, Independent};
+use super::motion::{Motion, Parametrisation, ParametrisationOf};
 use super::sheet::Sheet;
 use super::watch::Watch;
 use crate::integrate::{Method, Tolerance};
@@ -42,27 +43,6 @@ pub(super) const STEPS_BEFORE_RETURN: u32 = 16;
 
 /// Below this regularity of the other coordinates the tangent of the motion is only rounding error.
 const LEAST_REGULARITY: f64 = 1e-7;
-
-/// The behaviour of a simulation at a singularity of the inputs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum AtSingularity {
-    /// Continue: in other coordinates at a dead point, straight on at a change point.
-    #[default]
-    Pass,
-    /// End with [`PositionError::Singular`](linkage_runtime::PositionError::Singular).
-    Stop,
-}
-
-/// The singularities passed by a simulation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Passages {
-    /// Changes of the independent coordinates, returns to the inputs included.
-    pub exchanges: usize,
-    /// Change points passed between the ends of steps: not those that one step passes there and back.
-    pub change_points: usize,
-}
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     /// Looks for singularities ahead and chooses the coordinates of the next step.

@@ -1,55 +1,24 @@
 //! A simulation: start, settings and results.
 
+use super::data::{AtSingularity, Passages, Simulation};
 use super::failure::start_error;
 use super::motion::Motion;
 use super::outputs::States;
-use super::parametrisation::{AtSingularity, Passages, scale_of};
+use super::parametrisation::scale_of;
 use super::start::Start;
-use super::state::{Loads, State};
+use super::state::State;
 use super::watch::{EventFunctions, Then, Unwatched, Watch};
-use crate::contact::Contacts;
-use crate::integrate::{Counts, Crossing, Dop853, Integration, Method, Tolerance};
-use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
+use crate::integrate::{Counts, Crossing, Integration, Method, Tolerance};
+use crate::scene::Loads;
+use crate::{Coordinates, Inputs, MotionError, Scene};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Column, Dim, InputError, Mechanism, PositionError, real};
+use linkage_runtime::{Dim, InputError, Mechanism, PositionError, real};
 
 /// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
 /// every third step is rejected.
 const SAFETY_IN_TURNS: f64 = 0.8;
-
-/// The determinants of the groups of a scene; their signs distinguish branches.
-pub(super) type Signs<S> = Column<<S as Scene>::Scalar, <<S as Scene>::Mechanism as Mechanism>::G>;
-
-/// An iterator over the [states](State) of a simulation at the ends of its steps and at its events. It ends with an
-/// error or at the end of the interval; the last state remains readable after an error.
-pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
-    pub(super) integration: Integration<Motion<'a, S, W>, M>,
-    pub(super) relative: f64,
-    /// The scale of rates divided by that of coordinates.
-    pub(super) frequency: S::Scalar,
-    pub(super) at_singularity: AtSingularity,
-    pub(super) state: State<S>,
-    /// The contacts during the step before the state.
-    pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
-    /// The time and the projected y that [`at`](Self::at) returned within the last step, if that was the last call.
-    pub(super) output: Option<(S::Scalar, StateColumn<S>)>,
-    /// The start of the step, projected, and the determinants there.
-    pub(super) from: (S::Scalar, StateColumn<S>),
-    pub(super) signs: Signs<S>,
-    pub(super) passages: Passages,
-    /// True if the motion has passed the change point of the sheet on which it goes.
-    pub(super) is_beyond: bool,
-    /// The remaining steps before the simulation may return to the inputs, if it does not pass the expected singularity
-    /// sooner.
-    pub(super) steps_before_return: u32,
-    pub(super) is_over: bool,
-    /// The error that ends the simulation after the current state.
-    pub(super) failure: Option<MotionError>,
-    /// True if the coordinates of the next step are chosen.
-    pub(super) is_prepared: bool,
-}
 
 /// Starts a simulation of this scene, to the time `end`, by the method of order 8(5,3). `tolerance` is the allowed
 /// relative error of a step, such as 1e-9: relative to the magnitude of each coordinate and rate plus its scale, which

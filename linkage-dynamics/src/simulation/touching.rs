@@ -2,9 +2,9 @@
 
 use super::motion::{Motion, Parametrisation, Reduced};
 use super::scales::{resolution as resolution_of, resolution_by_inputs};
-use super::state::Loads;
 use crate::contact::{Change, Contact, ContactReview, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::integrate::Guard;
+use crate::scene::Loads;
 use crate::scene::coordinate_name;
 use crate::{Accelerations, Equations, Mode, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;

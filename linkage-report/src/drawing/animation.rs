@@ -2,8 +2,6 @@
 
 use nalgebra::{Point2, Vector2};
 
-use super::{DrawingError, smil};
-
 /// A part to draw, by the names of its points; see the methods of [`Animation`].
 #[derive(Debug, Clone)]
 pub(super) enum Part {
@@ -149,17 +147,5 @@ impl Animation {
     /// Adds the path of a point, such as a coupler curve.
     pub fn trace(&mut self, point: &str) -> &mut Self {
         self.part(Part::Trace(point.to_owned()))
-    }
-
-    /// Writes the SVG.
-    ///
-    /// # Errors
-    /// [`DrawingError`] if there is nothing to draw, a name is unknown or used twice, a number is not finite, or the
-    /// parts contradict the frames: a link changes its shape, a ground pivot moves, a slider leaves its straight line.
-    pub fn to_svg(&self) -> Result<String, DrawingError> {
-        if !(self.seconds.is_finite() && self.seconds > 0.0) {
-            return Err(DrawingError::NotFinite("the duration of an animation".to_owned()));
-        }
-        smil::svg(self)
     }
 }

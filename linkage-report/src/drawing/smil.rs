@@ -53,7 +53,21 @@ struct Stage<'a> {
     arrows: Vec<[Vector2<f64>; 2]>,
 }
 
-pub(super) fn svg(animation: &Animation) -> Result<String, DrawingError> {
+impl Animation {
+    /// Writes the SVG.
+    ///
+    /// # Errors
+    /// [`DrawingError`] if there is nothing to draw, a name is unknown or used twice, a number is not finite, or the
+    /// parts contradict the frames: a link changes its shape, a ground pivot moves, a slider leaves its straight line.
+    pub fn to_svg(&self) -> Result<String, DrawingError> {
+        if !(self.seconds.is_finite() && self.seconds > 0.0) {
+            return Err(DrawingError::NotFinite("the duration of an animation".to_owned()));
+        }
+        svg(self)
+    }
+}
+
+fn svg(animation: &Animation) -> Result<String, DrawingError> {
     let film = Film::of(animation)?;
     let mut stage = Stage { film: &film, back: Group::new(), items: Vec::new(), links: 0, arrows: Vec::new() };
     for part in &animation.parts {

@@ -5,6 +5,7 @@
 
 pub(crate) mod constants;
 #[doc(hidden)]
+mod display;
 pub mod notation;
 mod scene;
 mod table;

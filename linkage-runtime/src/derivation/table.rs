@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::notation::{Name, Unicode, write};
+use super::notation::Name;
 
 /// A node of a [`FormulaTable`]. It refers to nodes before it by their numbers, which count from 1, and to several by a
 /// place in the list of parts and a count.
@@ -360,30 +360,9 @@ impl PartialEq for Formula<'_> {
 
 impl Eq for Formula<'_> {}
 
-impl fmt::Display for Formula<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write(&Unicode, *self, f)
-    }
-}
-
-/// The text in quotes.
-impl fmt::Debug for Formula<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "\"{self}\"")
-    }
-}
-
 impl fmt::Debug for FormulaTable<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "FormulaTable({})", self.nodes.len())
-    }
-}
-
-/// Its text.
-#[cfg(feature = "serde")]
-impl serde::Serialize for Formula<'_> {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
     }
 }
 

@@ -9,7 +9,6 @@
 //! - [`ulp`]: tolerances in ulps.
 
 mod blocks;
-mod cholesky;
 mod contract;
 mod elimination;
 mod first_zero;
@@ -18,8 +17,8 @@ mod scales;
 pub mod ulp;
 mod vector;
 
+pub use crate::dense::Cholesky;
 pub use blocks::Blocks;
-pub use cholesky::Cholesky;
 pub use contract::{Iteration, contract, correction};
 pub use elimination::{Elimination, Order};
 pub use first_zero::{Sample, first_zero};

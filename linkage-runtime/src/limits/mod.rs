@@ -8,11 +8,15 @@
 //! limit may be a change point, beyond which the motion is on another branch. A search skips inputs at which a group is
 //! undetermined ([`PositionError::Undetermined`]).
 
+mod limit;
 mod search;
+mod searched;
 mod touch;
 mod walk;
 
-use self::search::Searched;
+pub use self::limit::Limit;
+
+use self::searched::Searched;
 use crate::bounded::{angle_but_for_turns, has_bound, instead};
 use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
@@ -26,46 +30,6 @@ pub struct Limits<T> {
     pub lower: Limit<T>,
     /// The end towards larger inputs.
     pub upper: Limit<T>,
-}
-
-/// An end of an interval of inputs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Limit<T> {
-    /// No limit: an angle can turn fully, a length can have any value. If groups were searched, no limit was found
-    /// within a turn, or within four times the sum of the lengths of all links.
-    Unlimited,
-    /// A limit v in closed form, accurate to two ulp times its condition number, 1 + the sum of |(l / v) dv/dl| over
-    /// the lengths l. The links are in line there; a later group may be undetermined
-    /// ([`PositionError::Undetermined`]).
-    Exact {
-        /// The last input at which the mechanism can be assembled.
-        input: T,
-        /// The unknowns of the group whose links are in line there.
-        group: &'static str,
-    },
-    /// A limit found by search, between two neighbouring inputs, or between two inputs where a group is undetermined.
-    /// Links that miss each other by a rounding error count as in line, so the true limit lies between the two inputs,
-    /// widened by three ulp times its condition number.
-    Bracketed {
-        /// The last input found at which the mechanism can be assembled.
-        assembled: T,
-        /// An input beyond the limit at which it cannot.
-        unbuildable: T,
-        /// The unknowns of the group that cannot be assembled beyond the limit.
-        group: &'static str,
-    },
-}
-
-impl<T: Copy> Limit<T> {
-    /// Returns the last input at which the mechanism is known to assemble; none if there is no limit.
-    pub fn input(&self) -> Option<T> {
-        match *self {
-            Self::Unlimited => None,
-            Self::Exact { input, .. } => Some(input),
-            Self::Bracketed { assembled, .. } => Some(assembled),
-        }
-    }
 }
 
 /// A function of an input that is not negative where a group can be assembled.

@@ -4,10 +4,11 @@
 //! that is lower than both its neighbours the minimum is searched, and in the first step and the last one, which are
 //! divided, between two samples where the determinant falls and rises.
 
-use super::Limit;
+use super::limit::Limit;
+use super::searched::{Found, Sample, Searched};
 use super::walk::{Stuck, Walked};
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, Mechanism, PositionError, real};
+use crate::{Dim, Mechanism, PositionError, real};
 
 /// Steps of a search, one degree each for an angle without other limits. A group that turns forty times as fast as the
 /// input is then sampled nine times in its turn. With a tenth of the steps its limits are missed; twice as many take
@@ -37,20 +38,6 @@ const SECANTS: usize = 16;
 /// group stops the mechanism before, and the limit is not moved.
 const ULPS_INWARD: usize = 10;
 
-/// The position at the inputs of a position nearby.
-type Assemble<'m, M> = &'m dyn Fn(&<M as Mechanism>::Coordinates) -> Result<<M as Mechanism>::Pose, PositionError>;
-
-/// A mechanism whose limits of one input are searched.
-pub(super) struct Searched<'m, M: Mechanism> {
-    pub(super) mechanism: &'m M,
-    /// The place of the input among the inputs.
-    pub(super) place: usize,
-    /// The range of the input that is searched on either side.
-    pub(super) reach: M::Scalar,
-    pub(super) assemble: Assemble<'m, M>,
-    pub(super) coordinates: &'m dyn Fn(&M::Pose) -> M::Coordinates,
-}
-
 /// Two inputs between which a group stops the mechanism.
 struct Bracket<M: Mechanism> {
     assembled: M::Scalar,
@@ -68,38 +55,6 @@ enum Reached<M: Mechanism> {
     Touch,
     /// The mechanism stops before.
     Limit(Limit<M::Scalar>),
-}
-
-/// The outcome at an input.
-pub(super) enum Found<M: Mechanism> {
-    /// A position.
-    Assembled(Sample<M>),
-    /// A group is undetermined here: the search skips the input.
-    Undetermined,
-    /// A group has no position: its unknowns.
-    Stopped(&'static str),
-}
-
-/// A position evaluated by the search, with the magnitudes of the determinants of its groups.
-pub(super) struct Sample<M: Mechanism> {
-    pub(super) input: M::Scalar,
-    pub(super) position: M::Coordinates,
-    pub(super) determinants: Column<M::Scalar, M::G>,
-}
-
-impl<M: Mechanism> Clone for Sample<M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M: Mechanism> Copy for Sample<M> {}
-
-impl<M: Mechanism> Sample<M> {
-    /// The determinant of a group; zero for an invalid index.
-    pub(super) fn determinant(&self, place: usize) -> M::Scalar {
-        self.determinants.as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero)
-    }
 }
 
 impl<M: Mechanism> Searched<'_, M> {

@@ -4,7 +4,7 @@
 //! Newton's method stays on a motion only in steps shorter than that. But the motion is smooth: its positions before the
 //! touch, extrapolated, give it beyond, and the positions on both sides give the touch itself.
 
-use super::search::{Found, Sample, Searched};
+use super::searched::{Found, Sample, Searched};
 use super::walk::Walked;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{EliminationOf as Elimination, Jacobian};

@@ -1,6 +1,6 @@
 //! The motion in steps along its tangent, which are short next to singular positions.
 
-use super::search::{Found, Sample, Searched};
+use super::searched::{Found, Sample, Searched};
 use crate::scalar::arithmetic::*;
 use crate::{Column, Mechanism, PositionError, real};
 

@@ -6,7 +6,7 @@
 
 use nalgebra::{Complex, ComplexField};
 
-use super::dixon::Number;
+use super::number::Number;
 use crate::Real;
 
 /// The estimated rounding error of a polynomial is multiplied by this. In all tests 4 is enough.

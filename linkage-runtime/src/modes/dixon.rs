@@ -19,18 +19,8 @@
 //! C. W. Wampler, "Solving the kinematics of planar mechanisms by Dixon determinant and a complex-plane formulation",
 //! Journal of Mechanical Design 123, 2001.
 
-use nalgebra::Complex;
-
 use super::minors::{Columns, Minors, Sized, alternating};
-
-/// A complex number.
-pub type Number = Complex<f64>;
-
-pub const ZERO: Number = Number { re: 0.0, im: 0.0 };
-pub const ONE: Number = Number { re: 1.0, im: 0.0 };
-
-/// The most columns of c: k and six directions.
-pub const COLUMNS: usize = 7;
+use super::number::{COLUMNS, Number, ONE, ZERO};
 
 /// The holomorphic and the antiholomorphic columns of one choice.
 struct Columnwise {

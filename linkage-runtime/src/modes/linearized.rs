@@ -10,7 +10,8 @@
 //! ```
 
 use super::circle::direction;
-use super::dixon::{COLUMNS, Guided, Number};
+use super::dixon::Guided;
+use super::number::{COLUMNS, Number};
 use crate::Real as _;
 
 /// The most directions, and the most equations.

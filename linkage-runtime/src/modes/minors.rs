@@ -1,6 +1,6 @@
 //! The determinants of rows of loops in all sets of their columns, with the sizes of their products.
 
-use super::dixon::{COLUMNS, Number, ONE, ZERO};
+use super::number::{COLUMNS, Number, ONE, ZERO};
 
 /// The determinants of some rows of c.
 #[derive(Clone)]

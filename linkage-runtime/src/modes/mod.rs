@@ -1,124 +1,28 @@
 //! All positions of a group of two or three loops without a formula for each: its assembly modes.
 
+mod cell;
 mod cells;
 mod circle;
 mod dixon;
 mod family;
 mod linearized;
+mod loops;
 mod minors;
+mod number;
+mod numbered;
 mod numbers;
 mod search;
 mod single;
 mod solved;
 mod triangle;
 
+pub use loops::{Loops, Unknown};
+pub use numbered::{AssemblyMode, Modes, most_modes};
+
 use search::Search;
 
 use crate::position::Evaluated;
 use crate::{PositionError, Real};
-
-/// The number of a position of a group among all its positions at the same inputs.
-///
-/// The positions are in the order of the first unknown of the group, an angle from -pi to pi or a length, then of the
-/// second, and so on. The number says no more: along a motion the positions change places in this order, so that a motion
-/// is followed by `assemble_near` or a [`Path`](crate::continuation::Path), not by its number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum AssemblyMode {
-    /// No number: the position near a guess.
-    #[default]
-    OfGuess,
-    /// The number in the order, from 0.
-    Number(usize),
-}
-
-impl AssemblyMode {
-    /// All numbers that a position of a group of this many loops can have.
-    pub fn all(loops: usize) -> impl Iterator<Item = Self> + Clone {
-        (0..most_modes(loops)).map(Self::Number)
-    }
-}
-
-/// The most positions of a group of this many loops: 2, 6, 20.
-#[must_use]
-pub const fn most_modes(loops: usize) -> usize {
-    match loops {
-        0 => 0,
-        1 => 2,
-        2 => 6,
-        _ => MOST,
-    }
-}
-
-/// The most positions of a group of three loops.
-const MOST: usize = 20;
-
-/// The positions of a group at given inputs, in order.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Modes<T, const N: usize> {
-    unknowns: [[T; N]; MOST],
-    count: usize,
-    has_family: bool,
-}
-
-impl<T: Real, const N: usize> Modes<T, N> {
-    /// The unknowns of each position.
-    #[must_use]
-    pub fn as_slice(&self) -> &[[T; N]] {
-        self.unknowns.get(..self.count).unwrap_or_default()
-    }
-
-    /// True if there are infinitely many positions besides these, which are apart from them.
-    #[must_use]
-    pub fn has_family(&self) -> bool {
-        self.has_family
-    }
-
-    /// The unknowns of one position.
-    ///
-    /// # Errors
-    /// [`PositionError::NoMode`] if there is no position of this number, or [`PositionError::Undetermined`] if there are
-    /// infinitely many besides; [`PositionError::NoClosedForm`] for [`AssemblyMode::OfGuess`].
-    pub fn take(
-        &self,
-        mechanism: &'static str,
-        group: &'static str,
-        mode: AssemblyMode,
-    ) -> Result<[T; N], PositionError> {
-        let AssemblyMode::Number(number) = mode else { return Err(PositionError::NoClosedForm { mechanism, group }) };
-        let found = self.as_slice().get(number).copied();
-        found.ok_or(match self.has_family {
-            true => PositionError::Undetermined { mechanism, group },
-            false => PositionError::NoMode { mechanism, group, number, count: self.count },
-        })
-    }
-}
-
-/// The loops of a group: k_i + sum_j c_ij t_j = 0, where t_j is a direction cos + i sin and each number is complex,
-/// [real, imaginary].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loops<T, const L: usize, const N: usize> {
-    /// k_i, by loop.
-    pub constants: [[T; 2]; L],
-    /// c_ij, by loop and direction.
-    pub factors: [[[T; 2]; N]; L],
-}
-
-/// An unknown of a group with lengths.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Unknown<T> {
-    /// An angle. The direction in its place turns with this unknown, or with an integer combination of all angles.
-    Angle,
-    /// A length along a guide, in one loop only. The factors of its direction are zero.
-    Length {
-        /// The loop, from 0.
-        in_loop: usize,
-        /// d: the length s adds s d, or s d t_j, to the loop.
-        along: [T; 2],
-        /// j: the direction with which the guide turns, `None` if its direction is given.
-        with: Option<usize>,
-    },
-}
 
 /// The positions of one group, kept until its loops change: a list of all branches solves each group once.
 #[derive(Debug, Clone, Copy)]

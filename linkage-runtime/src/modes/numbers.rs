@@ -1,8 +1,9 @@
 //! The loops of a group as complex numbers, in units in which no product overflows.
 
-use super::dixon::{COLUMNS, Guided, Number, power_of_two};
+use super::dixon::{Guided, power_of_two};
 use super::linearized::System;
-use super::{Loops, Unknown};
+use super::loops::{Loops, Unknown};
+use super::number::{COLUMNS, Number};
 use crate::scalar::to_f64;
 use crate::{PositionError, Real, real};
 

@@ -7,8 +7,9 @@ use super::cells::{Cells, Doubt};
 use super::circle::{Root, TrigonometricPolynomial, direction};
 use super::dixon::Dixon;
 use super::linearized::PerAngle;
+use super::loops::{Loops, Unknown};
+use super::numbered::{MOST, Modes, most_modes};
 use super::numbers::Numbers;
-use super::{Loops, MOST, Modes, Unknown, most_modes};
 use crate::position::{Evaluated, polished, regularity};
 use crate::scalar::{largest, to_f64};
 use crate::{PositionError, Real};
@@ -172,21 +173,6 @@ where
     fn regularity(&self, unknowns: [T; N]) -> f64 {
         let (_, _, columns) = (self.evaluate)(unknowns);
         regularity(columns)
-    }
-}
-
-impl<T: Real, const N: usize> Modes<T, N> {
-    fn none() -> Self {
-        Self { unknowns: [[T::zero(); N]; MOST], count: 0, has_family: false }
-    }
-
-    /// The positions in the order of the first unknown, then of the second, and so on.
-    fn sorted(mut self) -> Self {
-        let count = self.count;
-        if let Some(all) = self.unknowns.get_mut(..count) {
-            all.sort_unstable_by(|one, other| one.partial_cmp(other).unwrap_or(core::cmp::Ordering::Equal));
-        }
-        self
     }
 }
 

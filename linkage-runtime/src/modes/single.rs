@@ -4,7 +4,8 @@
 //! the cell, the cell has one position at most if C has a spectral radius below 1, and one if delta -> delta - Y Psi maps it
 //! into itself: R. Krawczyk, "Newton-Algorithmen zur Bestimmung von Nullstellen mit Fehlerschranken", Computing 4, 1969.
 
-use super::cells::{Cell, NO_PIVOT};
+use super::cell::Cell;
+use super::cells::NO_PIVOT;
 use super::linearized::{MOST_ANGLES, PerAngle, System};
 use super::solved::Solved;
 

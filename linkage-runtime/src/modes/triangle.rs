@@ -1,9 +1,9 @@
 //! The triangle inequality of a loop, for directions in cells of angles.
 
-use super::cells::{Cell, MARGIN};
+use super::cell::{Cell, MARGIN};
 use super::circle::direction;
-use super::dixon::{COLUMNS, Number};
 use super::linearized::{MOST_ANGLES, ROUNDING, size};
+use super::number::{COLUMNS, Number};
 use crate::Real as _;
 
 /// The angle that differs by full turns, from -pi to pi.

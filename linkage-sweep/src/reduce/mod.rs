@@ -119,7 +119,7 @@ where
         let mut next = lock(shared).take();
         while let Some(number) = next {
             self.compute(number, &mut chunk)?;
-            reducer.fold(&mut part, &Block::new(self, &chunk));
+            reducer.fold(&mut part, &self.block(&chunk));
             let mut shared = lock(shared);
             let Shared { progress, callback, error: None, .. } = &mut *shared else { return Ok(()) };
             progress.advance(chunk.rows(), chunk.rejected(), callback)?;

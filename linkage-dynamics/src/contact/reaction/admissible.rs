@@ -10,12 +10,13 @@
 //!    given limits, stops and guides;
 //! 4. a subdivision that finds forces, or excludes them.
 
+use super::budget::Budget;
 use super::family::Family;
-use super::linear::contraction;
 use super::problem::{Problem, Reaction, length};
-use super::search::{Budget, Cell};
+use super::search::Cell;
 use crate::contact::bounded::{Bounds, bounded};
 use crate::contact::{ContactLaw, Mode};
+use linkage_runtime::__shared::contraction;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// The limit on updates of the limits. Each divides their error by about 1 / (friction coefficient).

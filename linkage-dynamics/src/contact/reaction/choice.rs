@@ -11,12 +11,13 @@
 //! samples are not excluded.
 
 use super::admissible::{Existence, Held};
+use super::budget::Budget;
 use super::family::Family;
+use super::modes::{Failure, in_family, samples, slipping_within};
 use super::problem::Problem;
-use super::search::Budget;
-use super::{Failure, in_family, samples, slipping_within};
-use crate::contact::held::{Factors, held_tolerance};
+use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
+use linkage_runtime::__shared::Ranked;
 use linkage_runtime::{Column, Dim, Real, real};
 
 /// The most combinations that are enumerated: eight frictions at rest. With more contacts at rest one motion is
@@ -192,7 +193,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
                 order[count] = place;
                 count += 1;
             }
-            Factors::<T, C>::pivoted(&problem.response.matrix, &order, count).rank
+            Ranked::<T, C>::pivoted(&problem.response.matrix, &order, count, held_tolerance()).rank
         };
         let of_held = rank(None);
         let is_free = |place: usize| self.at_rest[place].is_some() && !modes[place].is_held();

@@ -5,8 +5,9 @@
 
 use super::problem::Problem;
 use super::slip::Slips;
-use crate::contact::held::{Factors, held_tolerance};
+use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
+use linkage_runtime::__shared::Ranked;
 use linkage_runtime::{Column, Dim, Real};
 
 /// The contact forces in given modes, as an affine function of the x.
@@ -31,7 +32,7 @@ impl<T: Real, C: Dim> Family<T, C> {
             order[count] = place;
             count += 1;
         }
-        let factors: Factors<T, C> = Factors::pivoted(matrix, &order, count);
+        let factors: Ranked<T, C> = Ranked::pivoted(matrix, &order, count, held_tolerance());
         let held = |solution: &Column<T, C>, column: &mut Column<T, C>| {
             for (&contact, &force) in factors.order.iter().zip(solution).take(factors.rank) {
                 column[contact] = force;

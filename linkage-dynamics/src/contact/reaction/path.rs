@@ -9,10 +9,10 @@
 //! sum |a_i| d_i >= 0; but forces that hold are against the motion: sum |a_i| d_i < 0.
 
 use super::admissible::{Existence, Held};
-use super::linear::contraction;
 use super::problem::length;
 use crate::contact::Mode;
-use crate::contact::held::held_tolerance;
+use crate::contact::tolerance::held_tolerance;
+use linkage_runtime::__shared::contraction;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// The limit on iterations for the forces at one point of the path, and on bisections.

@@ -1,10 +1,10 @@
 //! Accelerations and reactions as functions of the contact forces: s'' = b + A f, R = r + P f.
 
-use super::linear::contraction;
 use crate::MotionError;
-use crate::contact::held::{Response, held_tolerance, slipping};
-use crate::contact::state::sum_tolerance;
+use crate::contact::held::{Response, slipping};
+use crate::contact::tolerance::{held_tolerance, sum_tolerance};
 use crate::contact::{ContactLaw, Mode, ReducedEquations};
+use linkage_runtime::__shared::contraction;
 use linkage_runtime::{Column, Dim, Matrix, PositionError, Real, real};
 
 /// A reaction as a function of the contact forces.

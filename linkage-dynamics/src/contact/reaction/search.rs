@@ -5,13 +5,11 @@
 //! that there is at most one, which Newton's method finds (A. Neumaier, *Interval Methods for Systems of Equations*,
 //! 1990, chapter 5), or the cell is divided. Enclosures are those of real arithmetic, without directed rounding.
 
-use super::linear::solve;
+use super::budget::Budget;
 use super::problem::length;
 use super::slip::{Homogeneous, Roots, Slips};
+use linkage_runtime::__shared::solve;
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
-
-/// The number of cells that one decision may take, some milliseconds.
-const MOST_CELLS: usize = 20_000;
 
 /// A cell that is not decided at this radius, relative to the cube, is given up.
 const LEAST_RADIUS: f64 = 1e-6;
@@ -25,29 +23,12 @@ const LEAST_SCALE: f64 = 1e-12;
 /// The limit on Newton iterations in a cell with at most one solution.
 const MOST_ITERATIONS: usize = 50;
 
-/// The number of cells that are left.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Budget(usize);
-
 /// A box in homogeneous coordinates: s and t, each with its radius.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell<T: Real, C: Dim> {
     pub scale: [T; 2],
     pub centre: Column<T, C>,
     pub radius: Column<T, C>,
-}
-
-impl Budget {
-    pub(super) fn new() -> Self {
-        Self(MOST_CELLS)
-    }
-
-    /// Returns false if no cell is left.
-    pub(super) fn spend(&mut self) -> bool {
-        let is_left = self.0 > 0;
-        self.0 = self.0.saturating_sub(1);
-        is_left
-    }
 }
 
 impl<T: Real, C: Dim> Cell<T, C> {

@@ -5,10 +5,10 @@
 //! enumerated, which leaves linear equations; one pin is a quadratic equation, several are searched for
 //! ([`search`](super::search)).
 
-use super::linear::{contraction, solve};
+use super::budget::Budget;
 use super::problem::length;
-use super::search::Budget;
-use crate::contact::state::sum_tolerance;
+use crate::contact::tolerance::sum_tolerance;
+use linkage_runtime::__shared::{contraction, solve};
 use linkage_runtime::{Column, Dim, Matrix, Real, real};
 
 /// The most solutions that are stored.

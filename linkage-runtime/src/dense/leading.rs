@@ -1,12 +1,13 @@
-//! Small linear systems without symmetry.
+//! The leading equations of a system without symmetry.
 
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use crate::{Column, Dim, Matrix, Real, real};
 
 /// A pivot below this many ulps of the largest entry of its column counts as zero.
 const LEAST_PIVOT_ULPS: f64 = 64.0;
 
 /// Solves the leading `count` equations A x = `side` by elimination with partial pivoting; None if A is singular.
-pub(super) fn solve<T: Real, C: Dim>(
+#[must_use]
+pub fn solve<T: Real, C: Dim>(
     mut matrix: Matrix<T, C, C>,
     mut side: Column<T, C>,
     count: usize,
@@ -32,7 +33,8 @@ pub(super) fn solve<T: Real, C: Dim>(
 
 /// Solves (I - G) x = `side` for G >= 0 if the spectral radius of G is below 1: then, and only then, all pivots
 /// without exchanges are positive (A. Berman and R. J. Plemmons, *Nonnegative Matrices*, 1979, chapter 6).
-pub(super) fn contraction<T: Real, C: Dim>(
+#[must_use]
+pub fn contraction<T: Real, C: Dim>(
     gain: &Matrix<T, C, C>,
     mut side: Column<T, C>,
     count: usize,
