@@ -2,8 +2,10 @@
 
 use rustc_hash::FxHashSet;
 
-use super::code::{Block, Callee, Code, Returned, Statement};
-use super::value::{Value, ValueId};
+use super::code::{Callee, Code, Returned};
+use super::id::ValueId;
+use super::statement::{Block, Statement};
+use super::value::Value;
 use crate::program::Receiver;
 
 impl Code {

@@ -2,9 +2,10 @@
 
 use rustc_hash::FxHashSet;
 
-use super::code::Statement;
+use super::id::{Signed, ValueId};
 use super::naming::Hint;
-use super::value::{Signed, Value, ValueId};
+use super::statement::Statement;
+use super::value::Value;
 use super::writer::Writer;
 use crate::ids::GroupId;
 use crate::program::{self, Expression, Intrinsic, Variable};

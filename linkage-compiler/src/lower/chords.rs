@@ -2,10 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::code::{Pattern, Statement};
+use super::id::ValueId;
 use super::naming::{Hint, Hinted};
 use super::schedule::Line;
-use super::value::{Value, ValueId};
+use super::statement::{Pattern, Statement};
+use super::value::Value;
 use super::writer::{Absorbed, Writer};
 use crate::derivation::ChordGeometry;
 use crate::ids::{GroupId, Id};

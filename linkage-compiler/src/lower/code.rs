@@ -2,11 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::id::ValueId;
 use super::rounding::Bound;
-use super::value::{Value, ValueId};
+use super::statement::Statement;
+use super::value::Value;
 use crate::graph::ExternalId;
 use crate::ids::FunctionId;
-use crate::program::{self, Operations};
+use crate::program::Operations;
 
 /// The lowered body of a function.
 #[derive(Debug, Clone)]
@@ -42,33 +44,6 @@ pub enum Callee {
     /// One of the driver of a scene.
     OfDriver(FunctionId),
     User(ExternalId),
-}
-
-/// A statement of lowered code.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Statement {
-    /// `let pattern = value;`
-    Let(Pattern, ValueId),
-    /// `value;`
-    Do(ValueId),
-    /// `place = value;`
-    Assign(ValueId, ValueId),
-    /// `return value;`
-    Return(ValueId),
-    /// `let pattern = value else { return otherwise; };`
-    LetElse(Pattern, ValueId, ValueId),
-    /// `if !(all conditions) { … }`
-    Unless(Vec<ValueId>, Vec<Statement>),
-}
-
-/// A pattern that binds values. One that binds the value of its own statement gives it a name.
-pub type Pattern = program::Pattern<ValueId>;
-
-/// Statements and a value.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub struct Block {
-    pub statements: Vec<Statement>,
-    pub value: ValueId,
 }
 
 /// The value that a function returns.
@@ -116,23 +91,6 @@ impl Code {
 }
 
 impl Statement {
-    /// The pattern that the statement binds.
-    pub(super) fn pattern(&self) -> Option<&Pattern> {
-        match self {
-            Self::Let(pattern, _) | Self::LetElse(pattern, ..) => Some(pattern),
-            _ => None,
-        }
-    }
-
-    /// The values that the statement binds.
-    pub(super) fn bound(&self) -> Vec<ValueId> {
-        let mut bound = Vec::new();
-        if let Some(pattern) = self.pattern() {
-            pattern.each(&mut |value| bound.push(*value));
-        }
-        bound
-    }
-
     /// True if it may end the function.
     pub(super) fn may_return(&self, values: &[Value]) -> bool {
         match self {

@@ -8,8 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use rustc_hash::FxHashMap;
 
 use super::code::Callee;
+use super::id::{Signed, ValueId};
 use super::schedule::{Line, Schedule};
-use super::value::{Signed, Value, ValueId};
+use super::value::Value;
 use crate::graph::Function;
 use crate::program::{Intrinsic, Operations};
 

@@ -1,7 +1,8 @@
 //! The order of factors in a product: numbers, shared products, symbols in the order of declaration, sines and cosines,
 //! other functions, sums, quotients.
 
-use super::value::{Value, ValueId};
+use super::id::ValueId;
+use super::value::Value;
 use crate::graph::SymbolId;
 
 /// The sort key of a factor.

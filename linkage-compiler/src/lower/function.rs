@@ -1,6 +1,6 @@
 //! Lowering of a planned function: translate, order, write, check, place, name.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
 
 use rustc_hash::FxHashSet;
@@ -8,39 +8,19 @@ use rustc_hash::FxHashSet;
 use super::calls;
 use super::checks::Checked;
 use super::code::{Callee, Code, Returned};
+use super::context::Context;
 use super::counts::{Count, Counts};
+use super::id::ValueId;
 use super::naming::{self, Hint};
 use super::rounding::{Bound, DIRECTION, Roundings};
 use super::schedule::Schedule;
 use super::scheduling::schedule;
-use super::value::{Value, ValueId};
+use super::value::Value;
 use super::writer::Writer;
 use super::{proven, reads, stored, stretches, unneeded};
-use crate::derivation::Derivation;
 use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
-use crate::ids::{FunctionId, GroupId};
-use crate::program::{self, Access, Body, Failure, Function, Given, Kernel, Output, PosePlan, Source, Taken, call_of};
-
-/// The functions of a type by their names in planned code.
-pub(super) type FunctionIds = BTreeMap<String, FunctionId>;
-
-/// The data that the functions of one driver or scene share.
-pub struct Context<'a> {
-    pub derivation: &'a Derivation,
-    pub pose: &'a PosePlan,
-    /// Names that the user gave to expressions.
-    pub named: &'a [(NodeId, String)],
-    /// Names that no value may have: those of the arguments.
-    pub reserved: &'a BTreeSet<String>,
-    /// The names of the arguments for the pose, the branch, the turns, and the positions of groups that are kept.
-    pub pose_argument: &'a str,
-    pub branch: &'a str,
-    pub turn: &'a str,
-    pub memory: &'a str,
-    /// The functions of the type, and those of the driver.
-    pub(super) own: &'a FunctionIds,
-    pub(super) of_driver: &'a FunctionIds,
-}
+use crate::ids::GroupId;
+use crate::program::{self, Access, Body, Failure, Function, Given, Kernel, Output, Source, Taken, call_of};
 
 /// The functions lowered so far, as far as later ones need them.
 pub(super) struct Lowered {

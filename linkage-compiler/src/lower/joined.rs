@@ -1,7 +1,8 @@
 //! Inlining after sharing: a sum used once within a sum, a product used once within a product, and an inverse used once
 //! in a product, which becomes a quotient.
 
-use super::value::{Signed, Value, ValueId};
+use super::id::{Signed, ValueId};
+use super::value::Value;
 
 /// Inlines operands used once into the sums and products that the roots depend on. A kernel that is inlined into other
 /// functions keeps its inverses and the components of its links, since these may use the same ones.

@@ -1,10 +1,11 @@
 //! Conversion of the lines of a schedule to statements.
 
-use super::code::{Block, Pattern, Statement};
+use super::id::{Signed, ValueId};
 use super::naming::{Hint, Hinted};
 use super::schedule::{Circular, Line, Schedule};
+use super::statement::{Block, Pattern, Statement};
 use super::stretches;
-use super::value::{Signed, Value, ValueId};
+use super::value::Value;
 use super::writer::{Absorbed, Writer};
 use crate::graph::{Function, SymbolId};
 use crate::ids::GroupId;

@@ -1,9 +1,10 @@
 //! The positions of a group of loops, as calls of the runtime.
 
-use super::code::{Block, Pattern};
+use super::id::{Signed, ValueId};
 use super::naming::Hint;
 use super::schedule::Line;
-use super::value::{Signed, Value, ValueId};
+use super::statement::{Block, Pattern};
+use super::value::Value;
 use super::writer::{Absorbed, Writer};
 use crate::graph::Number;
 use crate::ids::GroupId;

@@ -3,7 +3,8 @@
 use rustc_hash::FxHashSet;
 
 use super::code::{Callee, Names};
-use super::value::{Signed, Value, ValueId};
+use super::id::{Signed, ValueId};
+use super::value::Value;
 use super::values::Values;
 use crate::graph::{Function, Graph, Number, SymbolId};
 use crate::program::{Intrinsic, LONGEST_NAME, Taken};

@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::id::{Signed, ValueId};
 use super::schedule::{Circular, Line};
-use super::value::{Signed, Value, ValueId};
+use super::value::Value;
 use crate::graph::{ExternalId, Function, Graph, SymbolId};
 
 /// The largest nesting of an inline expression; deeper ones get a line, for readability.

@@ -1,9 +1,10 @@
 //! Lowering of planned expressions, patterns and statements around a kernel, whose results are known.
 
 use super::checks::Checked;
-use super::code::{Block, Pattern, Statement};
+use super::id::{Signed, ValueId};
 use super::naming::Hint;
-use super::value::{Signed, Value, ValueId};
+use super::statement::{Block, Pattern, Statement};
+use super::value::Value;
 use super::writer::Writer;
 use crate::program::{self, Expression, Intrinsic, ROUGH, Receiver, Variable};
 

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::code::{Callee, Code};
+use super::context::{Context, FunctionIds};
 use super::counts::Counts;
-use super::function::{Context, Dangling, FunctionIds, Lowered, function};
+use super::function::{Dangling, Lowered, function};
 use super::rounding::Roundings;
 use crate::derivation::Derivation;
 use crate::ids::{FunctionId, Id, Table};

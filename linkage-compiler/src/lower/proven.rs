@@ -5,8 +5,9 @@ use std::ops::Range;
 
 use rustc_hash::FxHashMap;
 
-use super::code::{Pattern, Statement};
-use super::value::{Value, ValueId};
+use super::id::ValueId;
+use super::statement::{Pattern, Statement};
+use super::value::Value;
 use super::values::Values;
 use crate::graph::Function;
 use crate::program::{Finite, Intrinsic};

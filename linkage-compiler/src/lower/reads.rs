@@ -2,8 +2,9 @@
 
 use rustc_hash::FxHashSet;
 
-use super::code::{Pattern, Statement};
-use super::value::{Value, ValueId};
+use super::id::ValueId;
+use super::statement::{Pattern, Statement};
+use super::value::Value;
 use super::values::Values;
 use crate::program::Type;
 

@@ -1,6 +1,7 @@
 //! Straight-line code: lines that compute values in order.
 
-use super::value::{Signed, Value, ValueId};
+use super::id::{Signed, ValueId};
+use super::value::Value;
 use crate::derivation::ChordGeometry;
 use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::GroupId;

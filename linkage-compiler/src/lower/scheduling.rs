@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::id::{Signed, ValueId};
 use super::order::Ordering;
 use super::schedule::{Line, Schedule};
 use super::translate::Builder;
-use super::value::{Signed, ValueId};
 use super::{factors, joined, sharing, terms};
 use crate::derivation::Step;
 use crate::graph::{Graph, NodeId, SymbolId};

@@ -15,7 +15,8 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 
-use super::value::{Signed, Value, ValueId};
+use super::id::{Signed, ValueId};
+use super::value::Value;
 use crate::budget::Budget;
 
 /// The longest sum or product in which all pairs of operands are considered; in a longer one only neighbours are, since

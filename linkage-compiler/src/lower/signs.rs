@@ -1,8 +1,9 @@
 //! Signs: translation moves them out of values, to the sums and results that use these. Here they return to the place
 //! where they are written: a - b instead of -(b - a).
 
+use super::id::{Signed, ValueId};
 use super::terms;
-use super::value::{Signed, Value, ValueId};
+use super::value::Value;
 use super::values::{Numbers, Values};
 use crate::program::Intrinsic;
 

@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::checks::Checked;
-use super::code::{Pattern, Statement};
+use super::id::ValueId;
 use super::naming::Hint;
-use super::value::{Value, ValueId};
+use super::statement::{Pattern, Statement};
+use super::value::Value;
 use super::writer::{Absorbed, Writer};
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::program::{Expression, Shape, Source};

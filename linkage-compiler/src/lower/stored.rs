@@ -6,8 +6,8 @@
 
 use rustc_hash::FxHashSet;
 
-use super::code::Statement;
-use super::value::ValueId;
+use super::id::ValueId;
+use super::statement::Statement;
 use super::values::Values;
 
 /// Assigns results to their members, each before the next statement that may return an error instead.

@@ -8,8 +8,9 @@ use std::collections::BTreeSet;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::code::{Block, Pattern, Statement};
-use super::value::{Value, ValueId};
+use super::id::ValueId;
+use super::statement::{Block, Pattern, Statement};
+use super::value::Value;
 use super::values::Values;
 
 /// The largest number of `let`s that are not divided. The longest function of the mechanisms under test has 150

@@ -3,7 +3,8 @@
 
 use rustc_hash::FxHashMap;
 
-use super::value::{Signed, Value, ValueId};
+use super::id::{Signed, ValueId};
+use super::value::Value;
 use crate::derivation::Step;
 use crate::graph::SymbolId;
 

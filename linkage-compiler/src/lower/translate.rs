@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::value::{Signed, Value, ValueId};
+use super::id::{Signed, ValueId};
+use super::value::Value;
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 use crate::program::Given;
 

@@ -2,8 +2,10 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::code::{Pattern, Returned, Statement};
-use super::value::{Value, ValueId};
+use super::code::Returned;
+use super::id::ValueId;
+use super::statement::{Pattern, Statement};
+use super::value::Value;
 use super::values::Values;
 
 /// Removes `let`s with unused names, unless they may fail; adds the values that the others use.

@@ -1,7 +1,8 @@
 //! Uses: the bound values, arguments among them, that statements read.
 
-use super::code::{Block, Statement};
-use super::value::{Value, ValueId};
+use super::id::ValueId;
+use super::statement::{Block, Statement};
+use super::value::Value;
 
 /// The values of a function, and which of them a statement binds.
 #[derive(Clone, Copy)]
@@ -16,7 +17,7 @@ impl Uses<'_> {
         match statement {
             // A pattern that binds its value gives it a name.
             Statement::Let(pattern, value) => match *pattern {
-                super::code::Pattern::Bound(bound) if bound == *value => self.inside(*value, visit),
+                super::statement::Pattern::Bound(bound) if bound == *value => self.inside(*value, visit),
                 _ => self.value(*value, visit),
             },
             Statement::Do(value) | Statement::Return(value) => self.value(*value, visit),

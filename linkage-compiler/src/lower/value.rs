@@ -1,20 +1,10 @@
 //! Values: the operations of lowered code.
 
-use super::code::{Block, Pattern};
+use super::id::{Signed, ValueId};
+use super::statement::{Block, Pattern};
 use crate::graph::{External, ExternalId, Function, NodeId, Number, SymbolId};
-use crate::ids::{FunctionId, Id};
+use crate::ids::FunctionId;
 use crate::program::{Constant, Intrinsic, Receiver, Type};
-
-/// A value of lowered code.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ValueId(pub(super) usize);
-
-/// A value or its negative.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Signed {
-    pub negative: bool,
-    pub value: ValueId,
-}
 
 /// The operation that computes a value. A value that a statement binds is computed there, any other where it is used.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
@@ -85,22 +75,6 @@ pub enum Value {
     },
     /// `{ … }`
     Block(Block),
-}
-
-impl Id for ValueId {
-    fn new(index: usize) -> Self {
-        Self(index)
-    }
-
-    fn index(self) -> usize {
-        self.0
-    }
-}
-
-impl Signed {
-    pub fn positive(value: ValueId) -> Self {
-        Self { negative: false, value }
-    }
 }
 
 impl Value {

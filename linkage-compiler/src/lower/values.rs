@@ -1,7 +1,8 @@
 //! The values of a function while it is lowered, with what is known of each.
 
+use super::id::{Signed, ValueId};
 use super::uses::Uses;
-use super::value::{Signed, Value, ValueId};
+use super::value::Value;
 use crate::graph::Number;
 
 /// The numbers that a function computes with.

@@ -4,11 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rustc_hash::FxHashMap;
 
-use super::code::{Pattern, Statement};
-use super::function::Context;
+use super::context::Context;
+use super::id::{Signed, ValueId};
 use super::naming::{Hint, Hinted};
 use super::schedule::Schedule;
-use super::value::{Signed, Value, ValueId};
+use super::statement::{Pattern, Statement};
+use super::value::Value;
 use super::values::{Numbers, Values};
 use crate::graph::{ExternalId, SymbolId};
 use crate::ids::GroupId;

@@ -6,7 +6,6 @@ use std::ops::Range;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::operations::Operations;
 use super::pose::Given;
-use super::stored::Stored;
 use crate::derivation::Step;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::GroupId;
@@ -109,6 +108,17 @@ pub enum Value {
     Result(Expression),
     /// The `Result` in a variable that holds a literal.
     Stored(Box<Stored>),
+}
+
+/// A literal in the `Ok` of a variable, with zero in place of each result of the kernel. Lowering assigns a result to its
+/// member as soon as it is known.
+#[derive(Debug, Clone)]
+pub struct Stored {
+    /// The variable.
+    pub result: Expression,
+    /// The members that are results, each with its value.
+    pub members: Vec<(Expression, Expression)>,
+    pub literal: Expression,
 }
 
 impl Value {

@@ -42,7 +42,7 @@ pub use any_number::AnyNumber;
 pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
 pub use expression::{Expression, Pattern, Receiver, Statement, Type, Variable};
-pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Value};
+pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Stored, Value};
 pub use functions::Functions;
 pub use implementation::{Associated, ConstantValue, Group, Implementation, Implemented, Kink};
 pub use intrinsics::{Constant, Entry, Finite, Form, InLane, Intrinsic, LaneResult, Meaning, Role, Row};
@@ -54,7 +54,6 @@ pub use pose_fields::{Held, PoseField};
 pub use precise::ROUGH;
 pub use scene::{MULTIPLIERS, SceneProgram, SceneSignatures};
 pub use signatures::{Family, Signatures};
-pub use stored::Stored;
 
 pub use crate::derivation::Part;
 

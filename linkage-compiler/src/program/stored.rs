@@ -1,31 +1,20 @@
 //! Results that a function stores as they become known: the variable that it returns, and what it assigns to its members.
 
 use super::expression::{Expression, Pattern, Statement, Variable};
-use super::function::{Body, Kernel, Value};
+use super::function::{Body, Kernel, Stored, Value};
 use super::intrinsics::{Form, Intrinsic};
-
-/// A literal in the `Ok` of a variable, with zero in place of each result of the kernel. Lowering assigns a result to its
-/// member as soon as it is known.
-#[derive(Debug, Clone)]
-pub struct Stored {
-    /// The variable.
-    pub result: Expression,
-    /// The members that are results, each with its value.
-    pub members: Vec<(Expression, Expression)>,
-    pub literal: Expression,
-}
 
 impl Body {
     /// Stores the members of its literal as they become known, in a place with this name. Results of a factorisation are
     /// refined at the end: they are not stored before.
     #[must_use]
-    pub fn stored_in(mut self, index: &str) -> Self {
+    pub fn stored_in(mut self, place: &str) -> Self {
         let is_factorised = self.kernel.as_ref().is_some_and(Kernel::is_factorised);
         let literal = match &self.value {
             Value::Plain(literal) if !is_factorised => literal.clone(),
             _ => return self,
         };
-        let [result, index] = ["result", index].map(|name| self.local(name));
+        let [result, place] = ["result", place].map(|name| self.local(name));
         let [to_result, to_place] = [2, 1].map(|back| Variable::Local(self.locals.len() - back));
         let to_place = Box::new(Pattern::Bound(to_place));
         // The literal stands here and not in a function: LLVM copies the value that a function returns.
@@ -34,7 +23,7 @@ impl Body {
         let borrowed = result.clone().mutably_borrowed();
         self.before.push(Statement::LetElse(Pattern::Case(Intrinsic::Ok, to_place), borrowed, result.clone()));
         let mut members = Vec::new();
-        assigned(index, &literal, &mut members);
+        assigned(place, &literal, &mut members);
         // Points and outputs are checked, after all else.
         let checked = members.extract_if(.., |(_, value)| matches!(value, Expression::Try(_)));
         self.after.extend(checked.map(|(member, value)| Statement::Assign(member, value)));
@@ -64,12 +53,12 @@ fn zeroed(value: &Expression) -> Expression {
 }
 
 /// The members of a literal that are no arguments, with those of literals in it, and their values.
-fn assigned(index: Expression, value: &Expression, all: &mut Vec<(Expression, Expression)>) {
+fn assigned(place: Expression, value: &Expression, all: &mut Vec<(Expression, Expression)>) {
     match value {
         Expression::Struct(_, fields, _) => {
-            fields.iter().for_each(|(field, value)| assigned(index.clone().field(field), value, all));
+            fields.iter().for_each(|(field, value)| assigned(place.clone().field(field), value, all));
         }
         argument if argument.stored().is_some() => {}
-        result => all.push((index, result.clone())),
+        result => all.push((place, result.clone())),
     }
 }

@@ -1,7 +1,8 @@
 //! Angles as sums of stored angles.
 
+use super::super::id::Signed;
 use super::super::schedule::Schedule;
-use super::super::value::{Signed, Value};
+use super::super::value::Value;
 use crate::graph::{Graph, Node, NodeId, SymbolId};
 
 /// The number of an angle.

@@ -2,8 +2,9 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::super::id::{Signed, ValueId};
 use super::super::schedule::{Line, Schedule};
-use super::super::value::{Signed, Value, ValueId};
+use super::super::value::Value;
 use super::Roundings;
 use super::monomial::Factor;
 use super::tracked::Tracked;
