@@ -48,8 +48,8 @@ impl Derivation {
         let all: Vec<NodeId> = forms.iter().flat_map(nodes).collect();
         let mut all = self.graph.replace(&all, &shown).into_iter();
         for form in &mut forms {
-            let indices = form.equations.iter_mut().flatten().chain(form.root.as_mut().map(|(root, _)| root));
-            indices.zip(&mut all).for_each(|(index, node)| *index = node);
+            let nodes = form.equations.iter_mut().flatten().chain(form.root.as_mut().map(|(root, _)| root));
+            nodes.zip(&mut all).for_each(|(node, other)| *node = other);
         }
         forms.into()
     }

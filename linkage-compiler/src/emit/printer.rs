@@ -78,7 +78,7 @@ pub(super) trait Style {
 
     fn let_statement(&self, pattern: Self::Text, value: Self::Text) -> Self::Text;
     fn do_statement(&self, value: Self::Text) -> Self::Text;
-    fn assignment(&self, index: Self::Text, value: Self::Text) -> Self::Text;
+    fn assignment(&self, to: Self::Text, value: Self::Text) -> Self::Text;
     fn return_statement(&self, value: Self::Text) -> Self::Text;
     fn let_else(&self, pattern: Self::Text, value: Self::Text, otherwise: Self::Text) -> Self::Text;
     fn unless(&self, conditions: Vec<Self::Text>, inside: Vec<Self::Text>) -> Self::Text;
@@ -112,7 +112,7 @@ impl<S: Style> Printer<'_, S> {
                 self.style.let_statement(self.pattern(pattern), value)
             }
             Statement::Do(value) => self.style.do_statement(self.value(*value)),
-            Statement::Assign(index, value) => self.style.assignment(self.value(*index), self.value(*value)),
+            Statement::Assign(to, value) => self.style.assignment(self.value(*to), self.value(*value)),
             Statement::Return(value) => self.style.return_statement(self.value(*value)),
             Statement::LetElse(pattern, value, otherwise) => {
                 self.style.let_else(self.pattern(pattern), self.value(*value), self.value(*otherwise))

@@ -207,8 +207,8 @@ impl Style for Rust {
         quote!(#value;)
     }
 
-    fn assignment(&self, index: TokenStream, value: TokenStream) -> TokenStream {
-        quote!(#index = #value;)
+    fn assignment(&self, to: TokenStream, value: TokenStream) -> TokenStream {
+        quote!(#to = #value;)
     }
 
     fn return_statement(&self, value: TokenStream) -> TokenStream {

@@ -235,8 +235,8 @@ impl Style for Plain {
         value
     }
 
-    fn assignment(&self, index: String, value: String) -> String {
-        format!("{index} := {value}")
+    fn assignment(&self, to: String, value: String) -> String {
+        format!("{to} := {value}")
     }
 
     fn return_statement(&self, value: String) -> String {

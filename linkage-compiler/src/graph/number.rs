@@ -66,10 +66,10 @@ impl Number {
             None => (digits, 0),
         };
         let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-        let indices = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
-        let scale = 10_i128.checked_pow(indices.unsigned_abs())?;
+        let digits = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
+        let scale = 10_i128.checked_pow(digits.unsigned_abs())?;
         let integer: i128 = format!("{whole}{fraction}").parse().ok()?;
-        let (n, d) = if indices < 0 { (integer, scale) } else { (integer.checked_mul(scale)?, 1) };
+        let (n, d) = if digits < 0 { (integer, scale) } else { (integer.checked_mul(scale)?, 1) };
         match Self::ratio(n, d) {
             Self::Ratio(n, d) if exact_in_f64(n) && exact_in_f64(d) => Some(Self::Ratio(n, d)),
             _ => None,

@@ -109,8 +109,8 @@ impl<B> Lanes<'_, B> {
 
     /// The body of the function for one lane, with points and outputs or without.
     fn lane(&self, with_quantities: bool) -> Body {
-        let index = |of: Expression| Expression::At(Box::new([of, name("lane")]));
-        let mut statements = self.bound_inputs(&index).to_vec();
+        let at = |of: Expression| Expression::At(Box::new([of, name("lane")]));
+        let mut statements = self.bound_inputs(&at).to_vec();
         // The coordinates of an open chain are given: only points and outputs read its kinematics.
         let is_read = !self.signatures.is_open() || with_quantities;
         let kinematics = if is_read { Pattern::name("kinematics".to_owned()) } else { Pattern::Ignored };
@@ -121,7 +121,7 @@ impl<B> Lanes<'_, B> {
             statements.push(Statement::Let(self.taken_apart(), name("kinematics")));
         }
         let Columns { coordinates, angles, .. } = self.columns;
-        statements.extend(stored(coordinates.iter().cloned(), 0, &index));
+        statements.extend(stored(coordinates.iter().cloned(), 0, &at));
         let mut all = vec![name("is_accepted")];
         let has_quantities = self.columns.count_quantities() > 0;
         if has_quantities || !angles.is_empty() {
@@ -136,7 +136,7 @@ impl<B> Lanes<'_, B> {
             Some(parts) => Expression::call(Intrinsic::Arctangent2InLane, parts),
             None => angle.value(&pose),
         });
-        statements.extend(stored(values, coordinates.len(), &index));
+        statements.extend(stored(values, coordinates.len(), &at));
         let mut flags = Vec::new();
         for parts in angles.iter().filter_map(|angle| angle.computed_from(&pose)) {
             let flag = format!("has_angle_{}", flags.len() + 1);
@@ -147,7 +147,7 @@ impl<B> Lanes<'_, B> {
             let to = ["quantities", "are_accepted"].map(|name| Pattern::name(name.to_owned()));
             let call = self.call(QUANTITIES_IN_LANE, ["pose", "rates", "accelerations"]);
             statements.push(Statement::Let(Pattern::Tuple(to.to_vec()), call));
-            statements.extend(stored(self.quantities(), coordinates.len() + angles.len(), &index));
+            statements.extend(stored(self.quantities(), coordinates.len() + angles.len(), &at));
             all.push(name("are_accepted"));
         }
         let operations = Operations { functions: flags.len(), ..Operations::default() };
@@ -157,11 +157,11 @@ impl<B> Lanes<'_, B> {
 
     /// The function for a lane alone: it calls `kinematics`, and the function for points and outputs.
     fn exact(&self) -> Function<Body> {
-        let index = |of: Expression| of;
+        let at = |of: Expression| of;
         let Columns { given, found, coordinates, angles, .. } = self.columns;
         let zeros = Expression::Repeated(Box::new(Expression::zero()), found.len());
         let mut statements = vec![Statement::Let(Pattern::Mutable(Variable::Name("found".to_owned())), zeros)];
-        statements.extend(self.bound_inputs(&index));
+        statements.extend(self.bound_inputs(&at));
         let (function, from) = match self.position.is_closed {
             true => ("kinematics", name("start")),
             false => ("kinematics_near", name("start").borrowed()),
@@ -176,17 +176,17 @@ impl<B> Lanes<'_, B> {
             statements.push(Statement::Do(call));
         } else {
             statements.push(Statement::Let(self.taken_apart(), call));
-            statements.extend(stored(coordinates.iter().cloned(), 0, &index));
+            statements.extend(stored(coordinates.iter().cloned(), 0, &at));
             let found = name("found");
             if has_quantities || !angles.is_empty() {
                 statements.push(unless_quantities(Expression::call(Intrinsic::Ok, [found])));
             }
             let pose = name("pose");
-            statements.extend(stored(angles.iter().map(|angle| angle.value(&pose)), coordinates.len(), &index));
+            statements.extend(stored(angles.iter().map(|angle| angle.value(&pose)), coordinates.len(), &at));
             if has_quantities {
                 let call = self.call("motion_of_quantities", ["pose", "rates", "accelerations"]);
                 statements.push(bound("quantities", call));
-                statements.extend(stored(self.quantities(), coordinates.len() + angles.len(), &index));
+                statements.extend(stored(self.quantities(), coordinates.len() + angles.len(), &at));
             }
         }
         let list = |count| Type::List(Box::new(Type::Scalar), count);
@@ -200,7 +200,7 @@ impl<B> Lanes<'_, B> {
     }
 
     /// Statements that bind the start, the rates and the accelerations of the inputs; `place` finds the lane in a column.
-    fn bound_inputs(&self, index: &dyn Fn(Expression) -> Expression) -> [Statement; 3] {
+    fn bound_inputs(&self, at: &dyn Fn(Expression) -> Expression) -> [Statement; 3] {
         let (inputs, start) = (inputs(self.signatures), start(self.signatures, self.position));
         let types = &self.signatures.types;
         let of_start = if self.position.is_closed { &types.inputs } else { &types.coordinates };
@@ -208,7 +208,7 @@ impl<B> Lanes<'_, B> {
         let mut by_name = |of: &String, names: &[&Name]| {
             let members = names.iter().zip(&mut columns);
             let members = members.map(|(name, column)| {
-                (name.field.clone(), index(Expression::Index(Box::new(Expression::name("given")), column)))
+                (name.field.clone(), at(Expression::Index(Box::new(Expression::name("given")), column)))
             });
             let mut members: Vec<(String, Expression)> = members.collect();
             // A struct without fields has its scalar as a mark.
@@ -238,8 +238,8 @@ impl<B> Lanes<'_, B> {
 fn stored(
     values: impl Iterator<Item = Expression>,
     from: usize,
-    index: &dyn Fn(Expression) -> Expression,
+    at: &dyn Fn(Expression) -> Expression,
 ) -> Vec<Statement> {
-    let columns = (from..).map(|column| index(Expression::Index(Box::new(name("found")), column)));
+    let columns = (from..).map(|column| at(Expression::Index(Box::new(name("found")), column)));
     columns.zip(values).map(|(column, value)| Statement::Assign(column, value)).collect()
 }

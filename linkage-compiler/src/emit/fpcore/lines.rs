@@ -20,9 +20,9 @@ pub(super) fn code(
     table: &mut Table,
 ) -> KernelCode {
     let mut results = Vec::new();
-    value.each_number("", &mut |path, index| results.push((path.to_owned(), index)));
+    value.each_number("", &mut |path, id| results.push((path.to_owned(), id)));
     // An argument or a constant as a result is exact.
-    results.retain(|(_, index)| !operations.is_leaf(*index));
+    results.retain(|(_, id)| !operations.is_leaf(*id));
     let uses = Uses::of(operations, checks, &results);
     if results.is_empty() {
         return KernelCode::default();
@@ -31,10 +31,10 @@ pub(super) fn code(
     let mut names = Names { operations, table, taken: Taken::new(&reserved), nodes: vec![None; count] };
     names.arguments(mechanism, &uses);
     let mut steps = Vec::new();
-    for index in operations.ids().filter(|index| uses.is_used(*index)) {
-        let formula = names.formula(index);
-        names.nodes[index.index()] = Some(if uses.has_line[index.index()] {
-            let name = names.unique(operations.preferred(index).unwrap_or("value"));
+    for id in operations.ids().filter(|id| uses.is_used(*id)) {
+        let formula = names.formula(id);
+        names.nodes[id.index()] = Some(if uses.has_line[id.index()] {
+            let name = names.unique(operations.preferred(id).unwrap_or("value"));
             steps.push([name, formula]);
             name
         } else {
@@ -44,7 +44,7 @@ pub(super) fn code(
     KernelCode {
         steps,
         checks: checks.iter().map(|Check { word, of }| (*word, names.all(of))).collect(),
-        results: results.into_iter().map(|(path, index)| (ascii(&path), names.node(index))).collect(),
+        results: results.into_iter().map(|(path, id)| (ascii(&path), names.node(id))).collect(),
     }
 }
 
@@ -61,32 +61,32 @@ impl Uses {
         let mut uses = Self { counts: vec![0; count], has_line: vec![false; count] };
         let mut of_checks = vec![false; count];
         for check in checks {
-            check.of.iter().for_each(|index| uses.counts[index.index()] += 1);
+            check.of.iter().for_each(|id| uses.counts[id.index()] += 1);
             // The first decides the results that the check is for: it needs a name.
-            check.of.iter().take(1).for_each(|index| of_checks[index.index()] = true);
+            check.of.iter().take(1).for_each(|id| of_checks[id.index()] = true);
         }
         let mut is_inner = vec![false; count];
-        results.iter().for_each(|(_, index)| uses.counts[index.index()] += 1);
+        results.iter().for_each(|(_, id)| uses.counts[id.index()] += 1);
         // Operands come before their operations.
-        for index in operations.ids().rev() {
-            if uses.is_used(index) {
-                operations.each_operand(index, |operand| {
+        for id in operations.ids().rev() {
+            if uses.is_used(id) {
+                operations.each_operand(id, |operand| {
                     uses.counts[operand.index()] += 1;
                     is_inner[operand.index()] = true;
                 });
             }
         }
-        for index in operations.ids() {
-            let at = index.index();
-            let is_named = operations.preferred(index).is_some() && is_inner[at];
+        for id in operations.ids() {
+            let at = id.index();
+            let is_named = operations.preferred(id).is_some() && is_inner[at];
             let is_line = is_named || uses.counts[at] > 1 || of_checks[at];
-            uses.has_line[at] = is_line && !operations.is_leaf(index);
+            uses.has_line[at] = is_line && !operations.is_leaf(id);
         }
         uses
     }
 
-    fn is_used(&self, index: ValueId) -> bool {
-        self.counts[index.index()] > 0
+    fn is_used(&self, id: ValueId) -> bool {
+        self.counts[id.index()] > 0
     }
 }
 
@@ -109,16 +109,16 @@ impl Names<'_> {
         });
         for (role, field) in parameters.chain(coordinates) {
             let name = self.unique(&role.name(field));
-            if let Some(index) = self.operations.known(&role.key(std::slice::from_ref(field))) {
-                self.nodes[index.index()] = Some(name);
+            if let Some(id) = self.operations.known(&role.key(std::slice::from_ref(field))) {
+                self.nodes[id.index()] = Some(name);
             }
         }
-        let is_new = |index: &ValueId| uses.is_used(*index) && self.nodes[index.index()].is_none();
+        let is_new = |id: &ValueId| uses.is_used(*id) && self.nodes[id.index()].is_none();
         let others: Vec<ValueId> = self.operations.ids().filter(is_new).collect();
-        for index in others {
-            if matches!(self.operations.operation(index), lower::Value::Bound) {
-                let name = self.unique(self.operations.preferred(index).unwrap_or_default());
-                self.nodes[index.index()] = Some(name);
+        for id in others {
+            if matches!(self.operations.operation(id), lower::Value::Bound) {
+                let name = self.unique(self.operations.preferred(id).unwrap_or_default());
+                self.nodes[id.index()] = Some(name);
             }
         }
     }
@@ -129,18 +129,18 @@ impl Names<'_> {
     }
 
     /// The formula or name of an operation before; operands come before their operations.
-    fn node(&mut self, index: ValueId) -> Number {
-        self.nodes[index.index()].unwrap_or_else(|| self.table.decimal(f64::NAN))
+    fn node(&mut self, id: ValueId) -> Number {
+        self.nodes[id.index()].unwrap_or_else(|| self.table.decimal(f64::NAN))
     }
 
-    fn all(&mut self, indices: &[ValueId]) -> Vec<Number> {
-        indices.iter().map(|index| self.node(*index)).collect()
+    fn all(&mut self, ids: &[ValueId]) -> Vec<Number> {
+        ids.iter().map(|id| self.node(*id)).collect()
     }
 
     /// The formula of an operation whose operands have formulas.
-    fn formula(&mut self, index: ValueId) -> Number {
+    fn formula(&mut self, id: ValueId) -> Number {
         use lower::Value as V;
-        let node = match self.operations.operation(index) {
+        let node = match self.operations.operation(id) {
             V::Constant(number) => return self.constant(*number),
             V::Sum(terms) => Node::Sum(terms.iter().map(|term| (term.negative, self.node(term.value))).collect()),
             V::Product(factors) => Node::Product(self.all(factors)),
@@ -150,7 +150,7 @@ impl Names<'_> {
             V::Call(function, arguments) => {
                 Node::Call(*function, arguments.iter().map(|argument| self.node(argument.value)).collect())
             }
-            _ => return self.node(index),
+            _ => return self.node(id),
         };
         self.table.add(node)
     }
