@@ -24,7 +24,7 @@ mod functions;
 mod residual;
 mod rules;
 #[cfg(feature = "serde")]
-mod written;
+mod serialised;
 
 use core::cmp::Ordering;
 use core::fmt;

@@ -56,7 +56,7 @@ pub mod serde {
     pub use ::serde::*;
 
     pub use crate::Real;
-    pub use crate::written::direction;
+    pub use crate::serialised::direction;
 }
 
 /// Traits imported without a name, for the methods that emitted code calls.

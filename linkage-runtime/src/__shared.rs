@@ -12,9 +12,9 @@ pub use crate::linear::{Factorization, product_of_pivots, same_signs};
 pub use crate::newton::{Constraints, search};
 pub use crate::position::hadamard_ratio;
 pub use crate::scalar::{arithmetic, greatest, larger, largest, smallest, to_f64};
-pub use crate::sine::{HALF_PI, SINE_COEFFICIENTS, SINE_ERROR, sine_kernel, sine_polynomials};
 #[cfg(feature = "serde")]
-pub use crate::written::{array, columns};
+pub use crate::serialised::{array, columns};
+pub use crate::sine::{HALF_PI, SINE_COEFFICIENTS, SINE_ERROR, sine_kernel, sine_polynomials};
 
 /// Implements `Clone`, `Copy`, `PartialEq` and `Debug` field by field for a struct whose fields have associated types
 /// of its parameter: `derive` would require the traits of the parameter itself.

@@ -55,13 +55,13 @@ mod newton;
 mod number;
 pub mod position;
 mod scalar;
+#[cfg(feature = "serde")]
+mod serialised;
 mod sine;
 pub mod singularity;
 pub mod skeleton;
 mod turn;
 mod wide;
-#[cfg(feature = "serde")]
-mod written;
 
 pub use branch::{Assembled, Elbow, Side, Slider, Slope};
 pub use column::Column;

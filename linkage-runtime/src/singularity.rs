@@ -69,7 +69,7 @@ use crate::jacobian::{Blocks, largest_entries, scale_or_one};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 #[cfg(feature = "serde")]
-use crate::written::Sequence;
+use crate::serialised::Sequence;
 use crate::{Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
 use decomposition::Decomposition;
 

@@ -6,7 +6,7 @@ use core::ops::Index;
 use serde::ser::SerializeStruct;
 
 #[cfg(feature = "serde")]
-use crate::written::Sequence;
+use crate::serialised::Sequence;
 
 /// The most tangents of one change point: three parallelograms side by side, singular at once, have 2^3, seven in a
 /// chain 7 + 1. Every event takes the memory for this many sets of coordinates.

@@ -37,14 +37,14 @@ pub(super) enum Existence<T: Real, C: Dim> {
 }
 
 /// A held motion: the contacts in their modes, and the family of forces.
-pub(super) struct Held<'a, T: Real, V: Dim, C: Dim> {
+pub(super) struct HeldForces<'a, T: Real, V: Dim, C: Dim> {
     pub problem: &'a Problem<'a, T, V, C>,
     pub modes: &'a Column<Mode, C>,
     /// The contacts whose forces have bounds.
     pub is_bounded: Column<bool, C>,
 }
 
-impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
+impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     /// Searches a family for forces within all bounds.
     pub(super) fn admissible(&self, family: &Family<T, C>, budget: &mut Budget) -> Existence<T, C> {
         if self.is_admissible(&family.base) {

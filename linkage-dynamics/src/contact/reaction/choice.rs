@@ -10,7 +10,7 @@
 //! modes. So if the only motion that was found is not at a limit, there is no such curve. Closed curves between the
 //! samples are not excluded.
 
-use super::admissible::{Existence, Held};
+use super::admissible::{Existence, HeldForces};
 use super::budget::Budget;
 use super::family::Family;
 use super::modes::{Failure, in_family, samples, slipping_within};
@@ -131,7 +131,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
             }
             let (acceleration, size) = problem.acceleration(&family.base);
             let found = Found { modes: *modes, forces: family.base, acceleration, size };
-            let held = Held { problem, modes, is_bounded: modes.map(Mode::is_held) };
+            let held = HeldForces { problem, modes, is_bounded: modes.map(Mode::is_held) };
             let known = self.found.filter(|_| self.is_known(&found)).map(|known| known.forces);
             match held.admissible_from(known.as_ref(), &family, &mut self.budget) {
                 Existence::Found(forces) => self.add(Found { forces, ..found })?,
@@ -153,11 +153,12 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
         }
         let is_bounded = modes.map(Mode::is_held);
         let is_slipping = slipping_within(problem, modes);
-        let relaxed = Held { problem, modes, is_bounded: Column::from_fn(|at| is_bounded[at] || is_slipping[at]) };
+        let relaxed =
+            HeldForces { problem, modes, is_bounded: Column::from_fn(|at| is_bounded[at] || is_slipping[at]) };
         if let Existence::Excluded = relaxed.admissible(&family.relaxed(), &mut self.budget) {
             return Ok(());
         }
-        let held = Held { problem, modes, is_bounded };
+        let held = HeldForces { problem, modes, is_bounded };
         if is_still && let Some(forces) = in_family(&held, family, &mut self.budget) {
             return self.add(Found { forces, ..found });
         }
@@ -253,7 +254,7 @@ fn by_updates<T: Real, V: Dim, C: Dim>(
     at_rest: &Column<Option<Mode>, C>,
 ) -> Option<Column<Mode, C>> {
     let held = Column::from_fn(|place| at_rest[place].unwrap_or(modes[place]));
-    let search = Held { problem, modes: &held, is_bounded: at_rest.map(|side| side.is_some()) };
+    let search = HeldForces { problem, modes: &held, is_bounded: at_rest.map(|side| side.is_some()) };
     let sign = |place: usize| if modes[place] == Mode::SlipForward { -T::one() } else { T::one() };
     let is_slipping = slipping_within(problem, modes);
     let mut forces = problem.given(&held);

@@ -1,6 +1,6 @@
 //! The forces in given modes, where the slipping ones depend on those of held contacts.
 
-use super::admissible::{Existence, Held};
+use super::admissible::{Existence, HeldForces};
 use super::budget::Budget;
 use super::family::Family;
 use super::problem::Problem;
@@ -78,7 +78,7 @@ pub(super) fn in_modes<T: Real, V: Dim, C: Dim>(
 ) -> Result<InModes<T, C>, Failure> {
     let mut budget = Budget::new();
     let family = Family::new(problem, modes);
-    let held = Held { problem, modes, is_bounded: modes.map(Mode::is_held) };
+    let held = HeldForces { problem, modes, is_bounded: modes.map(Mode::is_held) };
     let is_redundant = family.spares > 0;
     if is_redundant && family.is_coupled(problem) {
         if !family.is_still(problem) {
@@ -159,7 +159,7 @@ pub(super) fn slipping_within<T: Real, V: Dim, C: Dim>(
 /// Forces within their bounds where the slipping forces depend on those of redundant contacts: both are updated until
 /// they repeat, or some samples are tried.
 pub(super) fn in_family<T: Real, V: Dim, C: Dim>(
-    held: &Held<'_, T, V, C>,
+    held: &HeldForces<'_, T, V, C>,
     family: &Family<T, C>,
     budget: &mut Budget,
 ) -> Option<Column<T, C>> {
@@ -183,7 +183,7 @@ pub(super) fn in_family<T: Real, V: Dim, C: Dim>(
 
 /// Forces within their bounds at some forces of the redundant contacts, each alone.
 pub(super) fn samples<'a, T: Real, V: Dim, C: Dim>(
-    held: &'a Held<'_, T, V, C>,
+    held: &'a HeldForces<'_, T, V, C>,
     family: &'a Family<T, C>,
     budget: &'a mut Budget,
 ) -> impl Iterator<Item = Column<T, C>> + 'a {

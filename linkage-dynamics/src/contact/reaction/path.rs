@@ -8,7 +8,7 @@
 //! slip forward and d_i = sign(a_i) (f_i - f*_i) for forces f that hold. Then d_i >= -sum_j G_ij |d_j|, so that
 //! sum |a_i| d_i >= 0; but forces that hold are against the motion: sum |a_i| d_i < 0.
 
-use super::admissible::{Existence, Held};
+use super::admissible::{Existence, HeldForces};
 use super::problem::length;
 use crate::contact::Mode;
 use crate::contact::tolerance::held_tolerance;
@@ -20,7 +20,7 @@ const MOST_ITERATIONS: usize = 500;
 
 /// The path of the forces of all held contacts.
 struct Path<'a, T: Real, V: Dim, C: Dim> {
-    held: &'a Held<'a, T, V, C>,
+    held: &'a HeldForces<'a, T, V, C>,
     /// The contact whose s is the motion.
     pivot: usize,
     /// a, zero for contacts that are not held.
@@ -29,7 +29,7 @@ struct Path<'a, T: Real, V: Dim, C: Dim> {
     moving: Column<T, C>,
 }
 
-impl<T: Real, V: Dim, C: Dim> Held<'_, T, V, C> {
+impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     /// Decides whether frictions of one motion hold; None if this needs a search. `start` has the forces of the other
     /// contacts.
     pub(super) fn on_path(&self, start: &Column<T, C>) -> Option<Existence<T, C>> {
