@@ -105,7 +105,7 @@ snapshots! {
 
 // Scenes.
 snapshots! {
-    scene_kinematics: "five_bar_scenes" "Pair" ["ratio_columns", "coordinate_rates", "kinematics_at"];
+    scene_kinematics: "five_bar_scenes" "Pair" ["ratio_columns", "coordinate_rates", "reduced_motion"];
     scene_inertia: "five_bar_scenes" "Free" ["reduced_inertia"];
     scene_effects: "five_bar_scenes" "Free" ["effects", "reduced_forces"];
     scene_equations: "five_bar_scenes" "Free" ["rates", "mass_matrix", "forces"];

@@ -10,7 +10,7 @@ use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, PositionErro
 
 /// Values shared by the functions of a scene, at one position and one set of input rates.
 #[derive(Debug, Clone, Copy)]
-pub struct Kinematics<P, R, T, const U: usize, const V: usize> {
+pub struct ReducedMotion<P, R, T, const U: usize, const V: usize> {
     /// The position.
     pub pose: P,
     /// W, column by column.

@@ -334,10 +334,10 @@ impl ToTokens for Type {
                 quote!(__rt::Column<#item, __rt::D<#count>>)
             }
             Self::Tuple(items) => quote!((#(#items),*)),
-            Self::Kinematics { pose, rates, unknowns, inputs } => {
+            Self::ReducedMotion { pose, rates, unknowns, inputs } => {
                 let [pose, rates] = [pose, rates].map(|name| ident(name));
                 let [unknowns, inputs] = [unknowns, inputs].map(|count| literal(*count));
-                quote!(__rt::Kinematics<#pose<T>, #rates<T>, T, #unknowns, #inputs>)
+                quote!(__rt::ReducedMotion<#pose<T>, #rates<T>, T, #unknowns, #inputs>)
             }
             Self::StateRates { rates, inputs } => {
                 let [rates, inputs] = [rates, inputs].map(|name| ident(name));

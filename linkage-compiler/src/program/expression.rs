@@ -173,8 +173,8 @@ pub enum Type {
     Around(&'static str, Box<Type>),
     List(Box<Type>, usize),
     Tuple(Vec<Type>),
-    /// `Kinematics<Pose, Rates, T, U, V>`: the values that functions of scenes share.
-    Kinematics {
+    /// `ReducedMotion<Pose, Rates, T, U, V>`: the values that functions of scenes share.
+    ReducedMotion {
         pose: String,
         rates: String,
         unknowns: usize,

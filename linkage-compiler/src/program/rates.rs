@@ -103,7 +103,7 @@ impl Plan<'_, '_> {
         }
         self.ratio_columns();
         self.coordinate_rates();
-        self.kinematics_at();
+        self.reduced_motion();
     }
 
     fn ratio_columns(&mut self) {
@@ -144,8 +144,8 @@ impl Plan<'_, '_> {
         self.add(self.signatures.coordinate_rates(), without_result(lines([text])), body);
     }
 
-    /// `kinematics_at`: the pose, W, q' and u'' at v'' = 0.
-    fn kinematics_at(&mut self) {
+    /// `reduced_motion`: the pose, W, q' and u'' at v'' = 0.
+    fn reduced_motion(&mut self) {
         let Arguments { q, input_rates, pose, ratios, rates, error_name, .. } = self.signatures.arguments.clone();
         let names = self.derivation.scenes.first().map(|scene| scene.bias.clone()).unwrap_or_default();
         let side = self.derivation.bias_side();
@@ -179,9 +179,9 @@ impl Plan<'_, '_> {
         let bias = Expression::List(results(0..names.len()));
         let members = [("pose", name(&pose)), ("ratios", name(&ratios)), ("rates", name(&rates)), ("bias", bias)];
         let members = members.map(|(field, value)| (field.to_owned(), value));
-        let value = Expression::structure(Type::Runtime("Kinematics", Vec::new()), members);
+        let value = Expression::structure(Type::Runtime("ReducedMotion", Vec::new()), members);
         let body = Body { before: before.to_vec(), ..Body::of(kernel, value) };
-        let mut signature = self.signatures.kinematics_at();
+        let mut signature = self.signatures.reduced_motion();
         signature.is_fallible = is_fallible;
         if !is_fallible {
             signature.arguments.pop();

@@ -182,9 +182,9 @@ impl ScenePlan<'_, '_, '_> {
             let read = found.into_iter().filter(|(read, ..)| reads.contains(read));
             let fields = read.map(|(_, field, name)| (field.to_owned(), Pattern::name(name.clone())));
             let fields: Vec<_> = fields.collect();
-            let of = Type::Runtime("Kinematics", Vec::new());
+            let of = Type::Runtime("ReducedMotion", Vec::new());
             let pattern = Pattern::Struct { of, is_whole: fields.len() == found.len(), fields };
-            let call = self.driver_call("kinematics_at", vec![Expression::name(&arguments.q), input_rates]);
+            let call = self.driver_call("reduced_motion", vec![Expression::name(&arguments.q), input_rates]);
             body.before.push(Statement::Let(pattern, call));
             return body;
         }

@@ -80,14 +80,14 @@ impl Signatures<'_> {
     }
 
     /// The pose, W, q', and u'' at v'' = 0.
-    pub fn kinematics_at(&self) -> Function<Body> {
+    pub fn reduced_motion(&self) -> Function<Body> {
         let arguments = [self.coordinates(Order::Value), self.input_rates(), self.error_name()];
-        let of = Type::Kinematics {
+        let of = Type::ReducedMotion {
             pose: self.types.pose.clone(),
             rates: self.types.rates.clone(),
             unknowns: self.unknowns(),
             inputs: self.inputs(),
         };
-        layer(fallible("kinematics_at", arguments, of))
+        layer(fallible("reduced_motion", arguments, of))
     }
 }
