@@ -151,7 +151,7 @@ impl Page {
                 }
                 let (several, verb) = if group.equations.len() == 1 { ("", "gives") } else { ("s", "give") };
                 page.push(&format!(
-                    "<p class=\"group\">{}</p><p>Equation{several} {links} {verb} {}.</p>",
+                    "<p class=\"kind\">{}</p><p>Equation{several} {links} {verb} {}.</p>",
                     escape(&sentence(group.kind)),
                     list(group.unknowns.iter()),
                 ));
