@@ -31,7 +31,7 @@ fn functions<'f>(of: &str, functions: impl IntoIterator<Item = &'f Function<Code
     text + "\n"
 }
 
-/// A function: its signature, its operations, its rounding errors, and its statements.
+/// A function: its signature, its operation counts, how large its rounding errors can be, and its statements.
 #[must_use]
 pub fn function_as_text(function: &Function<Code>) -> String {
     let mut text = String::new();

@@ -61,8 +61,8 @@ pub enum Fault {
 }
 
 /// The largest magnitude of an exponent. A power loses as many bits as its exponent has: with 20 of 53 there is a value
-/// left. Derivatives add exponents, and bounds of rounding errors multiply them as well: the results are in the range of
-/// `i32`.
+/// left. Derivatives add exponents, and the bound of a rounding error multiplies them: the results stay in
+/// the range of `i32`.
 pub const LARGEST_EXPONENT: i32 = 1 << 20;
 
 /// A condition that a cancellation assumes: where it fails, the original expression is undefined, although the

@@ -6,7 +6,7 @@
 //! 2. `sharing`: common pairs of operands are computed once;
 //! 3. `joined`: what is used once is written where it is used;
 //! 4. `factors`, `terms`, `order`: the order of factors, terms and lines ([`Schedule`]);
-//! 5. `operations`, `rounding`: rounding errors are bounded;
+//! 5. `operations`, `rounding`: a kernel's operations are counted, and its largest rounding errors found;
 //! 6. `lines`, `signs`, `sources`, `chords`, `modes`: lines become statements of [`Code`], and signs return to where they
 //!    are written;
 //! 7. `proven`: results that are finite if the checks pass; `planned`, `checks`: what the plan has around the kernel;
