@@ -7,16 +7,13 @@
 //! the size of the scene. Smooth scenes are timed in `derivative`; those with frictions and stops as an integrator
 //! does: `equations`, `contacts`, and the solution for the acceleration in given modes.
 
-#[path = "../tests/source/work.rs"]
-mod work;
-
 use std::hint::black_box;
 use std::time::Instant;
 
 use linkage::contact::{Contacts, ReducedEquations};
 use linkage::{Column, D, Mode, MotionError, PerInput, Scene, StateParts};
 use linkage_compiler::program::Operations;
-use work::{Work, work};
+use linkage_tests::work::{Work, work};
 
 use linkage_gallery::four_bar_effects::*;
 

@@ -11,7 +11,6 @@ use linkage::drawing::Drawing;
 use linkage::nalgebra::{SMatrix, SVector, Vector2};
 use linkage::{PositionError, linkage, position};
 
-#[path = "output/mod.rs"]
 mod output;
 
 linkage! {

@@ -8,7 +8,6 @@ use linkage::drawing::Drawing;
 use linkage::sheet::Sheet;
 use linkage::{Document, linkage};
 
-#[path = "output/mod.rs"]
 mod output;
 
 linkage! {

@@ -46,7 +46,7 @@ const CALLS: u64 = 1000;
 
 /// Builds a program; returns its path.
 fn built(name: &str) -> PathBuf {
-    let root = env!("CARGO_MANIFEST_DIR");
+    let root = linkage_tests::ROOT;
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
@@ -102,7 +102,7 @@ fn a_scene_takes_no_more_than_its_hand_written_twin() {
 #[test]
 fn functions_take_what_the_table_says() {
     let program = built("kernels");
-    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/instructions.tsv");
+    let table = Path::new(linkage_tests::ROOT).join("tests/instructions.tsv");
     let committed = fs::read_to_string(&table).unwrap();
     let mut found = String::from("mechanism\tfunction\tinstructions\n");
     let mut wrong = Vec::new();

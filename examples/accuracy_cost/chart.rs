@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use crate::comparison::Comparison;
-use crate::price::axes::{self, Axes, LEFT};
-use crate::price::frontier::Prices;
 use crate::{METHODS, QUANTITIES};
+use linkage_examples::price::axes::{self, Axes, LEFT};
+use linkage_examples::price::frontier::Prices;
 
 /// The size of a panel, in pixels.
 pub const SIZE: [f64; 2] = [340.0, 240.0];

@@ -2,10 +2,10 @@
 
 use linkage::PositionError;
 
-use crate::dominance::dominated;
 use crate::motion::Motion;
-use crate::oracle::Poses;
-use crate::price::frontier::{Price, Prices, frontier};
+use linkage_examples::accuracy_cost::dominance::dominated;
+use linkage_examples::accuracy_cost::oracle::Poses;
+use linkage_examples::price::frontier::{Price, Prices, frontier};
 
 /// The computed quantities, by order of derivative.
 pub const QUANTITIES: [&str; 3] = ["position", "velocity", "acceleration"];

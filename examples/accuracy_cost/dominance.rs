@@ -1,6 +1,6 @@
 //! Dominated methods.
 
-use super::frontier::{Price, Prices, SAME_ERROR};
+use crate::price::frontier::{Price, Prices, SAME_ERROR};
 
 /// Times within this factor count as equal: their order changes from run to run.
 const SAME_TIME: f64 = 1.1;

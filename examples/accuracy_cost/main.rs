@@ -7,27 +7,23 @@
 use std::error::Error;
 
 mod chart;
-mod dominance;
 #[macro_use]
 mod methods;
 mod comparison;
 mod motion;
-mod oracle;
-#[path = "../output/mod.rs"]
-mod output;
 mod page;
 mod predicted;
 mod prediction;
-#[path = "../price/mod.rs"]
-mod price;
 
 mod double_butterfly;
 mod four_bar;
 mod jansen;
 
+use linkage_examples::output;
+use linkage_examples::price::frontier;
+
 use comparison::{Comparison, Point, QUANTITIES, Work};
 use prediction::Machine;
-use price::frontier;
 
 /// All methods, in the order of the tables.
 const METHODS: [&str; 10] = [

@@ -8,7 +8,7 @@ use linkage::accuracy::{Newton, PositionMethod, Reached};
 use linkage::{Assembly, D, Mechanism, PerUnknown, PositionError, Real, position};
 
 use super::comparison::{Point, Work};
-use super::oracle::Case;
+use linkage_examples::accuracy_cost::oracle::Case;
 
 /// A position found as coordinates.
 pub type Near<M> = Reached<<M as Mechanism>::Coordinates, <M as Mechanism>::Pose>;
@@ -155,7 +155,7 @@ macro_rules! works {
         use linkage_double::DoubleDouble;
 
         use super::methods::{self, Shared, ToTolerance, near};
-        use super::oracle::{Case, poses_of};
+        use linkage_examples::accuracy_cost::oracle::{Case, poses_of};
         use super::comparison::{Work, points};
         use super::prediction::{Counts, Machine};
 

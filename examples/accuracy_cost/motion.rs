@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::comparison::{Point, QUANTITIES, Work};
-use crate::price::axes::{LEFT, decades};
 use crate::{METHODS, chart::SIZE};
+use linkage_examples::price::axes::{LEFT, decades};
 
 /// The margins above, below and right of the curves, in pixels; right of them stand the numbers of the methods.
 const TOP: f64 = 30.0;

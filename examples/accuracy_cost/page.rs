@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use crate::comparison::Comparison;
-use crate::price::{self, axes};
 use crate::{METHODS, WANTED, answer, chart, describe, motion, predicted};
+use linkage_examples::price::{self, axes};
 
 pub fn html(comparisons: &[Comparison]) -> String {
     let mut html = format!(

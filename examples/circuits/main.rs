@@ -10,10 +10,9 @@ use linkage::continuation::Options;
 use linkage::drawing::CircuitChart;
 use linkage::skeleton::Skeleton;
 use linkage::{Branches, D};
+use linkage_examples::output;
 
 mod machines;
-#[path = "../output/mod.rs"]
-mod output;
 mod page;
 
 use machines::{DoubleButterfly, FourBar, GearedFiveBar, Parallelogram, SliderCrank, StephensonI, Triad};

@@ -5,13 +5,11 @@
 
 use std::error::Error;
 
+use linkage_examples::output;
+
 mod locking;
 mod machine;
-#[path = "../output/mod.rs"]
-mod output;
 mod pictures;
-#[path = "../plot/mod.rs"]
-mod plot;
 
 use locking::{stays, toggle, way, wedge};
 

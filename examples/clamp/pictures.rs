@@ -5,7 +5,7 @@ use linkage::nalgebra::{Point2, point, vector};
 use linkage::simulation::{Start, simulate};
 
 use crate::locking::{toggle, torques, way, wedge};
-use crate::plot::{self, Plot};
+use linkage_examples::plot::{self, Plot};
 
 /// Frames of an animation, and its duration in seconds.
 const FRAMES: u32 = 60;

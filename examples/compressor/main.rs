@@ -5,14 +5,12 @@
 
 use std::error::Error;
 
+use linkage_examples::output;
+
 mod balance;
 mod loads;
 mod machine;
-#[path = "../output/mod.rs"]
-mod output;
 mod pictures;
-#[path = "../plot/mod.rs"]
-mod plot;
 
 use balance::{balanced, by_both, by_counterweight, shaking};
 use loads::Loads;

@@ -9,7 +9,7 @@ use linkage::nalgebra::{Point2, Vector2, point};
 use crate::Balanced;
 use crate::loads::{BRANCH, Loads};
 use crate::machine::{Compressor, Running};
-use crate::plot::{self, Plot};
+use linkage_examples::plot::{self, Plot};
 
 /// Frames of the animation, and its duration in seconds: slow motion.
 const FRAMES: u32 = 72;

@@ -4,8 +4,8 @@ use linkage::contact::Change;
 use linkage::simulation::{Start, State, simulate};
 use linkage::{Elbow, Error};
 
-use crate::gauss::nodes;
-use crate::machine::{Closing, DoorCloserBranch, DoorCloserCoordinates, DoorCloserInputs};
+use super::machine::{Closing, DoorCloserBranch, DoorCloserCoordinates, DoorCloserInputs};
+use crate::quadrature::nodes;
 
 pub type Moment = State<Closing>;
 

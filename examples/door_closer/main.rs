@@ -4,18 +4,11 @@
 
 use std::error::Error;
 
-mod closing;
-#[path = "../quadrature/mod.rs"]
-mod gauss;
-mod machine;
-#[path = "../output/mod.rs"]
-mod output;
 mod pictures;
-#[path = "../plot/mod.rs"]
-mod plot;
 
-use closing::Run;
-use machine::Closing;
+use linkage_examples::door_closer::closing::Run;
+use linkage_examples::door_closer::machine::Closing;
+use linkage_examples::output;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let run = Run::new(Closing::default(), 100_f64.to_radians())?;

@@ -4,8 +4,8 @@ use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, point};
 use linkage::simulation::{Start, simulate};
 
-use crate::closing::{END, Moment, Run};
-use crate::plot::{self, Plot};
+use linkage_examples::door_closer::closing::{END, Moment, Run};
+use linkage_examples::plot::{self, Plot};
 
 /// Frames per second of the animation, which runs in real time.
 const FRAMES: u32 = 16;

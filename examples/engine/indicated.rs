@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use linkage::{Error, Slider};
 
-use crate::gauss::nodes;
-use crate::machine::{CYCLE, EngineBranch, KINKS, Running};
+use super::machine::{CYCLE, EngineBranch, KINKS, Running};
+use crate::quadrature::nodes;
 
 /// The work of the gas (integral of p dV) and the heat of the rings (integral of friction times distance).
 ///

@@ -3,8 +3,8 @@
 use linkage::nalgebra::Vector2;
 use linkage::{ContactLaw, Error};
 
-use crate::machine::Running;
-use crate::run::Moment;
+use super::machine::Running;
+use super::run::Moment;
 
 /// Forces in newtons and torques in newton metres at one time; x along the cylinder.
 #[derive(Debug, Clone, Copy)]

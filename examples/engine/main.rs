@@ -5,21 +5,13 @@
 
 use std::error::Error;
 
-#[path = "../quadrature/mod.rs"]
-mod gauss;
-mod indicated;
-mod loads;
-mod machine;
-#[path = "../output/mod.rs"]
-mod output;
 mod pictures;
-#[path = "../plot/mod.rs"]
-mod plot;
-mod run;
 
-use loads::Loads;
-use machine::{CYCLE, Running};
-use run::{Moment, Run};
+use linkage_examples::engine::indicated;
+use linkage_examples::engine::loads::Loads;
+use linkage_examples::engine::machine::{CYCLE, Running};
+use linkage_examples::engine::run::{Moment, Run};
+use linkage_examples::output;
 
 /// The number of four-stroke cycles.
 const CYCLES: f64 = 20.0;

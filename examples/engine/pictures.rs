@@ -5,10 +5,10 @@ use linkage::nalgebra::{Point2, Vector2, point, vector};
 use linkage::simulation::{Start, simulate};
 use linkage::{PositionError, Slider};
 
-use crate::loads::Loads;
-use crate::machine::{CYCLE, Engine, EngineBranch, EngineCoordinates};
-use crate::plot::{self, Plot};
-use crate::run::{Moment, Run};
+use linkage_examples::engine::loads::Loads;
+use linkage_examples::engine::machine::{CYCLE, Engine, EngineBranch, EngineCoordinates};
+use linkage_examples::engine::run::{Moment, Run};
+use linkage_examples::plot::{self, Plot};
 
 /// Frames of the animation for one cycle, and its duration in seconds: slow motion.
 const FRAMES: u32 = 96;

@@ -4,8 +4,8 @@ use linkage::Error;
 use linkage::integrate::Crossing;
 use linkage::simulation::{Start, State, Then, simulate};
 
-use crate::gauss::nodes;
-use crate::machine::{EngineInputs, KINKS, Running, START};
+use super::machine::{EngineInputs, KINKS, Running, START};
+use crate::quadrature::nodes;
 
 pub type Moment = State<Running>;
 
@@ -111,7 +111,7 @@ impl Run {
 
     /// The states of the last `count` cycles.
     pub fn last_cycles(&self, count: f64) -> &[Moment] {
-        let from = self.moments[self.moments.len() - 1].q.phi - count * crate::machine::CYCLE;
+        let from = self.moments[self.moments.len() - 1].q.phi - count * super::machine::CYCLE;
         &self.moments[self.moments.partition_point(|state| state.q.phi < from)..]
     }
 }

@@ -9,8 +9,6 @@ use std::error::Error;
 #[macro_use]
 mod figure;
 mod names;
-#[path = "../output/mod.rs"]
-mod output;
 mod page;
 
 mod cams;
@@ -21,6 +19,7 @@ mod straight_lines;
 mod wheels;
 
 use figure::Figure;
+use linkage_examples::output;
 
 /// A family of mechanisms.
 pub struct Family {

@@ -13,14 +13,11 @@ mod fates;
 mod gait;
 mod legs;
 mod machine;
-#[path = "../output/mod.rs"]
-mod output;
 mod page;
 mod study;
-#[path = "../plot/ticks.rs"]
-mod ticks;
 
 use legs::Walker;
+use linkage_examples::output;
 use study::Study;
 
 fn main() -> Result<(), Box<dyn Error>> {

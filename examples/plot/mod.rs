@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-mod ticks;
+pub mod ticks;
 
 use ticks::{label, nice, ticks};
 

@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::list::{ACCELERATIONS, List, METHODS, REAL_TIME, SIMULATE_8};
-use super::price::axes::{self, Axes, LEFT};
-use super::price::frontier::Price;
 use super::report::setting;
+use crate::price::axes::{self, Axes, LEFT};
+use crate::price::frontier::Price;
 
 /// The size of a panel, in pixels.
 const SIZE: [f64; 2] = [400.0, 320.0];

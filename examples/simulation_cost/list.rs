@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::price::frontier::{Price, Prices, cheapest, frontier};
+use crate::price::frontier::{Price, Prices, cheapest, frontier};
 
 /// A curve of the charts.
 pub struct Method {

@@ -7,21 +7,7 @@
 
 use std::error::Error;
 
-mod chart;
-mod fixed_steps;
-mod formulations;
-mod four_bars;
-mod integrators;
-mod list;
-#[path = "../output/mod.rs"]
-mod output;
-mod page;
-#[path = "../price/mod.rs"]
-mod price;
-mod problem;
-mod problems;
-mod reading;
-mod report;
+use linkage_examples::simulation_cost::report;
 
 fn main() -> Result<(), Box<dyn Error>> {
     report::write(report::Problems::new().works())

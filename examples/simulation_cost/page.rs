@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use super::chart;
 use super::list::{List, METHODS};
-use super::price::{self, axes};
 use super::reading::Paragraph;
 use super::report::setting;
+use crate::price::{self, axes};
 
 /// Additions to the shared style.
 const STYLE: &str = ".legend{list-style:none;columns:17rem;max-width:64rem;margin:1rem 0 0;padding:0}\

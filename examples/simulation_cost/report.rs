@@ -5,7 +5,8 @@ use std::rc::Rc;
 
 use super::list::{ACCELERATIONS, List, METHODS, PROJECTED, REAL_TIME, Setting, WEAKLY, Work};
 use super::problem::Problem;
-use super::{chart, fixed_steps, four_bars, integrators, output, page, problems, reading};
+use super::{chart, fixed_steps, four_bars, integrators, page, problems, reading};
+use crate::output;
 
 /// The squeezer, the windows, the four-bar with a spring and the turning one.
 pub struct Problems {

@@ -2,19 +2,14 @@
 //! it emits is Rust.
 #![no_main]
 
-#[path = "../../tests/source/expanded.rs"]
-mod expanded;
-#[path = "../../tests/source/mutants.rs"]
-mod mutants;
-
 use std::panic;
 use std::path::Path;
 
-use expanded::{expanded, parsed};
 use libfuzzer_sys::fuzz_target;
 use linkage_compiler::budget::Budget;
 use linkage_fuzz::Bytes;
-use mutants::{Mutator, corpus};
+use linkage_tests::expanded::{expanded, parsed};
+use linkage_tests::mutants::{Mutator, corpus};
 use proc_macro2::TokenStream;
 
 thread_local! {

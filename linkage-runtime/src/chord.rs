@@ -10,12 +10,12 @@ use crate::{PositionError, Real, real};
 /// are in line.
 ///
 /// Limits of an input are then off by up to 1.9 ulp times their condition number; with 1.5 by up to 3.2, with 2 by up
-/// to 4.0 (`tests/limits_to_forty_digits.rs`). With 0, links in line whose lengths are rounded decimals do not reach
+/// to 4.0 (`tests/digits/limits_to_forty_digits.rs`). With 0, links in line whose lengths are rounded decimals do not reach
 /// each other.
 const TOUCHING_ULPS: f64 = 1.0;
 
 /// A distance of at most this many ulps of the sum of the magnitudes of its terms counts as zero. The joints of the
-/// test mechanisms are accurate to three ulp of that sum times their condition number (`tests/forty_digits`). With 0, two
+/// test mechanisms are accurate to three ulp of that sum times their condition number (`tests/digits/forty_digits`). With 0, two
 /// joints at one place would count as apart, because their positions are rounded; with more, positions that still have
 /// correct digits are rejected.
 pub const COINCIDENT_ULPS: f64 = 8.0;

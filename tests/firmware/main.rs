@@ -11,8 +11,6 @@
 
 #![cfg(target_os = "linux")]
 
-#[path = "../source/every.rs"]
-mod every;
 mod graph;
 mod wrappers;
 
@@ -90,7 +88,7 @@ fn libraries(folder: &Path, level: &str) -> Vec<PathBuf> {
 
 #[test]
 fn emitted_functions_cannot_panic() {
-    let root = env!("CARGO_MANIFEST_DIR");
+    let root = linkage_tests::ROOT;
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
     fs::create_dir_all(folder.join("src")).unwrap();
     let manifest = ("Cargo.toml".to_owned(), MANIFEST.replace("ROOT", root));

@@ -8,7 +8,7 @@ use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::{FnArg, ImplItem, Item, ItemImpl, PathArguments, ReturnType, Type, TypeParamBound, Visibility};
 
-use crate::every::{self, Expansion};
+use linkage_tests::every::{self, Expansion};
 
 /// The files of the library by name, and how many functions of emitted code are wrapped in them.
 pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {

@@ -1,7 +1,5 @@
 //! `derive serde`: the emitted types and those of the runtime, written and read with serde.
 
-#![cfg(feature = "serde")]
-
 mod invalid;
 mod runtime;
 mod written_only;

@@ -136,8 +136,8 @@ fn a_mistake_has_one_message() {
             "../.ci/run is not read: cannot parse string into token stream; write the path of a Rust file".to_owned(),
         ),
         (
-            &["../tests/ui/missing_semicolon.rs", "groups"],
-            "../tests/ui/missing_semicolon.rs: expected `;` before this".to_owned(),
+            &["../tests/messages/ui/missing_semicolon.rs", "groups"],
+            "../tests/messages/ui/missing_semicolon.rs: expected `;` before this".to_owned(),
         ),
         (&[], super::usage()),
     ];

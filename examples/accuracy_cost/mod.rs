@@ -1,0 +1,4 @@
+//! Errors and times of ways to positions, velocities and accelerations.
+
+pub mod dominance;
+pub mod oracle;

@@ -1,0 +1,7 @@
+//! Emitted code computes the derived expressions, and these are right: also by other ways to write a mechanism.
+
+mod agreement;
+mod implied;
+mod orders;
+mod three_ways;
+mod unreduced;

@@ -1,0 +1,4 @@
+//! Formulas, velocities and motions over intervals.
+
+mod certificates;
+mod intervals;

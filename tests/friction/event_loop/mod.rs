@@ -1,0 +1,86 @@
+//! Simulations with contacts, compared with an oracle: an event loop that shares nothing with the library but the
+//! laws.
+//!
+//! Six families of random scenes, half of them with round numbers: balls on shaken tables, blocks on belts, carts
+//! with buffers, sliders in a row, slider-cranks between stops, double pendulums on a floor. Each is simulated at
+//! three tolerances and compared at thirteen random times, coordinates and rates.
+//!
+//! The oracle has other coordinates than the scene, and finds accelerations and impacts by trying all combinations
+//! of modes. The allowed error is a thousand tolerances of the size, or of what a start that is moved by a
+//! tolerance changes in the oracle: see `compare`. Two cases are counted, not asserted:
+//! - *lenient*: a start moved by a thousand tolerances changes the result by more than a tenth of its size;
+//! - *collapsed*: a body has rattled between two others, so that infinitely many impacts end at one time, within
+//!   the rounding error of which the last impacts have any order.
+//!
+//! 10 002 scenes, 30 006 simulations:
+//!
+//! | family | runs | events in the oracle | numbers compared | by sensitivity | lenient | collapsed | beyond | largest ratio | typed errors |
+//! |---|---|---|---|---|---|---|---|---|---|
+//! | table | 5001 | 21240 | 260052 | 13 | 0 | 0 | 0 | 0.40 | none |
+//! | belt | 5001 | 9003 | 260052 | 186 | 5 | 0 | 0 | 0.99 | none |
+//! | carts | 5001 | 33606 | 390078 | 215 | 1 | 152 | 0 | 0.99 | none |
+//! | sliders | 5001 | 32962 | 390078 | 92 | 26 | 19 | 0 | 1.00 | none |
+//! | crank | 5001 | 12519 | 390078 | 20 | 0 | 0 | 0 | 0.99 | none |
+//! | pendulum | 5001 | 16565 | 260052 | 35 | 0 | 0 | 0 | 1.00 | none |
+//!
+//! *By sensitivity* are the numbers whose error exceeds a thousand tolerances of their size; the ratio is that of an error to
+//! its bound. These motions can all go on, so that each typed error is a fault.
+//!
+//! The lenient numbers are of belts 128, 186, carts 1562 and sliders 18, 288, 932: their errors are at most ten times what a
+//! start changes that is moved by one tolerance. The collapsed ones are of five scenes. In carts 254 the last impacts of
+//! the series are 2e-13 s apart, at a gap of 9e-15 m, which is below the resolution of the places, so that they are one
+//! event. Carts 749 and sliders 513, 1121, 1189 differ at 1e-11 only, by 3e-7 m/s or less: there the series ends where its
+//! rates are sqrt(epsilon) of the greatest.
+//!
+//! ```text
+//! SCENES=10000 cargo test --release --all-features --test friction event_loop -- --nocapture
+//! ```
+
+mod belt;
+mod carts;
+mod compare;
+mod crank;
+mod oracle;
+mod pendulum;
+mod sliders;
+mod table;
+
+use compare::{Family, compared};
+
+/// The number of scenes of each family, without `SCENES`.
+const SCENES: usize = 30;
+
+fn check<F: Family>() {
+    let counts = compared::<F>(SCENES);
+    assert_eq!((counts.beyond, counts.errors.len(), counts.not_followed.len()), (0, 0, 0), "{counts:?}");
+}
+
+#[test]
+fn balls_on_shaken_tables() {
+    check::<table::Ball>();
+}
+
+#[test]
+fn blocks_on_belts() {
+    check::<belt::Block>();
+}
+
+#[test]
+fn carts_with_buffers() {
+    check::<carts::Train>();
+}
+
+#[test]
+fn sliders_in_a_row() {
+    check::<sliders::Sliders>();
+}
+
+#[test]
+fn slider_cranks_between_stops() {
+    check::<crank::Engine>();
+}
+
+#[test]
+fn double_pendulums_on_a_floor() {
+    check::<pendulum::Rods>();
+}

@@ -1,0 +1,5 @@
+//! The project itself: packages, imports, the manual.
+
+mod circles;
+mod constructs;
+mod packages;

@@ -1,0 +1,5 @@
+//! Messages of the macro: one for each mistake, on its token.
+
+mod one_message;
+mod plain_words;
+mod ui;

@@ -1,0 +1,199 @@
+//! One mistake is one message, on its token: four programs, each with a mistake planted in its mechanism, give the
+//! message of the macro and nothing of rustc, because types and functions stand there for the rest of the program.
+//!
+//! The snapshot has all messages: the text between `«` and `»` is the token.
+
+mod mistakes;
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::iter::successors;
+use std::path::Path;
+use std::process::Command;
+use std::{env, fs};
+
+use mistakes::{ENGINE, FOUR_BAR, Mistake, PENDULUM, PRESS};
+
+const MANIFEST: &str = r#"
+[package]
+name = "one_message"
+version = "0.0.0"
+edition = "2024"
+
+[dependencies]
+linkage = { path = "ROOT", default-features = false, features = ["std", "drawing", "dynamics"] }
+
+[workspace]
+"#;
+
+/// A line and a column, from one.
+type Place = (usize, usize);
+
+/// A message of rustc or of the macro.
+#[derive(Debug)]
+struct Message {
+    level: String,
+    code: Option<String>,
+    text: String,
+    from: Place,
+    to: Place,
+}
+
+/// The first program of the README, as a module.
+fn readme() -> String {
+    let readme = include_str!("../../../README.md");
+    let program = readme.split("```rust,no_run\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    with(program, "fn main()", "pub fn main()")
+}
+
+/// A text with one replacement of what occurs once.
+fn with(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "`{from}` in\n{text}");
+    text.replacen(from, to, 1)
+}
+
+/// A program without the marks, and the places between each pair.
+fn unmarked(text: &str) -> (String, Vec<(Place, Place)>) {
+    let (mut plain, mut marks) = (String::new(), Vec::new());
+    let (mut here, mut from) = ((1, 1), (1, 1));
+    for letter in text.chars() {
+        match letter {
+            '«' => from = here,
+            '»' => marks.push((from, here)),
+            _ => {
+                plain.push(letter);
+                here = if letter == '\n' { (here.0 + 1, 1) } else { (here.0, here.1 + 1) };
+            }
+        }
+    }
+    (plain, marks)
+}
+
+/// The messages of rustc for each file.
+fn messages(folder: &Path) -> BTreeMap<String, Vec<Message>> {
+    let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
+    let output = Command::new(cargo)
+        .args(["check", "--quiet", "--message-format=json", "--target-dir"])
+        // That of the mutants, whose dependencies are the same.
+        .arg(folder.with_file_name("mutants").join("target"))
+        .current_dir(folder)
+        .env_remove("RUSTFLAGS")
+        .output()
+        .unwrap();
+    let mut messages: BTreeMap<String, Vec<Message>> = BTreeMap::new();
+    for line in String::from_utf8(output.stdout).unwrap().lines() {
+        let line: serde_json::Value = serde_json::from_str(line).unwrap();
+        if line["target"]["name"] != "one_message" {
+            continue;
+        }
+        let message = &line["message"];
+        let (Some(level), Some(text)) = (message["level"].as_str(), message["message"].as_str()) else { continue };
+        let spans = message["spans"].as_array().unwrap();
+        // The count of errors has no place.
+        let Some(primary) = spans.iter().find(|span| span["is_primary"] == true) else { continue };
+        // A span in the macro itself is that of its call.
+        let mut calls = successors(Some(primary), |span| span["expansion"].get("span"));
+        let found = calls.find_map(|span| {
+            Some((span, span["file_name"].as_str()?.strip_prefix("src/")?.strip_suffix(".rs")?.to_owned()))
+        });
+        let (span, file) = found.unwrap_or_else(|| panic!("{line}"));
+        let place = |line: &str, column: &str| [line, column].map(|key| span[key].as_u64().unwrap() as usize).into();
+        messages.entry(file).or_default().push(Message {
+            level: level.to_owned(),
+            code: message["code"]["code"].as_str().map(str::to_owned),
+            text: text.to_owned(),
+            from: place("line_start", "column_start"),
+            to: place("line_end", "column_end"),
+        });
+    }
+    assert!(!messages.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    messages
+}
+
+/// The text between two places.
+fn between(text: &str, from: Place, to: Place) -> String {
+    let lines = text.lines().enumerate().skip(from.0 - 1).take(to.0 + 1 - from.0);
+    let parts = lines.map(|(line, text)| {
+        let start = if line + 1 == from.0 { from.1 } else { 1 };
+        let end = if line + 1 == to.0 { to.1 } else { usize::MAX };
+        text.chars().skip(start - 1).take(end - start).collect::<String>()
+    });
+    parts.collect::<Vec<_>>().join("\n")
+}
+
+/// A mistake as it is listed, and its messages.
+fn entry((name, from, to): &Mistake, program: &str, messages: &[Message]) -> String {
+    let line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut entry = format!("{name}: {}  ->  {}\n", line(from), line(to));
+    for Message { level, code, text, from, to } in messages {
+        let code = code.as_ref().map_or_else(String::new, |code| format!("[{code}]"));
+        let token = line(&between(program, *from, *to));
+        writeln!(entry, "  {}:{} `{token}` {level}{code}: {}", from.0, from.1, text.replace('\n', "\n    ")).unwrap();
+    }
+    entry
+}
+
+/// The programs are modules of one crate, so that one run of rustc checks them all; a mistake in `main` shows that
+/// rustc goes on after the messages of the macro.
+#[test]
+fn one_mistake_is_one_message() {
+    let root = linkage_tests::ROOT;
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("one_message");
+    // Those of an earlier version of the list.
+    drop(fs::remove_dir_all(folder.join("src")));
+    fs::create_dir_all(folder.join("src")).unwrap();
+    fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
+    // The versions under test are those of this workspace.
+    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    let mut library = String::new();
+    let mut write = |name: &str, text: &str| {
+        fs::write(folder.join(format!("src/{name}.rs")), text).unwrap();
+        library += &format!("pub mod {name};\n");
+    };
+    let readme = readme();
+    let lists = [
+        ("four_bar", readme.as_str(), FOUR_BAR),
+        ("press", include_str!("programs/press.rs"), PRESS),
+        ("engine", include_str!("programs/engine.rs"), ENGINE),
+        ("pendulum", include_str!("programs/pendulum.rs"), PENDULUM),
+    ];
+    let also_in_main = with(&readme, "l3@theta3 + l4@", "l3@thta3 + l4@");
+    write("also_in_main", &with(&also_in_main, "four_bar.velocity_ratios", "four_bar.velocity_rations"));
+    let mut planted = Vec::new();
+    for (list, program, mistakes) in lists {
+        write(list, program);
+        for mistake @ (name, from, to) in mistakes {
+            let (program, marks) = unmarked(&with(program, from, to));
+            let file = format!("{list}_{name}");
+            write(&file, &program);
+            planted.push((file, mistake, program, marks));
+        }
+    }
+    fs::write(folder.join("src/lib.rs"), library).unwrap();
+    let found = messages(&folder);
+    let none = Vec::new();
+    let of = |name: &str| found.get(name).unwrap_or(&none).as_slice();
+    for (list, ..) in lists {
+        assert!(of(list).is_empty(), "{:?}", of(list));
+    }
+    let [first, second] = of("also_in_main") else { panic!("{:?}", of("also_in_main")) };
+    assert!(first.text.starts_with("unknown name"), "{first:?}");
+    assert_eq!(second.code.as_deref(), Some("E0599"), "{second:?}");
+    let (mut all, mut wrong, mut wrongs) = (String::new(), String::new(), 0);
+    for (file, mistake, program, marks) in &planted {
+        let entry = entry(mistake, program, of(file));
+        all += &entry;
+        let mut places: Vec<_> = of(file).iter().map(|message| (message.from, message.to)).collect();
+        places.sort_unstable();
+        if places != *marks {
+            wrong += &entry;
+            wrongs += 1;
+        }
+    }
+    insta::assert_snapshot!("messages", all);
+    assert!(
+        wrong.is_empty(),
+        "{wrongs} of {} have another number of messages or another token\n{wrong}",
+        planted.len()
+    );
+}

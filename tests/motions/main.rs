@@ -1,0 +1,7 @@
+//! Motions that are followed: paths, steps over change points, circuits, and the cases at which usual formulas fail.
+
+mod by_continuation;
+mod circuits;
+mod continuation;
+mod crossings;
+mod hard_cases;

@@ -1,0 +1,9 @@
+//! Pictures and pages.
+
+mod animation;
+mod door_closer;
+mod engine;
+mod example_files;
+mod manual;
+mod sheet;
+mod skeleton;
