@@ -12,7 +12,7 @@
 //! | magnitudes 2^-30 to 2^30   | 0.68  | 0.67  |
 //! | near axes and diagonals    | 0.73  | 0.72  |
 //!
-//! For `f64` no error is larger than 0.98 ulp, or 1.25 2^-53 of the exact angle. `linkage-interval/tests/kernels` proves
+//! For `f64` no error is larger than 0.98 ulp, or 1.25 2^-53 of the exact angle. `linkage-interval/tests/enclosures/kernels` proves
 //! that from the rounding to nearest of + - * and /, as for the sine: the sum of the error of the quotient t + t_rest,
 //! which is below 2^-74 of it, the error of the polynomial against the power series, the rounding errors of
 //! `arctangent_rest` and `turned` over intervals that cover t, and what it leaves out, t_rest t^4 and t_rest^2.

@@ -18,7 +18,7 @@
 //! pi/2.
 //!
 //! No `f64` up to 1e5 has a larger error than 0.89 ulp, or 1.29 2^-53 of the exact value (0.84 ulp and 1.21 2^-53 for the
-//! cosine). `linkage-interval/tests/kernels` proves that from the rounding to nearest of + - and *:
+//! cosine). `linkage-interval/tests/enclosures/kernels` proves that from the rounding to nearest of + - and *:
 //!
 //! - The error of the reduction is at most k 2^-130, since pi/2 is that accurate, plus the rounding errors of k times its
 //!   third part and of `tail`; all else is exact. The quotient with the angle is computed for each k, in integers, at the

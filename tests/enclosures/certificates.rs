@@ -1,4 +1,4 @@
-//! Certified motions of emitted mechanisms. `linkage-interval/tests/certify` has more, of loops written by hand.
+//! Certified motions of emitted mechanisms. `linkage-interval/tests/enclosures/certify` has more, of loops written by hand.
 
 use std::f64::consts::TAU;
 

@@ -1,0 +1,14 @@
+//! Stages of the compiler, each by what it makes.
+
+mod algebra;
+mod bodies_by_hand;
+mod closed_forms;
+mod dangling;
+mod exponents;
+mod features;
+mod limits;
+mod loops;
+mod names_of_effects;
+mod notation;
+mod pipeline;
+mod stubs;
