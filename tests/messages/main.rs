@@ -1,5 +1,6 @@
 //! Messages of the macro: one for each mistake, on its token.
 
+mod checked;
 mod one_message;
 mod plain_words;
 mod ui;

@@ -1,7 +1,7 @@
 //! One mistake is one message, on its token: four programs, each with a mistake planted in its mechanism, give the
 //! message of the macro and nothing of rustc, because types and functions stand there for the rest of the program.
 //!
-//! The snapshot has all messages: the text between `«` and `»` is the token.
+//! Each mistake has a snapshot: the text between `«` and `»` is the token.
 
 mod mistakes;
 
@@ -9,22 +9,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::iter::successors;
 use std::path::Path;
-use std::process::Command;
-use std::{env, fs};
 
 use mistakes::{ENGINE, FOUR_BAR, Mistake, PENDULUM, PRESS};
 
-const MANIFEST: &str = r#"
-[package]
-name = "one_message"
-version = "0.0.0"
-edition = "2024"
-
-[dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["std", "drawing", "dynamics"] }
-
-[workspace]
-"#;
+use super::checked::{self, compare, package};
 
 /// A line and a column, from one.
 type Place = (usize, usize);
@@ -71,26 +59,12 @@ fn unmarked(text: &str) -> (String, Vec<(Place, Place)>) {
 
 /// The messages of rustc for each file.
 fn messages(folder: &Path) -> BTreeMap<String, Vec<Message>> {
-    let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let output = Command::new(cargo)
-        .args(["check", "--quiet", "--message-format=json", "--target-dir"])
-        // That of the mutants, whose dependencies are the same.
-        .arg(folder.with_file_name("mutants").join("target"))
-        .current_dir(folder)
-        .env_remove("RUSTFLAGS")
-        .output()
-        .unwrap();
     let mut messages: BTreeMap<String, Vec<Message>> = BTreeMap::new();
-    for line in String::from_utf8(output.stdout).unwrap().lines() {
-        let line: serde_json::Value = serde_json::from_str(line).unwrap();
-        if line["target"]["name"] != "one_message" {
-            continue;
-        }
+    for line in checked::messages(folder, &["--lib"]) {
         let message = &line["message"];
         let (Some(level), Some(text)) = (message["level"].as_str(), message["message"].as_str()) else { continue };
         let spans = message["spans"].as_array().unwrap();
-        // The count of errors has no place.
-        let Some(primary) = spans.iter().find(|span| span["is_primary"] == true) else { continue };
+        let primary = spans.iter().find(|span| span["is_primary"] == true).unwrap_or_else(|| panic!("{line}"));
         // A span in the macro itself is that of its call.
         let mut calls = successors(Some(primary), |span| span["expansion"].get("span"));
         let found = calls.find_map(|span| {
@@ -106,7 +80,6 @@ fn messages(folder: &Path) -> BTreeMap<String, Vec<Message>> {
             to: place("line_end", "column_end"),
         });
     }
-    assert!(!messages.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
     messages
 }
 
@@ -137,17 +110,10 @@ fn entry((name, from, to): &Mistake, program: &str, messages: &[Message]) -> Str
 /// rustc goes on after the messages of the macro.
 #[test]
 fn one_mistake_is_one_message() {
-    let root = linkage_tests::ROOT;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("one_message");
-    // Those of an earlier version of the list.
-    drop(fs::remove_dir_all(folder.join("src")));
-    fs::create_dir_all(folder.join("src")).unwrap();
-    fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
-    // The versions under test are those of this workspace.
-    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    let mut files = Vec::new();
     let mut library = String::new();
     let mut write = |name: &str, text: &str| {
-        fs::write(folder.join(format!("src/{name}.rs")), text).unwrap();
+        files.push((format!("src/{name}.rs"), text.to_owned()));
         library += &format!("pub mod {name};\n");
     };
     let readme = readme();
@@ -166,11 +132,11 @@ fn one_mistake_is_one_message() {
             let (program, marks) = unmarked(&with(program, from, to));
             let file = format!("{list}_{name}");
             write(&file, &program);
-            planted.push((file, mistake, program, marks));
+            planted.push((list, file, mistake, program, marks));
         }
     }
-    fs::write(folder.join("src/lib.rs"), library).unwrap();
-    let found = messages(&folder);
+    files.push(("src/lib.rs".to_owned(), library));
+    let found = messages(&package("one_message", files));
     let none = Vec::new();
     let of = |name: &str| found.get(name).unwrap_or(&none).as_slice();
     for (list, ..) in lists {
@@ -179,21 +145,24 @@ fn one_mistake_is_one_message() {
     let [first, second] = of("also_in_main") else { panic!("{:?}", of("also_in_main")) };
     assert!(first.text.starts_with("unknown name"), "{first:?}");
     assert_eq!(second.code.as_deref(), Some("E0599"), "{second:?}");
-    let (mut all, mut wrong, mut wrongs) = (String::new(), String::new(), 0);
-    for (file, mistake, program, marks) in &planted {
+    let (mut entries, mut wrong) = (BTreeMap::<&str, Vec<(String, String)>>::new(), Vec::new());
+    for (list, file, mistake, program, marks) in &planted {
         let entry = entry(mistake, program, of(file));
-        all += &entry;
         let mut places: Vec<_> = of(file).iter().map(|message| (message.from, message.to)).collect();
         places.sort_unstable();
         if places != *marks {
-            wrong += &entry;
-            wrongs += 1;
+            wrong.push(entry.clone());
         }
+        entries.entry(list).or_default().push((mistake.0.to_owned(), entry));
     }
-    insta::assert_snapshot!("messages", all);
+    for (list, entries) in &entries {
+        compare(list, entries);
+    }
     assert!(
         wrong.is_empty(),
-        "{wrongs} of {} have another number of messages or another token\n{wrong}",
-        planted.len()
+        "{} of {} have another number of messages or another token\n{}",
+        wrong.len(),
+        planted.len(),
+        wrong.concat()
     );
 }
