@@ -4,13 +4,14 @@
 //! The functions for doubles are compiled in this crate. [`all_of`] and its like are generic: the crate that calls one
 //! compiles all mechanisms for its scalar.
 
+use std::marker::PhantomData;
 use std::rc::Rc;
 use std::sync::LazyLock;
 
 use linkage::{Column, Dim, Group, Matrix, Mechanism, PositionError, Real};
 use nalgebra::DMatrix;
 
-use crate::{HigherOrders, Kinematics, Motion, Moving};
+use crate::{Fixture, HigherOrders, Kinematics, Motion, Moving};
 
 /// A mechanism by its names.
 pub trait Named: Send + Sync {
@@ -34,6 +35,8 @@ pub trait Listed<T: Real>: Named {
     fn inputs_of(&self, q: &[T]) -> Vec<T>;
     /// The unknowns and the inputs among the coordinates, in the order of their names.
     fn parts(&self, q: &[T]) -> [Vec<T>; 2];
+    /// The default values of the parameters, in the order of declaration.
+    fn defaults(&self) -> Vec<f64>;
     /// The mechanism with these parameters, in the order of declaration.
     fn with_parameters(&self, parameters: &[T]) -> Box<dyn Built<T>>;
 }
@@ -118,12 +121,13 @@ pub trait Values<T: Real>: Named {
 /// A type of the gallery, as an object.
 struct Entry<M> {
     file: &'static str,
-    of: std::marker::PhantomData<fn() -> M>,
+    defaults: fn() -> Vec<f64>,
+    of: PhantomData<fn() -> M>,
 }
 
 impl<M> Entry<M> {
-    const fn of(file: &'static str) -> Self {
-        Self { file, of: std::marker::PhantomData }
+    const fn of<F: Fixture>() -> Self {
+        Self { file: F::FILE, defaults: || F::default().parameters(), of: PhantomData }
     }
 }
 
@@ -155,6 +159,9 @@ impl<T: Real, M: Kinematics<T> + 'static> Listed<T> for Entry<M> {
     fn parts(&self, q: &[T]) -> [Vec<T>; 2] {
         let (unknowns, inputs) = M::parts(&M::named(q));
         [unknowns.as_slice().to_vec(), inputs.as_slice().to_vec()]
+    }
+    fn defaults(&self) -> Vec<f64> {
+        (self.defaults)()
     }
     fn with_parameters(&self, parameters: &[T]) -> Box<dyn Built<T>> {
         Box::new(Rc::new(M::with_parameters(parameters)))
@@ -355,7 +362,7 @@ macro_rules! lists {
         /// All mechanisms in a scalar.
         #[must_use]
         pub fn all_of<T: Real>() -> Vec<&'static dyn Listed<T>> {
-            vec![$($(const { &Entry::<crate::$file::$Mechanism<T>>::of(stringify!($file)) }),+),*]
+            vec![$($(const { &Entry::<crate::$file::$Mechanism<T>>::of::<crate::$file::$Mechanism>() }),+),*]
         }
 
         /// All mechanisms of the lines with `orders` in a scalar.
@@ -369,7 +376,7 @@ macro_rules! lists {
         /// The values of all mechanisms in a scalar.
         #[must_use]
         pub fn values_of<T: Real>() -> Vec<&'static dyn Values<T>> {
-            vec![$($(const { &Entry::<crate::$file::$Mechanism<T>>::of(stringify!($file)) }),+),*]
+            vec![$($(const { &Entry::<crate::$file::$Mechanism<T>>::of::<crate::$file::$Mechanism>() }),+),*]
         }
 
         /// The values of all mechanisms of the lines with `orders` in a scalar.
@@ -385,7 +392,7 @@ macro_rules! lists {
 macro_rules! with_orders {
     ($all:ident $file:ident [$($Mechanism:ident)+]) => {};
     ($all:ident $file:ident [$($Mechanism:ident)+] orders) => {
-        $($all.push(const { &Entry::<crate::$file::$Mechanism<T>>::of(stringify!($file)) });)+
+        $($all.push(const { &Entry::<crate::$file::$Mechanism<T>>::of::<crate::$file::$Mechanism>() });)+
     };
 }
 
@@ -404,6 +411,16 @@ pub fn all() -> &'static [&'static dyn Listed<f64>] {
 #[must_use]
 pub fn with_orders() -> &'static [&'static dyn ListedWithOrders<f64>] {
     &WITH_ORDERS
+}
+
+/// The mechanism of these names in doubles.
+///
+/// # Panics
+/// If there is none.
+#[must_use]
+pub fn listed(file: &str, name: &str) -> &'static dyn Listed<f64> {
+    let found = ALL.iter().find(|one| one.file() == file && one.name() == name);
+    *found.unwrap_or_else(|| panic!("{name} of {file} is not in the gallery"))
 }
 
 /// The mechanism of a list that has the same names as another.
