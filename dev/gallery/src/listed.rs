@@ -8,10 +8,11 @@ use std::marker::PhantomData;
 use std::rc::Rc;
 use std::sync::LazyLock;
 
+use linkage::derivation::Derivation;
 use linkage::{Column, Dim, Group, Matrix, Mechanism, PositionError, Real};
 use nalgebra::DMatrix;
 
-use crate::{Fixture, HigherOrders, Kinematics, Motion, Moving};
+use crate::{ClosedForm, Fixture, HigherOrders, Kinematics, Motion, Moving};
 
 /// A mechanism by its names.
 pub trait Named: Send + Sync {
@@ -37,6 +38,10 @@ pub trait Listed<T: Real>: Named {
     fn parts(&self, q: &[T]) -> [Vec<T>; 2];
     /// The default values of the parameters, in the order of declaration.
     fn defaults(&self) -> Vec<f64>;
+    /// The branches as `Debug` writes them; none if the position is found by Newton's method.
+    fn branches(&self) -> Vec<String>;
+    /// The constant `DERIVATION`.
+    fn derivation(&self) -> &'static Derivation<'static>;
     /// The mechanism with these parameters, in the order of declaration.
     fn with_parameters(&self, parameters: &[T]) -> Box<dyn Built<T>>;
 }
@@ -122,13 +127,20 @@ pub trait Values<T: Real>: Named {
 struct Entry<M> {
     file: &'static str,
     defaults: fn() -> Vec<f64>,
+    branches: fn() -> Vec<String>,
+    derivation: &'static Derivation<'static>,
     of: PhantomData<fn() -> M>,
 }
 
 impl<M> Entry<M> {
-    const fn of<F: Fixture>() -> Self {
-        Self { file: F::FILE, defaults: || F::default().parameters(), of: PhantomData }
+    const fn of<F: Fixture>(branches: fn() -> Vec<String>, derivation: &'static Derivation<'static>) -> Self {
+        Self { file: F::FILE, defaults: || F::default().parameters(), branches, derivation, of: PhantomData }
     }
+}
+
+/// The branches of a closed form as `Debug` writes them.
+fn written<M: ClosedForm>() -> Vec<String> {
+    M::all_branches().iter().map(|branch| format!("{branch:?}")).collect()
 }
 
 impl<M: Mechanism> Named for Entry<M> {
@@ -162,6 +174,12 @@ impl<T: Real, M: Kinematics<T> + 'static> Listed<T> for Entry<M> {
     }
     fn defaults(&self) -> Vec<f64> {
         (self.defaults)()
+    }
+    fn branches(&self) -> Vec<String> {
+        (self.branches)()
+    }
+    fn derivation(&self) -> &'static Derivation<'static> {
+        self.derivation
     }
     fn with_parameters(&self, parameters: &[T]) -> Box<dyn Built<T>> {
         Box::new(Rc::new(M::with_parameters(parameters)))
@@ -362,37 +380,55 @@ macro_rules! lists {
         /// All mechanisms in a scalar.
         #[must_use]
         pub fn all_of<T: Real>() -> Vec<&'static dyn Listed<T>> {
-            vec![$($(const { &Entry::<crate::$file::$Mechanism<T>>::of::<crate::$file::$Mechanism>() }),+),*]
+            vec![$($(entry!($file $Mechanism $method)),+),*]
         }
 
         /// All mechanisms of the lines with `orders` in a scalar.
         #[must_use]
         pub fn with_orders_of<T: Real>() -> Vec<&'static dyn ListedWithOrders<T>> {
             let mut all: Vec<&'static dyn ListedWithOrders<T>> = Vec::new();
-            $(with_orders!(all $file [$($Mechanism)+] $($orders)?);)*
+            $(with_orders!(all $file [$($Mechanism $method)+] $($orders)?);)*
             all
         }
 
         /// The values of all mechanisms in a scalar.
         #[must_use]
         pub fn values_of<T: Real>() -> Vec<&'static dyn Values<T>> {
-            vec![$($(const { &Entry::<crate::$file::$Mechanism<T>>::of::<crate::$file::$Mechanism>() }),+),*]
+            vec![$($(entry!($file $Mechanism $method)),+),*]
         }
 
         /// The values of all mechanisms of the lines with `orders` in a scalar.
         #[must_use]
         pub fn values_with_orders_of<T: Real>() -> Vec<&'static dyn Values<T>> {
             let mut all: Vec<&'static dyn Values<T>> = Vec::new();
-            $(with_orders!(all $file [$($Mechanism)+] $($orders)?);)*
+            $(with_orders!(all $file [$($Mechanism $method)+] $($orders)?);)*
             all
         }
     };
 }
 
 macro_rules! with_orders {
-    ($all:ident $file:ident [$($Mechanism:ident)+]) => {};
-    ($all:ident $file:ident [$($Mechanism:ident)+] orders) => {
-        $($all.push(const { &Entry::<crate::$file::$Mechanism<T>>::of::<crate::$file::$Mechanism>() });)+
+    ($all:ident $file:ident [$($Mechanism:ident $method:ident)+]) => {};
+    ($all:ident $file:ident [$($Mechanism:ident $method:ident)+] orders) => {
+        $($all.push(entry!($file $Mechanism $method));)+
+    };
+}
+
+macro_rules! entry {
+    ($file:ident $Mechanism:ident $method:ident) => {
+        const {
+            type Doubles = crate::$file::$Mechanism;
+            &Entry::<crate::$file::$Mechanism<T>>::of::<Doubles>(branches!($method), Doubles::DERIVATION)
+        }
+    };
+}
+
+macro_rules! branches {
+    (newton) => {
+        Vec::new
+    };
+    ($method:ident) => {
+        written::<Doubles>
     };
 }
 
