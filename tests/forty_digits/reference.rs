@@ -50,8 +50,9 @@ pub(super) struct Reference {
 
 impl Reference {
     pub(super) fn new(of: &dyn Listed<f64>) -> Self {
-        let mechanism = linkage_compiler::read(source::tokens_of(of.file())).expect(of.file()).remove(0);
-        let driver = mechanism.drivers.iter().position(|driver| driver.name == of.name()).expect(of.name());
+        let (file, name) = (of.file(), of.name());
+        let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
+        let driver = mechanism.drivers.iter().position(|driver| driver.name == name).expect(name);
         let mut derivation = linkage_compiler::derive(&mechanism).remove(driver);
         let parameters: Vec<SymbolId> = mechanism.parameters.iter().map(|parameter| parameter.symbol).collect();
         let d = &mut derivation;
