@@ -1,19 +1,12 @@
 //! Jerk, derivatives of the velocity ratios and sensitivities against dual numbers at random poses: with the solutions
 //! inserted, the differentiated constraints have no residual. And against finite differences with so many digits that
 //! their cancellation does not matter.
+//!
+//! `MECHANISM=jansen cargo test --test derivatives orders` checks one mechanism, by its file or its name.
 
-use linkage::Mechanism;
 use linkage_compiler::ids::Id;
-use linkage_gallery::components::Components;
-use linkage_gallery::double_butterfly::DoubleButterfly;
-use linkage_gallery::elliptic_trammel::EllipticTrammel;
-use linkage_gallery::every_function::EveryFunction;
-use linkage_gallery::five_bar::FiveBar;
-use linkage_gallery::geared_five_bar::GearedFiveBar;
-use linkage_gallery::jansen::Jansen;
-use linkage_gallery::norton_four_bar::NortonFourBar;
-use linkage_gallery::offset_slider_crank::OffsetSliderCrank;
-use linkage_gallery::{Fixture, HigherOrders, Kinematics, WithHigherOrders, all_mechanisms};
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::{ListedWithOrders, Values, same_as, values_with_orders_of, with_orders};
 use linkage_oracle::{Oracle, Sample, all_close, close};
 use nalgebra::{DMatrix, DVector};
 use num_dual::{Dual3_64, Dual64, HyperDual64};
@@ -43,66 +36,72 @@ fn is_zero(what: &str, residual: &[f64], scale: f64) {
 }
 
 /// Psi''' = 0 with the jerks of the unknowns, and the jerks of points and outputs along any q(t).
-fn jerk_closes_to_third_order<F: WithHigherOrders>() {
-    let oracle = Oracle::of::<F>();
+#[test]
+fn jerk_closes_to_third_order() {
+    let duals = values_with_orders_of();
+    each(with_orders(), |of| jerk_closes_to_third_order_of(of, same_as(&duals, of)));
+}
+
+fn jerk_closes_to_third_order_of(of: &dyn ListedWithOrders<f64>, dual: &dyn Values<Dual3_64>) {
+    let oracle = Oracle::of_listed(of);
     let d = &oracle.derivation;
-    let mut regular = 0;
-    for sample in oracle.samples(POSES) {
-        let Sample { parameters, q, rates, accelerations, .. } = &sample;
-        let m = F::with_parameters(parameters);
-        let pose = m.pose(q);
-        let given = jerks(&sample);
+    let regular = oracle.at_samples(POSES, |_, sample| {
+        let Sample { parameters, q, rates, accelerations, .. } = sample;
+        let pose = of.at(parameters, q);
+        let given = jerks(sample);
 
         let constants: Vec<_> = parameters.iter().copied().map(Dual3_64::from_re).collect();
-        let dual = F::OfOrders::<Dual3_64>::with_parameters(&constants);
         let along = |jerk: &[f64]| {
             let q: Vec<_> = (0..q.len()).map(|i| Dual3_64::new(q[i], rates[i], accelerations[i], jerk[i])).collect();
-            dual.pose(&q)
+            q
         };
         let moving = along(&given);
-        let found = m.point_jerks(&pose, [rates, accelerations, &given]).unwrap();
-        let expected = dual.points(&moving).unwrap();
+        let found = pose.point_jerks([rates, accelerations, &given]).unwrap();
+        let expected = dual.points(&constants, &moving).unwrap();
         for (found, expected) in found.chunks(2).zip(expected.chunks(2)) {
             all_close("point jerk", found, &[expected[0].v3, expected[1].v3], 0.0, TOLERANCE);
         }
-        let found = m.output_jerks(&pose, [rates, accelerations, &given]).unwrap();
-        for (found, Dual3_64 { v1, v2, v3, .. }) in found.into_iter().zip(dual.outputs(&moving).unwrap()) {
+        let found = pose.output_jerks([rates, accelerations, &given]).unwrap();
+        for (found, Dual3_64 { v1, v2, v3, .. }) in found.into_iter().zip(dual.outputs(&constants, &moving).unwrap()) {
             let scale = v3.abs() + (v1 * v2).abs() + v1.abs().powi(3) + 0.01;
             close("output jerk", found, v3, TOLERANCE * scale);
         }
 
         let inputs = pick(&given, &d.inputs);
-        let Ok(jerk) = m.jerk(&pose, rates, accelerations, &inputs) else { continue };
-        regular += 1;
+        let Ok(jerk) = pose.jerk(rates, accelerations, &inputs) else { return false };
         assert_eq!(pick(&jerk, &d.inputs), inputs);
-        let third = |jerk: &[f64]| -> Vec<f64> { dual.residual(&along(jerk)).iter().map(|psi| psi.v3).collect() };
+        let third =
+            |jerk: &[f64]| -> Vec<f64> { dual.residual(&constants, &along(jerk)).iter().map(|psi| psi.v3).collect() };
         let eta = third(&vec![0.0; q.len()]);
         let norm = |list: &[f64]| DVector::from_row_slice(list).norm();
-        is_zero("Psi'''", &third(&jerk), m.jacobian(&pose).norm() * norm(&jerk) + norm(&eta));
-        let interpreted = oracle.values(&sample, d.eta.as_ref().unwrap());
+        is_zero("Psi'''", &third(&jerk), pose.jacobian().norm() * norm(&jerk) + norm(&eta));
+        let interpreted = oracle.values(sample, d.eta.as_ref().unwrap());
         all_close("eta", &eta, &interpreted, 0.0, TOLERANCE);
-    }
-    assert!(regular > POSES / 2, "{}: {regular} regular poses", F::FILE);
+        true
+    });
+    most_are_regular(&regular);
 }
 
 /// J L_jk + gamma(w_j, w_k) = 0 with the second derivatives L of the unknowns, those of points and outputs, and
 /// u'' = W v'' + v' . L v'.
-fn ratio_derivatives_close_to_second_order<F: WithHigherOrders>() {
-    let oracle = Oracle::of::<F>();
+#[test]
+fn ratio_derivatives_close_to_second_order() {
+    let duals = values_with_orders_of();
+    each(with_orders(), |of| ratio_derivatives_close_to_second_order_of(of, same_as(&duals, of)));
+}
+
+fn ratio_derivatives_close_to_second_order_of(of: &dyn ListedWithOrders<f64>, dual: &dyn Values<HyperDual64>) {
+    let oracle = Oracle::of_listed(of);
     let d = &oracle.derivation;
-    let mut regular = 0;
-    for sample in oracle.samples(POSES) {
-        let Sample { parameters, q, rates, .. } = &sample;
-        let m = F::with_parameters(parameters);
-        let pose = m.pose(q);
-        let Ok(w) = m.velocity_ratios(&pose) else { continue };
-        regular += 1;
-        let l = m.velocity_ratio_derivatives(&pose).unwrap();
-        let points = m.point_ratio_derivatives(&pose).unwrap();
-        let outputs = m.output_ratio_derivatives(&pose).unwrap();
+    let regular = oracle.at_samples(POSES, |_, sample| {
+        let Sample { parameters, q, rates, .. } = sample;
+        let pose = of.at(parameters, q);
+        let Ok(w) = pose.velocity_ratios() else { return false };
+        let l = pose.velocity_ratio_derivatives().unwrap();
+        let points = pose.point_ratio_derivatives().unwrap();
+        let outputs = pose.output_ratio_derivatives().unwrap();
         let constants: Vec<_> = parameters.iter().copied().map(HyperDual64::from_re).collect();
-        let dual = F::OfOrders::<HyperDual64>::with_parameters(&constants);
-        let j = oracle.matrix(&sample, &d.jacobian_unknowns(), d.unknowns.len());
+        let j = oracle.matrix(sample, &d.jacobian_unknowns(), d.unknowns.len());
         // The rates of all coordinates for a unit rate of one input.
         let unit = |place: usize, input: usize| match d.unknowns.iter().position(|u| u.index() == place) {
             Some(unknown) => w[(unknown, input)],
@@ -116,23 +115,26 @@ fn ratio_derivatives_close_to_second_order<F: WithHigherOrders>() {
                 let q: Vec<_> = (0..q.len())
                     .map(|i| HyperDual64::new(q[i], unit(i, row), unit(i, column), bent * curved(i, row, column)))
                     .collect();
-                dual.pose(&q)
+                q
             };
             let second = |bent: f64| -> DVector<f64> {
-                DVector::from_iterator(j.nrows(), dual.residual(&along(bent)).iter().map(|psi| psi.eps1eps2))
+                DVector::from_iterator(
+                    j.nrows(),
+                    dual.residual(&constants, &along(bent)).iter().map(|psi| psi.eps1eps2),
+                )
             };
             let curvature: f64 = l.iter().map(|l| l[(row, column)].powi(2)).sum();
             let scale = j.norm() * curvature.sqrt() + second(0.0).norm();
             is_zero("J L_jk + gamma(w_j, w_k)", second(1.0).as_slice(), scale);
 
             let moving = along(1.0);
-            for (found, expected) in points.chunks(2).zip(dual.points(&moving).unwrap().chunks(2)) {
+            for (found, expected) in points.chunks(2).zip(dual.points(&constants, &moving).unwrap().chunks(2)) {
                 let found = [found[0][(row, column)], found[1][(row, column)]];
                 let scale = 10.0 * (1.0 + curvature.sqrt() + w.norm_squared());
                 let expected = [expected[0].eps1eps2, expected[1].eps1eps2];
                 all_close("point ratio derivatives", &found, &expected, scale, TOLERANCE);
             }
-            for (found, expected) in outputs.iter().zip(dual.outputs(&moving).unwrap()) {
+            for (found, expected) in outputs.iter().zip(dual.outputs(&constants, &moving).unwrap()) {
                 let product = expected.eps1.abs() * expected.eps2.abs();
                 let scale = 1.0 + expected.eps1eps2.abs() + product + curvature.sqrt() + w.norm_squared();
                 close("output ratio derivatives", found[(row, column)], expected.eps1eps2, TOLERANCE * scale);
@@ -140,106 +142,117 @@ fn ratio_derivatives_close_to_second_order<F: WithHigherOrders>() {
         }
 
         let v1 = DVector::from_vec(pick(rates, &d.inputs));
-        let v2 = DVector::from_vec(pick(&jerks(&sample), &d.inputs));
-        let velocity = m.velocity(&pose, v1.as_slice()).unwrap();
-        let acceleration = m.acceleration(&pose, &velocity, v2.as_slice()).unwrap();
-        let a = oracle.matrix(&sample, &d.jacobian_inputs(), d.inputs.len());
+        let v2 = DVector::from_vec(pick(&jerks(sample), &d.inputs));
+        let velocity = pose.velocity(v1.as_slice()).unwrap();
+        let acceleration = pose.acceleration(&velocity, v2.as_slice()).unwrap();
+        let a = oracle.matrix(sample, &d.jacobian_inputs(), d.inputs.len());
         let inverse = j.clone().try_inverse().unwrap().norm();
-        let gamma = DVector::from_vec(m.gamma_of(&pose, &velocity)).norm();
+        let gamma = DVector::from_vec(pose.gamma(&velocity)).norm();
         // Both sides solve with J: the scale holds its condition number.
         let scale = inverse * (gamma + a.norm() * v2.norm()) * inverse * j.norm();
         for (unknown, place) in d.unknowns.iter().enumerate() {
             let found = w.row(unknown).transpose().dot(&v2) + v1.dot(&(&l[unknown] * &v1));
             close("W v'' + v' L v'", found, acceleration[place.index()], TOLERANCE * scale);
         }
-    }
-    assert!(regular > POSES / 2, "{}: {regular} regular poses", F::FILE);
+        true
+    });
+    most_are_regular(&regular);
 }
 
 /// J du/dp + Psi_p = 0 for each parameter, and the derivatives of points and outputs.
-fn sensitivities_close_to_first_order<F: WithHigherOrders>() {
-    let oracle = Oracle::of::<F>();
+#[test]
+fn sensitivities_close_to_first_order() {
+    let duals = values_with_orders_of();
+    each(with_orders(), |of| sensitivities_close_to_first_order_of(of, same_as(&duals, of)));
+}
+
+fn sensitivities_close_to_first_order_of(of: &dyn ListedWithOrders<f64>, dual: &dyn Values<Dual64>) {
+    let oracle = Oracle::of_listed(of);
     let d = &oracle.derivation;
-    let mut regular = 0;
-    for sample in oracle.samples(POSES) {
-        let Sample { parameters, q, .. } = &sample;
-        let m = F::with_parameters(parameters);
-        let pose = m.pose(q);
-        let Ok(s) = m.sensitivity(&pose) else { continue };
-        regular += 1;
-        let j = oracle.matrix(&sample, &d.jacobian_unknowns(), d.unknowns.len());
-        let points = m.point_sensitivities(&pose).unwrap();
-        let outputs = m.output_sensitivities(&pose).unwrap();
+    let regular = oracle.at_samples(POSES, |_, sample| {
+        let Sample { parameters, q, .. } = sample;
+        let pose = of.at(parameters, q);
+        let Ok(s) = pose.sensitivity() else { return false };
+        let j = oracle.matrix(sample, &d.jacobian_unknowns(), d.unknowns.len());
+        let points = pose.point_sensitivities().unwrap();
+        let outputs = pose.output_sensitivities().unwrap();
         let by_parameters = &d.sensitivity.as_ref().unwrap().jacobian;
-        let interpreted: DMatrix<f64> = oracle.matrix(&sample, by_parameters, parameters.len());
+        let interpreted: DMatrix<f64> = oracle.matrix(sample, by_parameters, parameters.len());
         for p in 0..parameters.len() {
             let unit = |index| f64::from(u8::from(index == p));
-            let duals: Vec<_> = parameters.iter().enumerate().map(|(i, &x)| Dual64::new(x, unit(i))).collect();
-            let dual = F::OfOrders::<Dual64>::with_parameters(&duals);
+            let constants: Vec<_> = parameters.iter().enumerate().map(|(i, &x)| Dual64::new(x, unit(i))).collect();
             let along = |follow: f64| {
                 let rate = |i| d.unknowns.iter().position(|u| u.index() == i).map_or(0.0, |u| follow * s[(u, p)]);
                 let q: Vec<_> = (0..q.len()).map(|i| Dual64::new(q[i], rate(i))).collect();
-                dual.pose(&q)
+                q
             };
-            let first = |follow: f64| -> Vec<f64> { dual.residual(&along(follow)).iter().map(|psi| psi.eps).collect() };
+            let first = |follow: f64| -> Vec<f64> {
+                dual.residual(&constants, &along(follow)).iter().map(|psi| psi.eps).collect()
+            };
             let direct = first(0.0);
             let scale = j.norm() * s.column(p).norm() + DVector::from_row_slice(&direct).norm();
             is_zero("J du/dp + Psi_p", &first(1.0), scale);
             all_close("Psi_p", &direct, interpreted.column(p).as_slice(), 0.0, TOLERANCE);
 
             let following = along(1.0);
-            for (found, expected) in points.iter().zip(dual.points(&following).unwrap().chunks(2)) {
+            for (found, expected) in points.iter().zip(dual.points(&constants, &following).unwrap().chunks(2)) {
                 let scale = 10.0 * (1.0 + s.column(p).norm());
                 let expected = [expected[0].eps, expected[1].eps];
                 all_close("point sensitivities", &[found[(0, p)], found[(1, p)]], &expected, scale, TOLERANCE);
             }
-            for (found, expected) in outputs.iter().zip(dual.outputs(&following).unwrap()) {
+            for (found, expected) in outputs.iter().zip(dual.outputs(&constants, &following).unwrap()) {
                 let scale = 1.0 + expected.eps.abs() + s.column(p).norm();
                 close("output sensitivities", found[p], expected.eps, TOLERANCE * scale);
             }
         }
-    }
-    assert!(regular > POSES / 2, "{}: {regular} regular poses", F::FILE);
+        true
+    });
+    most_are_regular(&regular);
+}
+
+/// Singular poses have nothing to compare.
+fn most_are_regular(regular: &[bool]) {
+    let regular = regular.iter().filter(|is_regular| **is_regular).count();
+    assert!(regular > POSES / 2, "{regular} regular poses");
 }
 
 /// All derivatives at one pose against finite differences.
-fn finite_differences<F: Fixture + HigherOrders<f64>>(cases: &[serde_json::Value]) {
+fn finite_differences(of: &dyn ListedWithOrders<f64>, case: &serde_json::Value) {
     let numbers = |list: &serde_json::Value| -> Vec<f64> {
         list.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
     };
-    let case = cases.iter().find(|case| case["mechanism"] == F::FILE).expect(F::FILE);
     let rows = |name: &str| -> Vec<Vec<f64>> { case[name].as_array().unwrap().iter().map(numbers).collect() };
     let all = |of_unknowns: &str, of_inputs: &str| [numbers(&case[of_unknowns]), numbers(&case[of_inputs])].concat();
-    let m = F::with_parameters(&numbers(&case["parameters"]));
+    let parameters = numbers(&case["parameters"]);
     let given = all("unknowns", "inputs");
-    let q = m.solved(&given).unwrap();
+    let q = of.with_parameters(&parameters).solved(&given).unwrap();
     all_close("position", &q, &given, 0.0, TOLERANCE);
-    let pose = m.pose(&q);
+    let pose = of.at(&parameters, &q);
 
-    let velocity = m.velocity(&pose, &numbers(&case["input_rates"])).unwrap();
+    let velocity = pose.velocity(&numbers(&case["input_rates"])).unwrap();
     all_close("velocity", &velocity, &all("rates", "input_rates"), 0.0, TOLERANCE);
-    let acceleration = m.acceleration(&pose, &velocity, &numbers(&case["input_accelerations"])).unwrap();
+    let acceleration = pose.acceleration(&velocity, &numbers(&case["input_accelerations"])).unwrap();
     all_close("acceleration", &acceleration, &all("accelerations", "input_accelerations"), 0.0, TOLERANCE);
-    let jerk = m.jerk(&pose, &velocity, &acceleration, &numbers(&case["input_jerks"])).unwrap();
+    let jerk = pose.jerk(&velocity, &acceleration, &numbers(&case["input_jerks"])).unwrap();
     let order: [&[f64]; 3] = [&velocity, &acceleration, &jerk];
-    let (points, outputs) = (m.point_jerks(&pose, order).unwrap(), m.output_jerks(&pose, order).unwrap());
+    let (points, outputs) = (pose.point_jerks(order).unwrap(), pose.output_jerks(order).unwrap());
     let unknowns = numbers(&case["unknowns"]).len();
     same("jerk", &jerk[..unknowns], &points, &outputs, &numbers(&case["jerks"]));
 
     let entry = |matrices: &[DMatrix<f64>], pair: usize| -> Vec<f64> {
         matrices.iter().map(|matrix| matrix.as_slice()[pair]).collect()
     };
-    let ratios = m.velocity_ratio_derivatives(&pose).unwrap();
-    let points = m.point_ratio_derivatives(&pose).unwrap();
-    let outputs = m.output_ratio_derivatives(&pose).unwrap();
+    let ratios = pose.velocity_ratio_derivatives().unwrap();
+    let points = pose.point_ratio_derivatives().unwrap();
+    let outputs = pose.output_ratio_derivatives().unwrap();
     for (pair, expected) in rows("by_inputs").iter().enumerate() {
         same("d2/dv dv", &entry(&ratios, pair), &entry(&points, pair), &entry(&outputs, pair), expected);
     }
 
     let column = |matrix: &DMatrix<f64>, p: usize| matrix.column(p).as_slice().to_vec();
-    let unknowns = m.sensitivity(&pose).unwrap();
-    let points = m.point_sensitivities(&pose).unwrap();
-    let outputs = m.output_sensitivities(&pose).unwrap();
+    let unknowns = pose.sensitivity().unwrap();
+    let points = pose.point_sensitivities().unwrap();
+    let outputs = pose.output_sensitivities().unwrap();
     for (p, expected) in rows("by_parameters").iter().enumerate() {
         let [points, outputs] =
             [&points, &outputs].map(|all| all.iter().flat_map(|matrix| column(matrix, p)).collect::<Vec<_>>());
@@ -261,47 +274,8 @@ fn same(what: &str, unknowns: &[f64], points: &[f64], outputs: &[f64], expected:
 #[test]
 fn derivatives_are_finite_differences() {
     let cases: Vec<serde_json::Value> = serde_json::from_str(DIFFERENCES).unwrap();
-    let compared = [
-        finite_differences::<Components>,
-        finite_differences::<DoubleButterfly>,
-        finite_differences::<EllipticTrammel>,
-        finite_differences::<EveryFunction>,
-        finite_differences::<FiveBar>,
-        finite_differences::<GearedFiveBar>,
-        finite_differences::<Jansen>,
-        finite_differences::<NortonFourBar>,
-        finite_differences::<OffsetSliderCrank>,
-    ];
+    let case = |of: &dyn ListedWithOrders<f64>| cases.iter().find(|case| case["mechanism"] == of.file());
+    let compared: Vec<_> = with_orders().iter().copied().filter(|of| case(*of).is_some()).collect();
     assert_eq!(compared.len(), cases.len());
-    compared.iter().for_each(|compare| compare(&cases));
+    each(&compared, |of| finite_differences(of, case(of).unwrap()));
 }
-
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
-        $(of_file!($file [$($Mechanism)+] $($orders)?);)*
-    };
-}
-
-macro_rules! of_file {
-    ($file:ident [$($Mechanism:ident)+]) => {};
-    ($file:ident [$($Mechanism:ident)+] orders) => {
-        mod $file {
-            use linkage_gallery::$file::{$($Mechanism),+};
-
-            #[test]
-            fn jerk_closes_to_third_order() {
-                $(super::jerk_closes_to_third_order::<$Mechanism>();)+
-            }
-            #[test]
-            fn ratio_derivatives_close_to_second_order() {
-                $(super::ratio_derivatives_close_to_second_order::<$Mechanism>();)+
-            }
-            #[test]
-            fn sensitivities_close_to_first_order() {
-                $(super::sensitivities_close_to_first_order::<$Mechanism>();)+
-            }
-        }
-    };
-}
-
-all_mechanisms!(tests);

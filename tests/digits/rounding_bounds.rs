@@ -3,15 +3,18 @@
 //!
 //! ```text
 //! BOUNDED=1000 cargo test --release --all-features --test digits rounding_bounds -- --nocapture
+//! MECHANISM=four_bar cargo test --all-features --test digits rounding_bounds    one mechanism, by its file or its name
 //! ```
 
 use std::collections::BTreeMap;
 
-use linkage::derivation::Derivation;
 use linkage_compiler::Bounds;
 use linkage_double::DoubleDouble;
-use linkage_gallery::{Fixture, Kinematics, all_mechanisms, source};
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::{Listed, all, listed, same_as};
+use linkage_gallery::source;
 use linkage_oracle::precise::{Big, big};
+use linkage_oracle::scalars;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -63,46 +66,47 @@ fn extreme(rng: &mut SmallRng, count: usize) -> [Vec<f64>; 3] {
 type Motion = fn(&mut SmallRng, usize) -> [Vec<f64>; 3];
 
 /// The results of a mechanism in any scalar, by function, in the order of the code.
-fn results<T: linkage::Real, M: Kinematics<T>>(m: &M, motion: &[Vec<f64>; 3]) -> BTreeMap<&'static str, Vec<T>> {
+fn results<T: linkage::Real>(
+    of: &dyn Listed<T>,
+    parameters: &[T],
+    motion: &[Vec<f64>; 3],
+) -> BTreeMap<&'static str, Vec<T>> {
     let [q, rates, bent] =
         motion.each_ref().map(|list| list.iter().copied().map(linkage::nalgebra::convert).collect::<Vec<T>>());
-    let pose = m.pose(&q);
-    let [v_rates, v_bent] = [&rates, &bent].map(|list| M::inputs_of(list));
+    let pose = of.with_parameters(parameters).pose(&q);
+    let [v_rates, v_bent] = [&rates, &bent].map(|list| of.inputs_of(list));
     let flat = |matrices: Vec<linkage::nalgebra::DMatrix<T>>| {
         matrices.iter().flat_map(|matrix| matrix.as_slice().to_vec()).collect::<Vec<T>>()
     };
     let all = [
-        ("velocity_ratios", m.velocity_ratios(&pose).ok().map(|ratios| ratios.as_slice().to_vec())),
-        ("velocity", m.velocity(&pose, &v_rates).ok()),
-        ("acceleration", m.acceleration(&pose, &rates, &v_bent).ok()),
-        ("gamma", Some(m.gamma_of(&pose, &rates))),
-        ("points", m.points(&pose).ok()),
-        ("point_velocities", m.point_velocities(&pose, &rates).ok()),
-        ("point_accelerations", m.point_accelerations(&pose, &rates, &bent).ok()),
-        ("point_ratios", m.point_ratios(&pose).ok().map(flat)),
-        ("outputs", m.outputs(&pose).ok()),
-        ("output_velocities", m.output_velocities(&pose, &rates).ok()),
-        ("output_accelerations", m.output_accelerations(&pose, &rates, &bent).ok()),
-        ("output_ratios", m.output_ratios(&pose).ok().map(flat)),
+        ("velocity_ratios", pose.velocity_ratios().ok().map(|ratios| ratios.as_slice().to_vec())),
+        ("velocity", pose.velocity(&v_rates).ok()),
+        ("acceleration", pose.acceleration(&rates, &v_bent).ok()),
+        ("gamma", Some(pose.gamma(&rates))),
+        ("points", pose.points().ok()),
+        ("point_velocities", pose.point_velocities(&rates).ok()),
+        ("point_accelerations", pose.point_accelerations(&rates, &bent).ok()),
+        ("point_ratios", pose.point_ratios().ok().map(flat)),
+        ("outputs", pose.outputs().ok()),
+        ("output_velocities", pose.output_velocities(&rates).ok()),
+        ("output_accelerations", pose.output_accelerations(&rates, &bent).ok()),
+        ("output_ratios", pose.output_ratios().ok().map(flat)),
     ];
     all.into_iter().filter_map(|(name, list)| Some((name, list?))).collect()
 }
 
 /// The bound, the error and the magnitude of each rounded result at random coordinates.
-fn measured<F: Fixture>(derivation: &Derivation, motion: Motion, poses: usize) -> Measured
-where
-    F::Of<DoubleDouble>: Kinematics<DoubleDouble>,
-{
-    let bounds = bounds_of(F::FILE, derivation.mechanism);
+fn measured(of: &dyn Listed<f64>, precise: &dyn Listed<DoubleDouble>, motion: Motion, poses: usize) -> Measured {
+    let bounds = bounds_of(of.file(), of.name());
+    let defaults = of.defaults();
     let mut rng = SmallRng::seed_from_u64(31);
     let mut measured = Measured::new();
     for _ in 0..poses {
-        let parameters: Vec<f64> =
-            F::default().parameters().iter().map(|value| value * rng.random_range(0.7..1.3)).collect();
+        let parameters: Vec<f64> = defaults.iter().map(|value| value * rng.random_range(0.7..1.3)).collect();
         let motion = motion(&mut rng, bounds.coordinates.len());
-        let precise: Vec<DoubleDouble> = parameters.iter().map(|value| DoubleDouble::from(*value)).collect();
-        let emitted = results(&F::with_parameters(&parameters), &motion);
-        let precise = results(&F::Of::<DoubleDouble>::with_parameters(&precise), &motion);
+        let exact: Vec<DoubleDouble> = parameters.iter().map(|value| DoubleDouble::from(*value)).collect();
+        let emitted = results(of, &parameters, &motion);
+        let precise = results(precise, &exact, &motion);
         let mut values: BTreeMap<&str, f64> = bounds.parameters.iter().map(String::as_str).zip(parameters).collect();
         for (order, list) in motion.iter().enumerate() {
             values.extend(bounds.coordinates.iter().map(|names| names[order].as_str()).zip(list.iter().copied()));
@@ -130,38 +134,24 @@ const SECOND_ORDER: f64 = 1e-6;
 /// A result that is smaller underflows in its factors.
 const SMALLEST: f64 = 1e-290;
 
-fn is_bounded<F: Fixture>(derivation: &Derivation)
-where
-    F::Of<DoubleDouble>: Kinematics<DoubleDouble>,
-{
-    for (function, all) in measured::<F>(derivation, extreme, poses()) {
+#[test]
+fn no_error_exceeds_its_bound() {
+    each(all(), |of| is_bounded(of, same_as(scalars::doubled(), of)));
+}
+
+fn is_bounded(of: &dyn Listed<f64>, precise: &dyn Listed<DoubleDouble>) {
+    for (function, all) in measured(of, precise, extreme, poses()) {
         let mut largest = 0.0_f64;
         for [bound, error, _] in all.iter().filter(|[bound, ..]| *bound > SMALLEST) {
             assert!(
                 *error <= bound * (1.0 + SECOND_ORDER),
-                "{}::{function}: an error of {error:e} exceeds its bound {bound:e}",
-                derivation.mechanism
+                "{function}: an error of {error:e} exceeds its bound {bound:e}"
             );
             largest = largest.max(error / bound);
         }
-        println!("| {}::{function} | {} | {largest:.3} |", derivation.mechanism, all.len());
+        println!("| {}::{function} | {} | {largest:.3} |", of.name(), all.len());
     }
 }
-
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
-        mod $file {
-            use linkage_gallery::$file::{$($Mechanism),+};
-
-            #[test]
-            fn no_error_exceeds_its_bound() {
-                $(super::is_bounded::<$Mechanism>(<$Mechanism>::DERIVATION);)+
-            }
-        }
-    )*};
-}
-
-all_mechanisms!(tests);
 
 /// The middle of a list.
 fn median(mut list: Vec<f64>) -> f64 {
@@ -177,11 +167,11 @@ fn ulp(number: f64) -> f64 {
 /// A bound far above all errors would say nothing. Both in ulps of the results, where these are not exact.
 #[test]
 fn the_bounds_of_the_four_bar_are_near_its_errors() {
-    use linkage_gallery::four_bar::FourBar;
+    let of = listed("four_bar", "FourBar");
     let limits = [("velocity_ratios", 17.0), ("velocity", 17.0), ("acceleration", 24.0), ("points", 10.0)];
     let motions: [(&str, Motion); 2] = [("ordinary", ordinary), ("extreme", extreme)];
     for (name, motion) in motions {
-        let measured = measured::<FourBar>(<FourBar>::DERIVATION, motion, poses().max(2000));
+        let measured = measured(of, same_as(scalars::doubled(), of), motion, poses().max(2000));
         for (function, most) in limits {
             let inexact = measured[function].iter().filter(|[_, error, _]| *error > 0.0);
             let ulps: Vec<[f64; 2]> =
@@ -196,12 +186,12 @@ fn the_bounds_of_the_four_bar_are_near_its_errors() {
 /// The velocity ratios of the four-bar by their textbook law in 48 digits: sin(theta2 - theta4) / sin(theta4 - theta3).
 #[test]
 fn ratios_of_the_four_bar_in_48_digits() {
-    use linkage_gallery::four_bar::FourBar;
     let bounds = bounds_of("four_bar", "FourBar");
     let bound = &bounds.functions["velocity_ratios"];
     let mut rng = SmallRng::seed_from_u64(48);
-    let m = FourBar::<f64>::default();
-    let parameters = m.parameters();
+    let four_bar = listed("four_bar", "FourBar");
+    let parameters = four_bar.defaults();
+    let m = four_bar.with_parameters(&parameters);
     for _ in 0..200 {
         let names = bounds.coordinates.iter().map(|[name, ..]| name.as_str());
         let q = coordinates(&mut rng, 3);
@@ -209,7 +199,7 @@ fn ratios_of_the_four_bar_in_48_digits() {
             .zip(q.iter().copied())
             .chain(bounds.parameters.iter().map(String::as_str).zip(parameters.iter().copied()))
             .collect();
-        let Ok(ratios) = m.velocity_ratios(&m.pose(&q)) else { continue };
+        let Ok(ratios) = m.pose(&q).velocity_ratios() else { continue };
         let exact = |name: &str| big(values[name]);
         let sine = |a: &str, b: &str| (exact(a) - exact(b)).sin_cos().0;
         let law = |above: Big, length: &str| exact("l2") * above / (exact(length) * sine("theta3", "theta4"));

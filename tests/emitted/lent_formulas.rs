@@ -1,8 +1,12 @@
 //! The constants `DERIVATION` are the documents of the compiler: equal formulas, in Unicode, LaTeX and MathML.
+//!
+//! `MECHANISM=four_bar cargo test --all-features --test emitted lent_formulas` compares one mechanism, by its file or its name.
 
 use linkage::derivation::{Derivation, Kernel, KernelCode, SceneDerivation};
 use linkage::{Document, sheet::Sheet};
-use linkage_gallery::{all_mechanisms, five_bar_scenes, four_bar_effects, slider_crank_scenes, source};
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::all;
+use linkage_gallery::{five_bar_scenes, four_bar_effects, slider_crank_scenes, source};
 
 /// The functions without their code, which these files do not request.
 fn without_code(kernels: &[Kernel<'static>]) -> &'static [Kernel<'static>] {
@@ -21,16 +25,10 @@ fn is_lent(file: &str, emitted: &Derivation) {
     assert_eq!(Sheet::new(emitted).to_html(), Sheet::new(&lent).to_html());
 }
 
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
-        #[test]
-        fn $file() {
-            $(is_lent(stringify!($file), linkage_gallery::$file::$Mechanism::<f64>::DERIVATION);)+
-        }
-    )*};
+#[test]
+fn mechanisms() {
+    each(all(), |of| is_lent(of.file(), of.derivation()));
 }
-
-all_mechanisms!(tests);
 
 #[test]
 fn scenes() {

@@ -5,8 +5,10 @@
 
 pub mod andrews_motion;
 pub mod cam_laws;
+pub mod checks;
 pub mod families;
 mod fixture;
+pub mod listed;
 pub mod source;
 
 pub use fixture::{ClosedForm, Fixture, HigherOrders, Kinematics, Motion, Moving, WithHigherOrders};

@@ -7,6 +7,8 @@ use linkage_compiler::graph::{External, NodeId, SymbolId};
 use linkage_compiler::ids::Id;
 use linkage_compiler::model::{Kind, Mechanism};
 use linkage_gallery::Fixture;
+use linkage_gallery::checks::at;
+use linkage_gallery::listed::Named;
 use linkage_gallery::source::tokens_of;
 use nalgebra::DMatrix;
 use rand::rngs::SmallRng;
@@ -37,8 +39,21 @@ impl Oracle {
     /// If the file has no such mechanism.
     #[must_use]
     pub fn of<F: Fixture>() -> Self {
-        let mechanism = linkage_compiler::read(tokens_of(F::FILE)).expect(F::FILE).remove(0);
-        let driver = mechanism.drivers.iter().position(|driver| driver.name == F::NAME).expect(F::NAME);
+        Self::new(F::FILE, F::NAME)
+    }
+
+    /// The oracle of a mechanism of a list.
+    ///
+    /// # Panics
+    /// If the file has no such mechanism.
+    #[must_use]
+    pub fn of_listed(listed: &(impl Named + ?Sized)) -> Self {
+        Self::new(listed.file(), listed.name())
+    }
+
+    fn new(file: &str, name: &str) -> Self {
+        let mechanism = linkage_compiler::read(tokens_of(file)).expect(file).remove(0);
+        let driver = mechanism.drivers.iter().position(|driver| driver.name == name).expect(name);
         let derivation = linkage_compiler::derive(&mechanism).remove(driver);
         Self { mechanism, derivation }
     }
@@ -76,6 +91,15 @@ impl Oracle {
             }
             Sample { parameters, q, rates, accelerations, values }
         })
+    }
+
+    /// Runs a check at each of these samples, and returns what it returns. A failure names the sample.
+    ///
+    /// # Panics
+    /// If the check does.
+    pub fn at_samples<R>(&self, count: usize, mut check: impl FnMut(usize, &Sample) -> R) -> Vec<R> {
+        let samples = self.samples(count).enumerate();
+        samples.map(|(number, sample)| at(format_args!("pose {number}"), || check(number, &sample))).collect()
     }
 
     pub fn values(&self, sample: &Sample, nodes: &[NodeId]) -> Vec<f64> {

@@ -8,6 +8,7 @@ mod jet;
 pub mod laws;
 pub mod newton_euler;
 pub mod precise;
+pub mod scalars;
 pub mod tape;
 
 pub use close::{all_close, close};

@@ -2,7 +2,7 @@
 //! and points of all mechanisms, with parameters, inputs and rates as they are.
 
 use linkage_compiler::ids::Id;
-use linkage_gallery::{Fixture, Kinematics};
+use linkage_gallery::listed::Listed;
 use linkage_oracle::precise::{Big, Scalar, big};
 use linkage_rounding::Rounded;
 use rand::SeedableRng;
@@ -19,34 +19,34 @@ fn poses() -> usize {
 const WITH_LAWS: [&str; 2] = ["cam_follower", "cam_rocker"];
 
 /// u, u', u'', then points with velocities and accelerations.
-fn run<F: Fixture>(reference: &Reference, data: &Data) -> Option<[Vec<Rounded>; 2]> {
+fn run(of: &dyn Listed<Rounded>, reference: &Reference, data: &Data) -> Option<[Vec<Rounded>; 2]> {
     let rounded = |list: &[f64]| list.iter().copied().map(Rounded::from).collect::<Vec<_>>();
-    let m = F::Of::<Rounded>::with_parameters(&rounded(&data.parameters));
-    let inputs = |order: usize| F::Of::<Rounded>::inputs_of(&rounded(&data.coordinates[order]));
+    let m = of.with_parameters(&rounded(&data.parameters));
+    let inputs = |order: usize| of.inputs_of(&rounded(&data.coordinates[order]));
     let pose = m.position(&rounded(&data.coordinates[0]), data.branch).ok()?;
-    let velocity = m.velocity(&pose, &inputs(1)).ok()?;
-    let acceleration = m.acceleration(&pose, &velocity, &inputs(2)).ok()?;
+    let velocity = pose.velocity(&inputs(1)).ok()?;
+    let acceleration = pose.acceleration(&velocity, &inputs(2)).ok()?;
     let points = [
-        m.points(&pose).ok()?,
-        m.point_velocities(&pose, &velocity).ok()?,
-        m.point_accelerations(&pose, &velocity, &acceleration).ok()?,
+        pose.points().ok()?,
+        pose.point_velocities(&velocity).ok()?,
+        pose.point_accelerations(&velocity, &acceleration).ok()?,
     ];
-    let position = F::Of::<Rounded>::listed(&pose);
+    let position = pose.coordinates();
     let unknowns =
         |q: Vec<Rounded>| reference.derivation.unknowns.iter().map(|&place| q[place.index()]).collect::<Vec<_>>();
     Some([[position, velocity, acceleration].map(unknowns).concat(), points.concat()])
 }
 
-pub(super) fn within_bounds<F: Fixture>() {
-    if WITH_LAWS.contains(&F::FILE) {
+pub(super) fn within_bounds(of: &dyn Listed<f64>, rounded: &dyn Listed<Rounded>) {
+    if WITH_LAWS.contains(&of.file()) {
         return;
     }
-    let reference = Reference::new::<F>();
+    let reference = Reference::new(of);
     let mut random = SmallRng::seed_from_u64(19_630_401);
     let (mut results, mut unknown, mut most) = (0, 0, 0.0_f64);
     for _ in 0..poses() {
-        let data = reference.data(&mut random, F::branch_count());
-        let Some([unknowns, points]) = run::<F>(&reference, &data) else { continue };
+        let data = reference.data(&mut random, of.branch_count());
+        let Some([unknowns, points]) = run(rounded, &reference, &data) else { continue };
         let found: Vec<f64> = unknowns.iter().map(|number| number.value()).collect();
         let Some(y) = reference.solve(&data, &found, &vec![0.0; found.len()]) else { continue };
         let exact_points: Vec<Big> = reference.evaluate(&reference.points, &data, &y);
@@ -57,8 +57,7 @@ pub(super) fn within_bounds<F: Fixture>() {
                 continue;
             }
             let off = (exact - big(number.value())).double().abs();
-            let context =
-                || format!("{} at {:?}, branch {}, of {:?}", F::NAME, data.inputs, data.branch, data.parameters);
+            let context = || format!("at {:?}, branch {}, of {:?}", data.inputs, data.branch, data.parameters);
             // The 48 digits are off by 1e-40 times a condition number.
             assert!(
                 off <= number.error() + 1e-30 * number.value().abs(),
@@ -70,5 +69,5 @@ pub(super) fn within_bounds<F: Fixture>() {
             }
         }
     }
-    println!("{:22} {results} results, {unknown} unknown, at most {most:.3} of the bound", F::NAME);
+    println!("{:22} {results} results, {unknown} unknown, at most {most:.3} of the bound", of.name());
 }

@@ -1,7 +1,7 @@
 //! The errors of the emitted code in ulp times condition number, and its bits in another unit of length.
 
 use linkage_compiler::ids::{Id, UnknownId};
-use linkage_gallery::Fixture;
+use linkage_gallery::listed::Listed;
 use linkage_oracle::precise::{Big, Scalar, big};
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
@@ -38,15 +38,15 @@ impl Worst {
     }
 }
 
-pub(super) fn largest_errors<F: Fixture>() -> [Worst; 3] {
-    let (reference, file, branches) = (Reference::new::<F>(), F::NAME, F::branch_count());
+pub(super) fn largest_errors(of: &dyn Listed<f64>) -> [Worst; 3] {
+    let (reference, file, branches) = (Reference::new(of), of.name(), of.branch_count());
     let mut random = SmallRng::seed_from_u64(20_091_121);
     let mut worst: [Worst; 3] = Default::default();
     let (mut count, mut missed) = (0, 0);
     let (unknowns, place_of) = (&reference.derivation.unknowns, &reference.derivation.coordinates);
     while count < poses() {
         let data = reference.data(&mut random, branches);
-        let Some(motions) = run::<F>(&data) else {
+        let Some(motions) = run(of, &data) else {
             missed += 1;
             assert!(missed < 50 * poses(), "{file}: hardly anything can be assembled");
             continue;
@@ -109,20 +109,20 @@ const WITH_NUMBERS: [&str; 2] = ["drag_link_drive", "slider_named_first"];
 
 /// At lengths 2^k times as long, everything has the same bits but for its exponent; angles are equal. Points with a
 /// number as a length are left out.
-pub(super) fn unit_of_length<F: Fixture>() {
-    let reference = Reference::new::<F>();
+pub(super) fn unit_of_length(of: &dyn Listed<f64>) {
+    let reference = Reference::new(of);
     let with_points = reference.powers_of_length(true);
     let scales_points = with_points.is_some();
     let Some(powers) = with_points.or_else(|| reference.powers_of_length(false)) else {
-        assert!(WITH_NUMBERS.contains(&F::FILE), "{} has a number for a length: add it to WITH_NUMBERS", F::FILE);
+        assert!(WITH_NUMBERS.contains(&of.file()), "a number for a length: add it to WITH_NUMBERS");
         return;
     };
-    assert!(!WITH_NUMBERS.contains(&F::FILE), "{} has no number for a length: it is not one of WITH_NUMBERS", F::FILE);
+    assert!(!WITH_NUMBERS.contains(&of.file()), "no number for a length: it is not one of WITH_NUMBERS");
     let mut random = SmallRng::seed_from_u64(5);
     let mut found = 0;
     for _ in 0..5000 {
-        let data = reference.data(&mut random, F::branch_count());
-        let Some(plain) = run::<F>(&data) else { continue };
+        let data = reference.data(&mut random, of.branch_count());
+        let Some(plain) = run(of, &data) else { continue };
         found += 1;
         if found > 100 {
             break;
@@ -130,22 +130,21 @@ pub(super) fn unit_of_length<F: Fixture>() {
         for k in [-300, -37, -1, 2, 101, 300] {
             let scale = 2_f64.powi(k);
             let scaled = reference.scaled(&data, &powers, scale);
-            let other =
-                run::<F>(&scaled).unwrap_or_else(|| panic!("{} at 2^{k}: no position at {:?}", F::NAME, data.inputs));
+            let other = run(of, &scaled).unwrap_or_else(|| panic!("at 2^{k}: no position at {:?}", data.inputs));
             let of_coordinates = &powers[reference.mechanism.parameters.len()..];
             for ((plain, other), order) in
                 plain.iter().zip(&other).flat_map(|pair| (0..3).map(move |order| (pair, order)))
             {
                 let pairs = plain.coordinates[order].iter().zip(&other.coordinates[order]).zip(of_coordinates);
                 for ((&one, &other), &power) in pairs {
-                    assert_eq!(one * scale.powf(power), other, "{} at 2^{k}, order {order}", F::NAME);
+                    assert_eq!(one * scale.powf(power), other, "at 2^{k}, order {order}, {:?}", data.inputs);
                 }
                 let points = plain.points[order].iter().zip(&other.points[order]).filter(|_| scales_points);
                 for (&one, &other) in points {
-                    assert_eq!(one * scale, other, "{} at 2^{k}: a point, order {order}", F::NAME);
+                    assert_eq!(one * scale, other, "at 2^{k}: a point, order {order}, {:?}", data.inputs);
                 }
             }
         }
     }
-    assert!(found > 10, "{}: {found}", F::NAME);
+    assert!(found > 10, "{found} positions");
 }

@@ -42,6 +42,7 @@
 //!
 //! ```text
 //! POSES=100000 cargo test --release --all-features --test digits forty_digits -- --nocapture
+//! MECHANISM=jansen cargo test --all-features --test digits forty_digits    one mechanism, by its file or its name
 //! ```
 
 mod bounds;
@@ -50,56 +51,46 @@ mod errors;
 mod reference;
 
 use errors::{ULPS, largest_errors, unit_of_length};
-use linkage_gallery::{Fixture, all_mechanisms};
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::{Listed, all, same_as};
+use linkage_oracle::scalars;
 use reference::{Data, Motion};
 
 /// The motion that the emitted code finds for some data, by separate calls and in one computation.
-fn run<F: Fixture>(data: &Data) -> Option<[Motion; 2]> {
-    let m = F::with_parameters(&data.parameters);
-    let inputs = |order: usize| F::inputs_of(&data.coordinates[order]);
+fn run(of: &dyn Listed<f64>, data: &Data) -> Option<[Motion; 2]> {
+    let m = of.with_parameters(&data.parameters);
+    let inputs = |order: usize| of.inputs_of(&data.coordinates[order]);
     let pose = m.position(&data.coordinates[0], data.branch).ok()?;
-    let velocity = m.velocity(&pose, &inputs(1)).ok()?;
-    let acceleration = m.acceleration(&pose, &velocity, &inputs(2)).ok()?;
+    let velocity = pose.velocity(&inputs(1)).ok()?;
+    let acceleration = pose.acceleration(&velocity, &inputs(2)).ok()?;
     let points = [
-        m.points(&pose).ok()?,
-        m.point_velocities(&pose, &velocity).ok()?,
-        m.point_accelerations(&pose, &velocity, &acceleration).ok()?,
+        pose.points().ok()?,
+        pose.point_velocities(&velocity).ok()?,
+        pose.point_accelerations(&velocity, &acceleration).ok()?,
     ];
-    let position = F::listed(&pose);
+    let position = pose.coordinates();
     let fused = m.moving(&position, data.branch, &inputs(1), &inputs(2), true).ok()?;
-    let coordinates = [F::listed(&fused.pose), fused.rates, fused.accelerations];
+    let coordinates = [fused.pose.coordinates(), fused.rates, fused.accelerations];
     let fused = Motion { coordinates, points: fused.points? };
     Some([Motion { coordinates: [position, velocity, acceleration], points }, fused])
 }
 
-fn eight_ulps<F: Fixture>() {
-    for worst in largest_errors::<F>() {
-        assert!(worst.error <= ULPS, "{} ulp x condition: {}", worst.error, worst.place);
-    }
+/// Another unit of length changes exponents and no other bit.
+#[test]
+fn scale_free() {
+    each(all(), unit_of_length);
 }
 
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
-        mod $file {
-            use linkage_gallery::$file::{$($Mechanism),+};
-
-            /// Another unit of length changes exponents and no other bit.
-            #[test]
-            fn scale_free() {
-                $(super::unit_of_length::<$Mechanism>();)+
-            }
-
-            #[test]
-            fn eight_ulps() {
-                $(super::eight_ulps::<$Mechanism>();)+
-            }
-
-            #[test]
-            fn within_bounds() {
-                $(super::bounds::within_bounds::<$Mechanism>();)+
-            }
+#[test]
+fn eight_ulps() {
+    each(all(), |of| {
+        for worst in largest_errors(of) {
+            assert!(worst.error <= ULPS, "{} ulp x condition: {}", worst.error, worst.place);
         }
-    )*};
+    });
 }
 
-all_mechanisms!(tests);
+#[test]
+fn within_bounds() {
+    each(all(), |of| bounds::within_bounds(of, same_as(scalars::rounded(), of)));
+}

@@ -4,7 +4,8 @@ use linkage_compiler::derivation::{Coordinate, Derivation};
 use linkage_compiler::graph::{External, NodeId, Number, SymbolId};
 use linkage_compiler::ids::{ColumnId, Id};
 use linkage_compiler::model::Mechanism;
-use linkage_gallery::{Fixture, source};
+use linkage_gallery::listed::Listed;
+use linkage_gallery::source;
 use linkage_oracle::laws;
 use linkage_oracle::precise::{Big, Scalar, big, direction};
 use linkage_oracle::tape::Tape;
@@ -48,9 +49,10 @@ pub(super) struct Reference {
 }
 
 impl Reference {
-    pub(super) fn new<F: Fixture>() -> Self {
-        let mechanism = linkage_compiler::read(source::tokens_of(F::FILE)).expect(F::FILE).remove(0);
-        let driver = mechanism.drivers.iter().position(|driver| driver.name == F::NAME).expect(F::NAME);
+    pub(super) fn new(of: &dyn Listed<f64>) -> Self {
+        let (file, name) = (of.file(), of.name());
+        let mechanism = linkage_compiler::read(source::tokens_of(file)).expect(file).remove(0);
+        let driver = mechanism.drivers.iter().position(|driver| driver.name == name).expect(name);
         let mut derivation = linkage_compiler::derive(&mechanism).remove(driver);
         let parameters: Vec<SymbolId> = mechanism.parameters.iter().map(|parameter| parameter.symbol).collect();
         let d = &mut derivation;

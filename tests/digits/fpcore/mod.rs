@@ -1,16 +1,19 @@
 //! The formulas of emitted functions as FPCore: a reader of the standard evaluates each of them, in doubles with the
 //! bits of the functions, in 48 digits to their rounding.
+//!
+//! `MECHANISM=four_bar cargo test --all-features --test digits fpcore` reads those of one mechanism, by its file or its name.
 
 mod arithmetic;
 mod one;
 mod reader;
 
 use std::collections::BTreeMap;
-use std::fmt::Debug;
 
 use linkage::Document;
 use linkage::derivation::Derivation;
-use linkage_gallery::{Fixture, all_mechanisms, source};
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::{Listed, all};
+use linkage_gallery::source;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -40,21 +43,20 @@ fn cores(derivation: &Derivation) -> BTreeMap<String, Core> {
 }
 
 /// The names of coordinates in the order of their fields.
-fn coordinates<F: Fixture>() -> Vec<String> {
-    let count = F::UNKNOWNS.len() + F::INPUTS.len();
+fn coordinates(of: &dyn Listed<f64>) -> Vec<String> {
+    let count = of.unknowns().len() + of.inputs().len();
     let places: Vec<f64> = (0..count).map(|place| place as f64).collect();
-    let (unknowns, inputs) = F::parts(&F::named(&places));
+    let [unknowns, inputs] = of.parts(&places);
     let mut names = vec![String::new(); count];
-    for (place, name) in unknowns.iter().zip(F::UNKNOWNS).chain(inputs.iter().zip(F::INPUTS)) {
+    for (place, name) in unknowns.iter().zip(of.unknowns()).chain(inputs.iter().zip(of.inputs())) {
         names[*place as usize] = name.to_lowercase();
     }
     names
 }
 
-/// The sides of a branch as numbers, from its `Debug`: `phi_s: Far` is 1.
-fn sides(branch: &impl Debug) -> Vec<(String, f64)> {
-    let text = format!("{branch:?}");
-    let fields = text.split(['{', '}', ',']).filter_map(|field| field.trim().split_once(": "));
+/// The sides of a branch as numbers, from its text: `phi_s: Far` is 1.
+fn sides(branch: &str) -> Vec<(String, f64)> {
+    let fields = branch.split(['{', '}', ',']).filter_map(|field| field.trim().split_once(": "));
     let sides = fields.filter(|(_, side)| side.parse::<i32>().is_err());
     let number = |side: &str| if ["Left", "Far", "Rising"].contains(&side) { 1.0 } else { -1.0 };
     sides.map(|(name, side)| (format!("{name}_side"), number(side))).collect()
@@ -74,9 +76,16 @@ fn numbered<'a>(names: &'a [String], list: &'a [f64]) -> impl Iterator<Item = (&
     names.iter().map(String::as_str).zip(list.iter().copied())
 }
 
-fn agrees<F: Fixture>(derivation: &Derivation, branches: &[Vec<(String, f64)>]) {
-    let (of, cores) = (derivation.mechanism, cores(&with_code(F::FILE, derivation)));
-    let names = coordinates::<F>();
+#[test]
+fn the_texts_have_the_bits_of_the_functions() {
+    each(all(), agrees);
+}
+
+fn agrees(listed: &dyn Listed<f64>) {
+    let derivation = listed.derivation();
+    let (of, cores) = (listed.name(), cores(&with_code(listed.file(), derivation)));
+    let (names, defaults) = (coordinates(listed), listed.defaults());
+    let branches: Vec<_> = listed.branches().iter().map(|branch| sides(branch)).collect();
     let parameters: Vec<String> = derivation.parameters.iter().map(|symbol| symbol.name.to_lowercase()).collect();
     let points: Vec<String> = derivation.points.iter().map(|point| point.name.to_lowercase()).collect();
     let components: Vec<String> = points.iter().flat_map(|name| [format!("{name}.x"), format!("{name}.y")]).collect();
@@ -85,9 +94,8 @@ fn agrees<F: Fixture>(derivation: &Derivation, branches: &[Vec<(String, f64)>]) 
     let mut rng = SmallRng::seed_from_u64(7);
     let mut compared = 0;
     for pose in 0..POSES {
-        let values: Vec<f64> =
-            F::default().parameters().iter().map(|value| value * rng.random_range(0.98..1.02)).collect();
-        let m = F::with_parameters(&values);
+        let values: Vec<f64> = defaults.iter().map(|value| value * rng.random_range(0.98..1.02)).collect();
+        let m = listed.with_parameters(&values);
         let mut draw = || -> Vec<f64> { names.iter().map(|_| rng.random_range(-3.0..3.0)).collect() };
         let [q, rates, bent] = [draw(), draw(), draw()];
         let mut data: BTreeMap<String, f64> =
@@ -100,15 +108,15 @@ fn agrees<F: Fixture>(derivation: &Derivation, branches: &[Vec<(String, f64)>]) 
                 compared += usize::from(self::compare(&cores, &format!("{of}::{function}.{name}"), data, emitted));
             }
         };
-        let [v_rates, v_bent] = [&rates, &bent].map(|list| F::inputs_of(list));
+        let [v_rates, v_bent] = [&rates, &bent].map(|list| listed.inputs_of(list));
         let at = m.pose(&q);
-        if let Ok(list) = m.velocity(&at, &v_rates) {
+        if let Ok(list) = at.velocity(&v_rates) {
             compare("velocity", &names, &list, &data);
         }
-        if let Ok(list) = m.acceleration(&at, &rates, &v_bent) {
+        if let Ok(list) = at.acceleration(&rates, &v_bent) {
             compare("acceleration", &names, &list, &data);
         }
-        if let Ok(list) = m.point_accelerations(&at, &rates, &bent) {
+        if let Ok(list) = at.point_accelerations(&rates, &bent) {
             compare("point_accelerations", &components, &list, &data);
         }
         if let Ok(motion) = m.motion(&q, &v_rates, &v_bent) {
@@ -128,30 +136,6 @@ fn agrees<F: Fixture>(derivation: &Derivation, branches: &[Vec<(String, f64)>]) 
     println!("| {of} | {} | {compared} |", cores.len());
     assert_eq!(compared > 0, !WITHOUT.contains(&of), "{of}: {compared} numbers compared");
 }
-
-macro_rules! branches {
-    (newton $Mechanism:ident) => {
-        Vec::new()
-    };
-    ($method:ident $Mechanism:ident) => {
-        <$Mechanism as linkage_gallery::ClosedForm>::all_branches().iter().map(super::sides).collect::<Vec<_>>()
-    };
-}
-
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
-        mod $file {
-            use linkage_gallery::$file::{$($Mechanism),+};
-
-            #[test]
-            fn the_texts_have_the_bits_of_the_functions() {
-                $(super::agrees::<$Mechanism>(<$Mechanism>::DERIVATION, &branches!($method $Mechanism));)+
-            }
-        }
-    )*};
-}
-
-all_mechanisms!(tests);
 
 /// An iteration, pivoting and user functions have no formula; all else of such a mechanism has one.
 #[test]

@@ -3,8 +3,9 @@
 //! digits are within their bounds.
 
 use linkage_double::DoubleDouble;
-use linkage_gallery::{Fixture, WithHigherOrders, all_mechanisms};
-use linkage_oracle::Oracle;
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::{Listed, ListedWithOrders, all, same_as, with_orders};
+use linkage_oracle::{Oracle, scalars};
 use linkage_rounding::Rounded;
 
 use crate::rounding::every_function::{Found, Three, arguments};
@@ -21,16 +22,16 @@ const LEFT: [f64; 5] = [3e-2, 1e-3, 1e-5, 1e-8, 1e-11];
 const HALVINGS: usize = 60;
 
 /// Calls with coordinates near those where the determinant is zero, on the way from one sample to the next.
-fn near_singular<F: Fixture>(mut compare: impl FnMut(&str, &Arguments<f64>)) {
-    let samples: Vec<Arguments<f64>> = Oracle::of::<F>().samples(12 * poses(SINGULAR)).map(arguments).collect();
+fn near_singular(of: &dyn Listed<f64>, mut compare: impl FnMut(&str, &Arguments<f64>)) {
+    let samples: Vec<Arguments<f64>> = Oracle::of_listed(of).samples(12 * poses(SINGULAR)).map(arguments).collect();
     let mut found = 0;
     for pair in samples.windows(2) {
         let at = |part: f64| {
             let ends = pair[0].q.iter().zip(&pair[1].q);
             ends.map(|(from, to)| from + part * (to - from)).collect::<Vec<f64>>()
         };
-        let m = F::with_parameters(&pair[0].parameters);
-        let is_positive = |part: f64| m.determinant(&m.pose(&at(part))) > 0.0;
+        let m = of.with_parameters(&pair[0].parameters);
+        let is_positive = |part: f64| m.pose(&at(part)).determinant() > 0.0;
         let from = is_positive(0.0);
         if from == is_positive(1.0) || found == poses(SINGULAR) {
             continue;
@@ -43,67 +44,60 @@ fn near_singular<F: Fixture>(mut compare: impl FnMut(&str, &Arguments<f64>)) {
         }
         for left in LEFT {
             let near = Arguments { q: at(ends[0] - left), ..pair[0].clone() };
-            compare(&format!("{} {found}, {left:e} from singular", F::FILE), &near);
+            compare(&format!("{} {found}, {left:e} from singular", of.file()), &near);
         }
     }
 }
 
-fn bits_of_doubles<F: Fixture>() {
+#[test]
+fn values_have_the_bits_of_doubles() {
+    each(all(), |of| bits_of_doubles(of, same_as(scalars::rounded(), of), same_as(scalars::doubled(), of)));
+}
+
+fn bits_of_doubles(of: &dyn Listed<f64>, rounded: &dyn Listed<Rounded>, doubled: &dyn Listed<DoubleDouble>) {
     let mut found = Found::default();
-    near_singular::<F>(|context, plain| {
+    near_singular(of, |context, plain| {
         let three = Three {
-            plain: given::<f64, F>(plain),
-            rounded: given::<Rounded, F::Of<Rounded>>(&plain.map(Rounded::from)),
-            exact: given::<DoubleDouble, F::Of<DoubleDouble>>(&plain.map(DoubleDouble::from)),
+            plain: given(of, plain),
+            rounded: given(rounded, &plain.map(Rounded::from)),
+            exact: given(doubled, &plain.map(DoubleDouble::from)),
         };
         found.compare(context, three);
         // The position of the same inputs, at or near which the group is singular; `DoubleDouble` may have another.
-        for branch in 0..F::branch_count().min(4) {
+        for branch in 0..of.branch_count().min(4) {
             let three = Three {
-                plain: assembled::<f64, F>(plain, branch),
-                rounded: assembled::<Rounded, F::Of<Rounded>>(&plain.map(Rounded::from), branch),
+                plain: assembled(of, plain, branch),
+                rounded: assembled(rounded, &plain.map(Rounded::from), branch),
                 exact: Vec::new(),
             };
             found.compare(&format!("{context}, branch {branch}"), three);
         }
     });
-    println!("{}: {} results, {} unknown", F::FILE, found.results, found.unknown);
+    println!("{}: {} results, {} unknown", of.file(), found.results, found.unknown);
     found.report(&["velocity", "acceleration"]);
 }
 
-fn bits_of_higher_orders<F: WithHigherOrders>() {
+#[test]
+fn higher_orders_have_the_bits_of_doubles() {
+    each(with_orders(), |of| {
+        let (rounded, doubled) = (scalars::rounded_with_orders(), scalars::doubled_with_orders());
+        bits_of_higher_orders(of, same_as(rounded, of), same_as(doubled, of));
+    });
+}
+
+fn bits_of_higher_orders(
+    of: &dyn ListedWithOrders<f64>,
+    rounded: &dyn ListedWithOrders<Rounded>,
+    doubled: &dyn ListedWithOrders<DoubleDouble>,
+) {
     let mut found = Found::default();
-    near_singular::<F>(|context, plain| {
+    near_singular(of, |context, plain| {
         let three = Three {
-            plain: higher_orders::<f64, F>(plain),
-            rounded: higher_orders::<Rounded, F::OfOrders<Rounded>>(&plain.map(Rounded::from)),
-            exact: higher_orders::<DoubleDouble, F::OfOrders<DoubleDouble>>(&plain.map(DoubleDouble::from)),
+            plain: higher_orders(of, plain),
+            rounded: higher_orders(rounded, &plain.map(Rounded::from)),
+            exact: higher_orders(doubled, &plain.map(DoubleDouble::from)),
         };
         found.compare(context, three);
     });
-    println!("{}: {} results of higher order, {} unknown", F::FILE, found.results, found.unknown);
+    println!("{}: {} results of higher order, {} unknown", of.file(), found.results, found.unknown);
 }
-
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
-        mod $file {
-            use linkage_gallery::$file::{$($Mechanism),+};
-
-            #[test]
-            fn values_have_the_bits_of_doubles() {
-                $(super::bits_of_doubles::<$Mechanism>();)+
-            }
-
-            tests!(@ $($orders)? $($Mechanism)+);
-        }
-    )*};
-    (@ orders $Mechanism:ident) => {
-        #[test]
-        fn higher_orders() {
-            super::bits_of_higher_orders::<$Mechanism>();
-        }
-    };
-    (@ $($Mechanism:ident)+) => {};
-}
-
-all_mechanisms!(tests);

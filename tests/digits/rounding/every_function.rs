@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use linkage_double::DoubleDouble;
-use linkage_gallery::{Fixture, WithHigherOrders, all_mechanisms};
-use linkage_oracle::{Oracle, Sample};
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::{Listed, ListedWithOrders, all, same_as, with_orders};
+use linkage_oracle::{Oracle, Sample, scalars};
 use linkage_rounding::Rounded;
 
 use crate::rounding::poses;
@@ -92,33 +93,37 @@ pub fn arguments(sample: Sample) -> Arguments<f64> {
     Arguments { parameters, q, rates, accelerations }
 }
 
-fn within_their_bounds<F: Fixture>() {
+#[test]
+fn results_are_within_their_bounds() {
+    each(all(), |of| within_their_bounds(of, same_as(scalars::rounded(), of), same_as(scalars::doubled(), of)));
+}
+
+fn within_their_bounds(of: &dyn Listed<f64>, rounded: &dyn Listed<Rounded>, doubled: &dyn Listed<DoubleDouble>) {
     let (mut at_given, mut at_assembled) = (Found::default(), Found::default());
-    for (number, sample) in Oracle::of::<F>().samples(poses(POSES)).enumerate() {
+    for (number, sample) in Oracle::of_listed(of).samples(poses(POSES)).enumerate() {
         let plain = arguments(sample);
-        let (rounded, exact) = (plain.map(Rounded::from), plain.map(DoubleDouble::from));
+        let (with_bounds, exact) = (plain.map(Rounded::from), plain.map(DoubleDouble::from));
+        let three =
+            Three { plain: given(of, &plain), rounded: given(rounded, &with_bounds), exact: given(doubled, &exact) };
+        at_given.compare(&format!("{} {number}", of.file()), three);
+        let branch = number % of.branch_count();
         let three = Three {
-            plain: given::<f64, F>(&plain),
-            rounded: given::<Rounded, F::Of<Rounded>>(&rounded),
-            exact: given::<DoubleDouble, F::Of<DoubleDouble>>(&exact),
+            plain: assembled(of, &plain, branch),
+            rounded: assembled(rounded, &with_bounds, branch),
+            exact: if IN_LINE.contains(&of.file()) { Vec::new() } else { assembled(doubled, &exact, branch) },
         };
-        at_given.compare(&format!("{} {number}", F::FILE), three);
-        let branch = number % F::branch_count();
-        let three = Three {
-            plain: assembled::<f64, F>(&plain, branch),
-            rounded: assembled::<Rounded, F::Of<Rounded>>(&rounded, branch),
-            exact: if IN_LINE.contains(&F::FILE) {
-                Vec::new()
-            } else {
-                assembled::<DoubleDouble, F::Of<DoubleDouble>>(&exact, branch)
-            },
-        };
-        at_assembled.compare(&format!("{} {number} assembled", F::FILE), three);
+        at_assembled.compare(&format!("{} {number} assembled", of.file()), three);
     }
     for (place, found) in [("given", at_given), ("assembled", at_assembled)] {
-        println!("{} {place}: {} results, {} unknown, {} turned", F::FILE, found.results, found.unknown, found.turned);
-        let is_allowed = IN_LINE.contains(&F::FILE) || 10 * found.turned <= poses(POSES);
-        assert!(is_allowed, "{}: {} positions have other turns", F::FILE, found.turned);
+        println!(
+            "{} {place}: {} results, {} unknown, {} turned",
+            of.file(),
+            found.results,
+            found.unknown,
+            found.turned
+        );
+        let is_allowed = IN_LINE.contains(&of.file()) || 10 * found.turned <= poses(POSES);
+        assert!(is_allowed, "{}: {} positions have other turns", of.file(), found.turned);
         found.report(&["velocity", "acceleration"]);
     }
 }
@@ -141,40 +146,28 @@ pub fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-fn higher_orders_within_their_bounds<F: WithHigherOrders>() {
+#[test]
+fn higher_orders_are_within_their_bounds() {
+    each(with_orders(), |of| {
+        let (rounded, doubled) = (scalars::rounded_with_orders(), scalars::doubled_with_orders());
+        higher_orders_within_their_bounds(of, same_as(rounded, of), same_as(doubled, of));
+    });
+}
+
+fn higher_orders_within_their_bounds(
+    of: &dyn ListedWithOrders<f64>,
+    rounded: &dyn ListedWithOrders<Rounded>,
+    doubled: &dyn ListedWithOrders<DoubleDouble>,
+) {
     let mut found = Found::default();
-    for (number, sample) in Oracle::of::<F>().samples(poses(POSES)).enumerate() {
+    for (number, sample) in Oracle::of_listed(of).samples(poses(POSES)).enumerate() {
         let plain = arguments(sample);
         let three = Three {
-            plain: higher_orders::<f64, F>(&plain),
-            rounded: higher_orders::<Rounded, F::OfOrders<Rounded>>(&plain.map(Rounded::from)),
-            exact: higher_orders::<DoubleDouble, F::OfOrders<DoubleDouble>>(&plain.map(DoubleDouble::from)),
+            plain: higher_orders(of, &plain),
+            rounded: higher_orders(rounded, &plain.map(Rounded::from)),
+            exact: higher_orders(doubled, &plain.map(DoubleDouble::from)),
         };
-        found.compare(&format!("{} {number}", F::FILE), three);
+        found.compare(&format!("{} {number}", of.file()), three);
     }
-    println!("{}: {} results of higher order, {} unknown", F::FILE, found.results, found.unknown);
+    println!("{}: {} results of higher order, {} unknown", of.file(), found.results, found.unknown);
 }
-
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
-        mod $file {
-            use linkage_gallery::$file::{$($Mechanism),+};
-
-            #[test]
-            fn results_are_within_their_bounds() {
-                $(super::within_their_bounds::<$Mechanism>();)+
-            }
-
-            tests!(@ $($orders)? $($Mechanism)+);
-        }
-    )*};
-    (@ orders $Mechanism:ident) => {
-        #[test]
-        fn higher_orders() {
-            super::higher_orders_within_their_bounds::<$Mechanism>();
-        }
-    };
-    (@ $($Mechanism:ident)+) => {};
-}
-
-all_mechanisms!(tests);

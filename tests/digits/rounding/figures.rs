@@ -1,7 +1,8 @@
 //! The tightness of the bounds: the figures of the manual.
 
 use linkage_double::DoubleDouble;
-use linkage_gallery::four_bar::FourBar;
+use linkage_gallery::listed::{listed, same_as};
+use linkage_oracle::scalars;
 use linkage_rounding::Rounded;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -12,6 +13,7 @@ use crate::rounding::results::{Arguments, given};
 
 /// Bounds and errors of a four-bar at given angles of which coupler and rocker are parallel but for this sine.
 fn near_dead_point(sine: Option<f64>) -> Found {
+    let of = listed("four_bar", "FourBar");
     let mut random = SmallRng::seed_from_u64(1963);
     let mut found = Found::default();
     for _ in 0..poses(300) {
@@ -27,9 +29,9 @@ fn near_dead_point(sine: Option<f64>) -> Found {
             accelerations: vec![0.2, 0.9, -0.7],
         };
         let three = Three {
-            plain: given::<f64, FourBar>(&plain),
-            rounded: given::<Rounded, FourBar<Rounded>>(&plain.map(Rounded::from)),
-            exact: given::<DoubleDouble, FourBar<DoubleDouble>>(&plain.map(DoubleDouble::from)),
+            plain: given(of, &plain),
+            rounded: given(same_as(scalars::rounded(), of), &plain.map(Rounded::from)),
+            exact: given(same_as(scalars::doubled(), of), &plain.map(DoubleDouble::from)),
         };
         found.compare(&format!("four_bar at {sine:?}"), three);
     }

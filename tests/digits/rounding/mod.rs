@@ -5,6 +5,7 @@
 //!
 //! ```text
 //! POSES=1000 cargo test --release --all-features --test digits rounding -- --nocapture    this many poses of each mechanism
+//! MECHANISM=four_bar cargo test --all-features --test digits rounding                     one mechanism, by its file or its name
 //! ```
 
 mod dead_points;

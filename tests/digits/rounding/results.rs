@@ -2,7 +2,7 @@
 
 use linkage::nalgebra::DMatrix;
 use linkage::{PositionError, Real};
-use linkage_gallery::{HigherOrders, Kinematics};
+use linkage_gallery::listed::{Listed, ListedWithOrders, Posed};
 
 /// A function and its results, or the message of its error.
 pub type Results<T> = Vec<(&'static str, Result<Vec<T>, String>)>;
@@ -41,77 +41,75 @@ fn all_entries<T: Real>(result: Result<Vec<DMatrix<T>>, PositionError>) -> Resul
 }
 
 /// The functions of a pose.
-fn at_pose<T: Real, M: Kinematics<T>>(m: &M, pose: &M::Pose, arguments: &Arguments<T>) -> Results<T> {
-    let (v1, v2) = (M::inputs_of(&arguments.rates), M::inputs_of(&arguments.accelerations));
-    let velocity = m.velocity(pose, &v1);
+fn at_pose<T: Real>(of: &dyn Listed<T>, pose: &dyn Posed<T>, arguments: &Arguments<T>) -> Results<T> {
+    let (v1, v2) = (of.inputs_of(&arguments.rates), of.inputs_of(&arguments.accelerations));
+    let velocity = pose.velocity(&v1);
     let rates = velocity.clone().unwrap_or_else(|_| arguments.rates.clone());
-    let acceleration = m.acceleration(pose, &rates, &v2);
+    let acceleration = pose.acceleration(&rates, &v2);
     let bent = acceleration.clone().unwrap_or_else(|_| arguments.accelerations.clone());
-    let unknowns = |all: linkage::PerUnknown<M>| all.iter().copied().collect::<Vec<T>>();
     vec![
-        ("coordinates", Ok(M::listed(pose))),
-        ("residual", Ok(unknowns(m.residual(pose)))),
-        ("determinant", Ok(vec![m.determinant(pose)])),
-        ("jacobian", entries(Ok(m.jacobian(pose)))),
-        ("gamma", Ok(m.gamma_of(pose, &arguments.rates))),
-        ("solve_jacobian", listed(m.solve_jacobian(pose, &m.residual(pose)).map(unknowns))),
-        ("velocity ratios", entries(m.velocity_ratios(pose))),
+        ("coordinates", Ok(pose.coordinates())),
+        ("residual", Ok(pose.residual())),
+        ("determinant", Ok(vec![pose.determinant()])),
+        ("jacobian", entries(Ok(pose.jacobian()))),
+        ("gamma", Ok(pose.gamma(&arguments.rates))),
+        ("solve_jacobian", listed(pose.solve_jacobian(&pose.residual()))),
+        ("velocity ratios", entries(pose.velocity_ratios())),
         ("velocity", listed(velocity)),
         ("acceleration", listed(acceleration)),
-        ("points", listed(m.points(pose))),
-        ("point velocities", listed(m.point_velocities(pose, &rates))),
-        ("point accelerations", listed(m.point_accelerations(pose, &rates, &bent))),
-        ("point ratios", all_entries(m.point_ratios(pose))),
-        ("outputs", listed(m.outputs(pose))),
-        ("output velocities", listed(m.output_velocities(pose, &rates))),
-        ("output accelerations", listed(m.output_accelerations(pose, &rates, &bent))),
-        ("output ratios", all_entries(m.output_ratios(pose))),
+        ("points", listed(pose.points())),
+        ("point velocities", listed(pose.point_velocities(&rates))),
+        ("point accelerations", listed(pose.point_accelerations(&rates, &bent))),
+        ("point ratios", all_entries(pose.point_ratios())),
+        ("outputs", listed(pose.outputs())),
+        ("output velocities", listed(pose.output_velocities(&rates))),
+        ("output accelerations", listed(pose.output_accelerations(&rates, &bent))),
+        ("output ratios", all_entries(pose.output_ratios())),
     ]
 }
 
 /// The functions that find a position, and those of the position.
-pub fn assembled<T: Real, M: Kinematics<T>>(arguments: &Arguments<T>, branch: usize) -> Results<T> {
-    let m = M::with_parameters(&arguments.parameters);
-    let (v1, v2) = (M::inputs_of(&arguments.rates), M::inputs_of(&arguments.accelerations));
+pub fn assembled<T: Real>(of: &dyn Listed<T>, arguments: &Arguments<T>, branch: usize) -> Results<T> {
+    let m = of.with_parameters(&arguments.parameters);
+    let (v1, v2) = (of.inputs_of(&arguments.rates), of.inputs_of(&arguments.accelerations));
     let moving = m.moving(&arguments.q, branch, &v1, &v2, true).map(|moving| {
         let lists = moving.points.into_iter().chain(moving.outputs).flatten();
-        [M::listed(&moving.pose), moving.rates, moving.accelerations].into_iter().chain(lists).flatten().collect()
+        [moving.pose.coordinates(), moving.rates, moving.accelerations].into_iter().chain(lists).flatten().collect()
     });
     let mut all = vec![("full_kinematics", listed(moving))];
     match m.assembled(&arguments.q, branch) {
-        Ok(pose) => all.extend(at_pose(&m, &pose, arguments)),
+        Ok(pose) => all.extend(at_pose(of, &*pose, arguments)),
         Err(error) => all.push(("assemble", Err(error.to_string()))),
     }
     all
 }
 
 /// The functions at given coordinates.
-pub fn given<T: Real, M: Kinematics<T>>(arguments: &Arguments<T>) -> Results<T> {
-    let m = M::with_parameters(&arguments.parameters);
-    let (v1, v2) = (M::inputs_of(&arguments.rates), M::inputs_of(&arguments.accelerations));
+pub fn given<T: Real>(of: &dyn Listed<T>, arguments: &Arguments<T>) -> Results<T> {
+    let m = of.with_parameters(&arguments.parameters);
+    let (v1, v2) = (of.inputs_of(&arguments.rates), of.inputs_of(&arguments.accelerations));
     let motion = m.motion(&arguments.q, &v1, &v2);
     let motion = motion.map(|all| [all.coordinates, all.points, all.outputs].into_iter().flatten().flatten().collect());
-    let mut all = at_pose(&m, &m.pose(&arguments.q), arguments);
+    let mut all = at_pose(of, &*m.pose(&arguments.q), arguments);
     all.push(("motion", listed(motion)));
     all
 }
 
 /// The functions of higher order.
-pub fn higher_orders<T: Real, M: HigherOrders<T>>(arguments: &Arguments<T>) -> Results<T> {
-    let m = M::with_parameters(&arguments.parameters);
-    let pose = m.pose(&arguments.q);
+pub fn higher_orders<T: Real>(of: &dyn ListedWithOrders<T>, arguments: &Arguments<T>) -> Results<T> {
+    let pose = of.at(&arguments.parameters, &arguments.q);
     let (rates, bent) = (&arguments.rates, &arguments.accelerations);
-    let jerk = m.jerk(&pose, rates, bent, &M::inputs_of(rates));
+    let jerk = pose.jerk(rates, bent, &of.inputs_of(rates));
     let of_jerk = jerk.clone().unwrap_or_else(|_| bent.clone());
     vec![
         ("jerk", listed(jerk)),
-        ("point jerks", listed(m.point_jerks(&pose, [rates, bent, &of_jerk]))),
-        ("output jerks", listed(m.output_jerks(&pose, [rates, bent, &of_jerk]))),
-        ("velocity ratio derivatives", all_entries(m.velocity_ratio_derivatives(&pose))),
-        ("point ratio derivatives", all_entries(m.point_ratio_derivatives(&pose))),
-        ("output ratio derivatives", all_entries(m.output_ratio_derivatives(&pose))),
-        ("sensitivity", entries(m.sensitivity(&pose))),
-        ("point sensitivities", all_entries(m.point_sensitivities(&pose))),
-        ("output sensitivities", all_entries(m.output_sensitivities(&pose))),
+        ("point jerks", listed(pose.point_jerks([rates, bent, &of_jerk]))),
+        ("output jerks", listed(pose.output_jerks([rates, bent, &of_jerk]))),
+        ("velocity ratio derivatives", all_entries(pose.velocity_ratio_derivatives())),
+        ("point ratio derivatives", all_entries(pose.point_ratio_derivatives())),
+        ("output ratio derivatives", all_entries(pose.output_ratio_derivatives())),
+        ("sensitivity", entries(pose.sensitivity())),
+        ("point sensitivities", all_entries(pose.point_sensitivities())),
+        ("output sensitivities", all_entries(pose.output_sensitivities())),
     ]
 }

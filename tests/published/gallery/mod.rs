@@ -2,6 +2,7 @@
 //! rigid links, straight lines, strokes, ratios and sweeps.
 
 mod cams;
+mod complete;
 mod course;
 mod exactness;
 mod five_bars;
