@@ -51,6 +51,9 @@ pub trait Mechanism {
     type Inputs: Copy + Debug + PartialEq + Into<PerInput<Self>> + From<PerInput<Self>>;
     /// A position with all that is computed from its coordinates.
     type Pose;
+    /// The assembly branch: the choice between the two solutions of each group that has two, with the number of the
+    /// position of a group that has a list, and the turns of angles that count them.
+    type Branch: Copy + Debug + Eq;
 
     /// The name of the mechanism, as in error messages.
     const NAME: &'static str;
@@ -77,6 +80,9 @@ pub trait Mechanism {
     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
     /// True if every number of a pose is finite.
     fn is_finite(pose: &Self::Pose) -> bool;
+    /// Returns the branch of a position. Where the position has a closed form, [`Assembly::assemble`] on it reproduces the
+    /// position.
+    fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
     /// The residuals Psi of the constraints.
     fn residual(&self, pose: &Self::Pose) -> PerUnknown<Self>;
     /// The sum of the magnitudes of the terms of each residual.
@@ -153,9 +159,6 @@ pub trait Mechanism {
     note = "`linkage!` implements `Assembly` if every group has a closed form; use `solve` or `assemble_near` with a guess"
 )]
 pub trait Assembly: Mechanism {
-    /// The assembly branch: the choice between the two solutions of each group that has two.
-    type Branch: Copy + Debug + Eq;
-
     /// Computes the position at these inputs on this branch.
     ///
     /// # Errors
@@ -171,8 +174,6 @@ pub trait Assembly: Mechanism {
     fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError> {
         self.assemble(Self::inputs(guess).into(), branch)
     }
-    /// Returns the branch of a position: `assemble` on it reproduces the position.
-    fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
 }
 
 /// A mechanism whose positions at given inputs can be listed.
@@ -184,9 +185,6 @@ pub trait Assembly: Mechanism {
             why it does not"
 )]
 pub trait Branches: Mechanism {
-    /// The assembly branch: a position at given inputs.
-    type Branch: Copy + Debug + Eq;
-
     /// All positions at these inputs, each with its branch, in the order of the branches.
     ///
     /// # Errors
