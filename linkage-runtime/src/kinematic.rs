@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use nalgebra::{Point2, Vector2};
 
+use crate::mechanism::no_unknowns;
 use crate::scalar::arithmetic::*;
 use crate::{Column, D, Dim, Matrix, Mechanism, OutputMotion, PerInput, PerUnknown, PointMotion, PositionError};
 
@@ -209,7 +210,7 @@ pub trait Kinematic:
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
     fn velocity_ratios(&self, _: &Self::Pose) -> Result<Matrix<Self::Scalar, Self::U, Self::V>, PositionError> {
-        const { assert!(Self::U::COUNT == 0, "a mechanism with unknowns has velocity ratios") };
+        const { no_unknowns::<Self>() };
         Ok(Matrix::zeros())
     }
     /// The points. A mechanism without points needs no body of this and of the next three functions.

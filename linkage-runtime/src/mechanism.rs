@@ -83,29 +83,71 @@ pub trait Mechanism {
     /// Returns the branch of a position. Where the position has a closed form, [`Assembly::assemble`] on it reproduces the
     /// position.
     fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
+    // Without unknowns there are no equations: what follows then needs no body.
+
     /// The residuals Psi of the constraints.
-    fn residual(&self, pose: &Self::Pose) -> PerUnknown<Self>;
+    #[inline]
+    fn residual(&self, _: &Self::Pose) -> PerUnknown<Self> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// The sum of the magnitudes of the terms of each residual.
-    fn residual_scales(&self, pose: &Self::Pose) -> PerUnknown<Self>;
+    #[inline]
+    fn residual_scales(&self, _: &Self::Pose) -> PerUnknown<Self> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// J, the derivative of Psi by u.
-    fn jacobian_unknowns(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
+    #[inline]
+    fn jacobian_unknowns(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
     /// A, the derivative of Psi by v.
-    fn jacobian_inputs(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
+    #[inline]
+    fn jacobian_inputs(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
     /// The largest magnitude that each entry of J can have at any angles, with the lengths of this pose.
-    fn jacobian_unknowns_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
+    #[inline]
+    fn jacobian_unknowns_scales(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
     /// The largest magnitude that each entry of A can have at any angles, with the lengths of this pose.
-    fn jacobian_inputs_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
-    /// det J.
-    fn determinant(&self, pose: &Self::Pose) -> Self::Scalar;
+    #[inline]
+    fn jacobian_inputs_scales(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
+    /// det J, 1 without unknowns.
+    #[inline]
+    fn determinant(&self, _: &Self::Pose) -> Self::Scalar {
+        const { no_unknowns::<Self>() };
+        Self::Scalar::one()
+    }
     /// The determinant of the block of J of each group.
-    fn block_determinants(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::G>;
+    #[inline]
+    fn block_determinants(&self, _: &Self::Pose) -> Column<Self::Scalar, Self::G> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// The quadratic velocity term (Psi_q q')_q q'.
-    fn gamma(&self, pose: &Self::Pose, rates: &Self::Rates) -> PerUnknown<Self>;
+    #[inline]
+    fn gamma(&self, _: &Self::Pose, _: &Self::Rates) -> PerUnknown<Self> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// Solves J x = `right`.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the solution is not finite.
-    fn solve_jacobian(&self, pose: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError>;
+    #[inline]
+    fn solve_jacobian(&self, _: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError> {
+        const { no_unknowns::<Self>() };
+        Ok(*right)
+    }
 
     /// The scale of lengths that are inputs and occur in no constraint, as in an open chain: about the longest arm, or 1
     /// if there is none.
@@ -148,6 +190,11 @@ pub trait Mechanism {
     fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
         same_signs(self.block_determinants(pose).as_slice(), self.block_determinants(other).as_slice())
     }
+}
+
+/// Does not compile for a mechanism with unknowns, which has equations of its own.
+pub(crate) const fn no_unknowns<M: Mechanism + ?Sized>() {
+    assert!(M::U::COUNT == 0, "a mechanism with unknowns has functions that compute its equations");
 }
 
 /// A mechanism whose position has a closed form.

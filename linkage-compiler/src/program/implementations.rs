@@ -87,7 +87,6 @@ impl Traits<'_> {
             ("GROUPS", ConstantValue::Groups(groups)),
         ];
         let mut functions = self.on_positions().to_vec();
-        functions.extend(self.signatures.is_open().then(|| self.no_equations()).into_iter().flatten());
         functions.extend((!mechanism.implied.is_empty()).then(|| {
             let pose = Expression::own_call("pose_at", [Expression::name("q")]);
             let value = Expression::own_call("check_implied", [pose.borrowed()]);
@@ -107,25 +106,6 @@ impl Traits<'_> {
         };
         let branch_of = of_trait("branch_of", [pose()], Type::OfTrait("Branch"), Body::plain(branch_of));
         [pose_at, Function { is_method: false, ..is_finite }, branch_of]
-    }
-
-    /// Psi, its derivatives, and linear systems in J of an open chain, which has no equations: all of these are empty.
-    fn no_equations(&self) -> Vec<Function<Body>> {
-        let signatures = self.signatures;
-        let of_pose = [
-            (signatures.residual(), Expression::zeros("Column")),
-            (signatures.residual_scales(), Expression::zeros("Column")),
-            (signatures.jacobian_unknowns(), Expression::zeros("Matrix")),
-            (signatures.jacobian_inputs(), Expression::zeros("Matrix")),
-            (signatures.jacobian_unknowns_scales(), Expression::zeros("Matrix")),
-            (signatures.jacobian_inputs_scales(), Expression::zeros("Matrix")),
-            (signatures.determinant(), Expression::one()),
-            (signatures.block_determinants(0), Expression::zeros("Column")),
-            (signatures.gamma(), Expression::zeros("Column")),
-            (signatures.solve_jacobian(), Expression::name(&signatures.arguments.right).dereferenced()),
-        ];
-        let of = |(signature, value)| Function { body: Some(Body::plain(value)), ..signature };
-        of_pose.map(of).to_vec()
     }
 
     /// Velocities and accelerations, points and outputs: the functions of the type itself under its names in the trait.
