@@ -71,8 +71,8 @@ fn bits<N: Dim>(numbers: Column<f64, N>) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-/// What holds for each mechanism: W v' is u', as are the ratios of points and outputs, accelerations come back from their
-/// parts, and the calls of everything at once agree with one another.
+/// Laws of each mechanism: u' = W v', and so for points and outputs; accelerations come back from their parts, and the calls
+/// of everything at once agree with one another.
 fn agrees<M: Kinematic<Scalar = f64>>(m: &M, guess: &M::Coordinates, input_rates: M::Inputs, given: M::Inputs) {
     let branch = m.branch_of(&m.pose_at(guess));
     let FullKinematics { pose, rates, accelerations, points, outputs } =

@@ -83,7 +83,8 @@ pub trait Mechanism {
     /// Returns the branch of a position. Where the position has a closed form, [`Assembly::assemble`] on it reproduces the
     /// position.
     fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
-    // Without unknowns there are no equations: what follows then needs no body.
+
+    // Without unknowns there are no equations: the functions from here to `solve_jacobian` then need no body.
 
     /// The residuals Psi of the constraints.
     #[inline]
