@@ -77,6 +77,9 @@ pub type MotionOf<M> = Motion<
 /// A vector with a number for each coordinate of a mechanism, in the order of the fields of its types.
 pub type PerCoordinate<M> = <<M as Kinematic>::N as Dim>::Vector<<M as Mechanism>::Scalar>;
 
+/// Rates by the rates of the inputs of a mechanism: a row for each, `R` of them.
+pub type Ratios<M, R> = Matrix<<M as Mechanism>::Scalar, R, <M as Mechanism>::V>;
+
 /// A quantity of a point or an output: a number, a vector, a matrix.
 pub trait Quantity: Copy + Debug + PartialEq {}
 
@@ -209,7 +212,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
-    fn velocity_ratios(&self, _: &Self::Pose) -> Result<Matrix<Self::Scalar, Self::U, Self::V>, PositionError> {
+    fn velocity_ratios(&self, _: &Self::Pose) -> Result<Ratios<Self, Self::U>, PositionError> {
         const { no_unknowns::<Self>() };
         Ok(Matrix::zeros())
     }
@@ -247,7 +250,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
-    fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Matrix<Self::Scalar, D<2>, Self::V>>, PositionError> {
+    fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Ratios<Self, D<2>>>, PositionError> {
         Ok(none::<Self::P, _, _>(Matrix::zeros()))
     }
     /// The outputs. A mechanism without outputs needs no body of this and of the next three functions.
@@ -280,10 +283,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
-    fn output_ratios(
-        &self,
-        _: &Self::Pose,
-    ) -> Result<Self::Outputs<Matrix<Self::Scalar, D<1>, Self::V>>, PositionError> {
+    fn output_ratios(&self, _: &Self::Pose) -> Result<Self::Outputs<Ratios<Self, D<1>>>, PositionError> {
         Ok(none::<Self::O, _, _>(Matrix::zeros()))
     }
 
