@@ -9,7 +9,7 @@ use std::error::Error;
 
 use linkage::drawing::Drawing;
 use linkage::nalgebra::{SMatrix, SVector, Vector2};
-use linkage::{PositionError, linkage, position};
+use linkage::{Mechanism, PositionError, linkage, position};
 
 mod output;
 
@@ -56,11 +56,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("Four-bar l1 = 80, l2 = 20, l3 = 50, l4 = 70 at theta2 = 20 deg, q = (theta3, theta4 | theta2)");
     let pose = four_bar.pose_at(&guess);
     heading("Psi at the start (70 deg, -50 deg)");
-    println!("{:.9}", four_bar.residual(&pose));
+    println!("{:.9}", SVector::from(four_bar.residual(&pose)));
     heading("Psi_q");
     println!("{:.9}", four_bar.jacobian(&pose));
     heading("Psi_u = J and Psi_v = A");
-    println!("{:.9}{:.9}", four_bar.jacobian_unknowns(&pose), four_bar.jacobian_inputs(&pose));
+    let (j, a) = (SMatrix::from(four_bar.jacobian_unknowns(&pose)), SMatrix::from(four_bar.jacobian_inputs(&pose)));
+    println!("{j:.9}{a:.9}");
     heading("det J = -l3 l4 sin(theta3 - theta4)");
     println!("  {:.12}", four_bar.determinant(&pose));
 
@@ -85,8 +86,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     beside("theta4 deg", q.theta4.to_degrees(), -50.465_945_47);
     let pose = four_bar.pose_at(&q);
     let residual = four_bar.residual(&pose);
-    println!("  residuals    {:.1e}, {:.1e} (the sheet's: 1e-8, -1e-8)", residual.x, residual.y);
-    assert!(residual.amax() < 1e-13);
+    println!("  residuals    {:.1e}, {:.1e} (the sheet's: 1e-8, -1e-8)", residual[0], residual[1]);
+    assert!(residual.largest() < 1e-13);
 
     let omega2 = 400.0 * std::f64::consts::TAU / 60.0;
     heading("Velocity ratios W = -J^-1 A (the sheet's Rap is -W), and q' = (W omega2, omega2)");
@@ -99,7 +100,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     heading("gamma = (Psi_q q')_q q'");
     let gamma = four_bar.gamma(&pose, &velocity);
-    println!("  ({:.9}, {:.9})", gamma.x, gamma.y);
+    println!("  ({:.9}, {:.9})", gamma[0], gamma[1]);
 
     heading("Accelerations");
     table();
@@ -170,10 +171,10 @@ fn by_derivatives_of_the_jacobian(
         SMatrix::<f64, 2, 2>::from([column(l3, q.theta3, velocity.theta3), column(l4, q.theta4, velocity.theta4)]);
     let a_rate = SMatrix::<f64, 2, 1>::from([column(l2, q.theta2, velocity.theta2)]);
     let pose = four_bar.pose_at(q);
-    let h1 = four_bar.jacobian_inputs(&pose) * alpha2;
+    let h1 = SMatrix::from(four_bar.jacobian_inputs(&pose)) * alpha2;
     let h2 = j_rate * Vector2::new(velocity.theta3, velocity.theta4);
     let h3 = a_rate * velocity.theta2;
-    four_bar.solve_jacobian(&pose, &-(h1 + h2 + h3))
+    Ok(four_bar.solve_jacobian(&pose, &(-(h1 + h2 + h3)).into())?.into())
 }
 
 /// The sheet's picture: velocities green at 0.02, accelerations red at 0.0005.

@@ -6,7 +6,7 @@ use std::error::Error;
 
 use linkage::drawing::Drawing;
 use linkage::sheet::Sheet;
-use linkage::{Document, linkage};
+use linkage::{Document, Mechanism, linkage};
 
 mod output;
 

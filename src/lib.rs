@@ -64,9 +64,9 @@ pub use linkage_runtime::circuits;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Dim, Elbow, Formulas, Group,
-    InputError, Limits, Matrix, Mechanism, Number, OutputMotion, PathError, PerInput, PerUnknown, PointMotion,
-    PositionError, Real, Slider, Slope, Solution, accuracy, continuation, derivation, extremes, lanes, limits,
-    nalgebra, position, real, singularity, skeleton,
+    InputError, Kinematic, Limits, Matrix, Mechanism, Number, OutputMotion, PathError, PerInput, PerUnknown,
+    PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy, continuation, derivation, extremes, kinematic,
+    lanes, limits, nalgebra, position, real, singularity, skeleton,
 };
 
 /// An example without a `scene`, a crank and slider: the rate function solves for the position, with the last

@@ -62,7 +62,13 @@ pub fn at(m: &FourBar, q: &FourBarCoordinates, rate: f64, acceleration: f64) -> 
     let ([theta3, theta4], theta) = (rates, rate);
     let rates = FourBarRates { theta3, theta4, theta };
     let ([theta3, theta4], theta) = (accelerations, acceleration);
-    Some(FourBarMotion { position: *q, rates, accelerations: FourBarAccelerations { theta3, theta4, theta } })
+    Some(FourBarMotion {
+        position: *q,
+        rates,
+        accelerations: FourBarAccelerations { theta3, theta4, theta },
+        points: [],
+        outputs: [],
+    })
 }
 
 #[inline(always)]

@@ -151,7 +151,13 @@ pub fn at(m: &Jansen, q: &JansenCoordinates, rate: f64, acceleration: f64) -> Ch
     let ih = Moving::at(fg.second(), [m.i, m.h], [i, h, ih])?;
     let dyads = [bj, de, ck, fg, ih];
     check::<true>(&dyads)?;
-    Some(JansenMotion { position: *q, rates: rates(&dyads, rate), accelerations: accelerations(&dyads, acceleration) })
+    Some(JansenMotion {
+        position: *q,
+        rates: rates(&dyads, rate),
+        accelerations: accelerations(&dyads, acceleration),
+        points: [],
+        outputs: [],
+    })
 }
 
 #[inline(always)]

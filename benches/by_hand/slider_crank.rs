@@ -66,7 +66,13 @@ pub fn at(m: &SliderCrank, q: &SliderCrankCoordinates, rate: f64, acceleration: 
     let ([phi, s], theta) = (rates, rate);
     let rates = SliderCrankRates { phi, s, theta };
     let ([phi, s], theta) = (accelerations, acceleration);
-    Some(SliderCrankMotion { position: *q, rates, accelerations: SliderCrankAccelerations { phi, s, theta } })
+    Some(SliderCrankMotion {
+        position: *q,
+        rates,
+        accelerations: SliderCrankAccelerations { phi, s, theta },
+        points: [],
+        outputs: [],
+    })
 }
 
 #[inline(always)]

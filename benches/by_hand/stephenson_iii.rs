@@ -143,7 +143,7 @@ pub fn at(
     let rates = StephensonIIIRates { theta3, theta4, theta5, theta6, theta: rate };
     let [[theta3, theta4], [theta5, theta6]] = accelerations;
     let accelerations = StephensonIIIAccelerations { theta3, theta4, theta5, theta6, theta: acceleration };
-    Some(StephensonIIIMotion { position: *q, rates, accelerations })
+    Some(StephensonIIIMotion { position: *q, rates, accelerations, points: [], outputs: [] })
 }
 
 /// The vector on the coupler from the crank's pin to the joint of the second dyad.

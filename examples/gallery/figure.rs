@@ -143,7 +143,11 @@ macro_rules! frame {
         let own: [linkage::nalgebra::Point2<f64>; $mechanism::<f64>::DERIVATION.points.len()] = $points.into();
         let names = $mechanism::<f64>::DERIVATION.points.iter().map(|point| point.name);
         let points = names.zip(own).chain($more).collect();
-        $figure.frame($m.residual($pose).amax(), $m.residual_scales($pose).sum(), points);
+        let (residual, scales) = {
+            use linkage::Mechanism as _;
+            ($m.residual($pose), $m.residual_scales($pose))
+        };
+        $figure.frame(residual.largest(), scales.sum(), points);
     }};
 }
 

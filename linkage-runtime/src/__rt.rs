@@ -17,19 +17,20 @@ pub use crate::chord::{
 };
 pub use crate::error::{finite, finite_matrix, no_closed_form, no_list, too_many_branches};
 pub use crate::implied::{closes, implied};
+pub use crate::kinematic::{FullKinematicsOf, Kinematic, KinematicsOf, MotionOf, Quantity};
 pub use crate::lanes::{Batch, Lanes, Values};
 pub use crate::limits::{Bound, Search, limits};
 pub use crate::linear::{Factorization, is_nonzero, product_of_pivots, regular};
 pub use crate::modes::{Loops, Memory, Unknown};
 pub use crate::motion::{
-    finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
+    each_sized, finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };
 pub use crate::position::newton_group;
 pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
 pub use crate::wide::{
-    Wide, rounded, rounded_by_name, rounded_each, widened, widened_by_name, widened_direction, widened_matrix,
+    Wide, rounded, rounded_by_name, rounded_each, widened, widened_by_name, widened_column, widened_direction,
 };
 pub use crate::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Elbow, Formulas, Group, InputError,

@@ -29,6 +29,18 @@ impl<X: Copy + Debug, R: Dim> Column<X, R> {
         R::from_slice(entries).map(Self)
     }
 
+    /// The column of these entries.
+    #[inline]
+    pub(crate) fn of(entries: R::Array<X>) -> Self {
+        Self(entries)
+    }
+
+    /// The entries as an array.
+    #[inline]
+    pub(crate) fn into_array(self) -> R::Array<X> {
+        self.0
+    }
+
     /// Builds a column of equal entries.
     #[inline]
     #[must_use]

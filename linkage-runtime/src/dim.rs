@@ -8,13 +8,19 @@
 
 use core::fmt::Debug;
 
-/// A number as a type, with the array type of that length.
+use nalgebra::SVector;
+
+use crate::Real;
+
+/// A number as a type, with the array type and the vector type of that length.
 #[diagnostic::on_unimplemented(message = "`{Self}` is not a dimension", note = "write `D<N>` with a number `N`")]
 pub trait Dim: Copy + Debug + Eq + 'static {
     /// The number.
     const COUNT: usize;
     /// `[X; COUNT]`.
     type Array<X: Copy + Debug>: Copy + Debug + AsRef<[X]> + AsMut<[X]> + IntoIterator<Item = X>;
+    /// nalgebra's vector of that length.
+    type Vector<T: Real>: Copy + Debug + From<Self::Array<T>> + Into<Self::Array<T>>;
 
     /// Builds the array whose entry at index i is `entry(i)`.
     fn array<X: Copy + Debug>(entry: impl FnMut(usize) -> X) -> Self::Array<X>;
@@ -31,6 +37,7 @@ pub struct D<const N: usize>;
 impl<const N: usize> Dim for D<N> {
     const COUNT: usize = N;
     type Array<X: Copy + Debug> = [X; N];
+    type Vector<T: Real> = SVector<T, N>;
 
     #[inline]
     fn array<X: Copy + Debug>(entry: impl FnMut(usize) -> X) -> [X; N] {

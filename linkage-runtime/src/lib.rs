@@ -1,6 +1,6 @@
 //! The runtime library of the kinematics emitted by `linkage!`.
 //!
-//! - [`Mechanism`]: the trait that every emitted mechanism implements;
+//! - [`Mechanism`], [`Kinematic`]: the traits that every emitted mechanism implements;
 //! - [`position`]: damped Newton's method, which returns an error if it does not converge;
 //! - [`mod@limits`]: the range of an input on one assembly branch;
 //! - [`continuation`]: path following through dead points and change points;
@@ -40,6 +40,7 @@ mod hypotenuse;
 mod implied;
 #[doc(hidden)]
 pub mod jacobian;
+pub mod kinematic;
 #[doc(hidden)]
 pub mod lane;
 pub mod lanes;
@@ -68,6 +69,7 @@ pub use column::Column;
 pub use dim::{D, Dim};
 pub use error::{InputError, PathError, PositionError};
 pub use formulas::{Certifiable, Formulas};
+pub use kinematic::Kinematic;
 pub use limits::Limits;
 pub use matrix::Matrix;
 pub use mechanism::{Assembly, Branches, Group, Mechanism, PerInput, PerUnknown};

@@ -223,6 +223,14 @@ impl<T: Real, const R: usize, const C: usize> From<[[T; R]; C]> for Matrix<T, D<
     }
 }
 
+impl<T: Real, const R: usize, const C: usize> From<Matrix<T, D<R>, D<C>>> for [[T; R]; C] {
+    /// The columns.
+    #[inline]
+    fn from(matrix: Matrix<T, D<R>, D<C>>) -> Self {
+        matrix.0.into_array().map(Column::into_array)
+    }
+}
+
 impl<T: Real, const R: usize, const C: usize> From<Matrix<T, D<R>, D<C>>> for SMatrix<T, R, C> {
     #[inline]
     fn from(matrix: Matrix<T, D<R>, D<C>>) -> Self {

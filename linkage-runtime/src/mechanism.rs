@@ -51,6 +51,9 @@ pub trait Mechanism {
     type Inputs: Copy + Debug + PartialEq + Into<PerInput<Self>> + From<PerInput<Self>>;
     /// A position with all that is computed from its coordinates.
     type Pose;
+    /// The assembly branch: the choice between the two solutions of each group that has two, with the number of the
+    /// position of a group that has a list, and the turns of angles that count them.
+    type Branch: Copy + Debug + Eq;
 
     /// The name of the mechanism, as in error messages.
     const NAME: &'static str;
@@ -77,29 +80,75 @@ pub trait Mechanism {
     fn pose_at(&self, q: &Self::Coordinates) -> Self::Pose;
     /// True if every number of a pose is finite.
     fn is_finite(pose: &Self::Pose) -> bool;
+    /// Returns the branch of a position. Where the position has a closed form, [`Assembly::assemble`] on it reproduces the
+    /// position.
+    fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
+
+    // Without unknowns there are no equations: the functions from here to `solve_jacobian` then need no body.
+
     /// The residuals Psi of the constraints.
-    fn residual(&self, pose: &Self::Pose) -> PerUnknown<Self>;
+    #[inline]
+    fn residual(&self, _: &Self::Pose) -> PerUnknown<Self> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// The sum of the magnitudes of the terms of each residual.
-    fn residual_scales(&self, pose: &Self::Pose) -> PerUnknown<Self>;
+    #[inline]
+    fn residual_scales(&self, _: &Self::Pose) -> PerUnknown<Self> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// J, the derivative of Psi by u.
-    fn jacobian_unknowns(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
+    #[inline]
+    fn jacobian_unknowns(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
     /// A, the derivative of Psi by v.
-    fn jacobian_inputs(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
+    #[inline]
+    fn jacobian_inputs(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
     /// The largest magnitude that each entry of J can have at any angles, with the lengths of this pose.
-    fn jacobian_unknowns_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U>;
+    #[inline]
+    fn jacobian_unknowns_scales(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
     /// The largest magnitude that each entry of A can have at any angles, with the lengths of this pose.
-    fn jacobian_inputs_scales(&self, pose: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V>;
-    /// det J.
-    fn determinant(&self, pose: &Self::Pose) -> Self::Scalar;
+    #[inline]
+    fn jacobian_inputs_scales(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V> {
+        const { no_unknowns::<Self>() };
+        Matrix::zeros()
+    }
+    /// det J, 1 without unknowns.
+    #[inline]
+    fn determinant(&self, _: &Self::Pose) -> Self::Scalar {
+        const { no_unknowns::<Self>() };
+        Self::Scalar::one()
+    }
     /// The determinant of the block of J of each group.
-    fn block_determinants(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::G>;
+    #[inline]
+    fn block_determinants(&self, _: &Self::Pose) -> Column<Self::Scalar, Self::G> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// The quadratic velocity term (Psi_q q')_q q'.
-    fn gamma(&self, pose: &Self::Pose, rates: &Self::Rates) -> PerUnknown<Self>;
+    #[inline]
+    fn gamma(&self, _: &Self::Pose, _: &Self::Rates) -> PerUnknown<Self> {
+        const { no_unknowns::<Self>() };
+        Column::zeros()
+    }
     /// Solves J x = `right`.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the solution is not finite.
-    fn solve_jacobian(&self, pose: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError>;
+    #[inline]
+    fn solve_jacobian(&self, _: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError> {
+        const { no_unknowns::<Self>() };
+        Ok(*right)
+    }
 
     /// The scale of lengths that are inputs and occur in no constraint, as in an open chain: about the longest arm, or 1
     /// if there is none.
@@ -144,6 +193,11 @@ pub trait Mechanism {
     }
 }
 
+/// Does not compile for a mechanism with unknowns, which has equations of its own.
+pub(crate) const fn no_unknowns<M: Mechanism + ?Sized>() {
+    assert!(M::U::COUNT == 0, "a mechanism with unknowns has functions that compute its equations");
+}
+
 /// A mechanism whose position has a closed form.
 ///
 /// `linkage!` implements it if all groups have one. In other mechanisms the groups without a closed form are solved by
@@ -153,9 +207,6 @@ pub trait Mechanism {
     note = "`linkage!` implements `Assembly` if every group has a closed form; use `solve` or `assemble_near` with a guess"
 )]
 pub trait Assembly: Mechanism {
-    /// The assembly branch: the choice between the two solutions of each group that has two.
-    type Branch: Copy + Debug + Eq;
-
     /// Computes the position at these inputs on this branch.
     ///
     /// # Errors
@@ -171,8 +222,6 @@ pub trait Assembly: Mechanism {
     fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError> {
         self.assemble(Self::inputs(guess).into(), branch)
     }
-    /// Returns the branch of a position: `assemble` on it reproduces the position.
-    fn branch_of(&self, pose: &Self::Pose) -> Self::Branch;
 }
 
 /// A mechanism whose positions at given inputs can be listed.
@@ -184,9 +233,6 @@ pub trait Assembly: Mechanism {
             why it does not"
 )]
 pub trait Branches: Mechanism {
-    /// The assembly branch: a position at given inputs.
-    type Branch: Copy + Debug + Eq;
-
     /// All positions at these inputs, each with its branch, in the order of the branches.
     ///
     /// # Errors

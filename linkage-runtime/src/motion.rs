@@ -3,7 +3,7 @@
 use nalgebra::{Point2, SMatrix, Scalar, Vector2};
 
 use crate::error::all_finite;
-use crate::{PositionError, Real};
+use crate::{D, Matrix, PositionError, Real};
 
 /// The motion of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,4 +115,14 @@ pub fn output_motions<T: Real, G: From<[OutputMotion<T>; N]>, const N: usize>(
 ) -> Result<G, PositionError> {
     all_finite(mechanism, "motion", outputs.as_flattened().iter())?;
     Ok(G::from(outputs.map(|[value, velocity, acceleration]| OutputMotion { value, velocity, acceleration })))
+}
+
+/// Converts matrices by name to matrices with their dimensions as types.
+#[inline]
+pub fn each_sized<T: Real, A, B, const N: usize, const R: usize, const C: usize>(matrices: A) -> B
+where
+    [SMatrix<T, R, C>; N]: From<A>,
+    B: From<[Matrix<T, D<R>, D<C>>; N]>,
+{
+    <[SMatrix<T, R, C>; N]>::from(matrices).map(Matrix::from).into()
 }

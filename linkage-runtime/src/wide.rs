@@ -12,7 +12,7 @@ use nalgebra::{Point2, SMatrix, SVector, UnitComplex};
 use crate::bounded::{has_bound, instead};
 use crate::native::is_native;
 use crate::scalar::{to_f64, unit};
-use crate::{OutputMotion, PointMotion, Real, real};
+use crate::{Column, Dim, OutputMotion, PointMotion, Real, real};
 
 /// The scalar of twice the precision: `f32` and `f64` convert to it exactly. One for both, so that a mechanism is compiled
 /// for one more scalar only.
@@ -44,10 +44,10 @@ pub fn widened_direction<T: Real>(direction: UnitComplex<T>) -> UnitComplex<Wide
     unit(widened(direction.re), widened(direction.im))
 }
 
-/// The matrix in twice the precision.
+/// The column in twice the precision.
 #[must_use]
-pub fn widened_matrix<T: Real, const R: usize, const C: usize>(matrix: &SMatrix<T, R, C>) -> SMatrix<Wide, R, C> {
-    matrix.map(widened)
+pub fn widened_column<T: Real, R: Dim>(column: &Column<T, R>) -> Column<Wide, R> {
+    column.map(widened)
 }
 
 /// The numbers by name in twice the precision.
@@ -79,6 +79,12 @@ impl<T: Real> Rounded<T> for Wide {
 impl<T: Real, const R: usize, const C: usize> Rounded<SMatrix<T, R, C>> for SMatrix<Wide, R, C> {
     fn rounded(self, rough: SMatrix<T, R, C>, is_finite: &mut bool) -> SMatrix<T, R, C> {
         self.zip_map(&rough, |entry, rough| entry.rounded(rough, is_finite))
+    }
+}
+
+impl<T: Real, R: Dim> Rounded<Column<T, R>> for Column<Wide, R> {
+    fn rounded(self, rough: Column<T, R>, is_finite: &mut bool) -> Column<T, R> {
+        rough.zip_map(&self, |rough, entry| entry.rounded(rough, is_finite))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Emitted code computes the derived expressions, and these are right: also by other ways to write a mechanism.
 
 mod agreement;
+mod any_mechanism;
 mod implied;
 mod orders;
 mod three_ways;

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Table};
 use linkage::nalgebra::SVector;
-use linkage::{Assembly, D, InputError, Mechanism, PerInput, PerUnknown, PositionError, Real};
+use linkage::{D, InputError, Mechanism, PerInput, PerUnknown, PositionError, Real};
 use linkage_double::DoubleDouble;
 
 use linkage_examples::accuracy_cost::dominance::dominated;
@@ -134,11 +134,11 @@ fn within<const N: usize>(found: [f64; N], bounds: [f64; N]) {
 }
 
 fn branch<T: Real>(case: &Case) -> FourBarBranch {
-    Assembly::branch_of(&mechanism::<FourBar, T>(case), &near::<FourBar, T>(case).pose)
+    Mechanism::branch_of(&mechanism::<FourBar, T>(case), &near::<FourBar, T>(case).pose)
 }
 
 fn leg<T: Real>(case: &Case) -> JansenBranch {
-    Assembly::branch_of(&mechanism::<Jansen, T>(case), &near::<Jansen, T>(case).pose)
+    Mechanism::branch_of(&mechanism::<Jansen, T>(case), &near::<Jansen, T>(case).pose)
 }
 
 /// l1^2 + l2^2 - 2 l1 l2 cos theta2 is (l3 - l4)^2 or (l3 + l4)^2 where coupler and rocker are in line.
@@ -296,7 +296,7 @@ fn tables_go_round() {
         let found = Table::position(&m, &table, input).unwrap();
         let first = Table::position(&m, &table, 0.3 + 0.01).unwrap().coordinates;
         assert!((found.coordinates.theta4 - first.theta4 - turns * TAU).abs() < 1e-9, "{turns}");
-        assert!(m.residual(&found.pose).amax() < 1e-3 && found.coordinates.theta2.to_bits() == input.to_bits());
+        assert!(m.residual(&found.pose).largest() < 1e-3 && found.coordinates.theta2.to_bits() == input.to_bits());
     }
 }
 

@@ -148,6 +148,7 @@ mod chain;
 use std::hint::black_box;
 
 use chain::{Chain, ChainCoordinates, ChainInputs};
+use linkage::Mechanism;
 use linkage::nalgebra::SVector;
 
 const LOOPS: usize = 200;

@@ -40,9 +40,14 @@ fn implementor(block: &syn::ItemImpl) -> String {
     path.path.segments.last().unwrap().ident.to_string()
 }
 
-/// The structures of these names.
+/// The types of these names.
 fn structures(items: Vec<Item>, names: &[&str]) -> Vec<Item> {
-    let is_named = |item: &Item| matches!(item, Item::Struct(item) if names.iter().any(|name| item.ident == name));
+    let is_one = |ident: &syn::Ident| names.iter().any(|name| ident == name);
+    let is_named = |item: &Item| match item {
+        Item::Struct(item) => is_one(&item.ident),
+        Item::Type(item) => is_one(&item.ident),
+        _ => false,
+    };
     items.into_iter().filter(is_named).collect()
 }
 
@@ -124,6 +129,8 @@ snapshots! {
     every_operation: functions("every_function", "EveryFunction", &["outputs"]);
     scene: functions("slider_crank_scenes", "Steady", &["drive_forces", "effects"]);
     trait_implementation: implementation("scotch_yoke", "ScotchYoke", "Mechanism");
+    motion: implementation("scotch_yoke", "ScotchYoke", "Kinematic");
+    motion_of_an_open_chain: implementation("cart_pendulum", "CartPendulum", "Kinematic");
     open_chain: implementation("cart_pendulum", "CartPendulum", "Mechanism");
     columns: structures(expand(source::tokens_of("scotch_yoke")), &["ScotchYokeColumns"]);
     lanes: implementation("scotch_yoke", "ScotchYoke", "Lanes");

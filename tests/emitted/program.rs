@@ -138,10 +138,12 @@ snapshots! {
     functions_of_a_pose: "geared_five_bar" "GearedFiveBarPose" ["is_finite", "coordinates"];
     branches: "jansen" "JansenBranch" ["all"];
     branches_by_number: "double_butterfly" "DoubleButterflyBranch" ["all"];
-    trait_of_a_mechanism: "four_bar" "Mechanism of FourBar" ["is_finite", "residual", "gamma", "solve_jacobian"];
-    trait_of_an_open_chain: "cart_pendulum" "Mechanism of CartPendulum"
-        ["residual", "determinant", "gamma", "solve_jacobian", "length_scale"];
-    trait_of_closed_forms: "four_bar" "Assembly of FourBar" ["assemble", "branch_of"];
+    trait_of_a_mechanism: "four_bar" "Mechanism of FourBar" ["pose_at", "is_finite", "branch_of"];
+    trait_of_an_open_chain: "cart_pendulum" "Mechanism of CartPendulum" ["pose_at", "is_finite", "branch_of"];
+    trait_of_motion: "four_bar" "Kinematic of FourBar"
+        ["coordinates_of", "velocity", "velocity_ratios", "points", "output_ratios", "kinematics", "full_kinematics", "motion"];
+    trait_of_motion_by_newton: "double_butterfly" "Kinematic of DoubleButterfly" ["kinematics"];
+    trait_of_closed_forms: "four_bar" "Assembly of FourBar" ["assemble", "assemble_near"];
     trait_of_lists: "double_butterfly" "Branches of DoubleButterfly" ["all_positions"];
     trait_of_lanes: "inverted_slider_crank" "Lanes of InvertedSliderCrank" ["lane", "exact"];
     trait_of_a_scene: "five_bar_scenes" "Scene of Half" ["derivative", "equations", "contacts", "reactions", "prescribed"];

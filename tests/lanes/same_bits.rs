@@ -69,7 +69,7 @@ struct Tally {
 }
 
 /// Compares one batch.
-fn compare<M>(design: &M, branch: M::Branch, random: &mut SmallRng, numbers: Numbers, tally: &mut Tally)
+fn compare<M>(design: &M, branch: <M as Lanes>::Branch, random: &mut SmallRng, numbers: Numbers, tally: &mut Tally)
 where
     M: Lanes + Kinematics<S<M>>,
     S<M>: Bits,
@@ -151,7 +151,7 @@ where
     assert_eq!(masks[0], masks[1], "{}: the mask depends on the columns", <M as Lanes>::NAME);
 }
 
-fn check<M>(design: &M, branch: M::Branch, least_accepted: f64)
+fn check<M>(design: &M, branch: <M as Lanes>::Branch, least_accepted: f64)
 where
     M: Lanes + Kinematics<S<M>>,
     S<M>: Bits,

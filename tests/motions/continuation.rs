@@ -195,7 +195,11 @@ fn along_a_path_of_two_inputs() {
         let reached = path.advance_to(s).unwrap();
         let pose = m.pose_at(&along.position(&reached.position));
         let expected = assemble(s);
-        assert_abs_diff_eq!((m.jacobian_unknowns(&pose) - m.jacobian_unknowns(&expected)).amax(), 0.0, epsilon = 1e-13);
+        assert_abs_diff_eq!(
+            (m.jacobian_unknowns(&pose) - m.jacobian_unknowns(&expected)).largest(),
+            0.0,
+            epsilon = 1e-13
+        );
         // dq/ds against the velocity for the inputs' rates.
         let rate = m.velocity(&pose, FiveBarInputs::from(inputs(s)[1])).unwrap();
         assert_abs_diff_eq!(reached.rates.rates.theta2 / reached.rates.parameter, rate.theta2, epsilon = 1e-12);

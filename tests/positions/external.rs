@@ -3,7 +3,7 @@
 
 use std::cell::Cell;
 
-use linkage::{PositionError, Real, linkage};
+use linkage::{Mechanism, PositionError, Real, linkage};
 
 thread_local! {
     static CALLS: Cell<usize> = const { Cell::new(0) };
@@ -51,7 +51,7 @@ fn one_call_for_each_argument() {
     let (pose, count) = calls(|| cam.pose_at(&q));
     assert_eq!(count, 2);
     let (_, count) = calls(|| {
-        assert!(cam.residual(&pose).amax() < 1e-14);
+        assert!(cam.residual(&pose).largest() < 1e-14);
         assert_eq!(cam.jacobian(&pose)[(0, 0)], -13.5);
         let velocity = cam.velocity(&pose, 1.0).unwrap();
         let accelerations = cam.acceleration(&pose, &velocity, 1.0).unwrap();

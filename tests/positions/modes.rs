@@ -1,6 +1,6 @@
 //! Positions by number: all positions of groups of two and three loops.
 
-use linkage::{AssemblyMode, Branches, PositionError, linkage};
+use linkage::{AssemblyMode, Branches, Mechanism, PositionError, linkage};
 use linkage_gallery::double_butterfly::*;
 use linkage_gallery::slider_triad::*;
 use linkage_gallery::stephenson_far::*;

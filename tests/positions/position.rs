@@ -1,6 +1,6 @@
 //! Newton's method returns an error with the residual where there is no position, and never NaN.
 
-use linkage::PositionError;
+use linkage::{Mechanism, PositionError};
 
 use linkage_gallery::four_bar::*;
 use linkage_gallery::six_bar::*;

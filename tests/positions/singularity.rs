@@ -74,7 +74,7 @@ fn slider_crank_driven_by_its_crank() {
         let equal = Compressor { z1: 1.5, z2: 1.5 };
         let q = SliderCrankCoordinates { phi1: side * FRAC_PI_2, phi2: -side * FRAC_PI_2, z3: 0.0 };
         let pose = equal.pose_at(&q);
-        assert!(equal.residual(&pose).amax() <= 1e-15);
+        assert!(equal.residual(&pose).largest() <= 1e-15);
         let found = singularity::report(&equal, &pose).unwrap();
         assert!(found.is_singular() && found.rank() == 1, "{found}");
         let regular: Vec<bool> = found.groups().map(|group| group.is_regular).collect();
@@ -106,7 +106,7 @@ fn dyad_of_two_links() {
     let angle = FRAC_PI_3;
     let q = RrrCoordinates { phi1: angle, phi2: angle, xa: 0.0, ya: 0.0, xb: -0.25, yb: -0.25 * 3.0_f64.sqrt() };
     let pose = m.pose_at(&q);
-    assert!(m.residual(&pose).amax() <= 1e-15);
+    assert!(m.residual(&pose).largest() <= 1e-15);
     let found = singularity::report(&m, &pose).unwrap();
     assert_eq!((found.rank(), found.rank_with_inputs()), (1, 2));
     let free = found.free().next().unwrap();
@@ -152,7 +152,7 @@ fn six_bar_with_its_second_dyad_stretched() {
     let m = SixBar { f: along.norm() - m.g, ..m };
     let q = SixBarCoordinates { theta4: angle, theta5: angle + PI, ..pose };
     let pose = m.pose_at(&q);
-    assert!(m.residual(&pose).amax() <= 1e-14);
+    assert!(m.residual(&pose).largest() <= 1e-14);
     let found = singularity::report(&m, &pose).unwrap();
     assert_eq!((found.rank(), found.rank_with_inputs(), found.admissible().count()), (3, 4, 0));
     let free = found.free().next().unwrap();

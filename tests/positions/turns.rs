@@ -188,7 +188,7 @@ fn ten_turns_both_ways() {
     assert!((turned.cam - start.cam - m.lift * TAU).abs() < 1e-14 && (turned.q - start.q - m.b * TAU).abs() < 1e-14);
     // The vector at half the angle points the other way.
     let residual = m.residual(&m.pose_at(&turned));
-    assert!(residual.amax() < 1e-14 && (turned.y - start.y).abs() > 0.1, "{turned:?} {start:?}");
+    assert!(residual.largest() < 1e-14 && (turned.y - start.y).abs() > 0.1, "{turned:?} {start:?}");
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! The lecture notes (chapter 1, "Analisi cinematica di velocità per meccanismi articolati piani"): each
 //! formula in the book's letters, written by hand, against the emitted code, at random poses.
 
+use linkage::{D, Matrix, Mechanism};
 use linkage_oracle::all_close;
-use nalgebra::{Matrix2, Vector2, matrix, vector};
+use nalgebra::{Matrix2, SMatrix, Vector2, matrix, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -46,8 +47,8 @@ fn equation_1_1() {
             z2 * phi2.cos() + z3 * (phi2 - delta).cos(), phi2.sin()
         ];
         let a = vector![-z1 * phi1.sin(), z1 * phi1.cos()];
-        all_close("", m.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0, TOLERANCE);
-        all_close("", m.jacobian_inputs(&pose).as_slice(), a.as_slice(), 0.0, TOLERANCE);
+        all_close("", SMatrix::from(m.jacobian_unknowns(&pose)).as_slice(), j.as_slice(), 0.0, TOLERANCE);
+        all_close("", SMatrix::from(m.jacobian_inputs(&pose)).as_slice(), a.as_slice(), 0.0, TOLERANCE);
         all_close("", &[m.determinant(&pose)], &[-z2 - z3 * delta.cos()], z2 + z3, TOLERANCE);
         // {phi2'; z2'} = -J^-1 A phi1'.
         let w = m.velocity_ratios(&pose).unwrap();
@@ -95,11 +96,11 @@ fn both_drivers_of_the_slider_crank() {
         let q = SliderCrankCoordinates { z3, phi1, phi2 };
         let pose = engine.pose_at(&q);
         let j = matrix![-z1 * phi1.sin(), -z2 * phi2.sin(); z1 * phi1.cos(), z2 * phi2.cos()];
-        all_close("", engine.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0, TOLERANCE);
+        all_close("", SMatrix::from(engine.jacobian_unknowns(&pose)).as_slice(), j.as_slice(), 0.0, TOLERANCE);
         all_close("", &[engine.determinant(&pose)], &[z1 * z2 * (phi2 - phi1).sin()], 0.0, TOLERANCE);
         let pose = compressor.pose_at(&q);
         let j = matrix![-1.0, -z2 * phi2.sin(); 0.0, z2 * phi2.cos()];
-        all_close("", compressor.jacobian_unknowns(&pose).as_slice(), j.as_slice(), 0.0, TOLERANCE);
+        all_close("", SMatrix::from(compressor.jacobian_unknowns(&pose)).as_slice(), j.as_slice(), 0.0, TOLERANCE);
         all_close("", &[compressor.determinant(&pose)], &[-z2 * phi2.cos()], 0.0, TOLERANCE);
     }
 }
@@ -172,7 +173,7 @@ fn dyad_rpr() {
             -z1 * phi1.sin() + z2 * phi2.sin() + z3 * phi3.sin(), -phi2.cos();
             z1 * phi1.cos() - z2 * phi2.cos() - z3 * phi3.cos(), -phi2.sin()
         ];
-        all_close("", m.jacobian_unknowns(&pose).as_slice(), j.as_slice(), z1 + z2 + z3, TOLERANCE);
+        all_close("", SMatrix::from(m.jacobian_unknowns(&pose)).as_slice(), j.as_slice(), z1 + z2 + z3, TOLERANCE);
         let [a, b]: [Vector2<f64>; 2] = [(); 2].map(|()| vector![angle(&mut random), angle(&mut random)]);
         let velocity = m.velocity(&pose, RprInputs { xa: a.x, ya: a.y, xb: b.x, yb: b.y }).unwrap();
         let x = vector![velocity.phi1, velocity.z2];
@@ -221,8 +222,8 @@ fn two_loops_agree_with_the_cascade_of_dyads() {
     let q = m.solve(&guess).unwrap().coordinates;
     let SixBar { a, b, c, e, f, g, delta, .. } = m;
     let pose = m.pose_at(&q);
-    assert_eq!(m.jacobian_unknowns(&pose).shape(), (4, 4));
-    assert_eq!(m.jacobian_inputs(&pose).shape(), (4, 1));
+    let _: Matrix<f64, D<4>, D<4>> = m.jacobian_unknowns(&pose);
+    let _: Matrix<f64, D<4>, D<1>> = m.jacobian_inputs(&pose);
     let w = m.velocity_ratios(&pose).unwrap();
     // First dyad: b@theta2 - c@theta3 = d - a@theta1.
     let column = |l: f64, theta: f64| vector![-l * theta.sin(), l * theta.cos()];

@@ -3,7 +3,7 @@
 //! Modelling Syst. 2 (1996): its dimensions and masses, at the crank's constant speed.
 
 use linkage::nalgebra::{Vector2, vector};
-use linkage::{Slider, linkage};
+use linkage::{Mechanism, Slider, linkage};
 use linkage_oracle::close;
 
 linkage! {

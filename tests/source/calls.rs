@@ -17,7 +17,12 @@ pub fn files(root: &Path, chosen: Option<&[&str]>) -> Vec<(String, String)> {
     for Expansion { module, functions, emitted } in every::expansions(root, chosen) {
         let mut text = functions + &prettyplease::unparse(&emitted);
         let calls = Calls::of(&emitted);
-        write!(text, "\npub mod calls {{ use super::*; use crate::harness as h;\n{}}}\n", calls.text).unwrap();
+        write!(
+            text,
+            "\npub mod calls {{ use super::*; use crate::harness as h; use linkage::Mechanism as _;\n{}}}\n",
+            calls.text
+        )
+        .unwrap();
         // The generated calls are not written for reading. This test looks at numbers; the warnings of emitted code are
         // those of the test `emitted_source`.
         writeln!(modules, "#[allow(warnings)] mod {module};").unwrap();
@@ -110,6 +115,8 @@ impl<'a> Emitted<'a> {
                 self.defaults.push(of);
             } else if path == "Scene" {
                 self.scenes.push(of);
+            } else if path == "Mechanism" {
+                self.equations(&of, item);
             }
             return;
         }
@@ -124,6 +131,21 @@ impl<'a> Emitted<'a> {
                 self.functions.entry(of.clone()).or_default().push(&function.sig);
             }
         }
+    }
+}
+
+impl<'a> Emitted<'a> {
+    /// The functions that a mechanism has in its trait alone: they name its types, and those that call another name the
+    /// types of the trait.
+    fn equations(&mut self, of: &str, item: &'a ItemImpl) {
+        let functions = item.items.iter().filter_map(|item| match item {
+            ImplItem::Fn(function) => Some(&function.sig),
+            _ => None,
+        });
+        let own = functions
+            .filter(|function| function.receiver().is_some() && !plain(&function.inputs).contains("Self::"))
+            .collect::<Vec<_>>();
+        self.functions.entry(of.to_owned()).or_default().extend(own);
     }
 }
 
@@ -304,6 +326,10 @@ fn call(name: &str, function: &Signature) -> String {
             }
             _ if of.starts_with("&SVector<T,") => {
                 (format!("<{} as h::Draw>::draw(s)", of[1..].replace("SVector<T,", "h::SVector<f64,")), "&")
+            }
+            _ if of.starts_with("&Column<T,") => {
+                let of = of[1..].replace("Column<T,D<", "linkage::Column<f64,linkage::D<");
+                (format!("<{of} as h::Draw>::draw(s)"), "&")
             }
             _ if of.starts_with("&[T;") => (format!("<{} as h::Draw>::draw(s)", of[1..].replace('T', "f64")), "&"),
             _ => panic!("{name}::{}: no rule makes `{wish}: {of}`", function.ident),

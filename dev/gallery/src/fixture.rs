@@ -1,9 +1,11 @@
 //! The functions of every mechanism as traits, so that a test of all mechanisms is one generic function.
 
-use linkage::{Assembly, Mechanism, PerInput, PositionError, Real};
+use linkage::kinematic::{self, Kinematic, PerCoordinate};
+use linkage::position::newton;
+use linkage::{Assembly, Column, Dim, Matrix, Mechanism, OutputMotion, PerInput, PointMotion, PositionError, Real};
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-/// The kinematics that `linkage!` emits for a mechanism.
+/// The kinematics of a mechanism in lists, by its implementation of [`Kinematic`].
 ///
 /// Lists of coordinates, rates and accelerations are in the order of their fields; points are listed as x, y, x, y, ..
 pub trait Kinematics<T: Real>: Mechanism<Scalar = T> + Sized {
@@ -131,12 +133,153 @@ pub trait ClosedForm: Assembly {
     fn coordinates_of(pose: &Self::Pose) -> Self::Coordinates;
 }
 
+/// The functions of a mechanism that are in no trait of the library.
+pub trait Own: Kinematic + Clone {
+    fn with_parameters(parameters: &[Self::Scalar]) -> Self;
+    fn parameters(&self) -> Vec<Self::Scalar>;
+    /// All branches; none if the position is found by Newton's method.
+    fn branches() -> Vec<Self::Branch>;
+    fn jacobian(&self, pose: &Self::Pose) -> DMatrix<Self::Scalar>;
+    /// `assemble` at these inputs, or `assemble_near` from these coordinates.
+    fn assembled(&self, q: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError>;
+    /// The branch of this number, or that of the coordinates if the position is found by Newton's method.
+    fn branch_at(&self, q: &Self::Coordinates, number: usize) -> Self::Branch {
+        let all = Self::branches();
+        if all.is_empty() { self.branch_of(&self.pose_at(q)) } else { all[number] }
+    }
+}
+
+impl<T: Real, M: Own<Scalar = T>> Kinematics<T> for M {
+    fn with_parameters(parameters: &[T]) -> Self {
+        Own::with_parameters(parameters)
+    }
+    fn parameters(&self) -> Vec<T> {
+        Own::parameters(self)
+    }
+    fn named(q: &[T]) -> Self::Coordinates {
+        named::<M, _>(q)
+    }
+    fn pose(&self, q: &[T]) -> Self::Pose {
+        self.pose_at(&named::<M, _>(q))
+    }
+    fn listed(pose: &Self::Pose) -> Vec<T> {
+        listed::<M>(M::coordinates_of(pose))
+    }
+    fn inputs_of(q: &[T]) -> Vec<T> {
+        <M as Mechanism>::inputs(&named::<M, _>(q)).as_slice().to_vec()
+    }
+    fn jacobian(&self, pose: &Self::Pose) -> DMatrix<T> {
+        Own::jacobian(self, pose)
+    }
+    fn velocity_ratios(&self, pose: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
+        Kinematic::velocity_ratios(self, pose).map(dynamic)
+    }
+    fn gamma_of(&self, pose: &Self::Pose, rates: &[T]) -> Vec<T> {
+        self.gamma(pose, &named::<M, _>(rates)).as_slice().to_vec()
+    }
+    fn velocity(&self, pose: &Self::Pose, input_rates: &[T]) -> Result<Vec<T>, PositionError> {
+        Kinematic::velocity(self, pose, inputs::<M>(input_rates)).map(listed::<M>)
+    }
+    fn acceleration(&self, pose: &Self::Pose, rates: &[T], given: &[T]) -> Result<Vec<T>, PositionError> {
+        Kinematic::acceleration(self, pose, &named::<M, _>(rates), inputs::<M>(given)).map(listed::<M>)
+    }
+    fn points(&self, pose: &Self::Pose) -> Result<Vec<T>, PositionError> {
+        Kinematic::points(self, pose).map(|points| pairs(M::each_point(points)))
+    }
+    fn point_velocities(&self, pose: &Self::Pose, rates: &[T]) -> Result<Vec<T>, PositionError> {
+        Ok(pairs(M::each_point(Kinematic::point_velocities(self, pose, &named::<M, _>(rates))?)))
+    }
+    fn point_accelerations(&self, pose: &Self::Pose, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError> {
+        let points = Kinematic::point_accelerations(self, pose, &named::<M, _>(rates), &named::<M, _>(bent))?;
+        Ok(pairs(M::each_point(points)))
+    }
+    fn point_ratios(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
+        Ok(M::each_point(Kinematic::point_ratios(self, pose)?).into_iter().map(dynamic).collect())
+    }
+    fn outputs(&self, pose: &Self::Pose) -> Result<Vec<T>, PositionError> {
+        Ok(M::each_output(Kinematic::outputs(self, pose)?).as_slice().to_vec())
+    }
+    fn output_velocities(&self, pose: &Self::Pose, rates: &[T]) -> Result<Vec<T>, PositionError> {
+        Ok(M::each_output(Kinematic::output_velocities(self, pose, &named::<M, _>(rates))?).as_slice().to_vec())
+    }
+    fn output_accelerations(&self, pose: &Self::Pose, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError> {
+        let outputs = Kinematic::output_accelerations(self, pose, &named::<M, _>(rates), &named::<M, _>(bent))?;
+        Ok(M::each_output(outputs).as_slice().to_vec())
+    }
+    fn output_ratios(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
+        Ok(M::each_output(Kinematic::output_ratios(self, pose)?).into_iter().map(dynamic).collect())
+    }
+    fn motion(&self, q: &[T], input_rates: &[T], given: &[T]) -> Result<Motion<T>, PositionError> {
+        let motion = Kinematic::motion(self, &named::<M, _>(q), inputs::<M>(input_rates), inputs::<M>(given))?;
+        Ok(Motion {
+            coordinates: [listed::<M>(motion.position), listed::<M>(motion.rates), listed::<M>(motion.accelerations)],
+            points: moving_points(M::each_point(motion.points)),
+            outputs: moving_outputs(M::each_output(motion.outputs)),
+        })
+    }
+
+    fn branch_count() -> usize {
+        M::branches().len().max(1)
+    }
+    fn solved(&self, guess: &[T]) -> Result<Vec<T>, PositionError> {
+        newton(self, &named::<M, _>(guess)).map(|solution| listed::<M>(solution.coordinates))
+    }
+    fn position(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError> {
+        match M::branches().is_empty() {
+            true => Ok(self.pose(&self.solved(q)?)),
+            false => Kinematics::assembled(self, q, branch),
+        }
+    }
+    fn moving(
+        &self,
+        q: &[T],
+        branch: usize,
+        input_rates: &[T],
+        given: &[T],
+        full: bool,
+    ) -> Result<Moving<Self::Pose, T>, PositionError> {
+        let guess = named::<M, _>(q);
+        let (branch, rates, bent) = (self.branch_at(&guess, branch), inputs::<M>(input_rates), inputs::<M>(given));
+        let (kinematic::Kinematics { pose, rates, accelerations }, points, outputs) = match full {
+            false => (Kinematic::kinematics(self, &guess, branch, rates, bent)?, None, None),
+            true => {
+                let kinematic::FullKinematics { pose, rates, accelerations, points, outputs } =
+                    Kinematic::full_kinematics(self, &guess, branch, rates, bent)?;
+                let points = moving_points(M::each_point(points));
+                let outputs = moving_outputs(M::each_output(outputs));
+                (kinematic::Kinematics { pose, rates, accelerations }, Some(points), Some(outputs))
+            }
+        };
+        Ok(Moving { pose, rates: listed::<M>(rates), accelerations: listed::<M>(accelerations), points, outputs })
+    }
+    fn assembled(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError> {
+        let q = named::<M, _>(q);
+        Own::assembled(self, &q, self.branch_at(&q, branch))
+    }
+}
+
+impl<M: Assembly + Own> ClosedForm for M {
+    fn all_branches() -> Vec<Self::Branch> {
+        Self::branches()
+    }
+    fn coordinates_of(pose: &Self::Pose) -> Self::Coordinates {
+        <M as Kinematic>::coordinates_of(pose)
+    }
+}
+
 /// Implements the traits for all mechanisms of a list.
 macro_rules! fixtures {
     ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
         $(
-            $crate::fixture::kinematics!($file $Mechanism $method);
-            $crate::fixture::closed_form!($file $Mechanism $method);
+            impl<T: Real> Own for $file::$Mechanism<T> {
+                fn with_parameters(parameters: &[T]) -> Self {
+                    array(parameters).into()
+                }
+                fn parameters(&self) -> Vec<T> {
+                    list(self.clone())
+                }
+                $crate::fixture::own!($method);
+            }
             impl Fixture for $file::$Mechanism {
                 const FILE: &'static str = stringify!($file);
                 type Of<T: Real> = $file::$Mechanism<T>;
@@ -146,189 +289,32 @@ macro_rules! fixtures {
     )*};
 }
 
-macro_rules! kinematics {
-    ($file:ident $Mechanism:ident $method:ident) => {
-        impl<T: Real> Kinematics<T> for $file::$Mechanism<T> {
-            fn with_parameters(parameters: &[T]) -> Self {
-                array(parameters).into()
-            }
-            fn parameters(&self) -> Vec<T> {
-                let parameters: [T; _] = self.clone().into();
-                parameters.to_vec()
-            }
-            fn named(q: &[T]) -> Self::Coordinates {
-                named(q)
-            }
-            fn pose(&self, q: &[T]) -> Self::Pose {
-                self.pose_at(&named(q))
-            }
-            fn listed(pose: &Self::Pose) -> Vec<T> {
-                column(pose.coordinates())
-            }
-            fn inputs_of(q: &[T]) -> Vec<T> {
-                <Self as Mechanism>::inputs(&Self::named(q)).iter().copied().collect()
-            }
-            fn solved(&self, guess: &[T]) -> Result<Vec<T>, PositionError> {
-                newton(self, &Self::named(guess)).map(|solution| column(solution.coordinates))
-            }
-            $crate::fixture::position!($method);
-            $crate::fixture::equations!($method);
-            fn velocity(&self, pose: &Self::Pose, input_rates: &[T]) -> Result<Vec<T>, PositionError> {
-                self.velocity(pose, inputs::<Self>(input_rates)).map(column)
-            }
-            fn acceleration(&self, pose: &Self::Pose, rates: &[T], given: &[T]) -> Result<Vec<T>, PositionError> {
-                self.acceleration(pose, &named(rates), inputs::<Self>(given)).map(column)
-            }
-            fn points(&self, pose: &Self::Pose) -> Result<Vec<T>, PositionError> {
-                self.points(pose).map(|points| pairs(points.into()))
-            }
-            fn point_velocities(&self, pose: &Self::Pose, rates: &[T]) -> Result<Vec<T>, PositionError> {
-                self.point_velocities(pose, &named(rates)).map(|points| pairs(points.into()))
-            }
-            fn point_accelerations(&self, pose: &Self::Pose, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError> {
-                let points = self.point_accelerations(pose, &named(rates), &named(bent));
-                points.map(|points| pairs(points.into()))
-            }
-            fn point_ratios(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
-                self.point_ratios(pose).map(|ratios| matrices(ratios.into()))
-            }
-            fn outputs(&self, pose: &Self::Pose) -> Result<Vec<T>, PositionError> {
-                self.outputs(pose).map(list)
-            }
-            fn output_velocities(&self, pose: &Self::Pose, rates: &[T]) -> Result<Vec<T>, PositionError> {
-                self.output_velocities(pose, &named(rates)).map(list)
-            }
-            fn output_accelerations(
-                &self,
-                pose: &Self::Pose,
-                rates: &[T],
-                bent: &[T],
-            ) -> Result<Vec<T>, PositionError> {
-                self.output_accelerations(pose, &named(rates), &named(bent)).map(list)
-            }
-            fn output_ratios(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
-                self.output_ratios(pose).map(|ratios| matrices(ratios.into()))
-            }
-            fn motion(&self, q: &[T], input_rates: &[T], given: &[T]) -> Result<Motion<T>, PositionError> {
-                let motion = self.motion(&named(q), inputs::<Self>(input_rates), inputs::<Self>(given))?;
-                let (points, outputs): ([_; _], [_; _]) = (motion.points.into(), motion.outputs.into());
-                Ok(Motion {
-                    coordinates: [column(motion.position), column(motion.rates), column(motion.accelerations)],
-                    points: [
-                        pairs(points.map(|point| point.position)),
-                        pairs(points.map(|point| point.velocity)),
-                        pairs(points.map(|point| point.acceleration)),
-                    ],
-                    outputs: [
-                        outputs.map(|output| output.value).to_vec(),
-                        outputs.map(|output| output.velocity).to_vec(),
-                        outputs.map(|output| output.acceleration).to_vec(),
-                    ],
-                })
-            }
-        }
-    };
-}
-
-macro_rules! equations {
-    // An open chain has no constraints and no unknowns.
+macro_rules! own {
     (open) => {
         fn jacobian(&self, _: &Self::Pose) -> DMatrix<T> {
             DMatrix::zeros(0, Self::INPUTS.len())
         }
-        fn velocity_ratios(&self, _: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
-            Ok(DMatrix::zeros(0, Self::INPUTS.len()))
-        }
-        fn gamma_of(&self, _: &Self::Pose, _: &[T]) -> Vec<T> {
-            Vec::new()
-        }
+        $crate::fixture::own!(@ assemble, <Self as Mechanism>::Branch::all().collect());
     };
-    ($method:ident) => {
+    (closed) => {
+        $crate::fixture::own!(@ jacobian);
+        $crate::fixture::own!(@ assemble, <Self as Mechanism>::Branch::all().collect());
+    };
+    (newton) => {
+        $crate::fixture::own!(@ jacobian);
+        $crate::fixture::own!(@ assemble_near, Vec::new());
+    };
+    (@ jacobian) => {
         fn jacobian(&self, pose: &Self::Pose) -> DMatrix<T> {
             matrix(self.jacobian(pose))
         }
-        fn velocity_ratios(&self, pose: &Self::Pose) -> Result<DMatrix<T>, PositionError> {
-            self.velocity_ratios(pose).map(matrix)
-        }
-        fn gamma_of(&self, pose: &Self::Pose, rates: &[T]) -> Vec<T> {
-            self.gamma(pose, &named(rates)).as_slice().to_vec()
-        }
     };
-}
-
-macro_rules! position {
-    (@ moving $kinematics:ident $full_kinematics:ident $assemble:ident, |$m:ident, $q:ident, $branch:ident| $from:expr, $on:expr) => {
-        fn moving(
-            &self,
-            q: &[T],
-            branch: usize,
-            input_rates: &[T],
-            given: &[T],
-            full: bool,
-        ) -> Result<Moving<Self::Pose, T>, PositionError> {
-            let ($m, $q, $branch) = (self, q, branch);
-            let (rates, bent) = (inputs::<Self>(input_rates), inputs::<Self>(given));
-            if !full {
-                let moving = self.$kinematics($from, $on, rates, bent)?;
-                let (rates, accelerations) = (column(moving.rates), column(moving.accelerations));
-                return Ok(Moving { pose: moving.pose, rates, accelerations, points: None, outputs: None });
-            }
-            let moving = self.$full_kinematics($from, $on, rates, bent)?;
-            let (points, outputs): ([_; _], [_; _]) = (moving.points.into(), moving.outputs.into());
-            Ok(Moving {
-                pose: moving.pose,
-                rates: column(moving.rates),
-                accelerations: column(moving.accelerations),
-                points: Some([
-                    pairs(points.map(|point| point.position)),
-                    pairs(points.map(|point| point.velocity)),
-                    pairs(points.map(|point| point.acceleration)),
-                ]),
-                outputs: Some([
-                    outputs.map(|output| output.value).to_vec(),
-                    outputs.map(|output| output.velocity).to_vec(),
-                    outputs.map(|output| output.acceleration).to_vec(),
-                ]),
-            })
+    (@ $assemble:ident, $branches:expr) => {
+        fn branches() -> Vec<Self::Branch> {
+            $branches
         }
-        fn assembled(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError> {
-            let ($m, $q, $branch) = (self, q, branch);
-            self.$assemble($from, $on)
-        }
-    };
-    (closed) => {
-        $crate::fixture::position!(@ moving kinematics full_kinematics assemble, |_m, q, branch| inputs::<Self>(&Self::inputs_of(q)), Self::all_branches()[branch]);
-        fn branch_count() -> usize {
-            Self::all_branches().len()
-        }
-        fn position(&self, q: &[T], branch: usize) -> Result<Self::Pose, PositionError> {
-            self.assemble(inputs::<Self>(&Self::inputs_of(q)), Self::all_branches()[branch])
-        }
-    };
-    (open) => {
-        $crate::fixture::position!(closed);
-    };
-    (newton) => {
-        $crate::fixture::position!(@ moving kinematics_near full_kinematics_near assemble_near, |m, q, _branch| &Self::named(q), m.branch_of(&m.pose(q)));
-        fn branch_count() -> usize {
-            1
-        }
-        fn position(&self, q: &[T], _branch: usize) -> Result<Self::Pose, PositionError> {
-            Ok(self.pose(&self.solved(q)?))
-        }
-    };
-}
-
-macro_rules! closed_form {
-    ($file:ident $Mechanism:ident newton) => {};
-    ($file:ident $Mechanism:ident $method:ident) => {
-        impl<T: Real> ClosedForm for $file::$Mechanism<T> {
-            fn all_branches() -> Vec<Self::Branch> {
-                <Self as Assembly>::Branch::all().collect()
-            }
-            fn coordinates_of(pose: &Self::Pose) -> Self::Coordinates {
-                pose.coordinates()
-            }
+        fn assembled(&self, q: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError> {
+            self.$assemble(q, branch)
         }
     };
 }
@@ -341,15 +327,14 @@ macro_rules! higher_orders {
         }
         impl<T: Real> HigherOrders<T> for $file::$Mechanism<T> {
             fn jerk(&self, pose: &Self::Pose, rates: &[T], bent: &[T], given: &[T]) -> Result<Vec<T>, PositionError> {
-                self.jerk(pose, &named(rates), &named(bent), inputs::<Self>(given)).map(column)
+                self.jerk(pose, &by_name(rates), &by_name(bent), inputs::<Self>(given)).map(column)
             }
             fn point_jerks(&self, pose: &Self::Pose, [rates, bent, jerk]: [&[T]; 3]) -> Result<Vec<T>, PositionError> {
-                let points =
-                    self.point_jerks(pose, &named(rates), &named(bent), &named(jerk));
-                points.map(|points| pairs(points.into()))
+                let points: [_; _] = self.point_jerks(pose, &by_name(rates), &by_name(bent), &by_name(jerk))?.into();
+                Ok(pairs(points))
             }
             fn output_jerks(&self, pose: &Self::Pose, [rates, bent, jerk]: [&[T]; 3]) -> Result<Vec<T>, PositionError> {
-                self.output_jerks(pose, &named(rates), &named(bent), &named(jerk)).map(list)
+                self.output_jerks(pose, &by_name(rates), &by_name(bent), &by_name(jerk)).map(list)
             }
             $crate::fixture::orders_of_unknowns!($method);
             fn point_ratio_derivatives(&self, pose: &Self::Pose) -> Result<Vec<DMatrix<T>>, PositionError> {
@@ -388,15 +373,27 @@ macro_rules! orders_of_unknowns {
     };
 }
 
-pub(crate) use {closed_form, equations, fixtures, higher_orders, kinematics, orders_of_unknowns, position};
+pub(crate) use {fixtures, higher_orders, orders_of_unknowns, own};
 
 /// The entries of a list as an array.
 pub(crate) fn array<T: Copy, const N: usize>(list: &[T]) -> [T; N] {
     list.try_into().expect("a number for each name")
 }
 
-/// Coordinates, or their derivatives, by name.
-pub(crate) fn named<T: Real, G: From<SVector<T, N>>, const N: usize>(list: &[T]) -> G {
+/// A number for each coordinate of a mechanism, in the order of the fields.
+fn named<M: Kinematic, G: From<PerCoordinate<M>>>(list: &[M::Scalar]) -> G {
+    let numbers: PerCoordinate<M> = M::N::from_slice(list).expect("a number for each coordinate").into();
+    G::from(numbers)
+}
+
+/// The numbers of coordinates, rates or accelerations, in the order of the fields.
+fn listed<M: Kinematic>(by_name: impl Into<PerCoordinate<M>>) -> Vec<M::Scalar> {
+    let numbers: <M::N as Dim>::Array<M::Scalar> = by_name.into().into();
+    numbers.as_ref().to_vec()
+}
+
+/// Jerks by name, and what they are computed from.
+pub(crate) fn by_name<T: Real, G: From<SVector<T, N>>, const N: usize>(list: &[T]) -> G {
     G::from(array(list).into())
 }
 
@@ -416,7 +413,7 @@ pub(crate) fn column<T: Real, const N: usize>(values: impl Into<SVector<T, N>>) 
 }
 
 /// x, y, x, y, .. of points or vectors.
-pub(crate) fn pairs<T, P: Into<[T; 2]>, const N: usize>(points: [P; N]) -> Vec<T> {
+pub(crate) fn pairs<T, P: Into<[T; 2]>>(points: impl IntoIterator<Item = P>) -> Vec<T> {
     points.into_iter().flat_map(Into::into).collect()
 }
 
@@ -428,4 +425,26 @@ pub(crate) fn matrices<T: Real, const R: usize, const C: usize, const N: usize>(
     matrices: [SMatrix<T, R, C>; N],
 ) -> Vec<DMatrix<T>> {
     matrices.map(matrix).to_vec()
+}
+
+/// Positions, velocities and accelerations of points.
+fn moving_points<T: Real, N: Dim>(points: Column<PointMotion<T>, N>) -> [Vec<T>; 3] {
+    [
+        pairs(points.map(|point| point.position)),
+        pairs(points.map(|point| point.velocity)),
+        pairs(points.map(|point| point.acceleration)),
+    ]
+}
+
+/// Values, rates and second derivatives of outputs.
+fn moving_outputs<T: Real, N: Dim>(outputs: Column<OutputMotion<T>, N>) -> [Vec<T>; 3] {
+    [
+        outputs.map(|output| output.value).as_slice().to_vec(),
+        outputs.map(|output| output.velocity).as_slice().to_vec(),
+        outputs.map(|output| output.acceleration).as_slice().to_vec(),
+    ]
+}
+
+fn dynamic<T: Real, R: Dim, C: Dim>(matrix: Matrix<T, R, C>) -> DMatrix<T> {
+    DMatrix::from_iterator(R::COUNT, C::COUNT, matrix.iter().copied())
 }

@@ -122,12 +122,11 @@ macro_rules! modules {
 all_mechanisms!(modules);
 
 mod implementations {
-    use linkage::position::newton;
-    use linkage::{Assembly, Mechanism, PositionError, Real};
+    use linkage::{Mechanism, PositionError, Real};
     use nalgebra::DMatrix;
 
     use super::*;
-    use crate::fixture::{array, column, fixtures, inputs, list, matrices, matrix, named, pairs};
+    use crate::fixture::{Own, array, by_name, column, fixtures, inputs, list, matrices, matrix, pairs};
 
     all_mechanisms!(fixtures);
 }

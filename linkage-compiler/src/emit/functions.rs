@@ -23,7 +23,7 @@ pub(super) fn function(
     let cost = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
     let bound = body.as_ref().and_then(|code| code.bound.as_ref()?.sentence());
     // A trait documents its functions.
-    let is_shown = !matches!(access, Access::OfTrait | Access::Lane) || !doc.is_empty();
+    let is_shown = !matches!(access, Access::OfTrait | Access::OfMechanism | Access::Lane) || !doc.is_empty();
     let doc = is_shown.then(|| {
         let text = comment(&description(doc, cost.unwrap_or_default(), bound));
         quote!(#[doc = #text])
@@ -60,7 +60,7 @@ pub(super) fn function(
         Access::Inlined | Access::LaneAlone => quote!(#[inline]),
         Access::Layer | Access::Lane => quote!(#[inline(always)]),
         Access::Cold => quote!(#[cold]),
-        Access::OfTrait => TokenStream::new(),
+        Access::OfTrait | Access::OfMechanism => TokenStream::new(),
     };
     let body = match body {
         Some(code) => {

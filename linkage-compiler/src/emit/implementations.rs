@@ -10,11 +10,11 @@ use crate::lower::Code;
 use crate::model::TypeName;
 use crate::program::{Associated, ConstantValue, Group, Implementation, Implemented, Kink, Part};
 
-/// Emits an implementation. `owner` is the driver or the scene, `conversions` are functions of the trait that come first.
+/// Emits an implementation. `owner` is the driver or the scene, `first` are functions of the trait that come first.
 pub(super) fn implementation(
     implementation: &Implementation<Code>,
     owner: &TypeName,
-    conversions: Option<TokenStream>,
+    first: Option<TokenStream>,
     span: Span,
 ) -> TokenStream {
     let Implementation { of, on, is_generic, error, types, constants, functions } = implementation;
@@ -35,7 +35,7 @@ pub(super) fn implementation(
         impl #over #implemented #on #scalar {
             #(#types)*
             #(#constants)*
-            #conversions
+            #first
             #(#functions)*
         }
     }
@@ -57,6 +57,13 @@ fn associated(name: &str, is: &Associated) -> TokenStream {
         Associated::Dimension(count) => {
             let count = literal(*count);
             quote!(type #name = __rt::D<#count>;)
+        }
+        Associated::PerQuantity(of) => {
+            let of = match of.as_deref().map(ident) {
+                Some(of) => quote!(#of<Q>),
+                None => quote!([Q; 0]),
+            };
+            quote!(type #name<Q: __rt::Quantity> = #of;)
         }
     }
 }

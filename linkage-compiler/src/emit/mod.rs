@@ -26,13 +26,13 @@ mod text;
 mod types;
 
 use proc_macro2::{Span, TokenStream};
-use quote::quote_spanned;
+use quote::{quote, quote_spanned};
 
 use crate::derivation::Derivation;
 use crate::document::{Document, SceneDocument, Table};
 use crate::lower::Code;
 use crate::model::{Mechanism, Request, TypeName};
-use crate::program::{self, Function, Functions, Implemented, Operations, Program};
+use crate::program::{self, Access, Function, Functions, Implemented, Operations, Program};
 use fpcore::Straight;
 use kernels::kernels;
 use names::string;
@@ -69,15 +69,21 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         tokens.extend(lanes::columns(program));
     }
     for implementation in &program.implementations {
-        let conversions = match implementation.of {
-            Implemented::Mechanism => Some(conversions::of_driver(&program.signatures)),
+        let first = match implementation.of {
+            Implemented::Mechanism => {
+                let conversions = conversions::of_driver(&program.signatures);
+                let error = names::ident("PositionError");
+                let functions = program.functions.iter().filter(|function| function.access == Access::OfMechanism);
+                let functions = functions.map(|function| functions::function(function, &error, None, span));
+                Some(quote!(#conversions #(#functions)*))
+            }
             Implemented::Lanes => {
                 implemented.extend(lanes::batch(program));
                 Some(lanes::design(program, implementation))
             }
             _ => None,
         };
-        implemented.extend(implementations::implementation(implementation, &driver.name, conversions, span));
+        implemented.extend(implementations::implementation(implementation, &driver.name, first, span));
     }
     implemented.extend(any_number::of_driver(program, span));
     let text = "The name of the mechanism in errors.";
@@ -128,7 +134,8 @@ fn block(
     implemented: &TokenStream,
 ) -> TokenStream {
     let (error, name) = (names::ident(error), string(&of.to_string()));
-    let functions = functions.iter().map(|function| functions::function(function, &error, None, span_of(function)));
+    let own = functions.iter().filter(|function| function.access != Access::OfMechanism);
+    let functions = own.map(|function| functions::function(function, &error, None, span_of(function)));
     let text = names::comment(&format!(" {text}"));
     quote_spanned! {spans::of(of.span())=>
         const _: () = {

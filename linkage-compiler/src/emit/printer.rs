@@ -1,7 +1,7 @@
 //! The printer of lowered code: one order of visits and one rule of precedence for all styles.
 
 use crate::graph::{Function, Number};
-use crate::lower::{Block, Callee, Code, Pattern, Signed, Statement, Value, ValueId};
+use crate::lower::{Block, Called, Callee, Code, Pattern, Signed, Statement, Value, ValueId};
 use crate::program::{Constant, Form, Intrinsic, Receiver, Type};
 
 /// The precedence of an expression.
@@ -13,10 +13,12 @@ pub(super) enum Binding {
     Atom,
 }
 
-/// The callee of a call as a style writes it: on a value, on a type, or in the runtime.
+/// The callee of a call as a style writes it: on a value, on a type, on a reference to a value by the path of the trait
+/// `Mechanism`, or in the runtime.
 pub(super) enum On<T> {
     Value(T),
     Type(Type),
+    Mechanism(T),
     Runtime,
 }
 
@@ -236,16 +238,25 @@ impl<S: Style> Printer<'_, S> {
             Value::Intrinsic(of, of_type, arguments) => self.intrinsic(*of, of_type.as_ref(), arguments),
             Value::Function(of, of_type) => style.function(of_type.as_ref(), of.row().name),
             Value::Own(receiver, function, arguments) => {
-                let (on, callee) = match receiver {
-                    Receiver::Itself => (On::Value(style.name("self")), Callee::Own(*function)),
-                    Receiver::ItsType => (On::Type(Type::Itself), Callee::Own(*function)),
-                    Receiver::Value(of) => (On::Value(self.operand(*of, Binding::Atom)), Callee::OfDriver(*function)),
-                    Receiver::Type(of) => (On::Type(of.clone()), Callee::OfDriver(*function)),
+                let callee = match receiver {
+                    Receiver::Itself | Receiver::ItsType => self.callee(Callee::Own(*function)),
+                    Receiver::Value(_) | Receiver::Type(_) => self.callee(Callee::OfDriver(*function)),
                 };
-                style.call(on, self.callee(callee), self.values(arguments))
+                let on = match receiver {
+                    Receiver::Itself if callee.is_of_mechanism => On::Mechanism(style.name("self")),
+                    Receiver::Itself => On::Value(style.name("self")),
+                    Receiver::ItsType => On::Type(Type::Itself),
+                    Receiver::Value(of) if callee.is_of_mechanism => {
+                        On::Mechanism(style.borrowed(self.operand(*of, Binding::Prefix)))
+                    }
+                    Receiver::Value(of) => On::Value(self.operand(*of, Binding::Atom)),
+                    Receiver::Type(of) => On::Type(of.clone()),
+                };
+                style.call(on, &callee.name, self.values(arguments))
             }
             Value::UserFunction(function, arguments) => {
-                style.call(On::Type(Type::Itself), self.callee(Callee::User(*function)), self.values(arguments))
+                let callee = self.callee(Callee::User(*function));
+                style.call(On::Type(Type::Itself), &callee.name, self.values(arguments))
             }
             Value::Try(value) => style.tried(self.operand(*value, Binding::Atom)),
             Value::Borrowed(value) => style.borrowed(self.operand(*value, Binding::Prefix)),
@@ -268,7 +279,7 @@ impl<S: Style> Printer<'_, S> {
         }
     }
 
-    fn callee(&self, of: Callee) -> &str {
+    fn callee(&self, of: Callee) -> &Called {
         self.code.callee(of).expect("lowering finds all functions that code calls")
     }
 

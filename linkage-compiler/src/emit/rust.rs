@@ -146,6 +146,10 @@ impl Style for Rust {
                 let (of, name) = (path(&of), ident(name));
                 quote!(#of::#name(#(#arguments),*))
             }
+            On::Mechanism(of) => {
+                let name = ident(name);
+                quote!(__rt::Mechanism::#name(#of #(, #arguments)*))
+            }
             On::Runtime => {
                 let name = runtime(name);
                 quote!(#name(#(#arguments),*))

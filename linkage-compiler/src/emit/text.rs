@@ -40,7 +40,7 @@ pub fn function_as_text(function: &Function<Code>) -> String {
         Access::Public | Access::PublicInlined | Access::Hidden | Access::PublicLayer => "",
         Access::Inlined | Access::Layer | Access::Lane | Access::LaneAlone => "inlined ",
         Access::Cold => "cold ",
-        Access::OfTrait => "of a trait ",
+        Access::OfTrait | Access::OfMechanism => "of a trait ",
         Access::Deprecated => "deprecated ",
     };
     let or_error = if function.is_fallible { " or an error" } else { "" };
@@ -187,7 +187,7 @@ impl Style for Plain {
     fn call(&self, on: On<String>, name: &str, arguments: Vec<String>) -> String {
         let arguments = arguments.join(", ");
         match on {
-            On::Value(of) => format!("{of}.{name}({arguments})"),
+            On::Value(of) | On::Mechanism(of) => format!("{of}.{name}({arguments})"),
             On::Type(of) => format!("{}::{name}({arguments})", path(&of)),
             On::Runtime => format!("{name}({arguments})"),
         }
@@ -287,6 +287,7 @@ fn path(of: &Type) -> String {
         Type::Own(name) | Type::Bare(name) | Type::Each(name, _) => name.clone(),
         Type::Runtime(name, _) | Type::Sized(name, _) => (*name).to_owned(),
         Type::Itself => "Self".to_owned(),
+        Type::List(..) => "List".to_owned(),
         _ => "T".to_owned(),
     }
 }

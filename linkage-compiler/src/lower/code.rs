@@ -33,7 +33,15 @@ pub struct Code {
 pub(super) struct Names {
     /// Those of the values that statements bind, and of arguments.
     pub(super) values: Vec<Option<String>>,
-    pub(super) functions: BTreeMap<Callee, String>,
+    pub(super) functions: BTreeMap<Callee, Called>,
+}
+
+/// The name of a function that code calls.
+#[derive(Debug, Clone)]
+pub struct Called {
+    pub name: String,
+    /// True for a function of the trait `Mechanism`.
+    pub is_of_mechanism: bool,
 }
 
 /// A function that the program defines or takes from the user.
@@ -85,8 +93,8 @@ impl Code {
     }
 
     /// The name of a function that it calls.
-    pub fn callee(&self, of: Callee) -> Option<&str> {
-        self.names.functions.get(&of).map(String::as_str)
+    pub fn callee(&self, of: Callee) -> Option<&Called> {
+        self.names.functions.get(&of)
     }
 }
 

@@ -8,7 +8,15 @@ use crate::ids::FunctionId;
 use crate::program::PosePlan;
 
 /// The functions of a type by their names in planned code.
-pub(super) type FunctionIds = BTreeMap<String, FunctionId>;
+pub(super) type FunctionIds = BTreeMap<String, Known>;
+
+/// A function of a type.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Known {
+    pub(super) id: FunctionId,
+    /// True for a function of the trait `Mechanism`.
+    pub(super) is_of_mechanism: bool,
+}
 
 /// The data that the functions of one driver or scene share.
 pub struct Context<'a> {

@@ -7,8 +7,8 @@ use rustc_hash::FxHashSet;
 
 use super::calls;
 use super::checks::Checked;
-use super::code::{Callee, Code, Returned};
-use super::context::Context;
+use super::code::{Called, Callee, Code, Returned};
+use super::context::{Context, Known};
 use super::counts::{Count, Counts};
 use super::id::ValueId;
 use super::naming::{self, Hint};
@@ -55,7 +55,7 @@ pub(super) fn function(
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = planned;
     let signature = Signature {
         is_layer: matches!(access, Access::Layer | Access::PublicLayer),
-        has_bound: access.is_public() && access != Access::Hidden,
+        has_bound: access.is_public() && access != Access::Hidden && !doc.is_empty(),
         arguments: arguments.iter().map(|argument| argument.name.as_str()).collect(),
     };
     let code = body.map(|body| {
@@ -158,11 +158,13 @@ impl Signature<'_> {
 }
 
 /// The names of all functions that code can call.
-fn callees(context: &Context, externals: &BTreeSet<ExternalId>) -> Vec<(Callee, String)> {
-    let own = context.own.iter().map(|(name, id)| (Callee::Own(*id), name.clone()));
-    let of_driver = context.of_driver.iter().map(|(name, id)| (Callee::OfDriver(*id), name.clone()));
+fn callees(context: &Context, externals: &BTreeSet<ExternalId>) -> Vec<(Callee, Called)> {
+    let named = |name: &String, of: &Known| Called { name: name.clone(), is_of_mechanism: of.is_of_mechanism };
+    let own = context.own.iter().map(|(name, of)| (Callee::Own(of.id), named(name, of)));
+    let of_driver = context.of_driver.iter().map(|(name, of)| (Callee::OfDriver(of.id), named(name, of)));
     let graph = &context.derivation.graph;
-    let users = externals.iter().map(|&id| (Callee::User(id), call_of(graph.external_names(id))));
+    let user = |id| Called { name: call_of(graph.external_names(id)), is_of_mechanism: false };
+    let users = externals.iter().map(|&id| (Callee::User(id), user(id)));
     own.chain(of_driver).chain(users).collect()
 }
 

@@ -53,7 +53,7 @@ mod value;
 mod values;
 mod writer;
 
-pub use code::{Callee, Code, Returned};
+pub use code::{Called, Callee, Code, Returned};
 pub use function::Dangling;
 pub use id::{Signed, ValueId};
 pub use program::program;

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashSet;
 
-use super::code::{Callee, Names};
+use super::code::{Called, Callee, Names};
 use super::id::{Signed, ValueId};
 use super::value::Value;
 use super::values::Values;
@@ -39,7 +39,7 @@ pub(super) fn names(
     values: &Values,
     graph: &Graph,
     taken: Taken<'_>,
-    functions: impl IntoIterator<Item = (Callee, String)>,
+    functions: impl IntoIterator<Item = (Callee, Called)>,
 ) -> Names {
     let names = Names { values: vec![None; values.all.len()], functions: functions.into_iter().collect() };
     let mut naming = Naming { graph, values, taken, names, symbols: FxHashSet::default() };

@@ -202,7 +202,7 @@ impl Writer<'_> {
         };
         let arguments = self.expressions(arguments, checked);
         match functions.get(name) {
-            Some(function) => self.add(Value::Own(receiver, *function, arguments)),
+            Some(function) => self.add(Value::Own(receiver, function.id, arguments)),
             None => self.dangle(|| format!("the function `{name}`")),
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::code::{Callee, Code};
-use super::context::{Context, FunctionIds};
+use super::context::{Context, FunctionIds, Known};
 use super::counts::Counts;
 use super::function::{Dangling, Lowered, function};
 use super::rounding::Roundings;
@@ -83,7 +83,10 @@ fn called(functions: &Table<FunctionId, Function<Code>>, scenes: &[SceneProgram<
 
 /// The functions by name.
 fn ids(functions: &Functions<Body>) -> FunctionIds {
-    functions.by_id().enumerated().map(|(id, function)| (function.name.clone(), id)).collect()
+    let known = |(id, function): (FunctionId, &Function<Body>)| {
+        (function.name.clone(), Known { id, is_of_mechanism: function.access == Access::OfMechanism })
+    };
+    functions.by_id().enumerated().map(known).collect()
 }
 
 /// Lowers the functions of a type, which others call by these.

@@ -1,8 +1,9 @@
 //! Psi and its Jacobians.
 
 use super::doc::{fenced, lines, without_result};
-use super::expression::{Expression, Pattern, Statement, Variable};
+use super::expression::{Expression, Pattern, Statement, Type, Variable};
 use super::function::{Body, results};
+use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Row, Step};
 use crate::graph::NodeId;
@@ -20,7 +21,7 @@ impl Plan<'_, '_> {
     }
 
     fn residual(&mut self) {
-        let (residual, scales) = (self.derivation.residual.clone(), self.derivation.residual_scales.clone());
+        let (residual, scales) = (self.derivation.residual.to_vec(), self.derivation.residual_scales.to_vec());
         let mut doc = lines(["The residual Psi(q) of the loop equations and constraints; Psi(q) = 0 at a position."]);
         let eliminations = &self.signatures.driver.system.eliminations;
         if !eliminations.is_empty() {
@@ -32,11 +33,11 @@ impl Plan<'_, '_> {
         for constraint in &self.signatures.mechanism.constraints {
             doc.extend(constraint.description());
         }
-        let body = self.vector_of(&residual);
-        self.add(self.signatures.residual(), without_result(doc), body);
+        let body = self.list_of(residual, Expression::sized_vector);
+        self.add(self.signatures.residual(), doc, body);
         let doc = lines(["For each row of Psi, the sum of the magnitudes of its terms: the scale of its residual."]);
-        let body = self.vector_of(&scales);
-        self.add(self.signatures.residual_scales(), without_result(doc), body);
+        let body = self.list_of(scales, Expression::sized_vector);
+        self.add(self.signatures.residual_scales(), doc, body);
     }
 
     pub(super) fn joints(&mut self) {
@@ -45,13 +46,14 @@ impl Plan<'_, '_> {
         let mut doc = lines(["x and y of each joint, as in a drawing."]);
         let laws = joints.iter().flat_map(|(name, [x, y])| [(format!("{name}.x"), *x), (format!("{name}.y"), *y)]);
         doc.extend(fenced(laws.map(|(name, node)| self.law(name, node))));
-        let body = self.vector_of(&nodes);
+        let body = self.list_of(nodes, Expression::vector);
         self.add(self.signatures.joints(joints.len()), without_result(doc), body);
     }
 
-    fn vector_of(&self, nodes: &[NodeId]) -> Body {
-        let entries: Vec<_> = nodes.iter().enumerate().map(|(row, &node)| (row, 0, node)).collect();
-        self.matrix_function(&entries, nodes.len(), 1)
+    /// A function of the pose that returns these nodes in a vector.
+    fn list_of(&self, nodes: Vec<NodeId>, vector: fn(Vec<Expression>) -> Expression) -> Body {
+        let count = nodes.len();
+        Body::of(self.on_pose(Vec::new(), Vec::new(), unnamed(nodes)), vector(results(0..count)))
     }
 
     fn jacobians(&mut self) {
@@ -66,8 +68,8 @@ impl Plan<'_, '_> {
             vec![format!("The constraint Jacobian of the inputs A = `Psi_v`; its columns are {}.", self.list(inputs))];
         doc_of_inputs.extend(self.entries("A", &a));
         let body_of_inputs = self.matrix_function(&entries(&a, inputs.ids()), u, v);
-        self.add(self.signatures.jacobian_unknowns(), without_result(doc), body);
-        self.add(self.signatures.jacobian_inputs(), without_result(doc_of_inputs), body_of_inputs);
+        self.add(self.signatures.jacobian_unknowns(), doc, body);
+        self.add(self.signatures.jacobian_inputs(), doc_of_inputs, body_of_inputs);
 
         let doc =
             vec![format!("The constraint Jacobian `Psi_q` of all coordinates; its columns are {}.", self.list(&order))];
@@ -77,7 +79,10 @@ impl Plan<'_, '_> {
         };
         let part = |indices: &[CoordinateId], function: &str| {
             let columns = Pattern::List(names(indices).into_iter().map(Pattern::name).collect());
-            Statement::Let(columns, Expression::own_call(function, [Expression::name(pose)]).columns())
+            let column = Type::List(Box::new(Type::Scalar), u);
+            let of = Type::List(Box::new(column), indices.len());
+            let matrix = Expression::own_call(function, [Expression::name(pose)]);
+            Statement::Let(columns, Expression::of_type(of, Intrinsic::From, [matrix]))
         };
         let all = Expression::List(names(&order).into_iter().map(Expression::Name).collect());
         let mut body = Body::plain(Expression::made("SMatrix", all));
@@ -93,11 +98,9 @@ impl Plan<'_, '_> {
         let (of_unknowns, of_inputs) = self.derivation.jacobian_scales();
         let (unknowns, inputs) = (self.derivation.unknowns.ids(), self.derivation.inputs.ids());
         let body = self.matrix_function(&entries(&of_unknowns, unknowns), u, u);
-        let doc = lines(["For each entry of J, an upper bound of its magnitude at these lengths."]);
-        self.add(self.signatures.jacobian_unknowns_scales(), without_result(doc), body);
+        self.add(self.signatures.jacobian_unknowns_scales(), Vec::new(), body);
         let body = self.matrix_function(&entries(&of_inputs, inputs), u, v);
-        let doc = lines(["For each entry of A, an upper bound of its magnitude at these lengths."]);
-        self.add(self.signatures.jacobian_inputs_scales(), without_result(doc), body);
+        self.add(self.signatures.jacobian_inputs_scales(), Vec::new(), body);
     }
 
     fn determinants(&mut self) {
@@ -127,14 +130,14 @@ impl Plan<'_, '_> {
         let product = if self.derivation.is_odd { self.derivation.graph.negate(product) } else { product };
         let kernel = self.on_pose(Vec::new(), steps.clone(), unnamed([product]));
         let body = Body::of(kernel, Expression::Result(0));
-        self.add(self.signatures.determinant(), without_result(doc), body);
+        self.add(self.signatures.determinant(), doc, body);
 
         let mut doc = lines(["The determinants of the blocks of J, in the order in which the groups are solved."]);
         doc.extend(fenced(laws.into_iter()));
         let count = factors.len();
         let kernel = self.on_pose(Vec::new(), steps, unnamed(factors));
-        let body = Body::of(kernel, Expression::List(results(0..count)));
-        self.add(self.signatures.block_determinants(count), without_result(doc), body);
+        let body = Body::of(kernel, Expression::sized_vector(results(0..count)));
+        self.add(self.signatures.block_determinants(count), doc, body);
     }
 
     /// A function of the pose that returns a matrix of these entries.
@@ -142,7 +145,7 @@ impl Plan<'_, '_> {
         let nodes = entries.iter().map(|(_, _, node)| *node);
         let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
         let mut body = Body { kernel: Some(kernel), ..Body::default() };
-        let matrix = body.matrix("SMatrix", &as_results(entries, 0), rows, columns);
+        let matrix = body.matrix("Matrix", &as_results(entries, 0), rows, columns);
         Body { value: super::Value::Plain(matrix), ..body }
     }
 

@@ -52,6 +52,9 @@ pub enum Access {
     Cold,
     /// A function of a trait.
     OfTrait,
+    /// A function of the trait `Mechanism` that others call: by the path of the trait, so that a function of the user of the
+    /// same name is not meant.
+    OfMechanism,
 }
 
 impl Access {
@@ -61,7 +64,15 @@ impl Access {
     }
 
     pub fn is_public(self) -> bool {
-        matches!(self, Self::Public | Self::PublicInlined | Self::Hidden | Self::Deprecated | Self::PublicLayer)
+        matches!(
+            self,
+            Self::Public
+                | Self::PublicInlined
+                | Self::Hidden
+                | Self::Deprecated
+                | Self::PublicLayer
+                | Self::OfMechanism
+        )
     }
 }
 

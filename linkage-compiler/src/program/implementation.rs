@@ -30,6 +30,7 @@ pub enum Implemented {
     /// No trait: functions of the type itself.
     Itself,
     Mechanism,
+    Kinematic,
     Assembly,
     Branches,
     Lanes,
@@ -43,6 +44,7 @@ impl Implemented {
         match self {
             Self::Itself => None,
             Self::Mechanism => Some("Mechanism"),
+            Self::Kinematic => Some("Kinematic"),
             Self::Assembly => Some("Assembly"),
             Self::Branches => Some("Branches"),
             Self::Lanes => Some("Lanes"),
@@ -57,6 +59,8 @@ pub enum Associated {
     Type(Type),
     /// A number as a type.
     Dimension(usize),
+    /// A quantity `Q` for each point or output: the type with their names, or an empty list.
+    PerQuantity(Option<String>),
 }
 
 /// The value of a constant.

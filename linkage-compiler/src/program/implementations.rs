@@ -1,5 +1,5 @@
-//! The traits that a driver implements: `Mechanism`, `Assembly` if its position has a closed form, `Branches` if all
-//! positions are listed, `Lanes` and `Skeleton` on request.
+//! The traits that a driver implements: `Mechanism` and `Kinematic`, `Assembly` if its position has a closed form, `Branches`
+//! if all positions are listed, `Lanes` and `Skeleton` on request.
 
 use super::Derived;
 use super::branch::Position;
@@ -15,7 +15,7 @@ use super::lane_columns::Column;
 use super::lane_functions;
 use super::names::Order;
 use super::pose_functions::of_pose;
-use super::signatures::Signatures;
+use super::signatures::{Family, Signatures};
 use crate::model::Request;
 
 /// The implementations of a driver with these functions, and the columns of its lanes.
@@ -30,7 +30,8 @@ pub(super) fn of_driver<B>(
     let of = Traits { signatures, position, derived };
     let mut all = vec![of_pose(signatures, derived)];
     all.extend(of_branch(signatures, position));
-    all.push(of.mechanism(has("length_scale")));
+    all.push(of.mechanism());
+    all.push(of.kinematic());
     all.extend(position.is_closed.then(|| of.assembly()));
     all.extend(has("branches").then(|| of.branches()));
     let wants = |request| signatures.mechanism.requests.contains(&request);
@@ -59,7 +60,7 @@ impl Traits<'_> {
         Implementation { of, on, is_generic: true, error: "PositionError", types, constants, functions }
     }
 
-    fn mechanism(&self, has_scale: bool) -> Implementation<Body> {
+    fn mechanism(&self) -> Implementation<Body> {
         let (mechanism, driver) = (self.signatures.mechanism, self.signatures.driver);
         let [unknowns, are_unknown_angles] = named_coordinates(mechanism, driver.unknowns.iter());
         let [inputs, are_input_angles] = named_coordinates(mechanism, driver.inputs.iter());
@@ -75,6 +76,7 @@ impl Traits<'_> {
             ("Rates", own(Order::Rate)),
             ("Inputs", Associated::Type(Type::Own(self.signatures.types.inputs.clone()))),
             ("Pose", Associated::Type(self.signatures.pose_type())),
+            ("Branch", Associated::Type(self.branch())),
         ];
         let constants = vec![
             ("NAME", ConstantValue::Own),
@@ -84,12 +86,7 @@ impl Traits<'_> {
             ("INPUT_ANGLES", are_input_angles),
             ("GROUPS", ConstantValue::Groups(groups)),
         ];
-        let mut functions = self.on_coordinates().to_vec();
-        functions.extend(self.equations());
-        functions.extend(has_scale.then(|| {
-            let value = Expression::own_call("length_scale", [Expression::name("pose")]);
-            of_trait("length_scale", [pose()], Type::Scalar, Body::plain(value))
-        }));
+        let mut functions = self.on_positions().to_vec();
         functions.extend((!mechanism.implied.is_empty()).then(|| {
             let pose = Expression::own_call("pose_at", [Expression::name("q")]);
             let value = Expression::own_call("check_implied", [pose.borrowed()]);
@@ -98,60 +95,94 @@ impl Traits<'_> {
         self.implementation(Implemented::Mechanism, types, constants, functions)
     }
 
-    fn on_coordinates(&self) -> [Function<Body>; 2] {
+    fn on_positions(&self) -> [Function<Body>; 3] {
         let value = Expression::own_call("pose_at", [Expression::name("q")]);
         let pose_at = of_trait("pose_at", [coordinates("q")], Type::OfTrait("Pose"), Body::plain(value));
         let value = Expression::call(Intrinsic::IsFinite, [Expression::name("pose")]);
         let is_finite = of_trait("is_finite", [pose()], Type::Flag, Body::plain(value));
-        [pose_at, Function { is_method: false, ..is_finite }]
+        let branch_of = match self.signatures.is_open() {
+            true => Expression::of_type(self.branch(), Intrinsic::OnlyBranch, []),
+            false => Expression::own_call("branch_of", [Expression::name("pose")]),
+        };
+        let branch_of = of_trait("branch_of", [pose()], Type::OfTrait("Branch"), Body::plain(branch_of));
+        [pose_at, Function { is_method: false, ..is_finite }, branch_of]
     }
 
-    /// Psi, its derivatives, and linear systems in J. An open chain has no equations: all of these are empty.
-    fn equations(&self) -> Vec<Function<Body>> {
-        let [u, v, g] = [self.signatures.unknowns(), self.signatures.inputs(), self.position.groups];
-        let is_open = self.signatures.is_open();
-        let column = |rows| ("Column", Type::Column(Box::new(Type::Scalar), rows));
-        let matrix = |columns| ("Matrix", Type::Sized("Matrix", vec![u, columns]));
-        let of_pose = [
-            ("residual", column(u)),
-            ("residual_scales", column(u)),
-            ("jacobian_unknowns", matrix(u)),
-            ("jacobian_inputs", matrix(v)),
-            ("jacobian_unknowns_scales", matrix(u)),
-            ("jacobian_inputs_scales", matrix(v)),
-            ("block_determinants", column(g)),
-        ];
-        let name = |name: &str| Expression::name(name);
-        let mut functions: Vec<Function<Body>> = of_pose
-            .into_iter()
-            .map(|(function, (kind, returns))| {
-                let value = match is_open {
-                    true => Expression::zeros(kind),
-                    false => Expression::own_call(function, [name("pose")]).converted(),
-                };
-                of_trait(function, [pose()], returns, Body::plain(value))
-            })
-            .collect();
-        let (determinant, gamma, solution) = match is_open {
-            true => (Expression::one(), Expression::zeros("Column"), name("right").dereferenced()),
-            false => {
-                let right = name("right").dereferenced().converted().borrowed();
-                (
-                    Expression::own_call("determinant", [name("pose")]),
-                    Expression::own_call("gamma", [name("pose"), name("rates")]).converted(),
-                    Expression::own_call("solve_jacobian", [name("pose"), right]).tried().converted(),
-                )
+    /// Velocities and accelerations, points and outputs: the functions of the type itself under its names in the trait.
+    fn kinematic(&self) -> Implementation<Body> {
+        let (mechanism, types) = (self.signatures.mechanism, &self.signatures.types);
+        let families = [("P", "Points", "POINTS", Family::Points), ("O", "Outputs", "OUTPUTS", Family::Outputs)];
+        let accelerations = Associated::Type(self.signatures.coordinates_type(Order::Acceleration));
+        let count = self.signatures.unknowns() + self.signatures.inputs();
+        let mut own = vec![("N", Associated::Dimension(count)), ("Accelerations", accelerations)];
+        let mut constants = Vec::new();
+        let mut functions = vec![self.coordinates_of()];
+        functions.extend([Order::Rate, Order::Acceleration].map(|order| self.of_coordinates(order)));
+        functions.extend((!self.signatures.is_open()).then(|| self.velocity_ratios()));
+        for (number, each, list, family) in families {
+            let names = family.names_as_written(mechanism);
+            own.push((number, Associated::Dimension(names.len())));
+            let has_some = self.signatures.has(family);
+            let name = has_some.then(|| self.signatures.each_name(family).to_owned());
+            own.push((each, Associated::PerQuantity(name)));
+            if has_some {
+                constants.push((list, ConstantValue::Texts(names)));
+                functions.extend((0..3).map(|order| self.quantities(family, order)));
+                functions.push(self.quantity_ratios(family));
             }
-        };
-        let (_, by_unknowns) = column(u);
-        let rates = ("rates", Passed::ByReference(Type::OfTrait("Rates")));
-        let right = ("right", Passed::ByReference(by_unknowns.clone()));
-        functions.extend([
-            of_trait("determinant", [pose()], Type::Scalar, Body::plain(determinant)),
-            of_trait("gamma", [pose(), rates], by_unknowns.clone(), Body::plain(gamma)),
-            fallible_of_trait("solve_jacobian", [pose(), right], by_unknowns, Body::plain(solution)),
-        ]);
-        functions
+        }
+        let near = if self.position.is_closed { "" } else { "_near" };
+        let moving = ["guess", "branch", "input_rates", "input_accelerations"];
+        functions.push(self.forward("kinematics", &format!("kinematics{near}"), moving, &types.kinematics));
+        functions.extend(self.signatures.has_quantities().then(|| {
+            self.forward("full_kinematics", &format!("full_kinematics{near}"), moving, &types.full_kinematics)
+        }));
+        functions.push(self.forward("motion", "motion", ["q", "input_rates", "input_accelerations"], &types.motion));
+        self.implementation(Implemented::Kinematic, own, constants, functions)
+    }
+
+    fn coordinates_of(&self) -> Function<Body> {
+        let value = Expression::call(Intrinsic::Coordinates, [Expression::name("pose")]);
+        let function = of_trait("coordinates_of", [pose()], Type::OfTrait("Coordinates"), Body::plain(value));
+        Function { is_method: false, ..function }
+    }
+
+    /// `velocity` or `acceleration`.
+    fn of_coordinates(&self, order: Order) -> Function<Body> {
+        let of = self.signatures.types.of(order);
+        match order {
+            Order::Rate => self.forward("velocity", "velocity", ["pose", "input_rates"], of),
+            _ => self.forward("acceleration", "acceleration", ["pose", "rates", "input_accelerations"], of),
+        }
+    }
+
+    fn velocity_ratios(&self) -> Function<Body> {
+        let [u, v] = [self.signatures.unknowns(), self.signatures.inputs()];
+        let ratios = Expression::own_call("velocity_ratios", [Expression::name("pose")]).tried().converted();
+        fallible_of_trait("velocity_ratios", [pose()], Type::Sized("Matrix", vec![u, v]), Body::plain(ratios))
+    }
+
+    fn quantities(&self, family: Family, order: usize) -> Function<Body> {
+        let Function { name, returns, .. } = self.signatures.quantities(family, order);
+        match order {
+            0 => forwarded(&name, &name, ["pose"], returns),
+            1 => forwarded(&name, &name, ["pose", "rates"], returns),
+            _ => forwarded(&name, &name, ["pose", "rates", "accelerations"], returns),
+        }
+    }
+
+    fn quantity_ratios(&self, family: Family) -> Function<Body> {
+        let name = self.signatures.quantity_ratios(family).name;
+        let ratios = Expression::own_call(&name, [Expression::name("pose")]).tried();
+        let ratios = Expression::call(Intrinsic::EachSized, [ratios]);
+        let matrix = Type::Sized("Matrix", vec![family.dimension(), self.signatures.inputs()]);
+        let returns = Type::Each(self.signatures.each_name(family).to_owned(), Box::new(matrix));
+        fallible_of_trait(&name, [pose()], returns, Body::plain(ratios))
+    }
+
+    /// A function of the trait that calls one of the type itself.
+    fn forward<const N: usize>(&self, name: &str, to: &str, arguments: [&'static str; N], of: &str) -> Function<Body> {
+        forwarded(name, to, arguments, Type::Own(of.to_owned()))
     }
 
     fn assembly(&self) -> Implementation<Body> {
@@ -167,13 +198,7 @@ impl Traits<'_> {
             let near = call("assemble_near", ["guess", "branch"]);
             fallible_of_trait("assemble_near", [coordinates("guess"), ("branch", branch)], pose_type, near)
         }));
-        let branch_of = match self.signatures.is_open() {
-            true => Expression::of_type(self.branch(), Intrinsic::OnlyBranch, []),
-            false => Expression::own_call("branch_of", [Expression::name("pose")]),
-        };
-        functions.push(of_trait("branch_of", [pose()], Type::OfTrait("Branch"), Body::plain(branch_of)));
-        let types = vec![("Branch", Associated::Type(self.branch()))];
-        self.implementation(Implemented::Assembly, types, Vec::new(), functions)
+        self.implementation(Implemented::Assembly, Vec::new(), Vec::new(), functions)
     }
 
     fn branches(&self) -> Implementation<Body> {
@@ -195,8 +220,7 @@ impl Traits<'_> {
             Type::Iterator { item: Box::new(item), is_cloned: false },
             Body::plain(all),
         );
-        let types = vec![("Branch", Associated::Type(self.branch()))];
-        self.implementation(Implemented::Branches, types, Vec::new(), vec![all])
+        self.implementation(Implemented::Branches, Vec::new(), Vec::new(), vec![all])
     }
 
     fn skeleton(&self) -> Implementation<Body> {
@@ -222,6 +246,20 @@ impl Traits<'_> {
 
 fn pose() -> (&'static str, Passed) {
     ("pose", Passed::ByReference(Type::OfTrait("Pose")))
+}
+
+/// A function of a trait that calls one of the type itself with the same arguments.
+fn forwarded<const N: usize>(name: &str, to: &str, arguments: [&'static str; N], returns: Type) -> Function<Body> {
+    let call = Expression::own_call(to, arguments.map(Expression::name));
+    let of = |argument| match argument {
+        "pose" => Passed::ByReference(Type::OfTrait("Pose")),
+        "q" | "guess" => Passed::ByReference(Type::OfTrait("Coordinates")),
+        "rates" => Passed::ByReference(Type::OfTrait("Rates")),
+        "accelerations" => Passed::ByReference(Type::OfTrait("Accelerations")),
+        "branch" => Passed::ByValue(Type::OfTrait("Branch")),
+        _ => Passed::ByValue(Type::OfTrait("Inputs")),
+    };
+    fallible_of_trait(name, arguments.map(|argument| (argument, of(argument))), returns, Body::result(call))
 }
 
 fn coordinates(name: &'static str) -> (&'static str, Passed) {

@@ -238,6 +238,7 @@ intrinsics! {
         meaning: Meaning::Named(Entry::Output), is_unchanged: true
     }
     FiniteMatrix "finite_matrix" Function [Mechanism, Part, Data] {}
+    EachSized "each_sized" Function [Data] {}
     FiniteMatrices "finite_matrices" Function [Mechanism, Part, Columns] {
         meaning: Meaning::Named(Entry::Columns), is_unchanged: true
     }
@@ -345,7 +346,7 @@ intrinsics! {
     Widened "widened" Function [Number] {}
     WidenedDirection "widened_direction" Function [Data] {}
     WidenedByName "widened_by_name" Function [Data] {}
-    WidenedMatrix "widened_matrix" Function [Data] {}
+    WidenedColumn "widened_column" Function [Data] {}
     Rounded "rounded" Function [Data, Data] {}
     RoundedByName "rounded_by_name" Function [Data, Data] {}
     RoundedEach "rounded_each" Function [Data, Data] {}

@@ -261,11 +261,14 @@ impl Plan<'_, '_> {
             (Family::Points, Intrinsic::PointMotions, results(from..points), &[3, 2][..]),
             (Family::Outputs, Intrinsic::OutputMotions, results(points..from + nodes.len()), &[3][..]),
         ] {
-            if self.signatures.has(family) {
-                let values = Expression::List(Expression::nested(values, sizes));
-                let motions = Expression::call(function, [Expression::mechanism(), values]).tried();
-                members.push((format!("{}s", family.word()), motions));
-            }
+            let motions = match self.signatures.has(family) {
+                true => {
+                    let values = Expression::List(Expression::nested(values, sizes));
+                    Expression::call(function, [Expression::mechanism(), values]).tried()
+                }
+                false => Expression::List(Vec::new()),
+            };
+            members.push((format!("{}s", family.word()), motions));
         }
         (nodes, members)
     }

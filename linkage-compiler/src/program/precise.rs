@@ -86,8 +86,8 @@ impl Plan<'_, '_> {
     fn rounded_motion(&self, wide: &Expression) -> Expression {
         let of_coordinates =
             ["position", "rates", "accelerations"].map(|field| (field.to_owned(), Intrinsic::RoundedByName));
-        let families = [Family::Points, Family::Outputs].into_iter().filter(|family| self.signatures.has(*family));
-        let of_quantities = families.map(|family| (format!("{}s", family.word()), Intrinsic::RoundedEach));
+        let of_quantities =
+            [Family::Points, Family::Outputs].map(|family| (format!("{}s", family.word()), Intrinsic::RoundedEach));
         let members = of_coordinates.into_iter().chain(of_quantities);
         let members = members.map(|(field, rounded)| {
             let parts = [wide, &Expression::name(ROUGH)].map(|whole| whole.clone().field(&field));
@@ -152,7 +152,7 @@ impl Plan<'_, '_> {
                 }
             }
             Passed::ByReference(Type::Own(_)) => Expression::call(Intrinsic::WidenedByName, [value.dereferenced()]),
-            Passed::ByReference(_) => Expression::call(Intrinsic::WidenedMatrix, [value]),
+            Passed::ByReference(_) => Expression::call(Intrinsic::WidenedColumn, [value]),
             _ => Expression::call(Intrinsic::WidenedByName, [value]),
         };
         let pattern = match passed {

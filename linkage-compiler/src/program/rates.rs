@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
+use super::intrinsics::Intrinsic;
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Assembly, Form, Step};
@@ -54,16 +55,12 @@ impl Plan<'_, '_> {
         let side = self.variables(&sides).into();
         let steps = self.derivation.solution(&[(side, parts.clone())], Form::Factored);
         let outputs = self.outputs(&parts);
-        let source = Source { from: Expression::name(&right).columns(), shape: Shape::columns(u, &sides) };
+        let list = Type::List(Box::new(Type::Scalar), u);
+        let from = Expression::of_type(list, Intrinsic::From, [Expression::name(&right).dereferenced()]);
+        let source = Source { from, shape: Shape::list(&sides) };
         let kernel = self.on_pose(vec![source], steps, outputs);
-        let body = Body::of(kernel, Expression::vector(results(0..u))).checked("the solution", results(0..u));
-        let doc = lines([
-            "The solution x of J x = `right`.",
-            "",
-            "# Errors",
-            "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if the solution is not finite.",
-        ]);
-        self.add(self.signatures.solve_jacobian(), doc, body);
+        let body = Body::of(kernel, Expression::sized_vector(results(0..u))).checked("the solution", results(0..u));
+        self.add(self.signatures.solve_jacobian(), lines(["The solution x of J x = `right`."]), body);
     }
 
     fn velocity_ratios(&mut self) {
@@ -196,8 +193,8 @@ impl Plan<'_, '_> {
         doc.extend(self.numbered("gamma", &gamma));
         let count = gamma.len();
         let kernel = self.on_pose(vec![self.coordinates(Order::Rate)], Vec::new(), unnamed(gamma));
-        let body = Body::of(kernel, Expression::vector(results(0..count)));
-        self.add(self.signatures.gamma(), without_result(doc), body);
+        let body = Body::of(kernel, Expression::sized_vector(results(0..count)));
+        self.add(self.signatures.gamma(), doc, body);
     }
 
     pub(super) fn acceleration(&mut self) {

@@ -42,6 +42,7 @@ fn zeroed(value: &Expression) -> Expression {
             Expression::call(*of, arguments.iter().map(zeroed))
         }
         Expression::Try(inside) => zeroed(inside).tried(),
+        Expression::List(all) if all.is_empty() => value.clone(),
         Expression::List(all) => {
             let one = all.first().map_or_else(Expression::zero, zeroed);
             Expression::Repeated(Box::new(one), all.len())
@@ -59,6 +60,7 @@ fn assigned(place: Expression, value: &Expression, all: &mut Vec<(Expression, Ex
             fields.iter().for_each(|(field, value)| assigned(place.clone().field(field), value, all));
         }
         argument if argument.stored().is_some() => {}
+        Expression::List(all) if all.is_empty() => {}
         result => all.push((place, result.clone())),
     }
 }

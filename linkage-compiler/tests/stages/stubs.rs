@@ -23,7 +23,9 @@ fn tokens_of(path: &Path) -> Option<TokenStream> {
 
 /// The public functions as text, without doc comment and body, sorted by name, since plan and stub differ in order.
 fn signatures<B>(functions: &Functions<B>) -> Vec<String> {
-    let public = functions.iter().filter(|function| matches!(function.access, Access::Public | Access::Hidden));
+    let public = functions
+        .iter()
+        .filter(|function| matches!(function.access, Access::Public | Access::Hidden | Access::OfMechanism));
     // These follow from the vectors of a finished mechanism.
     let public = public.filter(|function| !["joints", "length_scale"].contains(&function.name.as_str()));
     let signature = |function: &Function<B>| {

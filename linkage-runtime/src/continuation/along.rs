@@ -69,6 +69,7 @@ where
     type Rates = AlongRates<M::Rates, M::Scalar>;
     type Inputs = Column<M::Scalar, D<1>>;
     type Pose = AlongPose<M::Pose, M::Scalar, M::V>;
+    type Branch = M::Branch;
 
     const NAME: &'static str = M::NAME;
     const UNKNOWNS: &'static [&'static str] = M::UNKNOWNS;
@@ -100,6 +101,10 @@ where
 
     fn is_finite(at: &Self::Pose) -> bool {
         M::is_finite(&at.pose) && at.slope.is_finite() && at.bend.is_finite()
+    }
+
+    fn branch_of(&self, at: &Self::Pose) -> M::Branch {
+        self.mechanism.branch_of(&at.pose)
     }
 
     fn residual(&self, at: &Self::Pose) -> PerUnknown<M> {

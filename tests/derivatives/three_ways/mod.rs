@@ -34,7 +34,7 @@ macro_rules! positions {
             .unwrap()
             .map(|linkage::Assembled { branch, pose }| {
                 assert_eq!(m.branch_of(&pose), branch);
-                assert!(crate::three_ways::closes(&m, &pose), "{:?}: {:?}", branch, m.residual(&pose));
+                assert!(crate::three_ways::closes(&m, &pose), "{:?}: {:?}", branch, linkage::Mechanism::residual(&m, &pose));
                 let points: [nalgebra::Point2<f64>; _] = m.points(&pose).unwrap().into();
                 (points.to_vec(), crate::three_ways::condition(&m, &pose))
             })

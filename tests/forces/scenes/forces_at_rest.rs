@@ -1,6 +1,6 @@
 //! Reactions, statics, equilibria and stiffness.
 
-use linkage::Real;
+use linkage::{Mechanism, Real};
 use num_dual::Dual64;
 
 use super::machines::*;
@@ -72,7 +72,7 @@ fn equilibria() {
     let left = scene.forces(0.0, &q, 0.0).unwrap()[0];
     assert!(left.abs() < 1e-12 * scale && (q.theta2 - guess.theta2).abs() > 0.01, "{left:e} {q:?}");
     let four_bar = &scene.mechanism;
-    assert!(four_bar.residual(&four_bar.pose_at(&q)).amax() < 1e-15);
+    assert!(four_bar.residual(&four_bar.pose_at(&q)).largest() < 1e-15);
     // A spring without weight is at rest where it is not stretched.
     let spring = Balanced { g: 0.0, phi0: four_bar_at([0.5]).unwrap().theta4, ..Balanced::default() };
     assert!((spring.equilibrium(0.0, &guess).unwrap().theta2 - 0.5).abs() < 1e-13);

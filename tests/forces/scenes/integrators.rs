@@ -1,6 +1,6 @@
 //! A scene as a system of differential equations.
 
-use linkage::{Column, D, Scene, StateParts};
+use linkage::{Column, D, Mechanism, Scene, StateParts};
 
 use super::machines::*;
 use super::virtual_work::agrees;
@@ -59,5 +59,5 @@ fn a_state_for_integrators() {
     let q = Idle::parts(&end).q;
     assert!(q.theta2 > 7.0, "{q:?}");
     let four_bar = &idle.mechanism;
-    assert!(four_bar.residual(&four_bar.pose_at(&q)).amax() < 1e-15, "{q:?}");
+    assert!(four_bar.residual(&four_bar.pose_at(&q)).largest() < 1e-15, "{q:?}");
 }

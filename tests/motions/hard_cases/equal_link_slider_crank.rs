@@ -4,7 +4,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use linkage::{PositionError, Slider, singularity};
+use linkage::{Mechanism, PositionError, Slider, singularity};
 
 use linkage_oracle::precise::{Scalar, big};
 
@@ -23,7 +23,7 @@ fn velocity_at_the_singularity() {
         assert!(answers.iter().all(|answer| answer.is_finite()) && (answers[0] - answers[1]).abs() > 0.1);
         for slider in SLIDERS {
             let pose = m.assemble(phi1, CompressorBranch { z3_phi2: slider }).unwrap();
-            assert!(m.residual(&pose).amax() <= 1e-15 && pose.phi2.re.abs() <= 1e-15, "{pose:?}");
+            assert!(m.residual(&pose).largest() <= 1e-15 && pose.phi2.re.abs() <= 1e-15, "{pose:?}");
             assert!(matches!(m.velocity_ratios(&pose), Err(PositionError::Singular { group: "phi2", .. })));
             assert!(singularity::report(&m, &pose).unwrap().is_singular());
         }

@@ -6,7 +6,7 @@
 use std::f64::consts::PI;
 
 use linkage::continuation::{Direction, Event, Path};
-use linkage::{Elbow, position};
+use linkage::{Elbow, Mechanism, position};
 
 use linkage_gallery::four_bar::*;
 

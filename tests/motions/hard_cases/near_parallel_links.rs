@@ -13,8 +13,9 @@
 //! that correctly rounded velocities alone leave 5.9e-16. In double-double arithmetic the same code has only the last
 //! rounding error.
 
+use linkage::Mechanism;
 use linkage_double::DoubleDouble;
-use nalgebra::vector;
+use nalgebra::{SMatrix, SVector, vector};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -83,10 +84,10 @@ fn velocities_and_accelerations() {
             let found = [[velocity.theta3, velocity.theta4], [acceleration.theta3, acceleration.theta4]];
             let in_double_double = in_double_double(&m, &q, 1.5, -0.7);
             // J from the same sines, factorised by a library.
-            let j = m.jacobian_unknowns(&pose).lu();
-            let by_library = j.solve(&-(m.jacobian_inputs(&pose) * vector![1.5])).unwrap();
+            let (j, a) = (SMatrix::from(m.jacobian_unknowns(&pose)).lu(), SMatrix::from(m.jacobian_inputs(&pose)));
+            let by_library = j.solve(&-(a * vector![1.5])).unwrap();
             let rate = FourBarRates { theta3: by_library[0], theta4: by_library[1], theta2: 1.5 };
-            let right = -(m.jacobian_inputs(&pose) * vector![-0.7] + m.gamma(&pose, &rate));
+            let right = -(a * vector![-0.7] + SVector::from(m.gamma(&pose, &rate)));
             let library = [by_library, j.solve(&right).unwrap()];
             for order in 0..2 {
                 for unknown in 0..2 {

@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{AtChangePoint, Direction, Event, Options, Path};
-use linkage::{Error, PathError, position};
+use linkage::{Error, Mechanism, PathError, position};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -136,7 +136,7 @@ fn policies() {
     let m = wheels();
     let options = |at_change_point| Options { at_change_point, ..Options::default() };
     let start = |policy| Path::with(&m, &at(2.0), Direction::Increasing, options(policy)).unwrap();
-    let anti = |q: &CoupledWheelsCoordinates| !is_parallel(q) && m.residual(&m.pose_at(q)).amax() < 1e-14;
+    let anti = |q: &CoupledWheelsCoordinates| !is_parallel(q) && m.residual(&m.pose_at(q)).largest() < 1e-14;
     let mut switched = start(AtChangePoint::Switch);
     assert!(anti(&switched.advance_to(4.0).unwrap().position));
     // Half a turn further, at the next change point, it returns to the parallelogram.

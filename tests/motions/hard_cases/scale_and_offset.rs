@@ -3,7 +3,8 @@
 //! tiny lengths and nothing for huge ones; circles written with their constant terms, x^2 + y^2 + e x + f y + g = 0,
 //! lose the square of the offset.
 
-use linkage::{Elbow, linkage};
+use linkage::nalgebra::{SMatrix, SVector};
+use linkage::{Elbow, Mechanism, linkage};
 
 use linkage_oracle::precise::{Scalar, big};
 
@@ -16,10 +17,11 @@ fn naive(m: &FourBar, theta2: f64) -> Option<FourBarCoordinates> {
     let mut q = FourBarCoordinates { theta2, theta3: 1.0, theta4: -1.0 };
     for _ in 0..50 {
         let pose = m.pose_at(&q);
-        if m.residual(&pose).amax() < 1e-9 {
+        if m.residual(&pose).largest() < 1e-9 {
             return Some(q);
         }
-        let step = m.jacobian_unknowns(&pose).lu().solve(&m.residual(&pose))?;
+        let j = SMatrix::from(m.jacobian_unknowns(&pose));
+        let step = j.lu().solve(&SVector::from(m.residual(&pose)))?;
         (q.theta3, q.theta4) = (q.theta3 - step[0], q.theta4 - step[1]);
     }
     None

@@ -4,7 +4,7 @@
 use linkage::integrate::{Crossing, Tolerance, dop853};
 use linkage::linkage;
 use linkage::simulation::{AtSingularity, Start, Then, simulate};
-use linkage::{MotionError, PositionError, Scene};
+use linkage::{Mechanism, MotionError, PositionError, Scene};
 
 linkage! {
     /// A four-bar with a heavy crank, a parallelogram by default.

@@ -384,7 +384,10 @@ fn from(of: Option<&Type>, arguments: &[Value]) -> Value {
     match (of, arguments) {
         (Some(Type::Runtime("SVector" | "Column", _)), [Value::List(_)]) => Value::Columns(arguments.into()),
         (Some(Type::Runtime("SMatrix" | "Matrix", _)), [Value::List(columns)]) => Value::Columns(columns.clone()),
-        (Some(Type::Bare(_) | Type::Own(_)), [from]) => from.clone(),
+        (Some(Type::List(of, _)), [Value::Columns(columns)]) if matches!(**of, Type::List(..)) => {
+            Value::List(columns.clone())
+        }
+        (Some(Type::Bare(_) | Type::Own(_) | Type::List(..)), [from]) => from.clone(),
         _ => Value::Unknown,
     }
 }

@@ -160,8 +160,7 @@ pub(super) fn of_driver(program: &Program<Code>, root: &TokenStream) -> TokenStr
         #derives
         #visibility struct #pose_name<T = f64> { #members }
     });
-    tokens.extend(motion::kinematics(mechanism, name, types, root));
-    tokens.extend(motion::motion(mechanism, name, types, root));
+    tokens.extend(motion::motions(mechanism, name, types, root));
     tokens.extend(branch(program, root));
     tokens
 }

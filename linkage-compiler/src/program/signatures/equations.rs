@@ -1,25 +1,26 @@
 //! Functions of the equations and of their derivatives, and linear systems in J.
 
 use super::Signatures;
-use super::form::{fallible, hidden, total};
+use super::form::{fallible, of_mechanism, total};
 use crate::program::expression::Type;
 use crate::program::function::{Argument, Body, Function, Passed};
+use crate::program::names::Order;
 
 impl Signatures<'_> {
     pub fn residual(&self) -> Function<Body> {
-        total("residual", [self.pose()], Type::Vector(self.unknowns()))
+        of_mechanism(total("residual", [self.pose()], column(self.unknowns())))
     }
 
     pub fn residual_scales(&self) -> Function<Body> {
-        total("residual_scales", [self.pose()], Type::Vector(self.unknowns()))
+        of_mechanism(total("residual_scales", [self.pose()], column(self.unknowns())))
     }
 
     pub fn jacobian_unknowns(&self) -> Function<Body> {
-        total("jacobian_unknowns", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns()))
+        of_mechanism(total("jacobian_unknowns", [self.pose()], self.matrix(self.unknowns())))
     }
 
     pub fn jacobian_inputs(&self) -> Function<Body> {
-        total("jacobian_inputs", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
+        of_mechanism(total("jacobian_inputs", [self.pose()], self.matrix(self.inputs())))
     }
 
     pub fn jacobian(&self) -> Function<Body> {
@@ -27,29 +28,33 @@ impl Signatures<'_> {
     }
 
     pub fn jacobian_unknowns_scales(&self) -> Function<Body> {
-        hidden("jacobian_unknowns_scales", [self.pose()], Type::Matrix(self.unknowns(), self.unknowns()))
+        of_mechanism(total("jacobian_unknowns_scales", [self.pose()], self.matrix(self.unknowns())))
     }
 
     pub fn jacobian_inputs_scales(&self) -> Function<Body> {
-        hidden("jacobian_inputs_scales", [self.pose()], Type::Matrix(self.unknowns(), self.inputs()))
+        of_mechanism(total("jacobian_inputs_scales", [self.pose()], self.matrix(self.inputs())))
     }
 
     pub fn determinant(&self) -> Function<Body> {
-        total("determinant", [self.pose()], Type::Scalar)
+        of_mechanism(total("determinant", [self.pose()], Type::Scalar))
     }
 
     pub fn block_determinants(&self, groups: usize) -> Function<Body> {
-        total("block_determinants", [self.pose()], Type::List(Box::new(Type::Scalar), groups))
+        of_mechanism(total("block_determinants", [self.pose()], column(groups)))
+    }
+
+    pub fn gamma(&self) -> Function<Body> {
+        of_mechanism(total("gamma", [self.pose(), self.coordinates(Order::Rate)], column(self.unknowns())))
     }
 
     pub fn length_scale(&self) -> Function<Body> {
-        hidden("length_scale", [self.pose()], Type::Scalar)
+        of_mechanism(total("length_scale", [self.pose()], Type::Scalar))
     }
 
     pub fn solve_jacobian(&self) -> Function<Body> {
-        let vector = Type::Vector(self.unknowns());
-        let right = Argument { name: self.arguments.right.clone(), passed: Passed::ByReference(vector.clone()) };
-        fallible("solve_jacobian", [self.pose(), right], vector)
+        let column = column(self.unknowns());
+        let right = Argument { name: self.arguments.right.clone(), passed: Passed::ByReference(column.clone()) };
+        of_mechanism(fallible("solve_jacobian", [self.pose(), right], column))
     }
 
     pub fn velocity_ratios(&self) -> Function<Body> {
@@ -64,4 +69,14 @@ impl Signatures<'_> {
     pub fn sensitivity(&self) -> Function<Body> {
         fallible("sensitivity", [self.pose()], Type::Matrix(self.unknowns(), self.mechanism.parameters.len()))
     }
+
+    /// A row for each unknown, with its dimensions as types.
+    fn matrix(&self, columns: usize) -> Type {
+        Type::Sized("Matrix", vec![self.unknowns(), columns])
+    }
+}
+
+/// A column of numbers, with its dimension as a type.
+fn column(rows: usize) -> Type {
+    Type::Column(Box::new(Type::Scalar), rows)
 }

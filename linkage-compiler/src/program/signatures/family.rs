@@ -35,6 +35,14 @@ impl Family {
         }
     }
 
+    /// The names of all points or outputs as the user wrote them.
+    pub fn names_as_written(self, mechanism: &Mechanism) -> Vec<String> {
+        match self {
+            Self::Points => mechanism.points.iter().map(|point| point.name.text.clone()).collect(),
+            Self::Outputs => mechanism.outputs.iter().map(|output| output.name.text.clone()).collect(),
+        }
+    }
+
     /// The field names of all points or outputs.
     pub fn names(self, mechanism: &Mechanism) -> Vec<String> {
         match self {

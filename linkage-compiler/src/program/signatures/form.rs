@@ -17,13 +17,9 @@ pub fn total(name: impl Into<String>, arguments: impl IntoIterator<Item = Argume
     }
 }
 
-/// A public function without `Result`, hidden from the documentation.
-pub(super) fn hidden(
-    name: impl Into<String>,
-    arguments: impl IntoIterator<Item = Argument>,
-    returns: Type,
-) -> Function<Body> {
-    Function { access: Access::Hidden, ..total(name, arguments, returns) }
+/// A function of the trait `Mechanism`.
+pub(super) fn of_mechanism(function: Function<Body>) -> Function<Body> {
+    Function { access: Access::OfMechanism, ..function }
 }
 
 /// A private function that is inlined into functions of scenes.

@@ -13,10 +13,6 @@ impl Signatures<'_> {
         public_inlined(fallible("velocity", arguments, self.coordinates_type(Order::Rate)))
     }
 
-    pub fn gamma(&self) -> Function<Body> {
-        total("gamma", [self.pose(), self.coordinates(Order::Rate)], Type::Vector(self.unknowns()))
-    }
-
     pub fn acceleration(&self) -> Function<Body> {
         let arguments = [self.pose(), self.coordinates(Order::Rate), self.inputs_by(Order::Acceleration)];
         public_inlined(fallible("acceleration", arguments, self.coordinates_type(Order::Acceleration)))

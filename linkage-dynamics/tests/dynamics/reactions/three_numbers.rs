@@ -11,6 +11,7 @@ macro_rules! mechanism {
         type Rates = [f64; 3];
         type Inputs = Column<f64, D<1>>;
         type Pose = [f64; 3];
+        type Branch = ();
 
         fn coordinates(unknowns: Column<f64, D<2>>, inputs: Column<f64, D<1>>) -> [f64; 3] {
             [unknowns[0], unknowns[1], inputs[0]]
@@ -30,6 +31,7 @@ macro_rules! mechanism {
         fn is_finite(pose: &[f64; 3]) -> bool {
             pose.iter().all(|number| number.is_finite())
         }
+        fn branch_of(&self, _: &[f64; 3]) {}
     };
 }
 

@@ -217,6 +217,7 @@ impl<S: Shape> Mechanism for Loops<S, f64> {
     type Rates = (Column<f64, S::U>, Column<f64, D<1>>);
     type Inputs = Column<f64, D<1>>;
     type Pose = (Column<f64, S::U>, Column<f64, D<1>>);
+    type Branch = ();
 
     const NAME: &'static str = "Loops";
     const UNKNOWNS: &'static [&'static str] = &["u0", "u1", "u2", "u3", "u4", "u5", "u6", "u7", "u8", "u9"];
@@ -243,6 +244,7 @@ impl<S: Shape> Mechanism for Loops<S, f64> {
     fn is_finite(pose: &Self::Pose) -> bool {
         pose.0.is_finite() && pose.1.is_finite()
     }
+    fn branch_of(&self, _: &Self::Pose) {}
     fn residual(&self, q: &Self::Pose) -> Column<f64, S::U> {
         Formulas::residual(self, &q.0, &q.1)
     }

@@ -30,6 +30,7 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     type Rates = M::Rates;
     type Inputs = M::Inputs;
     type Pose = M::Pose;
+    type Branch = M::Branch;
 
     const NAME: &'static str = M::NAME;
     const UNKNOWNS: &'static [&'static str] = M::UNKNOWNS;
@@ -56,6 +57,9 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     }
     fn is_finite(pose: &M::Pose) -> bool {
         M::is_finite(pose)
+    }
+    fn branch_of(&self, pose: &M::Pose) -> M::Branch {
+        self.0.branch_of(pose)
     }
     fn residual(&self, pose: &M::Pose) -> PerUnknown<M> {
         self.0.residual(pose)

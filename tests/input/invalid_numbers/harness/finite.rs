@@ -6,6 +6,7 @@ use std::marker::PhantomData;
 use linkage::accuracy::{Reached, Table};
 use linkage::continuation::{self, Event};
 use linkage::integrate::{self, Action, Interpolant};
+use linkage::kinematic::{FullKinematics, Kinematics, Motion};
 use linkage::limits::{Limit, Limits};
 use linkage::nalgebra::{Point2, SMatrix, UnitComplex};
 use linkage::simulation::{Loads, State, Touch};
@@ -115,6 +116,15 @@ macro_rules! parts {
     )*};
 }
 parts! {
+    [P: Finite, R: Finite, A: Finite] Kinematics<P, R, A> {
+        Kinematics { pose, rates, accelerations } => pose rates accelerations
+    }
+    [P: Finite, R: Finite, A: Finite, Q: Finite, O: Finite] FullKinematics<P, R, A, Q, O> {
+        FullKinematics { pose, rates, accelerations, points, outputs } => pose rates accelerations points outputs
+    }
+    [C: Finite, R: Finite, A: Finite, Q: Finite, O: Finite] Motion<C, R, A, Q, O> {
+        Motion { position, rates, accelerations, points, outputs } => position rates accelerations points outputs
+    }
     [Q: Finite] Solution<Q> {
         Solution { coordinates, iterations: _, residual } => coordinates residual
     }
