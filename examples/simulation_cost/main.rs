@@ -10,5 +10,5 @@ use std::error::Error;
 use linkage_examples::simulation_cost::report;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    report::write(report::Problems::new().works())
+    report::write(report::Problems::all().works())
 }

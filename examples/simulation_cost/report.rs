@@ -17,7 +17,7 @@ pub struct Problems {
 }
 
 impl Problems {
-    pub fn new() -> Self {
+    pub fn all() -> Self {
         Self {
             squeezer: Rc::new(problems::squeezer()),
             windows: Rc::new(problems::windows()),

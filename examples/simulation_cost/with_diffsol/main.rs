@@ -7,7 +7,7 @@ mod diffsol;
 use linkage_examples::simulation_cost::report;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let problems = report::Problems::new();
+    let problems = report::Problems::all();
     let mut works = problems.works();
     works[0].extend(diffsol::works(&problems.squeezer));
     works[1].extend(diffsol::works(&problems.windows));

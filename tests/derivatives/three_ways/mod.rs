@@ -34,7 +34,12 @@ macro_rules! positions {
             .unwrap()
             .map(|linkage::Assembled { branch, pose }| {
                 assert_eq!(m.branch_of(&pose), branch);
-                assert!(crate::three_ways::closes(&m, &pose), "{:?}: {:?}", branch, linkage::Mechanism::residual(&m, &pose));
+                assert!(
+                    crate::three_ways::closes(&m, &pose),
+                    "{:?}: {:?}",
+                    branch,
+                    linkage::Mechanism::residual(&m, &pose)
+                );
                 let points: [nalgebra::Point2<f64>; _] = m.points(&pose).unwrap().into();
                 (points.to_vec(), crate::three_ways::condition(&m, &pose))
             })
