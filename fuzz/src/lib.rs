@@ -7,7 +7,7 @@
 //!
 //! Without `-len_control=0` the fuzzer waits for many runs before it makes inputs longer than a few bytes.
 //!
-//! `expand` makes the mutants of `tests/input/mutants.rs`, `poses` the calls of `tests/input/invalid_numbers`, with the choices
+//! `expand` makes the mutants of `tests/mutants.rs`, `poses` the calls of `tests/input/invalid_numbers`, with the choices
 //! made by the fuzzer instead of a seeded generator. No crate here has unsafe code, so a sanitizer has nothing to look
 //! for.
 

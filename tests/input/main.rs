@@ -1,6 +1,5 @@
 //! Extreme and invalid input: errors, no panic, no number that is not finite.
 
 mod invalid_numbers;
-mod mutants;
 mod robustness;
 mod token_sequences;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// What the mechanisms of a folder lack, a message for each.
+/// A message for each thing that a mechanism of a folder lacks.
 pub fn of_folder(folder: &Path) -> Vec<String> {
     let files = std::fs::read_dir(folder).expect("the folder of the mechanisms");
     let mut paths: Vec<_> = files.map(|file| file.expect("a file of the folder").path()).collect();
@@ -14,7 +14,7 @@ pub fn of_folder(folder: &Path) -> Vec<String> {
     paths.iter().flat_map(|path| of_file(path)).collect()
 }
 
-/// What the mechanism of a source file lacks. Its mistakes are not named here: `linkage!` reports them on their tokens.
+/// A message for each thing that the mechanism of a source file lacks. Its mistakes are not named here: `linkage!` reports them on their tokens.
 pub fn missing(file: &str, text: &str) -> Vec<String> {
     let Ok(parsed) = syn::parse_file(text) else { return Vec::new() };
     let mechanisms = parsed.items.into_iter().filter_map(|item| match item {
