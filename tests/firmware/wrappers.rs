@@ -173,7 +173,6 @@ fn with_self(tokens: TokenStream, implementation: &ItemImpl, of: &TokenStream) -
         let path = in_doubles(path.to_token_stream());
         // What an assembly says of positions is that of the mechanism.
         let mechanism = path.to_string().replace("Assembly", "Mechanism");
-        text = text.replace("Self :: Branch", &format!("< {of} as {path} > :: Branch"));
         text = text.replace("Self ::", &format!("< {of} as {mechanism} > ::"));
     }
     replaced(text.parse().unwrap(), &|name| (name == "Self").then(|| of.clone()))
