@@ -6,9 +6,9 @@ use std::rc::Rc;
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 use linkage::{Column, Dim, Scene};
 
-use crate::integrators::{End, MOST_STEPS, by_tolerance};
-use crate::list::{METHODS, Work};
-use crate::problem::Problem;
+use linkage_examples::simulation_cost::integrators::{End, MOST_STEPS, by_tolerance};
+use linkage_examples::simulation_cost::list::{METHODS, Work};
+use linkage_examples::simulation_cost::problem::Problem;
 
 pub fn works<S: Scene<Scalar = f64> + 'static>(problem: &Rc<Problem<S>>) -> Vec<Work> {
     let method = METHODS.iter().position(|method| method.name.starts_with("diffsol")).expect("a method of the list");
@@ -22,7 +22,12 @@ fn end<S: Scene<Scalar = f64>>(problem: &Problem<S>, tolerance: f64) -> End<S> {
         slope.copy_from_slice(problem.rate(t, &Column::from_fn(|row| y[row])).as_slice());
     };
     let init = |_: &[f64], _: f64, y: &mut [f64]| y.copy_from_slice(problem.start.as_slice());
-    let motion = OdeBuilder::<NalgebraMat<f64>>::new().rtol(tolerance).atol([tolerance]).rhs(rhs).init(init, S::State::COUNT).build();
+    let motion = OdeBuilder::<NalgebraMat<f64>>::new()
+        .rtol(tolerance)
+        .atol([tolerance])
+        .rhs(rhs)
+        .init(init, S::State::COUNT)
+        .build();
     let motion = motion.map_err(|error| error.to_string())?;
     let mut solver = motion.tsit45().map_err(|error| error.to_string())?;
     solver.set_stop_time(problem.end).map_err(|error| error.to_string())?;
