@@ -22,7 +22,7 @@ pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {
         let text = functions + &prettyplease::unparse(&emitted);
         // Names of wrappers contain names of types, which are not in snake case. This test looks at machine code; the
         // warnings of emitted code are those of the test `emitted_source`.
-        writeln!(library, "#[allow(warnings)] pub mod {module};").unwrap();
+        writeln!(library, "#[allow(warnings, reason = \"`emitted_source` looks at them\")] pub mod {module};").unwrap();
         let text = format!("{text}\npub mod wrappers {{ use super::*; use ::linkage::__rt;\n{wrappers}}}\n");
         files.push((format!("{module}.rs"), text));
     }

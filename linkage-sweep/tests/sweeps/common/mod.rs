@@ -1,5 +1,5 @@
 //! A slider-crank written by hand: crank r, rod l, offset e, angle theta; the slider at s.
-#![allow(dead_code, reason = "compiled into each test file, which calls some of these functions")]
+#![allow(dead_code, reason = "the test `memory` calls only some of these functions")]
 
 use std::ops::ControlFlow;
 
