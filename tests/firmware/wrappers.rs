@@ -13,7 +13,7 @@ use linkage_tests::every::{self, Expansion};
 /// The files of the library by name, and how many functions of emitted code are wrapped in them.
 pub fn files(root: &Path) -> (Vec<(String, String)>, usize) {
     let laws = root.join("dev/gallery/src/cam_laws.rs");
-    let mut library = format!("#![no_std]\n#[path = {laws:?}] mod cam_laws;\n{PLANTED}\n");
+    let mut library = format!("#![no_std]\n#[path = {laws:?}] mod cam_laws;\n{PLANTED}\n{PROVIDED}\n");
     let (mut files, mut count) = (Vec::new(), 0);
     for Expansion { module, functions, emitted } in every::expansions(root, None) {
         let wrappers: Vec<String> = every::items(&emitted.items).into_iter().flat_map(wrapped).collect();
@@ -55,6 +55,40 @@ pub mod planted {
     }
 }";
 
+/// Calls the functions of `Kinematic` and `Mechanism` that have a body in the runtime; emitted code has its own for most
+/// mechanisms.
+const PROVIDED: &str = "
+mod provided {
+    use core::hint::black_box;
+    use linkage::Kinematic;
+    pub fn call<M: Kinematic<Scalar = f64>>(
+        m: &M,
+        (pose, other): (&M::Pose, &M::Pose),
+        (q, branch): (&M::Coordinates, M::Branch),
+        (rates, accelerations, inputs): (&M::Rates, &M::Accelerations, M::Inputs),
+    ) {
+        black_box((m.residual(pose), m.residual_scales(pose)));
+        black_box((m.jacobian_unknowns(pose), m.jacobian_unknowns_scales(pose)));
+        black_box((m.jacobian_inputs(pose), m.jacobian_inputs_scales(pose)));
+        black_box((m.determinant(pose), m.block_determinants(pose), m.length_scale(pose)));
+        let gamma = black_box(m.gamma(pose, rates));
+        black_box((m.solve_jacobian(pose, &gamma), m.check_implied(q), m.same_branch(pose, other)));
+        let unknowns = black_box(M::unknowns(q));
+        black_box((M::with_unknowns(q, unknowns), M::with_inputs(q, M::inputs(q))));
+        black_box((m.full_kinematics(q, branch, inputs, inputs), m.velocity_ratios(pose)));
+        black_box((m.point_velocities(pose, rates), m.point_accelerations(pose, rates, accelerations)));
+        black_box((m.output_velocities(pose, rates), m.output_accelerations(pose, rates, accelerations)));
+        black_box((m.output_ratios(pose), M::acceleration_parts(accelerations)));
+        if let (Ok(points), Ok(ratios)) = (m.points(pose), m.point_ratios(pose)) {
+            black_box((M::each_point(points), M::each_point(ratios)));
+        }
+        if let Ok(outputs) = m.outputs(pose) {
+            black_box(M::each_output(outputs));
+        }
+        black_box(M::accelerations(unknowns, M::inputs(q)));
+    }
+}";
+
 /// A wrapper of each function of an `impl` that can be called: those of a type, and those of the traits by which
 /// general algorithms call it.
 fn wrapped(item: &Item) -> Vec<String> {
@@ -64,8 +98,12 @@ fn wrapped(item: &Item) -> Vec<String> {
         let name = &path.segments.last().unwrap().ident;
         ["Mechanism", "Assembly", "Scene"].iter().any(|known| name == known)
     };
+    let of = in_doubles(implementation.self_ty.to_token_stream());
     if called.is_some_and(|path| path.segments.last().unwrap().ident == "Lanes") {
-        return vec![run_of_a_batch(&in_doubles(implementation.self_ty.to_token_stream()))];
+        return vec![run_of_a_batch(&of)];
+    }
+    if called.is_some_and(|path| path.segments.last().unwrap().ident == "Kinematic") {
+        return vec![provided(&of)];
     }
     if called.is_some_and(|path| !is_of_runtime(path)) {
         return Vec::new();
@@ -89,6 +127,27 @@ fn run_of_a_batch(of: &TokenStream) -> String {
             accepted: &mut [bool],
         ) -> Result<usize, ::linkage::InputError> {
             batch.run(found, accepted)
+        }
+    };
+    format!("#[inline(never)] {text}\n")
+}
+
+/// A wrapper of the functions of a mechanism that have a body in the runtime.
+fn provided(of: &TokenStream) -> String {
+    let name = quote::format_ident!("{}_provided", of.to_string().split('<').next().unwrap_or_default().trim());
+    let associated = |name: &str| {
+        let name = quote::format_ident!("{name}");
+        quote!(<#of as ::linkage::Mechanism>::#name)
+    };
+    let [pose, q, branch, rates, inputs] = ["Pose", "Coordinates", "Branch", "Rates", "Inputs"].map(associated);
+    let text = quote! {
+        pub fn #name(
+            m: &#of,
+            poses: (&#pose, &#pose),
+            at: (&#q, #branch),
+            motion: (&#rates, &<#of as ::linkage::Kinematic>::Accelerations, #inputs),
+        ) {
+            crate::provided::call(m, poses, at, motion);
         }
     };
     format!("#[inline(never)] {text}\n")
