@@ -2,8 +2,8 @@
 
 use std::fmt::Debug;
 
-use linkage::lanes::Lanes;
 use linkage::kinematic::{FullKinematics, Kinematics};
+use linkage::lanes::Lanes;
 use linkage::{Dim, OutputMotion, PerInput, PerUnknown, PointMotion, Real, real};
 use linkage_gallery::Fixture;
 

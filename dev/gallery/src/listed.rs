@@ -259,7 +259,11 @@ impl<T: Real, M: Fixture<Scalar = T> + 'static> Built<T> for Rc<M> {
     fn motion(&self, q: &[T], input_rates: &[T], given: &[T]) -> Result<Motion<T>, PositionError> {
         let motion = M::motion(self, &named::<M, _>(q), inputs::<M>(input_rates), inputs::<M>(given))?;
         Ok(Motion {
-            coordinates: [numbers::<M>(motion.position), numbers::<M>(motion.rates), numbers::<M>(motion.accelerations)],
+            coordinates: [
+                numbers::<M>(motion.position),
+                numbers::<M>(motion.rates),
+                numbers::<M>(motion.accelerations),
+            ],
             points: of_points(M::each_point(motion.points)),
             outputs: of_outputs(M::each_output(motion.outputs)),
         })

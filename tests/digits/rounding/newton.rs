@@ -25,7 +25,12 @@ fn positions_are_within_their_bounds(of: &dyn Listed<f64>) {
         let (Ok(found), Ok(exact)) = (found, exact) else { continue };
         for (found, exact) in found.coordinates().into_iter().zip(exact.coordinates()) {
             let off = (exact - DoubleDouble::from(found.value())).high().abs();
-            assert!(off <= found.error() * (1.0 + 1e-12), "{}: {found:?} is off by {off:e} at {:?}", of.file(), plain.q);
+            assert!(
+                off <= found.error() * (1.0 + 1e-12),
+                "{}: {found:?} is off by {off:e} at {:?}",
+                of.file(),
+                plain.q
+            );
             if off > 0.0 {
                 ratios.push(found.error() / off);
             }

@@ -103,7 +103,8 @@ impl Trial {
                 // At slower rates nothing overflows: then the separate calls have a result, and the one here is in
                 // proportion.
                 (Ok(fused), Err(PositionError::NotFinite { .. })) => {
-                    let times = |numbers: &[f64], by: f64| numbers.iter().map(|number| number * by).collect::<Vec<f64>>();
+                    let times =
+                        |numbers: &[f64], by: f64| numbers.iter().map(|number| number * by).collect::<Vec<f64>>();
                     let (rates, given) = (times(rates, SLOWER), times(given, SLOWER * SLOWER));
                     let parts = m.moving_by_parts(q, branch, &rates, &given);
                     assert!(parts.is_ok(), "{:?}", parts.err());
