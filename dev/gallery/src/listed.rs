@@ -413,9 +413,8 @@ macro_rules! lists {
         /// All mechanisms of the lines with `orders` in a scalar.
         #[must_use]
         pub fn with_orders_of<T: Real>() -> Vec<&'static dyn ListedWithOrders<T>> {
-            let mut all: Vec<&'static dyn ListedWithOrders<T>> = Vec::new();
-            $(with_orders!(all $file [$($Mechanism $method)+] $($orders)?);)*
-            all
+            let lines: Vec<Vec<&'static dyn ListedWithOrders<T>>> = vec![$(with_orders!($file [$($Mechanism)+] $($orders)?)),*];
+            lines.concat()
         }
 
         /// The values of all mechanisms in a scalar.
@@ -427,17 +426,18 @@ macro_rules! lists {
         /// The values of all mechanisms of the lines with `orders` in a scalar.
         #[must_use]
         pub fn values_with_orders_of<T: Real>() -> Vec<&'static dyn Values<T>> {
-            let mut all: Vec<&'static dyn Values<T>> = Vec::new();
-            $(with_orders!(all $file [$($Mechanism $method)+] $($orders)?);)*
-            all
+            let lines: Vec<Vec<&'static dyn Values<T>>> = vec![$(with_orders!($file [$($Mechanism)+] $($orders)?)),*];
+            lines.concat()
         }
     };
 }
 
 macro_rules! with_orders {
-    ($all:ident $file:ident [$($Mechanism:ident $method:ident)+]) => {};
-    ($all:ident $file:ident [$($Mechanism:ident $method:ident)+] orders) => {
-        $($all.push(&Entry::<crate::$file::$Mechanism<T>>(PhantomData));)+
+    ($file:ident [$($Mechanism:ident)+]) => {
+        Vec::new()
+    };
+    ($file:ident [$($Mechanism:ident)+] orders) => {
+        vec![$(&Entry::<crate::$file::$Mechanism<T>>(PhantomData)),+]
     };
 }
 
