@@ -32,7 +32,7 @@ struct Exact {
 
 impl Exact {
     fn of(of: &dyn Listed<f64>) -> Self {
-        let mechanism = linkage_compiler::read(source::tokens_of(of.file())).expect(of.file()).remove(0);
+        let mechanism = linkage_compiler::read(source::tokens_of(of.file())).expect("a file of the gallery").remove(0);
         let mut derivation = linkage_compiler::derive(&mechanism).remove(0);
         let zero = derivation.graph.zero();
         let columns: Vec<_> = derivation.unknowns.iter().chain(&derivation.inputs).copied().collect();
