@@ -10,8 +10,8 @@ use linkage_compiler::derivation::Quantity;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::ids::{ColumnId, Id};
 use linkage_gallery::checks::each;
-use linkage_gallery::listed::{Listed, Values, all, same_as, values_of};
-use linkage_gallery::{Motion, source};
+use linkage_gallery::listed::{Listed, Motion, Values, all, same_as, values_of};
+use linkage_gallery::source;
 use linkage_oracle::{Oracle, Sample, all_close, close};
 use nalgebra::{DMatrix, DVector, Dyn};
 use num_dual::{Dual2_64, Dual64};
@@ -55,7 +55,7 @@ fn emitted_is_interpreted() {
 }
 
 fn emitted_is_interpreted_of(of: &dyn Listed<f64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     let d = &oracle.derivation;
     let (j_rows, a_rows) = (d.jacobian_unknowns(), d.jacobian_inputs());
     oracle.at_samples(poses(), |_, sample| {
@@ -104,7 +104,7 @@ fn solutions_have_no_residual() {
 }
 
 fn solutions_have_no_residual_of(of: &dyn Listed<f64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     let d = &oracle.derivation;
     let (j_rows, a_rows) = (d.jacobian_unknowns(), d.jacobian_inputs());
     let regular = oracle.at_samples(poses(), |_, sample| {
@@ -160,7 +160,7 @@ fn motion_is_its_parts() {
 }
 
 fn motion_is_its_parts_of(of: &dyn Listed<f64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     let d = &oracle.derivation;
     oracle.at_samples(poses(), |_, sample| {
         let Sample { parameters, q, rates, accelerations, .. } = sample;
@@ -205,7 +205,7 @@ fn kinematics_is_its_parts() {
 }
 
 fn kinematics_is_its_parts_of(of: &dyn Listed<f64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     let d = &oracle.derivation;
     let close_to = |what: &str, found: &[f64], expected: &[f64]| all_close(what, found, expected, 0.0, 1e-9);
     oracle.at_samples(poses(), |number, sample| {
@@ -236,7 +236,7 @@ fn derivatives_are_dual_numbers() {
 }
 
 fn derivatives_are_dual_numbers_of(of: &dyn Listed<f64>, one: &dyn Values<Dual64>, two: &dyn Values<Dual2_64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     oracle.at_samples(poses(), |_, sample| {
         let Sample { parameters, q, rates, accelerations, .. } = sample;
         let m = of.with_parameters(parameters);

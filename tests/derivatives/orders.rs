@@ -43,7 +43,7 @@ fn jerk_closes_to_third_order() {
 }
 
 fn jerk_closes_to_third_order_of(of: &dyn ListedWithOrders<f64>, dual: &dyn Values<Dual3_64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     let d = &oracle.derivation;
     let regular = oracle.at_samples(POSES, |_, sample| {
         let Sample { parameters, q, rates, accelerations, .. } = sample;
@@ -91,7 +91,7 @@ fn ratio_derivatives_close_to_second_order() {
 }
 
 fn ratio_derivatives_close_to_second_order_of(of: &dyn ListedWithOrders<f64>, dual: &dyn Values<HyperDual64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     let d = &oracle.derivation;
     let regular = oracle.at_samples(POSES, |_, sample| {
         let Sample { parameters, q, rates, .. } = sample;
@@ -167,7 +167,7 @@ fn sensitivities_close_to_first_order() {
 }
 
 fn sensitivities_close_to_first_order_of(of: &dyn ListedWithOrders<f64>, dual: &dyn Values<Dual64>) {
-    let oracle = Oracle::of_listed(of);
+    let oracle = Oracle::of(of);
     let d = &oracle.derivation;
     let regular = oracle.at_samples(POSES, |_, sample| {
         let Sample { parameters, q, .. } = sample;

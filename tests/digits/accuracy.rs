@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Table};
 use linkage::nalgebra::SVector;
-use linkage::{D, InputError, Mechanism, PerInput, PerUnknown, PositionError, Real};
+use linkage::{D, InputError, Kinematic, Mechanism, PerInput, PerUnknown, PositionError, Real};
 use linkage_double::DoubleDouble;
 
 use linkage_examples::accuracy_cost::dominance::dominated;
@@ -17,10 +17,10 @@ use linkage_gallery::double_butterfly::*;
 use linkage_gallery::four_bar::*;
 use linkage_gallery::geared_five_bar::*;
 use linkage_gallery::jansen::*;
-use linkage_gallery::{Fixture, Kinematics};
+use linkage_gallery::{Fixture, named};
 
 /// A mechanism of the gallery in another scalar.
-type In<F, T> = <F as Fixture>::Of<T>;
+type In<F, T> = <F as Fixture>::In<T>;
 
 /// A position of a mechanism in another scalar.
 type ReachedIn<F, T> = Reached<<In<F, T> as Mechanism>::Coordinates, <In<F, T> as Mechanism>::Pose>;
@@ -64,7 +64,7 @@ fn errors<F: Fixture, T: Real, R: PositionMethod<In<F, T>>>(
         let m = mechanism::<F, T>(&case);
         let position = R::position(&m, &start(&case), inputs::<In<F, T>>(case.input))?;
         let pose = position.borrow();
-        let unknowns = unknowns_of::<T, In<F, T>>(&In::<F, T>::listed(pose));
+        let unknowns = In::<F, T>::unknowns(&In::<F, T>::coordinates_of(pose));
         let [velocity, acceleration] = rate_errors(&case, &m, pose)?;
         for (largest, error) in largest.iter_mut().zip([case.error(0, unknowns.as_slice()), velocity, acceleration]) {
             *largest = largest.max(error);
@@ -82,7 +82,7 @@ fn errors_at_once<F: Fixture, T: Real, const N: usize>(
     for case in cases::<F>(pose, false) {
         let found = kinematics(&mechanism::<F, T>(&case), &case)?;
         for (order, (largest, found)) in largest.iter_mut().zip(&found).enumerate() {
-            let unknowns = unknowns_of::<T, In<F, T>>(found.as_slice());
+            let unknowns = In::<F, T>::unknowns(&named::<In<F, T>, _>(found.as_slice()));
             *largest = largest.max(case.error(order, unknowns.as_slice()));
         }
     }
@@ -102,19 +102,15 @@ fn errors_at_angles<F: Fixture, T: Real>(pose: &str) -> Result<[f64; 2], Positio
 }
 
 /// The errors of u' and u'' at v' = 1, v'' = 0.
-fn rate_errors<T: Real, M: Kinematics<T>>(case: &Case, m: &M, pose: &M::Pose) -> Result<[f64; 2], PositionError> {
-    let velocity = m.velocity(pose, &[T::one()])?;
-    let acceleration = m.acceleration(pose, &velocity, &[T::zero()])?;
-    Ok([(1, velocity), (2, acceleration)].map(|(order, all)| case.error(order, unknowns_of::<T, M>(&all).as_slice())))
-}
-
-/// The unknowns among the coordinates, or their derivatives.
-fn unknowns_of<T: Real, M: Kinematics<T>>(all: &[T]) -> PerUnknown<M> {
-    M::unknowns(&M::named(all))
+fn rate_errors<M: Kinematic>(case: &Case, m: &M, pose: &M::Pose) -> Result<[f64; 2], PositionError> {
+    let rates = m.velocity(pose, inputs::<M>(1.0).into())?;
+    let accelerations = m.acceleration(pose, &rates, inputs::<M>(0.0).into())?;
+    let (velocity, acceleration) = (M::rate_parts(&rates).0, M::acceleration_parts(&accelerations).0);
+    Ok([case.error(1, velocity.as_slice()), case.error(2, acceleration.as_slice())])
 }
 
 /// A table of a full turn, and its errors at benign poses.
-fn table<F: Fixture<V = D<1>, Of<f64> = F>, const N: usize>() -> (Table<F, N>, [f64; 3]) {
+fn table<F: Fixture<Scalar = f64, V = D<1>, In<f64> = F>, const N: usize>() -> (Table<F, N>, [f64; 3]) {
     let poses = poses_of(F::FILE);
     let first = &poses[0].cases[0];
     let start = coordinates::<F>(&first.before.1, first.before.0);

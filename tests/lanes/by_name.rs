@@ -2,9 +2,10 @@
 
 use std::fmt::Debug;
 
+use linkage::kinematic::{FullKinematics, Kinematics};
 use linkage::lanes::Lanes;
-use linkage::{Dim, Real, real};
-use linkage_gallery::{Kinematics, Moving};
+use linkage::{Dim, OutputMotion, PerInput, PerUnknown, PointMotion, Real, real};
+use linkage_gallery::Fixture;
 
 /// The scalar of a mechanism.
 pub type S<M> = <M as Lanes>::Scalar;
@@ -12,7 +13,7 @@ pub type S<M> = <M as Lanes>::Scalar;
 /// Compares an accepted lane with `kinematics` and `full_kinematics`. False if the latter returns an error.
 pub fn is_full<M>(given: &[S<M>], in_lane: &[S<M>]) -> bool
 where
-    M: Lanes + Kinematics<S<M>>,
+    M: Lanes + Fixture<Scalar = S<M>>,
     S<M>: Bits,
 {
     let inputs = M::V::COUNT;
@@ -23,28 +24,25 @@ where
     let (parameters, rest) = given.split_at(M::PARAMETERS);
     let (start, rest) = rest.split_at(inputs);
     let (rates, accelerations) = rest.split_at(inputs);
-    // For each coordinate the number of the input that it is.
-    let count = M::U::COUNT + inputs;
-    let of_input = |place: usize| {
-        let unit: Vec<S<M>> = (0..count).map(|other| real(f64::from(u8::from(other == place)))).collect();
-        M::inputs_of(&unit).iter().position(|value| *value == real(1.0))
-    };
-    let of_input: Vec<Option<usize>> = (0..count).map(of_input).collect();
-    let q: Vec<S<M>> = of_input.iter().map(|input| input.map_or(real(0.0), |input| start[input])).collect();
-    let machine = M::with_parameters(parameters);
-    let moving = machine.moving(&q, 0, rates, accelerations, false).expect("the lane is accepted");
-    let derivatives = [&moving.rates, &moving.accelerations];
-    let unknown =
-        derivatives.into_iter().flat_map(|all| all.iter().zip(&of_input).filter(|(_, input)| input.is_none()));
-    let expected: Vec<S<M>> = unknown.map(|(value, _)| *value).collect();
+    let of_inputs = |list: &[S<M>]| PerInput::<M>::from_fn(|index| list[index]);
+    let q = M::coordinates(PerUnknown::<M>::from_fn(|_| real(0.0)), of_inputs(start));
+    let (rates, accelerations) = (of_inputs(rates).into(), of_inputs(accelerations).into());
+    let (machine, branch) = (<M as Fixture>::with_parameters(parameters), M::branches()[0]);
+    let Kinematics { rates: first, accelerations: second, .. } =
+        machine.kinematics(&q, branch, rates, accelerations).expect("the lane is accepted");
+    let derivatives = [M::rate_parts(&first).0, M::acceleration_parts(&second).0];
+    let expected: Vec<S<M>> = derivatives.into_iter().flatten().collect();
     let found = &in_lane[M::COORDINATES - expected.len()..M::COORDINATES];
     assert!(same_bits(found, &expected), "{}: {found:?}, {expected:?}", <M as Lanes>::NAME);
-    let Ok(Moving { points, outputs, .. }) = machine.moving(&q, 0, rates, accelerations, true) else { return false };
-    let (points, outputs) = (points.expect("it is full"), outputs.expect("it is full"));
-    let of_point = |point: usize| points.iter().flat_map(move |xy| [xy[2 * point], xy[2 * point + 1]]);
-    let of_output = |output: usize| outputs.iter().map(move |values| values[output]);
-    let of_points = (0..points[0].len() / 2).flat_map(of_point);
-    let expected: Vec<S<M>> = of_points.chain((0..outputs[0].len()).flat_map(of_output)).collect();
+    let Ok(FullKinematics { points, outputs, .. }) = machine.full_kinematics(&q, branch, rates, accelerations) else {
+        return false;
+    };
+    let of_point = |point: PointMotion<S<M>>| {
+        [point.position.coords, point.velocity, point.acceleration].into_iter().flat_map(|xy| [xy.x, xy.y])
+    };
+    let of_output = |output: OutputMotion<S<M>>| [output.value, output.velocity, output.acceleration];
+    let of_points = M::each_point(points).into_iter().flat_map(of_point);
+    let expected: Vec<S<M>> = of_points.chain(M::each_output(outputs).into_iter().flat_map(of_output)).collect();
     let found = &in_lane[in_lane.len() - expected.len()..];
     assert!(same_bits(found, &expected), "{}: {found:?}, {expected:?}", <M as Lanes>::NAME);
     true

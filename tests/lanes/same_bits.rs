@@ -9,7 +9,7 @@ use linkage::lanes::{Batch, Given, Lanes, Values};
 use linkage::nalgebra::ComplexField;
 use linkage::{Dim, real};
 use linkage_gallery::{
-    Kinematics, cam_rocker, cart_pendulum, crank_shaper, double_pendulum, every_function, five_bar, geared_five_bar,
+    Fixture, cam_rocker, cart_pendulum, crank_shaper, double_pendulum, every_function, five_bar, geared_five_bar,
     geneva, implied_loops, inverted_slider_crank, jansen, klann, norton_four_bar, offset_slider_crank, pendulum,
     scotch_yoke, stephenson_ii, three_link_arm,
 };
@@ -71,7 +71,7 @@ struct Tally {
 /// Compares one batch.
 fn compare<M>(design: &M, branch: <M as Lanes>::Branch, random: &mut SmallRng, numbers: Numbers, tally: &mut Tally)
 where
-    M: Lanes + Kinematics<S<M>>,
+    M: Lanes + Fixture<Scalar = S<M>>,
     S<M>: Bits,
 {
     let mut of_design = <M::Given as Dim>::array(|_| real::<S<M>>(0.0));
@@ -153,7 +153,7 @@ where
 
 fn check<M>(design: &M, branch: <M as Lanes>::Branch, least_accepted: f64)
 where
-    M: Lanes + Kinematics<S<M>>,
+    M: Lanes + Fixture<Scalar = S<M>>,
     S<M>: Bits,
 {
     let name = <M as Lanes>::NAME;

@@ -30,15 +30,6 @@ pub fn each<'a, N: Named + ?Sized>(list: &[&'a N], check: impl Fn(&'a N) + Sync)
     report(failures.into_inner().expect("no panic while it is held"), chosen.len());
 }
 
-/// Runs a check of each mechanism of a list one after the other, where all draw from one sequence of random numbers.
-///
-/// # Panics
-/// If the check of a mechanism panics, with the messages of all that do.
-pub fn in_turn<'a, N: Named + ?Sized>(list: &[&'a N], mut check: impl FnMut(&'a N)) {
-    let failures = list.iter().filter_map(|one| outcome(*one, || check(one)).err()).collect();
-    report(failures, list.len());
-}
-
 /// Runs a part of a check. If it panics, its message begins with the place.
 ///
 /// # Panics

@@ -11,7 +11,7 @@ mod fixture;
 pub mod listed;
 pub mod source;
 
-pub use fixture::{ClosedForm, Fixture, HigherOrders, Kinematics, Motion, Moving, WithHigherOrders};
+pub use fixture::{Fixture, named};
 
 /// Calls a macro with the list of all mechanisms.
 ///
@@ -122,11 +122,13 @@ macro_rules! modules {
 all_mechanisms!(modules);
 
 mod implementations {
+    use linkage::derivation::Derivation;
     use linkage::{Mechanism, PositionError, Real};
     use nalgebra::DMatrix;
 
     use super::*;
-    use crate::fixture::{Own, array, by_name, column, fixtures, inputs, list, matrices, matrix, pairs};
+    use crate::fixture::{array, by_name, column, fixtures, inputs, list, matrices, matrix, pairs};
+    use crate::listed::{At, PosedWithOrders};
 
     all_mechanisms!(fixtures);
 }

@@ -3,16 +3,20 @@
 //!
 //! The functions for doubles are compiled in this crate. [`all_of`] and its like are generic: the crate that calls one
 //! compiles all mechanisms for its scalar.
+//!
+//! Lists of coordinates, rates and accelerations are in the order of their fields; points are listed as x, y, x, y, ..
 
 use std::marker::PhantomData;
 use std::rc::Rc;
 use std::sync::LazyLock;
 
 use linkage::derivation::Derivation;
-use linkage::{Column, Dim, Group, Matrix, Mechanism, PositionError, Real};
+use linkage::kinematic::{FullKinematics, Kinematic, Kinematics, PerCoordinate};
+use linkage::position::newton;
+use linkage::{Column, Dim, Matrix, Mechanism, OutputMotion, PointMotion, PositionError, Real};
 use nalgebra::DMatrix;
 
-use crate::{ClosedForm, Fixture, HigherOrders, Kinematics, Motion, Moving};
+use crate::fixture::{Fixture, inputs, named, pairs};
 
 /// A mechanism by its names.
 pub trait Named: Send + Sync {
@@ -28,14 +32,12 @@ pub trait Listed<T: Real>: Named {
     fn unknowns(&self) -> &'static [&'static str];
     /// The names of the inputs.
     fn inputs(&self) -> &'static [&'static str];
-    /// The groups in the order of solution.
-    fn groups(&self) -> &'static [Group];
     /// The number of branches; 1 if the position is found by Newton's method.
     fn branch_count(&self) -> usize;
     /// The inputs among the coordinates, or their derivatives.
     fn inputs_of(&self, q: &[T]) -> Vec<T>;
-    /// The unknowns and the inputs among the coordinates, in the order of their names.
-    fn parts(&self, q: &[T]) -> [Vec<T>; 2];
+    /// The coordinates of these unknowns and inputs, each in the order of their names.
+    fn coordinates(&self, unknowns: &[T], inputs: &[T]) -> Vec<T>;
     /// The default values of the parameters, in the order of declaration.
     fn defaults(&self) -> Vec<f64>;
     /// The branches as `Debug` writes them; none if the position is found by Newton's method.
@@ -46,13 +48,20 @@ pub trait Listed<T: Real>: Named {
     fn with_parameters(&self, parameters: &[T]) -> Box<dyn Built<T>>;
 }
 
-/// A mechanism with its parameters; the functions are those of [`Kinematics`].
+/// A mechanism with its parameters.
 pub trait Built<T: Real> {
+    /// The position at coordinates.
     fn pose(&self, q: &[T]) -> Box<dyn Posed<T>>;
+    /// The position at the inputs of q, on a branch or by Newton's method from q.
     fn position(&self, q: &[T], branch: usize) -> Result<Box<dyn Posed<T>>, PositionError>;
+    /// The position that `moving` starts from.
     fn assembled(&self, q: &[T], branch: usize) -> Result<Box<dyn Posed<T>>, PositionError>;
+    /// The coordinates that Newton's method finds from a guess.
     fn solved(&self, guess: &[T]) -> Result<Vec<T>, PositionError>;
+    /// The velocity and the acceleration at q, with points and outputs.
     fn motion(&self, q: &[T], input_rates: &[T], given: &[T]) -> Result<Motion<T>, PositionError>;
+    /// Position, velocity and acceleration in one computation, from q as in `position`, or from q on its branch by
+    /// Newton's method; with points and outputs if `full`.
     fn moving(
         &self,
         q: &[T],
@@ -60,23 +69,45 @@ pub trait Built<T: Real> {
         input_rates: &[T],
         given: &[T],
         full: bool,
-    ) -> Result<Moving<Box<dyn Posed<T>>, T>, PositionError>;
+    ) -> Result<Moving<T>, PositionError>;
+    /// Position, velocity and acceleration by separate calls.
     fn moving_by_parts(
         &self,
         q: &[T],
         branch: usize,
         input_rates: &[T],
         given: &[T],
-    ) -> Result<Moving<Box<dyn Posed<T>>, T>, PositionError>;
+    ) -> Result<Moving<T>, PositionError> {
+        let pose = self.assembled(q, branch)?;
+        let rates = pose.velocity(input_rates)?;
+        let accelerations = pose.acceleration(&rates, given)?;
+        Ok(Moving { pose, rates, accelerations, points: None, outputs: None })
+    }
 }
 
-/// A mechanism at a position; the functions are those of [`Mechanism`] and [`Kinematics`].
+/// A motion in lists: each with its first and second derivative.
+pub struct Motion<T> {
+    pub coordinates: [Vec<T>; 3],
+    pub points: [Vec<T>; 3],
+    pub outputs: [Vec<T>; 3],
+}
+
+/// A position with its rates and accelerations, and the motion of points and outputs if it is computed.
+pub struct Moving<T> {
+    pub pose: Box<dyn Posed<T>>,
+    pub rates: Vec<T>,
+    pub accelerations: Vec<T>,
+    pub points: Option<[Vec<T>; 3]>,
+    pub outputs: Option<[Vec<T>; 3]>,
+}
+
+/// A mechanism at a position; the functions are those of [`Mechanism`] and [`Kinematic`].
 pub trait Posed<T: Real> {
-    /// q.
     fn coordinates(&self) -> Vec<T>;
     fn is_finite(&self) -> bool;
     fn residual(&self) -> Vec<T>;
     fn residual_scales(&self) -> Vec<T>;
+    /// Psi_q, by rows of constraints and columns of coordinates.
     fn jacobian(&self) -> DMatrix<T>;
     fn jacobian_unknowns(&self) -> DMatrix<T>;
     fn jacobian_inputs(&self) -> DMatrix<T>;
@@ -85,15 +116,19 @@ pub trait Posed<T: Real> {
     fn solve_jacobian(&self, right: &[T]) -> Result<Vec<T>, PositionError>;
     fn velocity_ratios(&self) -> Result<DMatrix<T>, PositionError>;
     fn gamma(&self, rates: &[T]) -> Vec<T>;
+    /// q' for the inputs' v'.
     fn velocity(&self, input_rates: &[T]) -> Result<Vec<T>, PositionError>;
+    /// q'' for q' and the inputs' v''.
     fn acceleration(&self, rates: &[T], given: &[T]) -> Result<Vec<T>, PositionError>;
     fn points(&self) -> Result<Vec<T>, PositionError>;
     fn point_velocities(&self, rates: &[T]) -> Result<Vec<T>, PositionError>;
     fn point_accelerations(&self, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError>;
+    /// For each point the matrix of its velocity by the inputs' rates.
     fn point_ratios(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
     fn outputs(&self) -> Result<Vec<T>, PositionError>;
     fn output_velocities(&self, rates: &[T]) -> Result<Vec<T>, PositionError>;
     fn output_accelerations(&self, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError>;
+    /// For each output the row of its rate by the inputs' rates.
     fn output_ratios(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
 }
 
@@ -103,15 +138,20 @@ pub trait ListedWithOrders<T: Real>: Listed<T> {
     fn at(&self, parameters: &[T], q: &[T]) -> Box<dyn PosedWithOrders<T>>;
 }
 
-/// The functions of [`HigherOrders`] at a position.
+/// The functions of `derive jerk, velocity_ratio_derivatives, sensitivity` at a position.
 pub trait PosedWithOrders<T: Real>: Posed<T> {
+    /// q''' for q', q'' and the inputs' v'''.
     fn jerk(&self, rates: &[T], bent: &[T], given: &[T]) -> Result<Vec<T>, PositionError>;
     fn point_jerks(&self, q: [&[T]; 3]) -> Result<Vec<T>, PositionError>;
     fn output_jerks(&self, q: [&[T]; 3]) -> Result<Vec<T>, PositionError>;
+    /// For each unknown its second derivatives by the inputs.
     fn velocity_ratio_derivatives(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
+    /// For each x and y of each point its second derivatives by the inputs.
     fn point_ratio_derivatives(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
     fn output_ratio_derivatives(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
+    /// du/dp, a column for each parameter.
     fn sensitivity(&self) -> Result<DMatrix<T>, PositionError>;
+    /// For each point two rows.
     fn point_sensitivities(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
     fn output_sensitivities(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
 }
@@ -124,126 +164,109 @@ pub trait Values<T: Real>: Named {
 }
 
 /// A type of the gallery, as an object.
-struct Entry<M> {
-    file: &'static str,
-    defaults: fn() -> Vec<f64>,
-    branches: fn() -> Vec<String>,
-    derivation: &'static Derivation<'static>,
-    of: PhantomData<fn() -> M>,
-}
+struct Entry<M>(PhantomData<fn() -> M>);
 
-impl<M> Entry<M> {
-    const fn of<F: Fixture>(branches: fn() -> Vec<String>, derivation: &'static Derivation<'static>) -> Self {
-        Self { file: F::FILE, defaults: || F::default().parameters(), branches, derivation, of: PhantomData }
-    }
-}
-
-/// The branches of a closed form as `Debug` writes them.
-fn written<M: ClosedForm>() -> Vec<String> {
-    M::all_branches().iter().map(|branch| format!("{branch:?}")).collect()
-}
-
-impl<M: Mechanism> Named for Entry<M> {
+impl<M: Fixture> Named for Entry<M> {
     fn file(&self) -> &'static str {
-        self.file
+        M::FILE
     }
     fn name(&self) -> &'static str {
         M::NAME
     }
 }
 
-impl<T: Real, M: Kinematics<T> + 'static> Listed<T> for Entry<M> {
+impl<T: Real, M: Fixture<Scalar = T> + 'static> Listed<T> for Entry<M> {
     fn unknowns(&self) -> &'static [&'static str] {
         M::UNKNOWNS
     }
     fn inputs(&self) -> &'static [&'static str] {
         M::INPUTS
     }
-    fn groups(&self) -> &'static [Group] {
-        M::GROUPS
-    }
     fn branch_count(&self) -> usize {
-        M::branch_count()
+        M::branches().len().max(1)
     }
     fn inputs_of(&self, q: &[T]) -> Vec<T> {
-        M::inputs_of(q)
+        M::inputs(&named::<M, _>(q)).as_slice().to_vec()
     }
-    fn parts(&self, q: &[T]) -> [Vec<T>; 2] {
-        let (unknowns, inputs) = M::parts(&M::named(q));
-        [unknowns.as_slice().to_vec(), inputs.as_slice().to_vec()]
+    fn coordinates(&self, unknowns: &[T], inputs: &[T]) -> Vec<T> {
+        numbers::<M>(M::coordinates(column(unknowns), column(inputs)))
     }
     fn defaults(&self) -> Vec<f64> {
-        (self.defaults)()
+        M::defaults()
     }
     fn branches(&self) -> Vec<String> {
-        (self.branches)()
+        M::branches().iter().map(|branch| format!("{branch:?}")).collect()
     }
     fn derivation(&self) -> &'static Derivation<'static> {
-        self.derivation
+        M::DERIVATION
     }
     fn with_parameters(&self, parameters: &[T]) -> Box<dyn Built<T>> {
         Box::new(Rc::new(M::with_parameters(parameters)))
     }
 }
 
-impl<T: Real, M: Kinematics<T>> Values<T> for Entry<M> {
+impl<T: Real, M: Fixture<Scalar = T>> Values<T> for Entry<M> {
     fn residual(&self, parameters: &[T], q: &[T]) -> Vec<T> {
         let m = M::with_parameters(parameters);
-        m.residual(&m.pose(q)).as_slice().to_vec()
+        m.residual(&m.pose_at(&named::<M, _>(q))).as_slice().to_vec()
     }
     fn points(&self, parameters: &[T], q: &[T]) -> Result<Vec<T>, PositionError> {
         let m = M::with_parameters(parameters);
-        m.points(&m.pose(q))
+        Ok(pairs(M::each_point(m.points(&m.pose_at(&named::<M, _>(q)))?)))
     }
     fn outputs(&self, parameters: &[T], q: &[T]) -> Result<Vec<T>, PositionError> {
         let m = M::with_parameters(parameters);
-        m.outputs(&m.pose(q))
+        Ok(M::each_output(m.outputs(&m.pose_at(&named::<M, _>(q)))?).as_slice().to_vec())
     }
 }
 
-impl<T: Real, M: HigherOrders<T> + 'static> ListedWithOrders<T> for Entry<M> {
+impl<T: Real, M: Fixture<Scalar = T> + 'static> ListedWithOrders<T> for Entry<M>
+where
+    At<M>: PosedWithOrders<T>,
+{
     fn at(&self, parameters: &[T], q: &[T]) -> Box<dyn PosedWithOrders<T>> {
         let mechanism = M::with_parameters(parameters);
-        let pose = Kinematics::pose(&mechanism, q);
+        let pose = mechanism.pose_at(&named::<M, _>(q));
         Box::new(At { mechanism: Rc::new(mechanism), pose })
     }
 }
 
 /// A mechanism and its position.
-struct At<M: Mechanism> {
-    mechanism: Rc<M>,
-    pose: M::Pose,
+pub(crate) struct At<M: Mechanism> {
+    pub(crate) mechanism: Rc<M>,
+    pub(crate) pose: M::Pose,
 }
 
 /// A mechanism at a position, as an object.
-fn at<T: Real, M: Kinematics<T> + 'static>(mechanism: &Rc<M>, pose: M::Pose) -> Box<dyn Posed<T>> {
+pub fn posed<M: Fixture + 'static>(mechanism: &Rc<M>, pose: M::Pose) -> Box<dyn Posed<M::Scalar>> {
     Box::new(At { mechanism: Rc::clone(mechanism), pose })
 }
 
-/// A motion from a position that is an object.
-fn of_object<T: Real, M: Kinematics<T> + 'static>(
-    mechanism: &Rc<M>,
-    moving: Moving<M::Pose, T>,
-) -> Moving<Box<dyn Posed<T>>, T> {
-    let Moving { pose, rates, accelerations, points, outputs } = moving;
-    Moving { pose: at(mechanism, pose), rates, accelerations, points, outputs }
-}
-
-impl<T: Real, M: Kinematics<T> + 'static> Built<T> for Rc<M> {
+impl<T: Real, M: Fixture<Scalar = T> + 'static> Built<T> for Rc<M> {
     fn pose(&self, q: &[T]) -> Box<dyn Posed<T>> {
-        at(self, Kinematics::pose(&**self, q))
+        posed(self, self.pose_at(&named::<M, _>(q)))
     }
     fn position(&self, q: &[T], branch: usize) -> Result<Box<dyn Posed<T>>, PositionError> {
-        Kinematics::position(&**self, q, branch).map(|pose| at(self, pose))
+        if M::branches().is_empty() { Ok(self.pose(&self.solved(q)?)) } else { self.assembled(q, branch) }
     }
     fn assembled(&self, q: &[T], branch: usize) -> Result<Box<dyn Posed<T>>, PositionError> {
-        Kinematics::assembled(&**self, q, branch).map(|pose| at(self, pose))
+        let q = named::<M, _>(q);
+        M::assembled(self, &q, branch_at(&**self, &q, branch)).map(|pose| posed(self, pose))
     }
     fn solved(&self, guess: &[T]) -> Result<Vec<T>, PositionError> {
-        Kinematics::solved(&**self, guess)
+        newton(&**self, &named::<M, _>(guess)).map(|solution| numbers::<M>(solution.coordinates))
     }
     fn motion(&self, q: &[T], input_rates: &[T], given: &[T]) -> Result<Motion<T>, PositionError> {
-        Kinematics::motion(&**self, q, input_rates, given)
+        let motion = M::motion(self, &named::<M, _>(q), inputs::<M>(input_rates), inputs::<M>(given))?;
+        Ok(Motion {
+            coordinates: [
+                numbers::<M>(motion.position),
+                numbers::<M>(motion.rates),
+                numbers::<M>(motion.accelerations),
+            ],
+            points: of_points(M::each_point(motion.points)),
+            outputs: of_outputs(M::each_output(motion.outputs)),
+        })
     }
     fn moving(
         &self,
@@ -252,23 +275,31 @@ impl<T: Real, M: Kinematics<T> + 'static> Built<T> for Rc<M> {
         input_rates: &[T],
         given: &[T],
         full: bool,
-    ) -> Result<Moving<Box<dyn Posed<T>>, T>, PositionError> {
-        Kinematics::moving(&**self, q, branch, input_rates, given, full).map(|moving| of_object(self, moving))
-    }
-    fn moving_by_parts(
-        &self,
-        q: &[T],
-        branch: usize,
-        input_rates: &[T],
-        given: &[T],
-    ) -> Result<Moving<Box<dyn Posed<T>>, T>, PositionError> {
-        Kinematics::moving_by_parts(&**self, q, branch, input_rates, given).map(|moving| of_object(self, moving))
+    ) -> Result<Moving<T>, PositionError> {
+        let (q, rates, bent) = (named::<M, _>(q), inputs::<M>(input_rates), inputs::<M>(given));
+        let branch = branch_at(&**self, &q, branch);
+        let (Kinematics { pose, rates, accelerations }, points, outputs) = match full {
+            false => (M::kinematics(self, &q, branch, rates, bent)?, None, None),
+            true => {
+                let all = M::full_kinematics(self, &q, branch, rates, bent)?;
+                let FullKinematics { pose, rates, accelerations, points, outputs } = all;
+                let (points, outputs) = (of_points(M::each_point(points)), of_outputs(M::each_output(outputs)));
+                (Kinematics { pose, rates, accelerations }, Some(points), Some(outputs))
+            }
+        };
+        let (rates, accelerations) = (numbers::<M>(rates), numbers::<M>(accelerations));
+        Ok(Moving { pose: posed(self, pose), rates, accelerations, points, outputs })
     }
 }
 
-impl<T: Real, M: Kinematics<T>> Posed<T> for At<M> {
+/// The branch of this number, or that of the coordinates if the position is found by Newton's method.
+fn branch_at<M: Fixture>(m: &M, q: &M::Coordinates, number: usize) -> M::Branch {
+    M::branches().get(number).copied().unwrap_or_else(|| m.branch_of(&m.pose_at(q)))
+}
+
+impl<T: Real, M: Fixture<Scalar = T>> Posed<T> for At<M> {
     fn coordinates(&self) -> Vec<T> {
-        M::listed(&self.pose)
+        numbers::<M>(M::coordinates_of(&self.pose))
     }
     fn is_finite(&self) -> bool {
         M::is_finite(&self.pose)
@@ -283,10 +314,10 @@ impl<T: Real, M: Kinematics<T>> Posed<T> for At<M> {
         self.mechanism.jacobian(&self.pose)
     }
     fn jacobian_unknowns(&self) -> DMatrix<T> {
-        matrix(&self.mechanism.jacobian_unknowns(&self.pose))
+        matrix(self.mechanism.jacobian_unknowns(&self.pose))
     }
     fn jacobian_inputs(&self) -> DMatrix<T> {
-        matrix(&self.mechanism.jacobian_inputs(&self.pose))
+        matrix(self.mechanism.jacobian_inputs(&self.pose))
     }
     fn determinant(&self) -> T {
         self.mechanism.determinant(&self.pose)
@@ -298,71 +329,49 @@ impl<T: Real, M: Kinematics<T>> Posed<T> for At<M> {
         self.mechanism.solve_jacobian(&self.pose, &column(right)).map(|solution| solution.as_slice().to_vec())
     }
     fn velocity_ratios(&self) -> Result<DMatrix<T>, PositionError> {
-        self.mechanism.velocity_ratios(&self.pose)
+        self.mechanism.velocity_ratios(&self.pose).map(matrix)
     }
     fn gamma(&self, rates: &[T]) -> Vec<T> {
-        self.mechanism.gamma_of(&self.pose, rates)
+        self.mechanism.gamma(&self.pose, &named::<M, _>(rates)).as_slice().to_vec()
     }
     fn velocity(&self, input_rates: &[T]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.velocity(&self.pose, input_rates)
+        self.mechanism.velocity(&self.pose, inputs::<M>(input_rates)).map(numbers::<M>)
     }
     fn acceleration(&self, rates: &[T], given: &[T]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.acceleration(&self.pose, rates, given)
+        self.mechanism.acceleration(&self.pose, &named::<M, _>(rates), inputs::<M>(given)).map(numbers::<M>)
     }
     fn points(&self) -> Result<Vec<T>, PositionError> {
-        self.mechanism.points(&self.pose)
+        Ok(pairs(M::each_point(self.mechanism.points(&self.pose)?)))
     }
     fn point_velocities(&self, rates: &[T]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.point_velocities(&self.pose, rates)
+        Ok(pairs(M::each_point(self.mechanism.point_velocities(&self.pose, &named::<M, _>(rates))?)))
     }
     fn point_accelerations(&self, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.point_accelerations(&self.pose, rates, bent)
+        let (rates, bent) = (named::<M, _>(rates), named::<M, _>(bent));
+        Ok(pairs(M::each_point(self.mechanism.point_accelerations(&self.pose, &rates, &bent)?)))
     }
     fn point_ratios(&self) -> Result<Vec<DMatrix<T>>, PositionError> {
-        self.mechanism.point_ratios(&self.pose)
+        Ok(M::each_point(self.mechanism.point_ratios(&self.pose)?).into_iter().map(matrix).collect())
     }
     fn outputs(&self) -> Result<Vec<T>, PositionError> {
-        self.mechanism.outputs(&self.pose)
+        Ok(M::each_output(self.mechanism.outputs(&self.pose)?).as_slice().to_vec())
     }
     fn output_velocities(&self, rates: &[T]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.output_velocities(&self.pose, rates)
+        Ok(M::each_output(self.mechanism.output_velocities(&self.pose, &named::<M, _>(rates))?).as_slice().to_vec())
     }
     fn output_accelerations(&self, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.output_accelerations(&self.pose, rates, bent)
+        let (rates, bent) = (named::<M, _>(rates), named::<M, _>(bent));
+        Ok(M::each_output(self.mechanism.output_accelerations(&self.pose, &rates, &bent)?).as_slice().to_vec())
     }
     fn output_ratios(&self) -> Result<Vec<DMatrix<T>>, PositionError> {
-        self.mechanism.output_ratios(&self.pose)
+        Ok(M::each_output(self.mechanism.output_ratios(&self.pose)?).into_iter().map(matrix).collect())
     }
 }
 
-impl<T: Real, M: HigherOrders<T>> PosedWithOrders<T> for At<M> {
-    fn jerk(&self, rates: &[T], bent: &[T], given: &[T]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.jerk(&self.pose, rates, bent, given)
-    }
-    fn point_jerks(&self, q: [&[T]; 3]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.point_jerks(&self.pose, q)
-    }
-    fn output_jerks(&self, q: [&[T]; 3]) -> Result<Vec<T>, PositionError> {
-        self.mechanism.output_jerks(&self.pose, q)
-    }
-    fn velocity_ratio_derivatives(&self) -> Result<Vec<DMatrix<T>>, PositionError> {
-        self.mechanism.velocity_ratio_derivatives(&self.pose)
-    }
-    fn point_ratio_derivatives(&self) -> Result<Vec<DMatrix<T>>, PositionError> {
-        self.mechanism.point_ratio_derivatives(&self.pose)
-    }
-    fn output_ratio_derivatives(&self) -> Result<Vec<DMatrix<T>>, PositionError> {
-        self.mechanism.output_ratio_derivatives(&self.pose)
-    }
-    fn sensitivity(&self) -> Result<DMatrix<T>, PositionError> {
-        self.mechanism.sensitivity(&self.pose)
-    }
-    fn point_sensitivities(&self) -> Result<Vec<DMatrix<T>>, PositionError> {
-        self.mechanism.point_sensitivities(&self.pose)
-    }
-    fn output_sensitivities(&self) -> Result<Vec<DMatrix<T>>, PositionError> {
-        self.mechanism.output_sensitivities(&self.pose)
-    }
+/// The numbers of coordinates, rates or accelerations, in the order of the fields.
+fn numbers<M: Kinematic>(by_name: impl Into<PerCoordinate<M>>) -> Vec<M::Scalar> {
+    let numbers: <M::N as Dim>::Array<M::Scalar> = by_name.into().into();
+    numbers.as_ref().to_vec()
 }
 
 /// A list as a column.
@@ -371,8 +380,26 @@ fn column<T: Real, R: Dim>(list: &[T]) -> Column<T, R> {
 }
 
 /// A matrix of any size.
-fn matrix<T: Real, R: Dim, C: Dim>(of: &Matrix<T, R, C>) -> DMatrix<T> {
-    DMatrix::from_iterator(R::COUNT, C::COUNT, of.columns().iter().flat_map(|column| column.iter().copied()))
+fn matrix<T: Real, R: Dim, C: Dim>(matrix: Matrix<T, R, C>) -> DMatrix<T> {
+    DMatrix::from_iterator(R::COUNT, C::COUNT, matrix.iter().copied())
+}
+
+/// Positions, velocities and accelerations of points.
+fn of_points<T: Real, N: Dim>(points: Column<PointMotion<T>, N>) -> [Vec<T>; 3] {
+    [
+        pairs(points.map(|point| point.position)),
+        pairs(points.map(|point| point.velocity)),
+        pairs(points.map(|point| point.acceleration)),
+    ]
+}
+
+/// Values, rates and second derivatives of outputs.
+fn of_outputs<T: Real, N: Dim>(outputs: Column<OutputMotion<T>, N>) -> [Vec<T>; 3] {
+    [
+        outputs.map(|output| output.value).as_slice().to_vec(),
+        outputs.map(|output| output.velocity).as_slice().to_vec(),
+        outputs.map(|output| output.acceleration).as_slice().to_vec(),
+    ]
 }
 
 macro_rules! lists {
@@ -380,55 +407,37 @@ macro_rules! lists {
         /// All mechanisms in a scalar.
         #[must_use]
         pub fn all_of<T: Real>() -> Vec<&'static dyn Listed<T>> {
-            vec![$($(entry!($file $Mechanism $method)),+),*]
+            vec![$($(&Entry::<crate::$file::$Mechanism<T>>(PhantomData)),+),*]
         }
 
         /// All mechanisms of the lines with `orders` in a scalar.
         #[must_use]
         pub fn with_orders_of<T: Real>() -> Vec<&'static dyn ListedWithOrders<T>> {
-            let mut all: Vec<&'static dyn ListedWithOrders<T>> = Vec::new();
-            $(with_orders!(all $file [$($Mechanism $method)+] $($orders)?);)*
-            all
+            let lines: Vec<Vec<&'static dyn ListedWithOrders<T>>> = vec![$(with_orders!($file [$($Mechanism)+] $($orders)?)),*];
+            lines.concat()
         }
 
         /// The values of all mechanisms in a scalar.
         #[must_use]
         pub fn values_of<T: Real>() -> Vec<&'static dyn Values<T>> {
-            vec![$($(entry!($file $Mechanism $method)),+),*]
+            vec![$($(&Entry::<crate::$file::$Mechanism<T>>(PhantomData)),+),*]
         }
 
         /// The values of all mechanisms of the lines with `orders` in a scalar.
         #[must_use]
         pub fn values_with_orders_of<T: Real>() -> Vec<&'static dyn Values<T>> {
-            let mut all: Vec<&'static dyn Values<T>> = Vec::new();
-            $(with_orders!(all $file [$($Mechanism $method)+] $($orders)?);)*
-            all
+            let lines: Vec<Vec<&'static dyn Values<T>>> = vec![$(with_orders!($file [$($Mechanism)+] $($orders)?)),*];
+            lines.concat()
         }
     };
 }
 
 macro_rules! with_orders {
-    ($all:ident $file:ident [$($Mechanism:ident $method:ident)+]) => {};
-    ($all:ident $file:ident [$($Mechanism:ident $method:ident)+] orders) => {
-        $($all.push(entry!($file $Mechanism $method));)+
+    ($file:ident [$($Mechanism:ident)+]) => {
+        Vec::new()
     };
-}
-
-macro_rules! entry {
-    ($file:ident $Mechanism:ident $method:ident) => {
-        const {
-            type Doubles = crate::$file::$Mechanism;
-            &Entry::<crate::$file::$Mechanism<T>>::of::<Doubles>(branches!($method), Doubles::DERIVATION)
-        }
-    };
-}
-
-macro_rules! branches {
-    (newton) => {
-        Vec::new
-    };
-    ($method:ident) => {
-        written::<Doubles>
+    ($file:ident [$($Mechanism:ident)+] orders) => {
+        vec![$(&Entry::<crate::$file::$Mechanism<T>>(PhantomData)),+]
     };
 }
 

@@ -6,7 +6,6 @@ use linkage_compiler::derivation::{Derivation, Row};
 use linkage_compiler::graph::{External, NodeId, SymbolId};
 use linkage_compiler::ids::Id;
 use linkage_compiler::model::{Kind, Mechanism};
-use linkage_gallery::Fixture;
 use linkage_gallery::checks::at;
 use linkage_gallery::listed::Named;
 use linkage_gallery::source::tokens_of;
@@ -36,22 +35,10 @@ impl Oracle {
     /// The oracle of a mechanism of the gallery.
     ///
     /// # Panics
-    /// If the file has no such mechanism.
+    /// If its file has no such mechanism.
     #[must_use]
-    pub fn of<F: Fixture>() -> Self {
-        Self::new(F::FILE, F::NAME)
-    }
-
-    /// The oracle of a mechanism of a list.
-    ///
-    /// # Panics
-    /// If the file has no such mechanism.
-    #[must_use]
-    pub fn of_listed(listed: &(impl Named + ?Sized)) -> Self {
-        Self::new(listed.file(), listed.name())
-    }
-
-    fn new(file: &str, name: &str) -> Self {
+    pub fn of(named: &(impl Named + ?Sized)) -> Self {
+        let (file, name) = (named.file(), named.name());
         let mechanism = linkage_compiler::read(tokens_of(file)).expect(file).remove(0);
         let driver = mechanism.drivers.iter().position(|driver| driver.name == name).expect(name);
         let derivation = linkage_compiler::derive(&mechanism).remove(driver);

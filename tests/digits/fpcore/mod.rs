@@ -44,14 +44,10 @@ fn cores(derivation: &Derivation) -> BTreeMap<String, Core> {
 
 /// The names of coordinates in the order of their fields.
 fn coordinates(of: &dyn Listed<f64>) -> Vec<String> {
-    let count = of.unknowns().len() + of.inputs().len();
-    let places: Vec<f64> = (0..count).map(|place| place as f64).collect();
-    let [unknowns, inputs] = of.parts(&places);
-    let mut names = vec![String::new(); count];
-    for (place, name) in unknowns.iter().zip(of.unknowns()).chain(inputs.iter().zip(of.inputs())) {
-        names[*place as usize] = name.to_lowercase();
-    }
-    names
+    let names: Vec<&str> = of.unknowns().iter().chain(of.inputs()).copied().collect();
+    let numbers: Vec<f64> = (0..names.len()).map(|number| number as f64).collect();
+    let (unknowns, inputs) = numbers.split_at(of.unknowns().len());
+    of.coordinates(unknowns, inputs).into_iter().map(|number| names[number as usize].to_lowercase()).collect()
 }
 
 /// The sides of a branch as numbers, from its text: `phi_s: Far` is 1.

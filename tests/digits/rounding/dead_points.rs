@@ -23,7 +23,7 @@ const HALVINGS: usize = 60;
 
 /// Calls with coordinates near those where the determinant is zero, on the way from one sample to the next.
 fn near_singular(of: &dyn Listed<f64>, mut compare: impl FnMut(&str, &Arguments<f64>)) {
-    let samples: Vec<Arguments<f64>> = Oracle::of_listed(of).samples(12 * poses(SINGULAR)).map(arguments).collect();
+    let samples: Vec<Arguments<f64>> = Oracle::of(of).samples(12 * poses(SINGULAR)).map(arguments).collect();
     let mut found = 0;
     for pair in samples.windows(2) {
         let at = |part: f64| {

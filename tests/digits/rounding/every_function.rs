@@ -100,7 +100,7 @@ fn results_are_within_their_bounds() {
 
 fn within_their_bounds(of: &dyn Listed<f64>, rounded: &dyn Listed<Rounded>, doubled: &dyn Listed<DoubleDouble>) {
     let (mut at_given, mut at_assembled) = (Found::default(), Found::default());
-    for (number, sample) in Oracle::of_listed(of).samples(poses(POSES)).enumerate() {
+    for (number, sample) in Oracle::of(of).samples(poses(POSES)).enumerate() {
         let plain = arguments(sample);
         let (with_bounds, exact) = (plain.map(Rounded::from), plain.map(DoubleDouble::from));
         let three =
@@ -160,7 +160,7 @@ fn higher_orders_within_their_bounds(
     doubled: &dyn ListedWithOrders<DoubleDouble>,
 ) {
     let mut found = Found::default();
-    for (number, sample) in Oracle::of_listed(of).samples(poses(POSES)).enumerate() {
+    for (number, sample) in Oracle::of(of).samples(poses(POSES)).enumerate() {
         let plain = arguments(sample);
         let three = Three {
             plain: higher_orders(of, &plain),

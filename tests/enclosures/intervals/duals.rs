@@ -1,21 +1,19 @@
 //! J, A and gamma are the derivatives that dual numbers carry through Psi, to machine precision.
 
-use linkage::{Certifiable, Formulas, Real};
-use linkage_gallery::Fixture;
 use linkage_oracle::{Oracle, all_close};
 use num_dual::{Dual2_64, Dual64};
 
-use crate::intervals::formulas::{At, column, title, values};
+use crate::intervals::formulas::{At, Enclosable};
 use crate::intervals::poses;
 
 /// Relative error of one formula against another.
 const TOLERANCE: f64 = 1e-12;
 
-pub fn are_the_derivatives<F: Fixture + Certifiable>() {
-    let oracle = Oracle::of::<F>();
-    for sample in oracle.samples(poses()) {
-        let at = At::of(&sample, &oracle.derivation);
-        let found = values::<F, f64>(&at);
+pub fn are_the_derivatives(of: &dyn Enclosable) {
+    let oracle = Oracle::of(of);
+    oracle.at_samples(poses(), |_, sample| {
+        let at = At::of(sample, &oracle.derivation);
+        let found = of.in_doubles(&at);
         let (u, v) = (at.unknowns.len(), at.inputs.len());
         let (jacobian, rest) = found[u..].split_at(u * (u + v));
         let gamma = &rest[..u];
@@ -26,8 +24,8 @@ pub fn are_the_derivatives<F: Fixture + Certifiable>() {
             let mut along = constant.map(|value| value);
             let place = along.unknowns.iter_mut().chain(&mut along.inputs).nth(column).unwrap();
             place.eps = 1.0;
-            let expected: Vec<f64> = residual::<F, Dual64>(&along).iter().map(|psi| psi.eps).collect();
-            compare::<F>("derivative of Psi", entries, &expected, largest);
+            let expected: Vec<f64> = of.residual_once(&along).iter().map(|psi| psi.eps).collect();
+            compare("derivative of Psi", entries, &expected, largest);
         }
         // The second derivative of Psi along q'.
         let mut along = at.map(Dual2_64::from_re);
@@ -35,19 +33,14 @@ pub fn are_the_derivatives<F: Fixture + Certifiable>() {
         for (value, &rate) in along.unknowns.iter_mut().chain(&mut along.inputs).zip(rates) {
             value.v1 = rate;
         }
-        let expected: Vec<f64> = residual::<F, Dual2_64>(&along).iter().map(|psi| psi.v2).collect();
-        compare::<F>("gamma", gamma, &expected, 0.0);
-    }
+        let expected: Vec<f64> = of.residual_twice(&along).iter().map(|psi| psi.v2).collect();
+        compare("gamma", gamma, &expected, 0.0);
+    });
 }
 
 /// Compares rows without user functions, of whose derivatives nothing is known either.
-fn compare<F: Fixture>(what: &str, found: &[f64], expected: &[f64], scale: f64) {
+fn compare(what: &str, found: &[f64], expected: &[f64], scale: f64) {
     let (found, expected): (Vec<f64>, Vec<f64>) =
         found.iter().zip(expected).filter(|(found, expected)| !found.is_nan() && !expected.is_nan()).unzip();
-    all_close(&format!("{what}, {}", title::<F>()), &found, &expected, scale, TOLERANCE);
-}
-
-fn residual<F: Certifiable, T: Real>(at: &At<T>) -> Vec<T> {
-    let over = <F::Over<T> as Formulas>::with_parameters(column(&at.parameters));
-    over.residual(&column(&at.unknowns), &column(&at.inputs)).into_iter().collect()
+    all_close(what, &found, &expected, scale, TOLERANCE);
 }

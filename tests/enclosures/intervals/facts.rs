@@ -4,49 +4,41 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::certify::Certify;
 use linkage::{Certifiable, Column, Formulas, Interval, Mechanism, Number, linkage};
+use linkage_gallery::Fixture;
 use linkage_gallery::cam_rocker::CamRocker;
-use linkage_gallery::{Fixture, Kinematics};
+use linkage_gallery::listed::{self, same_as};
 use linkage_oracle::{Oracle, all_close};
 
-use crate::intervals::formulas::{At, column, title};
+use crate::intervals::formulas::{At, Enclosable};
 
 /// Psi is the same after the turns of one coordinate or of two together for which `repeats` says so.
-pub fn turns_leave_the_residual<F: Fixture + Certifiable>() {
-    let (oracle, mechanism) = (Oracle::of::<F>(), F::default());
-    assert_eq!(F::USER_FUNCTIONS.len(), F::GROUPS.len());
-    let (unknowns, count) = (F::UNKNOWNS.len(), F::UNKNOWNS.len() + F::INPUTS.len());
-    let certify = Certify::new(&mechanism);
-    for sample in oracle.samples(2) {
-        let at = At {
-            parameters: Certifiable::parameters(&mechanism).into_iter().collect(),
-            ..At::of(&sample, &oracle.derivation)
-        };
-        let before = residual::<F>(&at);
+pub fn turns_leave_the_residual(of: &dyn Enclosable) {
+    let oracle = Oracle::of(of);
+    let (unknowns, count) = (oracle.derivation.unknowns.len(), oracle.derivation.coordinates.len());
+    let parameters = same_as(listed::all(), of).defaults();
+    // Psi where no user function makes it NaN.
+    let residual = |at: &At<f64>| -> Vec<f64> {
+        of.in_doubles(at)[..unknowns].iter().copied().filter(|psi| !psi.is_nan()).collect()
+    };
+    oracle.at_samples(2, |_, sample| {
+        let at = At { parameters: parameters.clone(), ..At::of(sample, &oracle.derivation) };
+        let before = residual(&at);
         let scale = at.parameters.iter().fold(1.0, |most: f64, value| most.max(value.abs()));
         for (one, other) in (0..count).flat_map(|one| (one..count).map(move |other| (one, other))) {
             for (by_one, by_other) in [(1, 1), (1, -1), (2, 1), (2, -1), (1, 2), (1, -2), (2, 2)] {
                 let mut turns = vec![0; count];
                 turns[other] = by_other;
                 turns[one] = by_one;
-                let own = Column::from_fn(|place: usize| turns[place]);
-                if !certify.repeats(&own, &Column::from_fn(|place: usize| turns[unknowns + place])) {
+                if !of.repeats(&turns) {
                     continue;
                 }
                 let mut turned = at.map(|value| value);
                 let coordinates = turned.unknowns.iter_mut().chain(&mut turned.inputs);
                 coordinates.zip(&turns).for_each(|(coordinate, &turns)| *coordinate += TAU * f64::from(turns as i32));
-                let what = format!("{} after the turns {turns:?}", title::<F>());
-                all_close(&what, &residual::<F>(&turned), &before, scale, 1e-12);
+                all_close(&format!("after the turns {turns:?}"), &residual(&turned), &before, scale, 1e-12);
             }
         }
-    }
-}
-
-/// Psi where no user function makes it NaN.
-fn residual<F: Certifiable>(at: &At<f64>) -> Vec<f64> {
-    let over = <F::Over<f64> as Formulas>::with_parameters(column(&at.parameters));
-    let all = over.residual(&column(&at.unknowns), &column(&at.inputs));
-    all.into_iter().filter(|psi| !psi.is_nan()).collect()
+    });
 }
 
 linkage! {
@@ -94,7 +86,7 @@ fn a_user_function_is_named_in_its_group() {
     let named: Vec<_> = CamRocker::USER_FUNCTIONS.iter().flatten().collect();
     assert_eq!(named, [&"turn"]);
     let parameters: Column<f64, _> = Certifiable::parameters(&CamRocker::default());
-    assert_eq!(parameters.as_slice(), Kinematics::parameters(&CamRocker::default()));
+    assert_eq!(parameters.as_slice(), Fixture::parameters(&CamRocker::default()));
 }
 
 linkage! {

@@ -1,11 +1,102 @@
 //! All numbers of the formulas of a mechanism in one list, over any kind of number and as nodes of its derivation.
 
-use linkage::{Certifiable, Column, Dim, Formulas, Number};
+use std::marker::PhantomData;
+
+use linkage::certify::Certify;
+use linkage::enclose::{EncloseError, PoseBox};
+use linkage::{Certifiable, Column, Dim, Formulas, Interval, Number};
 use linkage_compiler::derivation::{Derivation, Row};
 use linkage_compiler::graph::{Node, NodeId};
 use linkage_compiler::ids::Id;
-use linkage_gallery::Fixture;
+use linkage_gallery::listed::Named;
+use linkage_gallery::{Fixture, all_mechanisms};
 use linkage_oracle::{Oracle, Sample};
+use num_dual::{Dual2_64, Dual64};
+
+/// A mechanism with what is compiled of it over intervals and dual numbers.
+pub trait Enclosable: Named {
+    /// All numbers of the formulas.
+    fn in_doubles(&self, at: &At<f64>) -> Vec<f64>;
+    /// All numbers of the formulas.
+    fn in_intervals(&self, at: &At<Interval>) -> Vec<Interval>;
+    /// Psi with first derivatives.
+    fn residual_once(&self, at: &At<Dual64>) -> Vec<Dual64>;
+    /// Psi with second derivatives.
+    fn residual_twice(&self, at: &At<Dual2_64>) -> Vec<Dual2_64>;
+    /// The name of the first user function in the equations of each group.
+    fn user_functions(&self) -> &'static [Option<&'static str>];
+    /// True if Psi of the mechanism with default parameters is the same after these turns of the unknowns and the inputs.
+    fn repeats(&self, turns: &[i64]) -> bool;
+    /// Encloses all rates over intervals, with these accelerations of the inputs; `parameters` are in the intervals.
+    fn enclosed(&self, parameters: &[f64], wide: &At<Interval>, given: &[Interval]) -> Result<Enclosed, EncloseError>;
+}
+
+/// All that is enclosed: the velocity ratios, the sensitivities, the velocity, the acceleration.
+pub struct Enclosed {
+    pub all: Vec<Interval>,
+    /// The numbers of the ratios and sensitivities, and of all but the acceleration.
+    pub ends: [usize; 2],
+}
+
+/// All mechanisms of the gallery.
+pub fn all() -> Vec<&'static dyn Enclosable> {
+    macro_rules! entries {
+        ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
+            vec![$($(&Of::<linkage_gallery::$file::$Mechanism>(PhantomData)),+),*]
+        };
+    }
+    all_mechanisms!(entries)
+}
+
+/// A type of the gallery, as an object.
+struct Of<M>(PhantomData<fn() -> M>);
+
+impl<M: Fixture> Named for Of<M> {
+    fn file(&self) -> &'static str {
+        M::FILE
+    }
+    fn name(&self) -> &'static str {
+        M::NAME
+    }
+}
+
+impl<M: Fixture<Scalar = f64> + Certifiable + Default> Enclosable for Of<M> {
+    fn in_doubles(&self, at: &At<f64>) -> Vec<f64> {
+        values::<M, f64>(at)
+    }
+    fn in_intervals(&self, at: &At<Interval>) -> Vec<Interval> {
+        values::<M, Interval>(at)
+    }
+    fn residual_once(&self, at: &At<Dual64>) -> Vec<Dual64> {
+        residual::<M, Dual64>(at)
+    }
+    fn residual_twice(&self, at: &At<Dual2_64>) -> Vec<Dual2_64> {
+        residual::<M, Dual2_64>(at)
+    }
+    fn user_functions(&self) -> &'static [Option<&'static str>] {
+        assert_eq!(M::USER_FUNCTIONS.len(), M::GROUPS.len());
+        M::USER_FUNCTIONS
+    }
+    fn repeats(&self, turns: &[i64]) -> bool {
+        let (unknowns, inputs) = turns.split_at(M::U::COUNT);
+        let turns_of_inputs = Column::from_fn(|place: usize| inputs[place]);
+        Certify::new(&M::default()).repeats(&Column::from_fn(|place: usize| unknowns[place]), &turns_of_inputs)
+    }
+    fn enclosed(&self, parameters: &[f64], wide: &At<Interval>, given: &[Interval]) -> Result<Enclosed, EncloseError> {
+        let mechanism = <M as Fixture>::with_parameters(parameters);
+        let (unknowns, inputs) = (column(&wide.unknowns), column(&wide.inputs));
+        let pose = PoseBox::with_parameters(&mechanism, column(&wide.parameters), unknowns, inputs)?;
+        assert!(pose.norms().iter().all(|norm| (0.0..1.0).contains(norm)));
+        let input_rates = column(&wide.input_rates);
+        let mut all: Vec<Interval> = pose.velocity_ratios()?.iter().flatten().copied().collect();
+        all.extend(pose.sensitivity()?.iter().flatten());
+        let matrices = all.len();
+        all.extend(pose.velocity(&input_rates)?);
+        let velocities = all.len();
+        all.extend(pose.acceleration(&column(&wide.unknown_rates), &input_rates, &column(given))?);
+        Ok(Enclosed { all, ends: [matrices, velocities] })
+    }
+}
 
 /// The numbers that formulas are functions of.
 pub struct At<T> {
@@ -44,6 +135,12 @@ impl At<f64> {
     }
 }
 
+/// Psi.
+fn residual<M: Certifiable, T: Number>(at: &At<T>) -> Vec<T> {
+    let over = <M::Over<T> as Formulas>::with_parameters(column(&at.parameters));
+    over.residual(&column(&at.unknowns), &column(&at.inputs)).into_iter().collect()
+}
+
 /// Psi, the columns of J, the columns of A, gamma, the quantities.
 pub fn values<M: Certifiable, T: Number>(at: &At<T>) -> Vec<T> {
     let over = <M::Over<T> as Formulas>::with_parameters(column(&at.parameters));
@@ -77,11 +174,6 @@ pub fn nodes(oracle: &mut Oracle) -> Vec<NodeId> {
 
 fn entries<C: Id + Ord>(rows: &[Row<C>], column: C, zero: NodeId) -> Vec<NodeId> {
     rows.iter().map(|row| row.get(&column).copied().unwrap_or(zero)).collect()
-}
-
-/// The title of a mechanism in messages.
-pub fn title<F: Fixture>() -> String {
-    format!("{} of {}", F::NAME, F::FILE)
 }
 
 /// For each node, true if it depends on no user function, of which nothing is known.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! INTERVALS=3000 cargo test --release --all-features --test enclosures intervals -- --nocapture    poses of each mechanism
+//! MECHANISM=four_bar cargo test --all-features --test enclosures intervals    one mechanism, by its file or its name
 //! ```
 
 mod cuts;
@@ -16,56 +17,52 @@ mod sampled;
 mod velocities;
 mod wheels;
 
-use linkage_gallery::all_mechanisms;
+use linkage_gallery::checks::each;
+use linkage_gallery::listed::{self, same_as};
+use linkage_oracle::scalars;
 
 /// Poses of each mechanism.
 fn poses() -> usize {
     std::env::var("INTERVALS").ok().and_then(|count| count.parse().ok()).unwrap_or(4)
 }
 
-macro_rules! tests {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {$(
-        mod $file {
-            use linkage_gallery::$file::{$($Mechanism),+};
-
-            #[test]
-            fn doubles_are_those_of_a_position() {
-                $(super::doubles::are_those_of_a_position::<$Mechanism>();)+
-            }
-            #[test]
-            fn derivatives_are_dual_numbers() {
-                $(super::duals::are_the_derivatives::<$Mechanism>();)+
-            }
-            #[test]
-            fn points_are_enclosed() {
-                $(super::enclosures::of_points::<$Mechanism>();)+
-            }
-            #[test]
-            fn boxes_are_enclosed() {
-                $(super::enclosures::of_boxes::<$Mechanism>();)+
-            }
-            #[test]
-            fn velocities_at_points_are_enclosed() {
-                $(super::velocities::of_points::<$Mechanism>();)+
-            }
-            #[test]
-            fn velocities_over_boxes_are_enclosed() {
-                $(super::velocities::of_boxes::<$Mechanism>();)+
-            }
-            tests!(@ $($orders)? $($Mechanism)+);
-            #[test]
-            fn turns_leave_the_residual() {
-                $(super::facts::turns_leave_the_residual::<$Mechanism>();)+
-            }
-        }
-    )*};
-    (@ orders $Mechanism:ident) => {
-        #[test]
-        fn sensitivities_are_enclosed() {
-            super::velocities::of_sensitivities::<$Mechanism>();
-        }
-    };
-    (@ $($Mechanism:ident)+) => {};
+#[test]
+fn doubles_are_those_of_a_position() {
+    each(&formulas::all(), |of| doubles::are_those_of_a_position(of, same_as(listed::all(), of)));
 }
 
-all_mechanisms!(tests);
+#[test]
+fn derivatives_are_dual_numbers() {
+    each(&formulas::all(), duals::are_the_derivatives);
+}
+
+#[test]
+fn points_are_enclosed() {
+    each(&formulas::all(), enclosures::of_points);
+}
+
+#[test]
+fn boxes_are_enclosed() {
+    each(&formulas::all(), enclosures::of_boxes);
+}
+
+#[test]
+fn velocities_at_points_are_enclosed() {
+    each(&formulas::all(), velocities::of_points);
+}
+
+#[test]
+fn velocities_over_boxes_are_enclosed() {
+    each(&formulas::all(), |of| velocities::of_boxes(of, same_as(scalars::rounded(), of)));
+}
+
+#[test]
+fn sensitivities_are_enclosed() {
+    let all = formulas::all();
+    each(scalars::rounded_with_orders(), |emitted| velocities::of_sensitivities(same_as(&all, emitted), emitted));
+}
+
+#[test]
+fn turns_leave_the_residual() {
+    each(&formulas::all(), facts::turns_leave_the_residual);
+}

@@ -3,11 +3,11 @@
 
 use std::cmp::Ordering;
 
-use linkage::enclose::{EncloseError, PoseBox};
-use linkage::{Certifiable, Interval};
+use linkage::Interval;
+use linkage::enclose::EncloseError;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::ids::Id;
-use linkage_gallery::{Fixture, HigherOrders, Kinematics, WithHigherOrders};
+use linkage_gallery::listed::{Listed, ListedWithOrders};
 use linkage_oracle::precise::{Big, Scalar, big};
 use linkage_oracle::tape::Tape;
 use linkage_oracle::{Oracle, Sample};
@@ -16,7 +16,7 @@ use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
 use crate::intervals::enclosures::contain;
-use crate::intervals::formulas::{At, column, nodes, title};
+use crate::intervals::formulas::{At, Enclosable, Enclosed, nodes};
 use crate::intervals::poses;
 
 /// The mechanism in 48 digits: J, A, Psi_p and gamma.
@@ -32,16 +32,9 @@ struct Radii {
     parameters: f64,
 }
 
-/// All that is enclosed: the velocity ratios, the sensitivities, the velocity, the acceleration.
-struct Enclosed {
-    all: Vec<Interval>,
-    /// The numbers of the ratios and sensitivities, and of all but the acceleration.
-    ends: [usize; 2],
-}
-
 impl Reference {
-    fn of<F: Fixture + Certifiable>() -> Self {
-        let mut oracle = Oracle::of::<F>();
+    fn of(of: &dyn Enclosable) -> Self {
+        let mut oracle = Oracle::of(of);
         let residual = oracle.derivation.residual.to_vec();
         let (u, v) = (oracle.derivation.unknowns.len(), oracle.derivation.inputs.len());
         let all = nodes(&mut oracle);
@@ -108,29 +101,15 @@ fn solve(columns: &[Vec<Big>], mut x: Vec<Big>) -> Option<Vec<Big>> {
 }
 
 /// Encloses everything over a box about a sample.
-fn enclosed<F: Fixture + Certifiable>(
-    oracle: &Oracle,
-    sample: &Sample,
-    radii: Radii,
-) -> Result<Enclosed, EncloseError> {
+fn enclosed(of: &dyn Enclosable, oracle: &Oracle, sample: &Sample, radii: Radii) -> Result<Enclosed, EncloseError> {
     let at = At::of(sample, &oracle.derivation);
-    let around = |value: f64| Interval::around(value, radii.coordinates).unwrap();
-    let parameters: Vec<Interval> =
-        at.parameters.iter().map(|&value| Interval::around(value, radii.parameters * value.abs()).unwrap()).collect();
-    let wide = at.map(around);
-    let mechanism = F::with_parameters(&sample.parameters);
-    let pose = PoseBox::with_parameters(&mechanism, column(&parameters), column(&wide.unknowns), column(&wide.inputs))?;
-    assert!(pose.norms().iter().all(|norm| (0.0..1.0).contains(norm)));
+    let around = |value: f64, radius: f64| Interval::around(value, radius).unwrap();
+    let wide = At {
+        parameters: at.parameters.iter().map(|&value| around(value, radii.parameters * value.abs())).collect(),
+        ..at.map(|value| around(value, radii.coordinates))
+    };
     let given = oracle.derivation.inputs.iter().map(|column| Interval::from(sample.accelerations[column.index()]));
-    let given: Vec<Interval> = given.collect();
-    let input_rates = column(&wide.input_rates);
-    let mut all: Vec<Interval> = pose.velocity_ratios()?.iter().flatten().copied().collect();
-    all.extend(pose.sensitivity()?.iter().flatten());
-    let matrices = all.len();
-    all.extend(pose.velocity(&input_rates)?);
-    let velocities = all.len();
-    all.extend(pose.acceleration(&column(&wide.unknown_rates), &input_rates, &column(&given))?);
-    Ok(Enclosed { all, ends: [matrices, velocities] })
+    of.enclosed(&sample.parameters, &wide, &given.collect::<Vec<_>>())
 }
 
 /// A sample with its numbers moved inside the box; each function takes a number and its radius.
@@ -139,62 +118,58 @@ fn moved(oracle: &Oracle, sample: &Sample, radii: Radii, mut inner: impl FnMut(f
     oracle.moved(&other, |parameter| parameter, |x| inner(x, radii.coordinates))
 }
 
-/// True if an error is that of a mechanism whose equations call a user function.
-fn has_user_function<F: Certifiable>(error: &EncloseError) -> bool {
+/// Asserts that an error is that of a mechanism whose equations call a user function.
+fn has_user_function(of: &dyn Enclosable, error: &EncloseError) {
     let is_user = matches!(error, EncloseError::UserFunction { .. });
-    assert_eq!(is_user, F::USER_FUNCTIONS.iter().any(Option::is_some), "{error}");
-    is_user
+    assert!(is_user && of.user_functions().iter().any(Option::is_some), "{error}");
 }
 
 /// At numbers, where only rounding errors make an interval wide.
-pub fn of_points<F: Fixture + Certifiable>() {
-    let reference = Reference::of::<F>();
+pub fn of_points(of: &dyn Enclosable) {
+    let reference = Reference::of(of);
     let mut widths = Vec::new();
-    for sample in reference.oracle.samples(poses()) {
+    reference.oracle.at_samples(poses(), |_, sample| {
         let point = Radii { coordinates: 0.0, parameters: 0.0 };
-        match enclosed::<F>(&reference.oracle, &sample, point) {
+        match enclosed(of, &reference.oracle, sample, point) {
             Ok(Enclosed { all, .. }) => {
-                let exact = reference.precisely(&sample).unwrap();
-                contain::<F>(&all, &exact);
+                let exact = reference.precisely(sample).unwrap();
+                contain(&all, &exact);
                 let largest = all.iter().map(|x| x.magnitude()).fold(0.0, f64::max);
                 widths.extend(all.iter().map(|x| x.width() / (f64::EPSILON * largest)));
             }
-            Err(error) => assert!(has_user_function::<F>(&error), "{}: {error}", title::<F>()),
+            Err(error) => has_user_function(of, &error),
         }
-    }
-    print_quartiles(&format!("{}, widths in epsilons of the largest", title::<F>()), widths);
+    });
+    print_quartiles(&format!("{}, widths in epsilons of the largest", of.name()), widths);
 }
 
 /// Over boxes: at random numbers inside, in 48 digits and by the emitted functions. The widths are compared with the
 /// range to first order: the sum over all numbers of the difference of the results at the two ends of its interval.
-pub fn of_boxes<F: Fixture + Certifiable>() {
-    let reference = Reference::of::<F>();
+pub fn of_boxes(of: &dyn Enclosable, emitted: &dyn Listed<Rounded>) {
+    let reference = Reference::of(of);
     let oracle = &reference.oracle;
     let mut random = SmallRng::seed_from_u64(20_091_123);
     let mut quotients = [Vec::new(), Vec::new(), Vec::new()];
     let (mut regular, mut singular) = (0, 0);
-    for (number, sample) in oracle.samples(poses()).enumerate() {
+    oracle.at_samples(poses(), |number, sample| {
         let coordinates = 10_f64.powf(random.random_range(-7.0..-2.0));
         let radii = Radii { coordinates, parameters: if number % 2 == 0 { coordinates } else { 0.0 } };
-        let found = match enclosed::<F>(oracle, &sample, radii) {
+        let found = match enclosed(of, oracle, sample, radii) {
             Ok(found) => found,
             Err(EncloseError::NotRegular { norm, .. }) => {
                 assert!(norm >= 1.0);
                 singular += 1;
-                continue;
-            }
-            Err(error) => {
-                assert!(has_user_function::<F>(&error), "{}: {error}", title::<F>());
                 return;
             }
+            Err(error) => return has_user_function(of, &error),
         };
         regular += 1;
         for _ in 0..3 {
-            let inner = moved(oracle, &sample, radii, |x, radius| x + radius * random.random_range(-1.0..1.0));
-            contain::<F>(&found.all, &reference.precisely(&inner).unwrap());
-            contain_emitted::<F>(oracle, &found, &inner);
+            let inner = moved(oracle, sample, radii, |x, radius| x + radius * random.random_range(-1.0..1.0));
+            contain(&found.all, &reference.precisely(&inner).unwrap());
+            contain_emitted(emitted, oracle, &found, &inner);
         }
-        let ranges = first_order_ranges(&reference, &sample, radii);
+        let ranges = first_order_ranges(&reference, sample, radii);
         for (place, (interval, range)) in found.all.iter().zip(ranges).enumerate() {
             // A result that depends on nothing, or does so by rounding errors only.
             if range > 1e-9 * coordinates * interval.magnitude() {
@@ -202,24 +177,22 @@ pub fn of_boxes<F: Fixture + Certifiable>() {
                 quotients[kind].push(interval.width() / range);
             }
         }
-    }
-    println!("{}: {regular} regular boxes, {singular} not proved", title::<F>());
-    assert!(regular > 0, "{}", title::<F>());
+    });
+    println!("{}: {regular} regular boxes, {singular} not proved", of.name());
+    assert_eq!(regular > 0, of.user_functions().iter().all(Option::is_none), "{regular} regular boxes");
     for (what, quotients) in ["ratios and sensitivities", "velocities", "accelerations"].iter().zip(quotients) {
-        let median = print_quartiles(&format!("{}, {what}, width by range", title::<F>()), quotients);
-        assert!(median.is_none_or(|median| median < 1.5), "{}: {median:?}", title::<F>());
+        let median = print_quartiles(&format!("{}, {what}, width by range", of.name()), quotients);
+        assert!(median.is_none_or(|median| median < 1.5), "{what}: {median:?}");
     }
 }
 
 /// The emitted velocity and acceleration, each within its bound of rounding error, meet the enclosures.
-fn contain_emitted<F: Fixture + Certifiable>(oracle: &Oracle, found: &Enclosed, sample: &Sample) {
-    let rounded = |list: &[f64]| list.iter().copied().map(Rounded::from).collect::<Vec<_>>();
-    let mechanism = F::Of::<Rounded>::with_parameters(&rounded(&sample.parameters));
-    let pose = mechanism.pose(&rounded(&sample.q));
-    let inputs = |list: &[f64]| F::Of::<Rounded>::inputs_of(&rounded(list));
+fn contain_emitted(emitted: &dyn Listed<Rounded>, oracle: &Oracle, found: &Enclosed, sample: &Sample) {
+    let pose = emitted.with_parameters(&rounded(&sample.parameters)).pose(&rounded(&sample.q));
+    let inputs = |list: &[f64]| emitted.inputs_of(&rounded(list));
     let unknowns = |all: Vec<Rounded>| oracle.derivation.unknowns.iter().map(move |column| all[column.index()]);
-    let velocity = mechanism.velocity(&pose, &inputs(&sample.rates));
-    let acceleration = mechanism.acceleration(&pose, &rounded(&sample.rates), &inputs(&sample.accelerations));
+    let velocity = pose.velocity(&inputs(&sample.rates));
+    let acceleration = pose.acceleration(&rounded(&sample.rates), &inputs(&sample.accelerations));
     let [start, end] = found.ends;
     for (what, intervals, emitted) in
         [("velocity", &found.all[start..end], velocity), ("acceleration", &found.all[end..], acceleration)]
@@ -227,16 +200,20 @@ fn contain_emitted<F: Fixture + Certifiable>(oracle: &Oracle, found: &Enclosed, 
         // An error near a singular position, where the intervals are regular all the same.
         let Ok(emitted) = emitted else { continue };
         for (interval, emitted) in intervals.iter().zip(unknowns(emitted)) {
-            meets(*interval, emitted, || format!("{}: {what}", title::<F>()));
+            meets(what, *interval, emitted);
         }
     }
 }
 
+fn rounded(list: &[f64]) -> Vec<Rounded> {
+    list.iter().copied().map(Rounded::from).collect()
+}
+
 /// An emitted result within its bound, and an enclosure have numbers in common.
-fn meets(interval: Interval, emitted: Rounded, context: impl Fn() -> String) {
+fn meets(what: &str, interval: Interval, emitted: Rounded) {
     // Nothing is known of a result with an infinite bound.
     let Some(all) = Interval::around(emitted.value(), emitted.error()) else { return };
-    assert!(interval.intersection(all).is_some(), "{}: {emitted} is outside {interval:?}", context());
+    assert!(interval.intersection(all).is_some(), "{what}: {emitted} is outside {interval:?}");
 }
 
 /// The range of each result to first order.
@@ -262,23 +239,22 @@ fn first_order_ranges(reference: &Reference, sample: &Sample, radii: Radii) -> V
 }
 
 /// The emitted sensitivities, each within its bound of rounding error, meet the enclosures.
-pub fn of_sensitivities<F: WithHigherOrders + Certifiable>() {
-    let oracle = Oracle::of::<F>();
+pub fn of_sensitivities(of: &dyn Enclosable, emitted: &dyn ListedWithOrders<Rounded>) {
+    let oracle = Oracle::of(of);
+    let ratios = oracle.derivation.unknowns.len() * oracle.derivation.inputs.len();
     let mut random = SmallRng::seed_from_u64(20_091_124);
-    for sample in oracle.samples(poses()) {
+    oracle.at_samples(poses(), |_, sample| {
         let coordinates = 10_f64.powf(random.random_range(-7.0..-2.0));
         let radii = Radii { coordinates, parameters: 1e-2 * coordinates };
-        let Ok(found) = enclosed::<F>(&oracle, &sample, radii) else { continue };
-        let inner = moved(&oracle, &sample, radii, |x, radius| x + radius * random.random_range(-1.0..1.0));
-        let rounded = |list: &[f64]| list.iter().copied().map(Rounded::from).collect::<Vec<_>>();
-        let mechanism = F::OfOrders::<Rounded>::with_parameters(&rounded(&inner.parameters));
-        let Ok(emitted) = mechanism.sensitivity(&mechanism.pose(&rounded(&inner.q))) else { continue };
-        let ratios = F::UNKNOWNS.len() * F::INPUTS.len();
+        let Ok(found) = enclosed(of, &oracle, sample, radii) else { return };
+        let inner = moved(&oracle, sample, radii, |x, radius| x + radius * random.random_range(-1.0..1.0));
+        let pose = emitted.at(&rounded(&inner.parameters), &rounded(&inner.q));
+        let Ok(emitted) = pose.sensitivity() else { return };
         assert_eq!(emitted.len(), found.ends[0] - ratios);
         for (interval, emitted) in found.all[ratios..].iter().zip(emitted.as_slice()) {
-            meets(*interval, *emitted, || format!("sensitivity of {}", title::<F>()));
+            meets("sensitivity", *interval, *emitted);
         }
-    }
+    });
 }
 
 /// Prints the median and the largest of numbers, and returns the median.

@@ -8,9 +8,8 @@
 use linkage_compiler::derivation::Derivation;
 use linkage_compiler::graph::{NodeId, SymbolId};
 use linkage_compiler::ids::Id;
-use linkage_gallery::double_butterfly::DoubleButterfly;
-use linkage_gallery::stephenson_ii::StephensonII;
-use linkage_gallery::{Fixture, source};
+use linkage_gallery::listed::{Built, Listed, listed};
+use linkage_gallery::source;
 use linkage_oracle::precise::{Big, Scalar, big};
 use linkage_oracle::tape::Tape;
 use nalgebra::{DMatrix, DVector};
@@ -32,8 +31,8 @@ struct Exact {
 }
 
 impl Exact {
-    fn of<F: Fixture>() -> Self {
-        let mechanism = linkage_compiler::read(source::tokens_of(F::FILE)).expect(F::FILE).remove(0);
+    fn of(of: &dyn Listed<f64>) -> Self {
+        let mechanism = linkage_compiler::read(source::tokens_of(of.file())).expect("a file of the gallery").remove(0);
         let mut derivation = linkage_compiler::derive(&mechanism).remove(0);
         let zero = derivation.graph.zero();
         let columns: Vec<_> = derivation.unknowns.iter().chain(&derivation.inputs).copied().collect();
@@ -42,7 +41,7 @@ impl Exact {
         let roots: Vec<NodeId> = entries.chain(derivation.gamma.iter().copied()).collect();
         let tape = Tape::new(&derivation.graph, &roots, &[]);
         let symbols = mechanism.parameters.iter().map(|parameter| parameter.symbol);
-        let parameters = symbols.zip(F::default().parameters()).collect();
+        let parameters = symbols.zip(of.defaults()).collect();
         Self { derivation, parameters, tape }
     }
 
@@ -101,8 +100,8 @@ fn eliminated(mut rows: Vec<Vec<Big>>) -> Vec<Big> {
 }
 
 /// J of the unknowns.
-fn jacobian<F: Fixture>(m: &F, q: &[f64]) -> DMatrix<f64> {
-    let j = m.jacobian(&m.pose(q));
+fn jacobian(m: &dyn Built<f64>, q: &[f64]) -> DMatrix<f64> {
+    let j = m.pose(q).jacobian();
     let n = j.nrows();
     j.columns(0, n).into_owned()
 }
@@ -122,9 +121,9 @@ fn smallest_pivot(mut j: DMatrix<f64>) -> f64 {
 
 /// Angles with these smallest pivots: from a position some way before a dead point along its velocities, the direction
 /// in which J is singular.
-fn before_dead_point<F: Fixture>(m: &F, near: &[f64], pivots: [f64; 3]) -> [Vec<f64>; 3] {
+fn before_dead_point(m: &dyn Built<f64>, near: &[f64], pivots: [f64; 3]) -> [Vec<f64>; 3] {
     let start = DVector::from_vec(m.solved(near).expect("a position"));
-    let direction = DVector::from_vec(m.velocity(&m.pose(start.as_slice()), &[1.0]).expect("a regular position"));
+    let direction = DVector::from_vec(m.pose(start.as_slice()).velocity(&[1.0]).expect("a regular position"));
     let direction = direction.normalize();
     let at = |s: f64| (&start + &direction * s).as_slice().to_vec();
     let is_before = |s: f64| jacobian(m, &at(s)).determinant() * jacobian(m, &at(0.0)).determinant() > 0.0;
@@ -152,44 +151,44 @@ fn errors(exact: &Exact, expected: &[Vec<Big>; 2], rates: &[f64], accelerations:
     worst
 }
 
-fn keeps_its_digits<F: Fixture>(near: &[f64]) {
-    let (m, exact) = (F::default(), Exact::of::<F>());
+fn keeps_its_digits(of: &dyn Listed<f64>, near: &[f64]) {
+    let (m, exact) = (of.with_parameters(&of.defaults()), Exact::of(of));
     let pivots = [1e-3, 1e-6, 1e-9];
-    for (q, pivot) in before_dead_point(&m, near, pivots).iter().zip(pivots) {
-        let j = jacobian(&m, q);
+    for (q, pivot) in before_dead_point(&*m, near, pivots).iter().zip(pivots) {
+        let j = jacobian(&*m, q);
         let found = smallest_pivot(j.clone());
         assert!((0.8..1.25).contains(&(found / pivot)), "a pivot of {found:.1e}");
         let pose = m.pose(q);
         let expected = exact.motion(q);
         let within = |from: &str, [velocity, acceleration]: [f64; 2]| {
-            println!("{}, {pivot:.0e}, {from}: {velocity:.1e}, {acceleration:.1e}", F::FILE);
+            println!("{}, {pivot:.0e}, {from}: {velocity:.1e}, {acceleration:.1e}", of.file());
             assert!(velocity <= FOUR_ULP && acceleration <= FOUR_ULP, "{from}: {velocity:e}, {acceleration:e}");
         };
-        let rates = m.velocity(&pose, &[RATE]).unwrap();
-        let accelerations = m.acceleration(&pose, &rates, &[ACCELERATION]).unwrap();
+        let rates = pose.velocity(&[RATE]).unwrap();
+        let accelerations = pose.acceleration(&rates, &[ACCELERATION]).unwrap();
         within("velocity, acceleration", errors(&exact, &expected, &rates, &accelerations));
         let motion = m.motion(q, &[RATE], &[ACCELERATION]).unwrap();
         let [_, rates, accelerations] = &motion.coordinates;
         within("motion", errors(&exact, &expected, rates, accelerations));
-        let ratios = m.velocity_ratios(&pose).unwrap();
+        let ratios = pose.velocity_ratios().unwrap();
         for (ratio, expected) in ratios.iter().zip(&expected[0]) {
             let error = relative(ratio * RATE, expected);
             assert!(error <= FOUR_ULP, "velocity ratios: {error:e}");
         }
         // A library's factorisation of J in doubles loses these digits.
-        let by_input = m.jacobian(&pose).column(j.ncols()) * -RATE;
+        let by_input = pose.jacobian().column(j.ncols()) * -RATE;
         let library = j.lu().solve(&by_input).unwrap();
         let lost = library.iter().zip(&expected[0]).map(|(found, expected)| relative(*found, expected));
         let lost = lost.fold(0.0, f64::max);
-        println!("{}, {pivot:.0e}, library: {lost:.1e}", F::FILE);
+        println!("{}, {pivot:.0e}, library: {lost:.1e}", of.file());
         assert!(pivot > 1e-5 || lost > 1e-19 / pivot, "{lost:e}");
     }
 }
 
 /// From guesses ever nearer to the last position of the input, at the angles that Newton's method finds.
-fn keeps_its_digits_by_newton<F: Fixture>(near: &[f64]) {
-    let (m, exact) = (F::default(), Exact::of::<F>());
-    let [beyond, ..] = before_dead_point(&m, near, [1e-3; 3]);
+fn keeps_its_digits_by_newton(of: &dyn Listed<f64>, near: &[f64]) {
+    let (m, exact) = (of.with_parameters(&of.defaults()), Exact::of(of));
+    let [beyond, ..] = before_dead_point(&*m, near, [1e-3; 3]);
     let mut last = m.solved(near).unwrap();
     let input = exact.derivation.inputs.iter().next().expect("an input").index();
     // Bisection between the last position and an input without position.
@@ -199,8 +198,8 @@ fn keeps_its_digits_by_newton<F: Fixture>(near: &[f64]) {
         guess[input] += step;
         step *= 0.5;
         let Ok(moving) = m.moving(&guess, 0, &[RATE], &[ACCELERATION], false) else { continue };
-        last = F::listed(&moving.pose);
-        let pivot = smallest_pivot(jacobian(&m, &last));
+        last = moving.pose.coordinates();
+        let pivot = smallest_pivot(jacobian(&*m, &last));
         if pivot > 0.01 {
             continue;
         }
@@ -216,12 +215,14 @@ const STEPHENSON_II: [f64; 5] = [-0.944, -0.871, 0.178, 2.315, 2.283];
 
 #[test]
 fn double_butterfly() {
-    keeps_its_digits::<DoubleButterfly>(&DOUBLE_BUTTERFLY);
-    keeps_its_digits_by_newton::<DoubleButterfly>(&DOUBLE_BUTTERFLY);
+    let of = listed("double_butterfly", "DoubleButterfly");
+    keeps_its_digits(of, &DOUBLE_BUTTERFLY);
+    keeps_its_digits_by_newton(of, &DOUBLE_BUTTERFLY);
 }
 
 #[test]
 fn stephenson_ii() {
-    keeps_its_digits::<StephensonII>(&STEPHENSON_II);
-    keeps_its_digits_by_newton::<StephensonII>(&STEPHENSON_II);
+    let of = listed("stephenson_ii", "StephensonII");
+    keeps_its_digits(of, &STEPHENSON_II);
+    keeps_its_digits_by_newton(of, &STEPHENSON_II);
 }

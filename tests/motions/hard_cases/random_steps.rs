@@ -6,9 +6,10 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
-use linkage::{D, Dim, Elbow, Mechanism, PathError, PerInput};
+use linkage::position::newton;
+use linkage::{Assembly, D, Dim, Elbow, Mechanism, PathError, PerInput};
 use linkage_gallery::four_bar::{FourBar, FourBarBranch};
-use linkage_gallery::{ClosedForm, Fixture, Kinematics, all_mechanisms};
+use linkage_gallery::{Fixture, all_mechanisms, named};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -147,18 +148,18 @@ fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
 
 /// Walks by the number of inputs: several inputs follow one parameter.
 trait Inputs: Dim {
-    fn closed<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count;
-    fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
-    fn open<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+    fn closed<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
+    fn newton<M: Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
+    fn open<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
         Self::closed(m, steps, random)
     }
 }
 
 impl Inputs for D<1> {
-    fn closed<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+    fn closed<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
         let at = |input: f64, branch| m.assemble(PerInput::<M>::from([input]).into(), branch).ok();
         let starts = |input: f64, _: &mut SmallRng| {
-            M::all_branches().into_iter().filter_map(|branch| Some(M::coordinates_of(&at(input, branch)?))).collect()
+            M::branches().into_iter().filter_map(|branch| Some(M::coordinates_of(&at(input, branch)?))).collect()
         };
         // The turns that are nearest to the last position.
         let expected = |start: &M::Coordinates, before: &M::Coordinates, input: f64| {
@@ -168,7 +169,7 @@ impl Inputs for D<1> {
         walk(&m, starts, expected, steps, random)
     }
 
-    fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+    fn newton<M: Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
         let starts = |input: f64, random: &mut SmallRng| {
             from_a_random_guess(&m, PerInput::<M>::from([input]), random).into_iter().collect()
         };
@@ -177,16 +178,20 @@ impl Inputs for D<1> {
 }
 
 /// The position that Newton's method finds at these inputs from random unknowns.
-fn from_a_random_guess<M: Fixture>(m: &M, inputs: PerInput<M>, random: &mut SmallRng) -> Option<M::Coordinates> {
+fn from_a_random_guess<M: Fixture<Scalar = f64>>(
+    m: &M,
+    inputs: PerInput<M>,
+    random: &mut SmallRng,
+) -> Option<M::Coordinates> {
     let guess: Vec<f64> = (0..M::U::COUNT + M::V::COUNT).map(|_| random.random_range(-PI..PI)).collect();
-    let guess = M::with_inputs(&M::named(&guess), inputs);
-    Some(M::named(&m.solved(&M::listed(&m.pose_at(&guess))).ok()?))
+    let guess = M::with_inputs(&named::<M, _>(&guess), inputs);
+    Some(newton(m, &M::coordinates_of(&m.pose_at(&guess))).ok()?.coordinates)
 }
 
 macro_rules! several_inputs {
     ($($count:literal)*) => {$(
         impl Inputs for D<$count> {
-            fn closed<M: ClosedForm<V = Self> + Fixture>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+            fn closed<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
                 let scale = scale(&m);
                 let m = Along { mechanism: m, inputs: move |s| round::<M>(scale, s) };
                 let at = |parameter: f64, branch| {
@@ -194,7 +199,7 @@ macro_rules! several_inputs {
                     Some(AlongCoordinates { q: M::coordinates_of(&pose), parameter })
                 };
                 let starts = |s: f64, _: &mut SmallRng| {
-                    M::all_branches().into_iter().filter_map(|branch| at(s, branch)).collect()
+                    M::branches().into_iter().filter_map(|branch| at(s, branch)).collect()
                 };
                 let expected = |start: &AlongCoordinates<_>, _: &AlongCoordinates<_>, s| {
                     at(s, m.mechanism.branch_of(&m.mechanism.pose_at(&m.position(start))))
@@ -202,7 +207,7 @@ macro_rules! several_inputs {
                 walk(&m, starts, expected, steps, random)
             }
 
-            fn newton<M: Fixture<V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
+            fn newton<M: Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
                 let scale = scale(&m);
                 let m = Along { mechanism: m, inputs: move |s| round::<M>(scale, s) };
                 let starts = |s: f64, random: &mut SmallRng| {
@@ -218,7 +223,7 @@ macro_rules! several_inputs {
 several_inputs!(2 3 4);
 
 /// The largest parameter, which is of the order of the lengths.
-fn scale<M: Kinematics<f64>>(m: &M) -> f64 {
+fn scale<M: Fixture<Scalar = f64>>(m: &M) -> f64 {
     m.parameters().into_iter().fold(0.0, f64::max)
 }
 

@@ -1,7 +1,6 @@
 //! Conditions on every position of a course: loops are closed, links are rigid, and all methods find the same position.
 
-use linkage::{D, Mechanism, PositionError};
-use linkage_gallery::ClosedForm;
+use linkage::{Assembly, D, Kinematic, Mechanism, PositionError};
 use nalgebra::Point2;
 
 use super::course::Course;
@@ -61,7 +60,7 @@ impl<M: Mechanism<Scalar = f64, V = D<1>>> Course<'_, M> {
     }
 }
 
-impl<M: ClosedForm<Scalar = f64, V = D<1>>> Course<'_, M> {
+impl<M: Assembly + Kinematic<Scalar = f64, V = D<1>>> Course<'_, M> {
     /// Checks the closed form on the branch of the course: it finds each position with its loops closed, and its
     /// determinants, from the half chord, are those from the angles.
     #[track_caller]
@@ -97,7 +96,7 @@ impl<M: ClosedForm<Scalar = f64, V = D<1>>> Course<'_, M> {
 }
 
 /// The bits of the coordinates of a pose and of all numbers that the constraints make of it.
-fn bits<M: ClosedForm<Scalar = f64>>(m: &M, pose: &M::Pose) -> Vec<u64> {
+fn bits<M: Kinematic<Scalar = f64>>(m: &M, pose: &M::Pose) -> Vec<u64> {
     let (unknowns, inputs) = M::parts(&M::coordinates_of(pose));
     let (residual, determinants, determinant) = (m.residual(pose), m.block_determinants(pose), m.determinant(pose));
     let (j, a) = (m.jacobian_unknowns(pose), m.jacobian_inputs(pose));
