@@ -342,10 +342,10 @@ fn links_that_do_not_reach_are_named() {
     }
     // A rod shorter than the offset.
     let m = OffsetSliderCrank { b: 1.0, ..OffsetSliderCrank::default() };
-    assert!(matches!(
-        m.assemble(0.0, OffsetSliderCrankBranch::new(Slider::Far)),
-        Err(PositionError::Unbuildable { group: "theta3", .. })
-    ));
+    match m.assemble(0.0, OffsetSliderCrankBranch::new(Slider::Far)) {
+        Err(PositionError::Unbuildable { group: "theta3", gap, .. }) => approx::assert_relative_eq!(gap, 19.0),
+        other => panic!("{other:?}"),
+    }
 }
 
 /// For links that just touch, the chord is zero even if its rounding error is negative.

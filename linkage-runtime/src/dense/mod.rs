@@ -21,6 +21,8 @@ mod leading;
 mod lu;
 mod ranked;
 mod rows;
+#[cfg(test)]
+mod tests;
 
 pub use cholesky::Cholesky;
 pub use definite::Definite;

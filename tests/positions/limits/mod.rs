@@ -2,6 +2,7 @@
 //! against trial positions.
 
 mod gaps;
+mod many_turns;
 
 use std::f64::consts::{PI, TAU};
 
