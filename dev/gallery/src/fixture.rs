@@ -83,7 +83,7 @@ macro_rules! own {
     };
 }
 
-/// What follows from `derive jerk, velocity_ratio_derivatives, sensitivity` is in no trait of the library either.
+/// The functions of `derive jerk, velocity_ratio_derivatives, sensitivity`, which are in no trait of the library.
 macro_rules! higher_orders {
     ($file:ident [$($Mechanism:ident $method:ident)+]) => {};
     ($file:ident [$($Mechanism:ident $method:ident)+] orders) => {$(
