@@ -346,6 +346,10 @@ fn links_that_do_not_reach_are_named() {
         Err(PositionError::Unbuildable { group: "theta3", gap, .. }) => approx::assert_relative_eq!(gap, 19.0),
         other => panic!("{other:?}"),
     }
+    // A sum that overflows is no gap.
+    let m = OffsetSliderCrank { b: f64::MAX / 2.0, c: f64::MAX, ..OffsetSliderCrank::default() };
+    let found = m.assemble(0.0, OffsetSliderCrankBranch::new(Slider::Far));
+    assert!(matches!(found, Err(PositionError::NotFinite { .. })), "{found:?}");
 }
 
 /// For links that just touch, the chord is zero even if its rounding error is negative.
