@@ -199,3 +199,77 @@ fn slip_that_has_just_begun_goes_on_where_it_grows() {
         assert!(contacts.review(&block(0.0, 0.0, 0.0)).unwrap().modes_hold, "push {push}, belt {belt}");
     }
 }
+
+/// A block of mass 1 on a belt that accelerates, pushed relative to it with its friction limit of 1, and by some rounding
+/// errors more: it stays, in any unit of force. Pushed by more than the 1024 ulps of a held force it slips.
+#[test]
+fn a_block_at_its_limit_stays_on_an_accelerating_belt() {
+    for unit in [1e-9, 1.0, 1e9] {
+        for belt in [0.0, 0.5, -0.5, 4.0, -4.0] {
+            // The magnitudes of the terms of s''.
+            let size = f64::abs(1.0 + belt) + f64::abs(belt) + 1.0;
+            for direction in [1.0, -1.0] {
+                for (ulps, expected) in [
+                    (0.0, Mode::Stick),
+                    (500.0, Mode::Stick),
+                    (4000.0, if direction > 0.0 { Mode::SlipForward } else { Mode::SlipBackward }),
+                ] {
+                    let excess = ulps * f64::EPSILON * size;
+                    let equations = ReducedEquations::<f64, D<1>, D<1>> {
+                        scene: "Belt",
+                        coordinates: ["x"].into(),
+                        mass: Matrix::identity(),
+                        forces: Column::from([direction * unit * (1.0 + belt + excess)]),
+                        rates: Column::zeros(),
+                        contacts: Column::from([ReducedContact {
+                            name: "friction",
+                            value: 0.0,
+                            row: Column::from([1.0]),
+                            drift: 0.0,
+                            // The acceleration of the belt, that of the block left aside.
+                            bias: -direction * unit * belt,
+                            law: ContactLaw::Friction { limit: unit },
+                        }]),
+                        bearings: Column::repeat(None),
+                    };
+                    let at = |rates: &Column<f64, D<1>>| {
+                        Ok::<_, MotionError>(ReducedEquations { rates: *rates, ..equations })
+                    };
+                    let (contacts, _) = Contacts::begin(0.0, &Column::zeros(), at).unwrap();
+                    assert_eq!(contacts.modes[0], expected, "{unit:e} {belt} {direction} {ulps}");
+                }
+            }
+        }
+    }
+}
+
+/// A crank at a dead centre, where s = bend v^2 / 2 rests on a stop and no force along s can hold it. Where the crank
+/// turns, s leaves the stop if it bends away from it.
+#[test]
+fn at_a_dead_centre_s_leaves_the_stop_from_which_it_bends_away() {
+    for (value, bend, expected) in
+        [(0.0, 2.0, Mode::Open), (0.0, -2.0, Mode::AtLower), (1.0, -2.0, Mode::Open), (1.0, 2.0, Mode::AtUpper)]
+    {
+        let at = |rates: &Column<f64, D<1>>| {
+            Ok::<_, MotionError>(ReducedEquations::<f64, D<1>, D<1>> {
+                scene: "Crank",
+                coordinates: ["v"].into(),
+                mass: Matrix::identity(),
+                forces: Column::from([3.0]),
+                rates: *rates,
+                contacts: Column::from([ReducedContact {
+                    name: "stop",
+                    value,
+                    row: Column::zeros(),
+                    drift: 0.0,
+                    bias: bend * rates[0] * rates[0],
+                    law: ContactLaw::Stop { lower: 0.0, upper: 1.0, restitution: 0.0 },
+                }]),
+                bearings: Column::repeat(None),
+            })
+        };
+        let (contacts, _) = Contacts::begin(0.0, &Column::zeros(), at).unwrap();
+        assert_eq!(contacts.modes[0], expected, "{value} {bend}");
+        assert_eq!(contacts.motion(&at(&Column::zeros()).unwrap()).unwrap().acceleration[0], 3.0);
+    }
+}
