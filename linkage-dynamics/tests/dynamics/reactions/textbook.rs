@@ -1,9 +1,9 @@
 //! Blocks, wedges, toggles, ladders, drawers and rods of textbooks.
 
 use super::{Equations, bearing, equations, guide, reaction, solved};
-use linkage_dynamics::contact::{Contacts, ReducedBearing, ReducedReaction};
-use linkage_dynamics::{Mode, MotionError};
-use linkage_runtime::Column;
+use linkage_dynamics::contact::{Contacts, ReducedBearing, ReducedContact, ReducedReaction};
+use linkage_dynamics::{ContactLaw, Mode, MotionError};
+use linkage_runtime::{Column, D};
 
 /// One part in 1e12 is about four times the 1024 ulps of a held force.
 const NEXT: f64 = 1e-12;
@@ -255,4 +255,72 @@ fn a_pin_without_load_slips_with_force_zero() {
             assert_eq!((motion.forces[0].abs(), motion.acceleration[0]), (0.0, force / 2.0), "{gain} {rate}");
         }
     }
+}
+
+/// A pin that only its own friction loads, with a friction of exactly the force that loads it so: any friction satisfies
+/// the law, and none is chosen.
+#[test]
+fn a_pin_that_any_friction_loads_enough_is_undecided() {
+    let components = [reaction(0.0, [0.0], [2.0]), ReducedReaction::zero()];
+    for rate in [1.0, -1.0] {
+        let pin = (bearing("friction", 0.5, [1.0], rate), Some(ReducedBearing { components }));
+        let found = solved(&equations([[2.0]], [5.0], [pin])).unwrap_err();
+        assert_eq!(found, MotionError::UndecidedMotion { scene: "Scene", contact: "friction", t: None });
+    }
+}
+
+/// In another unit of force, 2^k times as large, the same slider-crank holds with the same digits.
+#[test]
+fn a_slider_crank_holds_in_every_unit() {
+    for torque in [0.0, 0.01, -0.02, 0.05, -0.1, 0.2] {
+        let (contacts, motion) = solved(&slider_crank(torque)).unwrap();
+        for unit in [-60, -20, 20, 60].map(|k| 2.0_f64.powi(k)) {
+            let mut scaled = slider_crank(torque * unit);
+            scaled.mass = scaled.mass * unit;
+            for component in scaled.bearings.iter_mut().flatten().flat_map(|bearing| &mut bearing.components) {
+                component.constant *= unit;
+                component.accelerations = component.accelerations * unit;
+            }
+            let (same, other) = solved(&scaled).unwrap();
+            assert_eq!(same.modes, contacts.modes, "{torque} {unit:e}");
+            assert_eq!(other.acceleration, motion.acceleration, "{torque} {unit:e}");
+            assert_eq!(other.forces, motion.forces * unit, "{torque} {unit:e}");
+        }
+    }
+}
+
+/// A slide that two given frictions hold: how they share its load is not known. A pad that is driven along it is pressed
+/// to it by one of these frictions, so that its friction is not known either.
+fn slide_with_pad(pad: [f64; 2]) -> (Equations<2, 3>, Contacts<f64, D<3>>) {
+    let held = |name| {
+        let law = ContactLaw::Friction { limit: 2.0 };
+        ReducedContact { law, ..bearing(name, 0.0, [1.0, 0.0], 0.0) }
+    };
+    let pressed = guide(reaction(4.0, [0.0, 0.0], [1.0, 0.0, 0.0]));
+    let contacts =
+        [(held("front friction"), None), (held("rear friction"), None), (bearing("pad", 0.25, pad, 1.0), pressed)];
+    let modes = [Mode::Stick, Mode::Stick, Mode::SlipForward];
+    (equations([[1.0, 0.0], [0.0, 2.0]], [1.0, 0.0], contacts), Contacts::in_modes(modes.into()))
+}
+
+/// Where the pad moves no other body, the slide stays, and forces that fit are returned.
+#[test]
+fn forces_that_are_not_known_hold_what_they_do_not_move() {
+    let (equations, contacts) = slide_with_pad([0.0, 0.0]);
+    let motion = contacts.motion(&equations).unwrap();
+    assert_eq!(motion.acceleration, Column::zeros());
+    assert!(!motion.are_unique);
+    let [front, rear, pad] = <[f64; 3]>::from(motion.forces);
+    assert!((front + rear + 1.0).abs() <= 1e-15 && front.abs() <= 2.0 && rear.abs() <= 2.0, "{motion:?}");
+    assert!((pad + 0.25 * (4.0 + front)).abs() <= 1e-15, "{motion:?}");
+    assert!(contacts.review(&equations).unwrap().modes_hold);
+    assert_eq!(solved(&equations).unwrap().1.acceleration, Column::zeros());
+}
+
+/// Where its friction moves a body, the motion of that is not known.
+#[test]
+fn forces_that_are_not_known_decide_no_motion() {
+    let (equations, contacts) = slide_with_pad([0.0, 1.0]);
+    let undecided = MotionError::UndecidedMotion { scene: "Scene", contact: "pad", t: None };
+    assert_eq!(contacts.motion(&equations).unwrap_err(), undecided);
 }
