@@ -207,7 +207,7 @@ pub(super) fn may_pass(samples: [[f64; 2]; 5]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::Course;
+    use super::{Course, may_pass};
 
     /// The function 1 - 16 E x^2 (1 - x)^2 has its minimum 1 - E at the middle; its cubic is 1.
     #[test]
@@ -217,6 +217,42 @@ mod tests {
         }
         for error in [1.01, 1.1, 1.9] {
             assert!(!Course::new([1.0, 0.0], [1.0, 0.0], error).is_positive([0.0; 5]), "{error}");
+        }
+    }
+
+    /// The cubic 4 (x - low)^2 (x - 3/2 high + low / 2) has the derivative 12 (x - low) (x - high).
+    #[test]
+    fn a_course_is_the_cubic_with_its_values_and_rates() {
+        for (high, low) in [(0.25, 0.75), (0.5, 0.875), (-2.0, 0.125), (-0.5, 1.5), (0.625, 3.0)] {
+            let value = |x: f64| 4.0 * (x - low) * (x - low) * (x - 1.5 * high + 0.5 * low);
+            let rate = |x: f64| 12.0 * (x - low) * (x - high);
+            let course = Course::new([value(0.0), rate(0.0)], [value(1.0), rate(1.0)], 0.0);
+            let size = value(0.0).abs().max(value(1.0).abs());
+            for x in [0.0, 0.125, 0.25, 0.5, 0.6875, 0.75, 1.0] {
+                assert!((course.at(x) - value(x)).abs() <= 1e-14 * size, "{high} {low} {x}: {}", course.at(x));
+            }
+            let inside = |x: f64| (0.0 < x && x < 1.0).then_some(x);
+            for (found, expected) in course.extrema().into_iter().zip([inside(low), inside(high)]) {
+                assert_eq!(found.is_some(), expected.is_some(), "{high} {low}");
+                assert!(found.zip(expected).is_none_or(|(a, b)| (a - b).abs() <= 1e-14), "{high} {low}: {found:?}");
+            }
+        }
+    }
+
+    /// Parabolas that are positive at all samples, with the vertex between two of them.
+    #[test]
+    fn a_parabola_may_pass_if_its_vertex_is_below_zero() {
+        for curvature in [1e-3, 1.0, 1e3, 1e6] {
+            for vertex in [0.125, 0.3, 0.375, 0.45, 0.6, 0.875] {
+                for (height, passes) in [(-1e-3, true), (1e-3, false), (1.0, false)] {
+                    let samples = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x: f64| {
+                        let off = x - vertex;
+                        [curvature * (off * off + height), 2.0 * curvature * off]
+                    });
+                    assert!(samples.iter().all(|[value, _]| *value > 0.0));
+                    assert_eq!(may_pass(samples), passes, "{curvature:e} {vertex} {height}");
+                }
+            }
         }
     }
 }
