@@ -202,14 +202,12 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     }
 
     /// Forces where flat bounds are active.
-    fn on_edges(&self, family: &Family<T, C>) -> Option<Column<T, C>> {
+    pub(super) fn on_edges(&self, family: &Family<T, C>) -> Option<Column<T, C>> {
         if self.is_admissible(&family.base) {
             return Some(family.base);
         }
-        match family.spares {
-            0 => return None,
-            1 => return self.on_line(family),
-            _ => {}
+        if family.spares == 1 {
+            return self.on_line(family);
         }
         self.bounded().filter(|&place| self.is_flat(place)).find_map(|place| {
             let slopes: Column<T, C> = family.columns.map(|column| column[place]);
@@ -348,7 +346,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
 }
 
 /// The roots of |f_0 + f_1 y|^2 = |r_0 + r_1 y|^2.
-fn quadratic<T: Real>([f, by]: [T; 2], r: [T; 2], slope: [T; 2]) -> [Option<T>; 2] {
+pub(super) fn quadratic<T: Real>([f, by]: [T; 2], r: [T; 2], slope: [T; 2]) -> [Option<T>; 2] {
     if r[1].is_zero() && slope[1].is_zero() {
         // Two linear equations, without the loss of digits of a square.
         let root = |sign: T| {

@@ -16,6 +16,8 @@ mod path;
 mod problem;
 mod search;
 mod slip;
+#[cfg(test)]
+mod tests;
 
 use super::held::Held;
 use super::motion::ContactMotion;

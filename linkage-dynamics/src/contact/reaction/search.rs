@@ -124,7 +124,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
 
     /// Tries Krawczyk's operator on the cell, enlarged by a quarter; returns true if it contains no solution, or its
     /// only one was found.
-    fn is_decided(&self, cell: &Cell<T, C>, fixed: Option<usize>, unit: T, roots: &mut Roots<T, C>) -> bool {
+    pub(super) fn is_decided(&self, cell: &Cell<T, C>, fixed: Option<usize>, unit: T, roots: &mut Roots<T, C>) -> bool {
         let count = self.count;
         let Homogeneous { slope, by_scale, residual } = self.homogeneous(cell.scale[0], &cell.centre);
         let square = |slope: &Matrix<T, C, C>, by_scale: &Column<T, C>| {

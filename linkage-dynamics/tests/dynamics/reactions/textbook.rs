@@ -279,7 +279,7 @@ fn a_slider_crank_holds_in_every_unit() {
             scaled.mass = scaled.mass * unit;
             for component in scaled.bearings.iter_mut().flatten().flat_map(|bearing| &mut bearing.components) {
                 component.constant *= unit;
-                component.accelerations = component.accelerations * unit;
+                component.accelerations *= unit;
             }
             let (same, other) = solved(&scaled).unwrap();
             assert_eq!(same.modes, contacts.modes, "{torque} {unit:e}");
@@ -303,7 +303,7 @@ fn slide_with_pad(pad: [f64; 2]) -> (Equations<2, 3>, Contacts<f64, D<3>>) {
     (equations([[1.0, 0.0], [0.0, 2.0]], [1.0, 0.0], contacts), Contacts::in_modes(modes.into()))
 }
 
-/// Where the pad moves no other body, the slide stays, and forces that fit are returned.
+/// The slide stays if the pad moves no other body, and forces that fit are returned.
 #[test]
 fn forces_that_are_not_known_hold_what_they_do_not_move() {
     let (equations, contacts) = slide_with_pad([0.0, 0.0]);
@@ -317,7 +317,7 @@ fn forces_that_are_not_known_hold_what_they_do_not_move() {
     assert_eq!(solved(&equations).unwrap().1.acceleration, Column::zeros());
 }
 
-/// Where its friction moves a body, the motion of that is not known.
+/// If the friction of the pad moves a body, the motion of that is not known.
 #[test]
 fn forces_that_are_not_known_decide_no_motion() {
     let (equations, contacts) = slide_with_pad([0.0, 1.0]);
