@@ -4,6 +4,7 @@ mod algebra;
 mod bodies_by_hand;
 mod closed_forms;
 mod dangling;
+mod divisors;
 mod exponents;
 mod features;
 mod limits;
