@@ -95,7 +95,7 @@ fn a_cell_is_decided_by_its_own_solution() {
         if !slips.is_decided(&cell, fixed, 1.0, &mut roots) {
             continue;
         }
-        // 1e-9 is for the rounding error of a solution.
+        // A solution has a rounding error, of less than 1e-9.
         let is_in = |root: &Column<f64, D<2>>, share: f64| {
             let (scale, t) = on_face(root, fixed);
             let is_near = |[centre, radius]: [f64; 2], value: f64| (value - centre).abs() <= share * radius + 1e-9;
@@ -136,7 +136,7 @@ fn a_force_meets_its_limit_at_the_roots() {
     }
 }
 
-/// Within the rounding error of a double root.
+/// True if a root is this y. Where two roots are equal, a rounding error moves them by its square root.
 fn is_root(found: &[Option<f64>], y: f64) -> bool {
     found.iter().flatten().any(|root| (root - y).abs() <= 64.0 * f64::EPSILON.sqrt() * (1.0 + y.abs()))
 }
@@ -186,8 +186,8 @@ fn at_rest(components: &[ReducedReaction<f64, D<1>, D<3>>; 2], forces: &Forces) 
     x.hypot(y)
 }
 
-/// True if the mass stands and each force is within its limit. Rounding errors are 1e-12 of the terms, about four times
-/// the 1024 ulps of a held force.
+/// True if the mass stands and each force is within its limit. Sums may be off by 1e-12 of their terms: that is about four
+/// times the 1024 ulps that a held force may be off by.
 fn hold(equations: &Equations, forces: &Forces) -> bool {
     let rows = equations.contacts.map(|contact| contact.row[0]);
     let terms = rows.component_mul(forces);
