@@ -24,6 +24,8 @@ pub struct Graph {
     /// The names of the value and the derivatives of each user function.
     pub(super) externals: Vec<Vec<String>>,
     pub(super) fault: Option<Fault>,
+    /// The faults of nodes, which recur with them: a node made in a failed attempt may be wanted again.
+    faults: FxHashMap<NodeId, Fault>,
     pub(super) conditions: BTreeSet<Condition>,
     /// The remaining work; copies of a graph share it.
     pub(super) budget: Budget,
@@ -41,6 +43,12 @@ impl Graph {
     #[must_use]
     pub fn within(budget: &Budget) -> Self {
         Self { budget: budget.clone(), ..Self::default() }
+    }
+
+    /// A copy that has a budget of its own.
+    #[must_use]
+    pub fn copy_within(&self, budget: &Budget) -> Self {
+        Self { budget: budget.clone(), ..self.clone() }
     }
 
     /// The remaining work. Once it is spent, no nodes are made, and an arbitrary node is returned instead.
@@ -165,16 +173,19 @@ impl Graph {
 
     pub(super) fn intern(&mut self, node: Node) -> NodeId {
         if let Some(&id) = self.ids.get(&node) {
+            self.fault = self.fault.or_else(|| self.faults.get(&id).copied());
             return id;
         }
         if let Some(any) = self.unaffordable(STEPS_OF_A_NODE + STEPS_OF_A_PART * node.parts()) {
             return any;
         }
         let value = node_value(&node, |_| None, |_, _| None, |id| self.values[id.index()]);
-        if value.is_some_and(|value| !value.is_finite()) || self.is_out_of_range(&node) {
-            self.fault.get_or_insert(Fault::of(&node));
-        }
         let id = NodeId(self.nodes.len());
+        if value.is_some_and(|value| !value.is_finite()) || self.is_out_of_range(&node) {
+            let fault = Fault::of(&node);
+            self.faults.insert(id, fault);
+            self.fault.get_or_insert(fault);
+        }
         self.values.push(value);
         // A node with a value has no symbols.
         let may_be_undefined = value.is_none() && self.has_gaps(&node);
@@ -344,5 +355,21 @@ mod tests {
         g.divide(a, zero);
         assert_eq!(g.take_fault(), Some(Fault::DivisionByZero));
         assert_eq!(g.take_fault(), None);
+    }
+
+    /// An expression of a failed attempt has its fault wherever it is made again.
+    #[test]
+    fn faults_recur() {
+        let mut g = Graph::default();
+        let (a, _) = symbols(&mut g);
+        let huge = g.number(Number::parse("1e200").unwrap());
+        let squared = |g: &mut Graph| {
+            let product = g.multiply(huge, a);
+            g.power(product, 2)
+        };
+        assert!(g.attempt(|g| Some(squared(g))).is_none());
+        assert_eq!(g.take_fault(), None);
+        squared(&mut g);
+        assert_eq!(g.take_fault(), Some(Fault::OutOfRange));
     }
 }
