@@ -376,11 +376,15 @@ pub(super) fn argument(name: &str, is_used: bool) -> Ident {
 
 /// (count, parts) if the number is count * pi / parts with parts up to 180.
 pub(super) fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
+    /// Fractions with larger counts are so close together that any number is near one.
+    const MOST: f64 = 1e6;
     let Number::Float(value) = number else { return None };
     // 180 parts are whole degrees; finer fractions of pi are written as decimals.
     (1..=180_u32).map(f64::from).find_map(|parts| {
         let count = (value / PI * parts).round();
-        let same = count != 0.0 && (count * PI / parts - value).abs() <= 4.0 * f64::EPSILON * value.abs();
+        let same = count != 0.0
+            && count.abs() < MOST
+            && (count * PI / parts - value).abs() <= 4.0 * f64::EPSILON * value.abs();
         same.then_some((count, parts))
     })
 }
@@ -498,4 +502,20 @@ pub(super) fn separated(value: f64) -> TokenStream {
         let literal = Literal::f64_unsuffixed(value);
         quote!(#literal)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_of_pi_have_small_counts() {
+        let fractions = [(1.0, 1.0), (2.0, 3.0), (7.0, 180.0), (999_999.0, 1.0)];
+        for (count, parts) in fractions {
+            assert_eq!(parts_of_pi(Number::Float(count * PI / parts)), Some((count, parts)));
+        }
+        for large in [1e17, 1e154, 1e300] {
+            assert_eq!(parts_of_pi(Number::Float(large)), None);
+        }
+    }
 }
