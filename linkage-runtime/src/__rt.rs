@@ -26,6 +26,7 @@ pub use crate::motion::{
     each_sized, finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };
 pub use crate::position::newton_group;
+pub use crate::ranges::{in_range, ranged, ranged_direction, ranged_modulo_turns};
 pub use crate::scalar::{largest, unit};
 pub use crate::skeleton::{Part, Skeleton};
 pub use crate::turn::{NearestTurns, Turn, Turns, countable};
@@ -34,8 +35,8 @@ pub use crate::wide::{
 };
 pub use crate::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Elbow, Formulas, Group, InputError,
-    Limits, Matrix, Mechanism, Number, OutputMotion, PointMotion, PositionError, Real, Slider, Slope, Solution, lane,
-    newton, newton_any_branch, real,
+    Limits, Matrix, Mechanism, Number, OutputMotion, PointMotion, PositionError, Ranged, Real, Slider, Slope, Solution,
+    lane, newton, newton_any_branch, real,
 };
 
 /// The types of emitted derivations.

@@ -1,6 +1,6 @@
 //! The formulas of a mechanism over numbers of any kind.
 
-use crate::{Column, Dim, Mechanism, Number};
+use crate::{Column, Dim, Mechanism, Number, Ranged};
 
 /// The formulas of a mechanism without a comparison: over intervals, each result contains the results for all numbers of
 /// the intervals.
@@ -52,6 +52,16 @@ pub trait Formulas: Sized {
         unknowns: &Column<Self::Number, Self::U>,
         inputs: &Column<Self::Number, Self::V>,
     ) -> Column<Self::Number, Self::Q>;
+    /// The value with a range at this place of [`RANGES`](Mechanism::RANGES), with its ends; none beyond the last. An angle
+    /// modulo turns is as it is given.
+    fn ranged(
+        &self,
+        _: usize,
+        _: &Column<Self::Number, Self::U>,
+        _: &Column<Self::Number, Self::V>,
+    ) -> Option<Ranged<Self::Number>> {
+        None
+    }
 }
 
 /// A mechanism whose motions can be certified: its formulas exist over all kinds of numbers.

@@ -163,7 +163,7 @@ pub trait Kinematic:
     ) -> Result<Self::Accelerations, PositionError>;
     /// The position at the inputs of `guess` on this branch, with its rates and accelerations, in one computation. Groups
     /// without a closed form are solved by Newton's method from the guess; a position in closed form depends on the inputs
-    /// alone.
+    /// alone, and at a change point a branch may jump to another motion.
     ///
     /// # Errors
     /// The error that the separate calls for position, velocity and acceleration return first.

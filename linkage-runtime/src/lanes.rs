@@ -4,6 +4,9 @@
 //! vectorises. The function also says whether its results are those of the function for one position; if not, that
 //! function computes the lane.
 //!
+//! Inputs may be in any order: each position is that of the branch, for itself. At a change point the branch may jump to
+//! another motion; a `RangeOfMotion` stays on one.
+//!
 //! A lane is accepted if its position, its rates and its accelerations exist, with any columns asked for. It then has the
 //! bits of `kinematics`. A rejected lane is one for which `kinematics` returns an error, which [`Batch::lane`] returns;
 //! all its found columns are NaN.

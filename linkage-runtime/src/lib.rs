@@ -5,6 +5,7 @@
 //! - [`mod@limits`]: the range of an input on one assembly branch;
 //! - [`continuation`]: path following through dead points and change points;
 //! - `circuits`: the positions that are connected by motion, with `std`;
+//! - `range_of_motion`: one motion between the ends of the input, with `std`;
 //! - [`lanes`]: many positions at once;
 //! - [`accuracy`]: position solvers selected by type, with their accuracy and time;
 //! - [`PositionError`], [`PathError`], [`InputError`]: the errors, with mechanism, residual and distance from a
@@ -55,6 +56,11 @@ mod native;
 mod newton;
 mod number;
 pub mod position;
+#[cfg(feature = "std")]
+pub mod range_of_motion;
+mod ranges;
+#[cfg(feature = "std")]
+mod same_position;
 mod scalar;
 #[cfg(feature = "serde")]
 mod serialised;
@@ -78,4 +84,5 @@ pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;
 pub use number::Number;
 pub use position::{AnyBranch, Solution, newton, newton_any_branch};
+pub use ranges::{RangeEnd, Ranged};
 pub use scalar::{Real, real};

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use crate::error::all_finite;
 use crate::linear::same_signs;
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, Matrix, PositionError, Real};
+use crate::{Column, Dim, InputError, Matrix, PositionError, Ranged, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,6 +67,8 @@ pub trait Mechanism {
     const INPUT_ANGLES: &'static [bool];
     /// The groups, in the order in which they are solved.
     const GROUPS: &'static [Group];
+    /// The names of the coordinates and outputs that have a range, in the order of declaration.
+    const RANGES: &'static [&'static str] = &[];
 
     /// Combines u and v into q.
     fn coordinates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Coordinates;
@@ -165,6 +167,23 @@ pub trait Mechanism {
         Ok(())
     }
 
+    /// The value with a range at this place of [`RANGES`](Self::RANGES); none beyond the last.
+    #[inline]
+    fn ranged(&self, _: usize, _: &Self::Coordinates) -> Option<Ranged<Self::Scalar>> {
+        None
+    }
+    /// True if each coordinate and output that has a range is in it, up to a few ulps.
+    ///
+    /// # Errors
+    /// [`InputError::EmptyJointRange`] for a range whose ends are not numbers or not in order.
+    fn is_within_ranges(&self, q: &Self::Coordinates) -> Result<bool, InputError> {
+        let mut all = (0..).zip(Self::RANGES).filter_map(|(place, name)| Some((self.ranged(place, q)?, name)));
+        all.try_fold(true, |are_within, (ranged, name)| {
+            ranged.check_ends(Self::NAME, name)?;
+            Ok(are_within && ranged.is_within())
+        })
+    }
+
     /// The unknowns u of q.
     #[inline]
     fn unknowns(q: &Self::Coordinates) -> PerUnknown<Self> {
@@ -207,7 +226,8 @@ pub(crate) const fn no_unknowns<M: Mechanism + ?Sized>() {
     note = "`linkage!` implements `Assembly` if every group has a closed form; use `solve` or `assemble_near` with a guess"
 )]
 pub trait Assembly: Mechanism {
-    /// Computes the position at these inputs on this branch.
+    /// Computes the position at these inputs on this branch. At a change point a branch may jump to another motion; a
+    /// `RangeOfMotion` stays on one.
     ///
     /// # Errors
     /// [`PositionError::Unbuildable`] if a group cannot be assembled, [`PositionError::Undetermined`] if it has
@@ -265,6 +285,15 @@ pub(crate) fn finite_position<M: Mechanism>(q: &M::Coordinates, pose: &M::Pose) 
 pub(crate) fn finite_coordinates<M: Mechanism>(q: &M::Coordinates) -> Result<(), PositionError> {
     let (unknowns, inputs) = M::parts(q);
     all_finite(M::NAME, "the position", unknowns.iter().chain(inputs.iter()))
+}
+
+/// Returns the error of the first value that is not in its range.
+///
+/// # Errors
+/// [`InputError::EmptyJointRange`], [`InputError::OutOfRange`].
+pub(crate) fn check_ranges<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<(), InputError> {
+    let mut all = (0..).zip(M::RANGES).filter_map(|(place, name)| Some((mechanism.ranged(place, q)?, name)));
+    all.try_for_each(|(ranged, name)| ranged.check(M::NAME, name))
 }
 
 /// Returns the name of the first group whose determinant changes its sign from one position to another.

@@ -54,6 +54,7 @@ macro_rules! all_mechanisms {
             four_bar: FourBar closed;
             four_bar_effects: FourBar closed;
             four_bar_scenes: LoadedFourBar closed;
+            gate: Gate closed;
             geared_five_bar: GearedFiveBar closed, orders;
             geneva: Geneva closed;
             hart: Hart closed;
@@ -86,6 +87,8 @@ macro_rules! all_mechanisms {
             slider_crank_scenes: Crank closed Piston closed;
             slider_named_first: SliderNamedFirst closed;
             slider_triad: SliderTriadNear closed SliderTriadFar newton;
+            slotted_lever: SlottedLever closed;
+            sprocket_strand: SprocketStrand closed;
             stephenson_far: StephensonFar newton;
             stephenson_i: StephensonI closed;
             stephenson_ii: StephensonII newton;
@@ -94,6 +97,7 @@ macro_rules! all_mechanisms {
             three_link_arm: ThreeLinkArm open, orders;
             three_rrr: ThreeRrr newton;
             three_together: ThreeTogether newton;
+            tilted_parallelogram: TiltedParallelogram closed;
             two_triads: TwoTriads newton;
             two_windows: TwoWindows closed;
             v_twin: VTwin closed;

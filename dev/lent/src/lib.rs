@@ -4,10 +4,11 @@
 use linkage_compiler::document::{self, Document, Node, Number, SceneDocument};
 use linkage_compiler::graph::Function;
 use linkage_compiler::program;
+use linkage_compiler::structure::GroupKind;
 use linkage_runtime::derivation::{
-    ContactEffect, Derivation, Effect, ElementaryFunction, Entry, Equation, Formula, FormulaMatrix, FormulaNode,
-    FormulaTable, Group, GroupMethod, JointForce, Kernel, KernelCheck, KernelCode, KernelResult, Operations, Quantity,
-    Root, SceneDerivation, Sensitivity, Symbol,
+    ChainJoint, ChainLink, ContactEffect, Derivation, Effect, ElementaryFunction, Entry, Equation, Formula,
+    FormulaMatrix, FormulaNode, FormulaTable, Group, GroupForm, GroupMethod, JointForce, Kernel, KernelCheck,
+    KernelCode, KernelResult, KinematicChain, Operations, Quantity, Root, SceneDerivation, Sensitivity, Symbol,
 };
 
 /// The derivation of a document.
@@ -39,6 +40,17 @@ pub fn derivation(document: &Document) -> Derivation<'static> {
         points: list(&document.points, |quantity| table.quantity(quantity)),
         outputs: list(&document.outputs, |quantity| table.quantity(quantity)),
         conditions: table.formulas(&document.conditions),
+        chain: document.chain.as_ref().map(|chain| KinematicChain {
+            links: list(&chain.links, |(name, turns_with)| ChainLink {
+                name: text(name),
+                turns_with: list(turns_with, |name| text(name)),
+            }),
+            joints: list(&chain.joints, |(links, slides_along)| ChainJoint {
+                links: *links,
+                slides_along: slides_along.as_deref().map(text),
+            }),
+            conditions: chain.conditions,
+        }),
         kernels: list(&document.kernels, |kernel| table.kernel(kernel)),
     }
 }
@@ -146,7 +158,21 @@ impl Table {
         Group {
             unknowns: self.formulas(&group.unknowns),
             equations: group.equations.clone().leak(),
-            kind: text(&group.kind),
+            kind: text(&group.kind.description()),
+            form: match group.kind {
+                GroupKind::Rrr => GroupForm::TwoAngles,
+                GroupKind::Rrp => GroupForm::AngleAndLength,
+                GroupKind::Rpr => GroupForm::AngleAndTurningLength,
+                GroupKind::Sliders => GroupForm::TwoLengths,
+                GroupKind::Circles => GroupForm::TwoDistances,
+                GroupKind::LinkToCircle => GroupForm::AngleAndDistance,
+                GroupKind::SliderToCircle => GroupForm::LengthAndDistance,
+                GroupKind::Angle => GroupForm::OneAngle,
+                GroupKind::Linear => GroupForm::OneLinear,
+                GroupKind::Scalar | GroupKind::Pair | GroupKind::Loops(_) | GroupKind::Irreducible(..) => {
+                    GroupForm::Other
+                }
+            },
             position: self.equations(&group.position),
             root: group.root.as_ref().map(|root| Root { formula: self.formula(root.formula), branches: root.branches }),
             method: match group.method {

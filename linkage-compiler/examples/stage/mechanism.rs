@@ -27,6 +27,10 @@ pub fn text(mechanism: &Mechanism) -> Result<String, String> {
     mechanism.named.iter().for_each(|(node, name)| line(format!("let {name} = {}", of(*node))));
     mechanism.points.iter().for_each(|one| line(format!("point {} = ({}, {})", one.name.text, of(one.x), of(one.y))));
     mechanism.outputs.iter().for_each(|one| line(format!("output {} = {}", one.name.text, of(one.value))));
+    for one in &mechanism.ranges {
+        let [least, most] = one.ends.map(|end| end.map_or_else(String::new, of));
+        line(format!("range {} in {least}..{most}", one.name));
+    }
     for one in &mechanism.externals {
         let names: Vec<&str> = one.names.iter().map(|name| name.text.as_str()).collect();
         line(format!("extern ({}) -> ({})", one.arguments.join(", "), names.join(", ")));

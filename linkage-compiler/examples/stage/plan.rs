@@ -67,7 +67,10 @@ fn step(step: &Step, graph: &Graph) -> String {
         |matrix: &[Vec<NodeId>]| matrix.iter().map(|row| format!("[{}]", all(row))).collect::<Vec<_>>().join(", ");
     match step {
         Step::Let { symbol, node } => format!("let {} = {}", name(symbol), of(node)),
-        Step::Turn { symbol, principal } => format!("turn {} = {}", name(symbol), of(principal)),
+        Step::Turn { symbol, principal, range } => {
+            let range = range.map_or_else(String::new, |[least, most]| format!(" in {}..{}", of(&least), of(&most)));
+            format!("turn {} = {}{range}", name(symbol), of(principal))
+        }
         Step::Guard { determinant, scale, .. } => format!("guard {} against {}", of(determinant), of(scale)),
         Step::Factor { matrix, .. } => format!("factor {}", rows(matrix)),
         Step::Solve { targets, right, .. } => format!("solve {} from {}", names(targets), all(right)),

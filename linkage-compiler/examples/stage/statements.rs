@@ -1,8 +1,8 @@
 //! The syntax tree: a line for each statement, its expressions with the operator first.
 
 use linkage_compiler::syntax::{
-    Attachment, Body, Effect, EffectKind, Expression, ExpressionId, Expressions, Joint, Mechanism, Operator, Scene,
-    Statement, StatementKind, Unit,
+    Attachment, Body, Declared, Effect, EffectKind, Expression, ExpressionId, Expressions, Joint, Mechanism, Operator,
+    Range, Scene, Statement, StatementKind, Unit,
 };
 use proc_macro2::Ident;
 
@@ -29,15 +29,17 @@ fn statement(kind: &StatementKind, of: &Printer) -> String {
             };
             format!("param {}", all.iter().map(one).collect::<Vec<_>>().join(", "))
         }
-        StatementKind::Inputs(names) => format!("input {}", list(names)),
-        StatementKind::Unknowns(names) => format!("unknown {}", list(names)),
-        StatementKind::Coordinates(names) => format!("coordinate {}", list(names)),
+        StatementKind::Inputs(all) => format!("input {}", declared(all, of)),
+        StatementKind::Unknowns(all) => format!("unknown {}", declared(all, of)),
+        StatementKind::Coordinates(all) => format!("coordinate {}", declared(all, of)),
         StatementKind::Drive { name, by } => format!("drive {name} by {}", list(by)),
         StatementKind::Loop { left, right, is_implied } => sides("loop", left, right, is_implied),
         StatementKind::Equation { left, right, is_implied } => sides("equation", left, right, is_implied),
         StatementKind::Let { name, value } => named("let", name, value),
         StatementKind::Point { name, value } => named("point", name, value),
-        StatementKind::Output { name, value } => named("output", name, value),
+        StatementKind::Output { name, range, value } => {
+            format!("output {name}{} = {}", in_range(range.as_ref(), of), of.text(*value))
+        }
         StatementKind::External { path, arguments, names } => {
             let path: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
             format!("extern {}({}) -> ({})", path.join("::"), list(arguments), list(names))
@@ -84,14 +86,10 @@ fn effects(scene: &Scene, of: &Printer) -> impl Iterator<Item = String> {
                 let factors: Vec<String> = factors.iter().map(|factor| of.text(*factor)).chain(reaction).collect();
                 format!("{} on {}", factors.join(", "), of.text(*on))
             }
-            EffectKind::Stop { on, range: [from, to], restitution } => {
-                format!(
-                    "{} in {} to {} restitution {}",
-                    of.text(*on),
-                    of.text(*from),
-                    of.text(*to),
-                    of.text(*restitution)
-                )
+            EffectKind::Stop { on, range, restitution } => {
+                let range =
+                    range.map_or_else(String::new, |[from, to]| format!("in {} to {} ", of.text(from), of.text(to)));
+                format!("{} {range}restitution {}", of.text(*on), of.text(*restitution))
             }
             EffectKind::Drive { input, law } => format!("{input} = {}", of.text(*law)),
             EffectKind::Reaction(Joint::At(point)) => format!("at {}", of.text(*point)),
@@ -108,6 +106,16 @@ fn along(scalar: &Attachment, of: &Printer) -> String {
         Attachment::On(scalar) => format!("on {}", of.text(*scalar)),
         Attachment::Between(first, second) => format!("between {} and {}", of.text(*first), of.text(*second)),
     }
+}
+
+fn declared(all: &[Declared], of: &Printer) -> String {
+    let one = |Declared { name, range }: &Declared| format!("{name}{}", in_range(range.as_ref(), of));
+    all.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+fn in_range(range: Option<&Range>, of: &Printer) -> String {
+    let end = |end: Option<ExpressionId>| end.map_or_else(String::new, |end| of.text(end));
+    range.map_or_else(String::new, |Range { ends: [least, most], .. }| format!(" in {}..{}", end(*least), end(*most)))
 }
 
 fn list(names: &[Ident]) -> String {

@@ -13,7 +13,7 @@
 //! - an angle: a cos phi + b sin phi = h. b cos phi - a sin phi = g, g^2 = (n - h) (n + h), n = |(a, b)|
 //! - two sliders and one linear unknown have one solution.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::assembly::Assembly;
 use super::plane::{Vector, cross, dot, length, quotient, square_of, turned, unsigned, with_products};
@@ -33,6 +33,8 @@ pub(super) struct Solver<'a> {
     pub(super) assembly: &'a mut Assembly,
     /// The angles in place of which the rows of the group contain their negatives.
     pub(super) mirrored: &'a [SymbolId],
+    /// The ranges of angles that count turns.
+    pub(super) ranges: &'a BTreeMap<SymbolId, [NodeId; 2]>,
 }
 
 /// The solution of a link on a guide: g = `along`, h = `across`, n^2 = `square`.
@@ -126,7 +128,8 @@ impl Solver<'_> {
         self.assembly.directions.insert(angle, direction);
         let [cosine, sine] = direction;
         let principal = self.graph.call(Function::Atan2, &[sine, cosine]);
-        self.assembly.steps.push(Step::Turn { symbol: angle, principal });
+        let range = self.ranges.get(&angle).copied();
+        self.assembly.steps.push(Step::Turn { symbol: angle, principal, range });
     }
 
     /// Names the vector of a link.

@@ -1,5 +1,7 @@
 //! The data of a derivation: coordinates, groups, points, outputs, scenes, and the results of `derive` statements.
 
+use std::collections::BTreeMap;
+
 use super::joints::Joints;
 use super::linear::{Row, Solutions};
 use super::scene::Scene;
@@ -130,6 +132,8 @@ pub struct Derivation {
     pub skeleton: Option<Skeleton>,
     /// The scenes of this driver.
     pub scenes: Vec<Scene>,
+    /// The least and the largest value of angles that count turns.
+    pub ranges_of_turns: BTreeMap<SymbolId, [NodeId; 2]>,
 }
 
 impl Group {

@@ -83,6 +83,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         sensitivity: None,
         skeleton: None,
         scenes: Vec::new(),
+        ranges_of_turns: mechanism.ranges_of_turns(driver),
         graph,
     };
     for request in &mechanism.requests {

@@ -60,7 +60,8 @@ impl Derivation {
         let symbols: Vec<SymbolId> =
             group.unknowns.iter().map(|&index| self.coordinates[self.unknowns[index]].value).collect();
         let mirrored = &group.mirrored;
-        let mut solver = Solver { graph: &mut self.graph, group: id, equations, assembly, mirrored };
+        let ranges = &self.ranges_of_turns;
+        let mut solver = Solver { graph: &mut self.graph, group: id, equations, assembly, mirrored, ranges };
         let determinant = match (group.kind, rows.as_slice(), symbols.as_slice()) {
             (GroupKind::Linear, &[row], &[unknown]) => solver.linear(row, unknown),
             (GroupKind::Angle, &[row], &[phi]) => {

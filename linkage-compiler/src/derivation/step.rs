@@ -11,8 +11,9 @@ use crate::structure::Loops;
 pub enum Step {
     /// Names a value.
     Let { symbol: SymbolId, node: NodeId },
-    /// Names an angle: its principal value plus a given number of turns.
-    Turn { symbol: SymbolId, principal: NodeId },
+    /// Names an angle: its principal value plus a given number of turns. With a range of at most a turn, turn 0 is the one in
+    /// it.
+    Turn { symbol: SymbolId, principal: NodeId, range: Option<[NodeId; 2]> },
     /// Fails if a determinant is zero relative to `scale`.
     Guard { group: GroupId, determinant: NodeId, scale: NodeId },
     /// Factorises the matrix of a group, given by rows with their scales; fails if it is singular.
@@ -96,7 +97,9 @@ impl Step {
         let all = |nodes: Vec<NodeId>| nodes.into_iter().map(&f).collect::<Vec<_>>();
         match self {
             Self::Let { symbol, node } => Self::Let { symbol, node: f(node) },
-            Self::Turn { symbol, principal } => Self::Turn { symbol, principal: f(principal) },
+            Self::Turn { symbol, principal, range } => {
+                Self::Turn { symbol, principal: f(principal), range: range.map(|range| range.map(&f)) }
+            }
             Self::Guard { group, determinant, scale } => {
                 Self::Guard { group, determinant: f(determinant), scale: f(scale) }
             }
@@ -126,7 +129,9 @@ impl Step {
     pub fn nodes(&self) -> Vec<NodeId> {
         match self {
             Self::Let { node, .. } => vec![*node],
-            Self::Turn { principal, .. } => vec![*principal],
+            Self::Turn { principal, range, .. } => {
+                std::iter::once(*principal).chain(range.iter().flatten().copied()).collect()
+            }
             Self::Reach { length, .. } => vec![*length],
             Self::Guard { determinant, scale, .. } => vec![*determinant, *scale],
             Self::Chord { factors: [low, high], size, of, .. } => {

@@ -2,6 +2,7 @@
 
 use super::table::{Number, Numbers, Table};
 use crate::program::Operations;
+use crate::structure::GroupKind;
 
 /// A parameter, a coordinate, or a force that has a name.
 #[derive(Debug, Clone)]
@@ -41,7 +42,7 @@ pub struct Root {
 pub struct Group {
     pub unknowns: Vec<Number>,
     pub equations: Vec<usize>,
-    pub kind: String,
+    pub kind: GroupKind,
     pub position: Vec<Equation>,
     pub root: Option<Root>,
     pub method: Method,
@@ -81,6 +82,17 @@ pub struct KernelCode {
     pub results: Vec<(String, Number)>,
 }
 
+/// The links and joints of a mechanism.
+#[derive(Debug, Clone)]
+pub struct Chain {
+    /// The name of each link and the coordinates in its angle; the ground comes first.
+    pub links: Vec<(String, Vec<String>)>,
+    /// The two links of each joint, and the coordinate along which it slides.
+    pub joints: Vec<([usize; 2], Option<String>)>,
+    /// The number of conditions between coordinates.
+    pub conditions: usize,
+}
+
 /// The document of a driver.
 #[derive(Debug, Clone)]
 pub struct Document {
@@ -103,6 +115,7 @@ pub struct Document {
     pub points: Vec<Quantity>,
     pub outputs: Vec<Quantity>,
     pub conditions: Vec<Number>,
+    pub chain: Option<Chain>,
     pub kernels: Vec<Kernel>,
 }
 

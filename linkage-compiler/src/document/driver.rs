@@ -2,14 +2,14 @@
 
 use std::ops::Deref;
 
-use super::data::{Document, Equation, Group, Kernel, Matrix, Method, Quantity, Root, Sensitivity, Symbol};
+use super::data::{Chain, Document, Equation, Group, Kernel, Matrix, Method, Quantity, Root, Sensitivity, Symbol};
 use super::layout::Layout;
 use super::name::{Name, names, texts};
 use super::table::{Number, Table};
 use crate::derivation::{self, ClosedForm, Derivation, Inverse, QuantityFormulas, Row};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{self, GroupId, Id, InputId, UnknownId};
-use crate::model::{Driver, Mechanism};
+use crate::model::{ChainJoint, ChainLink, Driver, KinematicChain, Mechanism};
 use crate::program::Derived;
 
 /// The document of a driver; `kernels` adds its functions.
@@ -68,6 +68,11 @@ pub fn of_driver(
         points: writer.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points),
         outputs: writer.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs),
         conditions: formulas.conditions.iter().map(|&condition| writer.layout.condition(condition)).collect(),
+        chain: KinematicChain::of(mechanism, inputs.len()).map(|KinematicChain { links, joints, conditions }| Chain {
+            links: links.into_iter().map(|ChainLink { name, turns_with, .. }| (name, turns_with)).collect(),
+            joints: joints.into_iter().map(|ChainJoint { links, slides_along }| (links, slides_along)).collect(),
+            conditions,
+        }),
         kernels: kernels(&mut writer.layout.table),
     };
     document.with(writer.layout.table)
@@ -161,7 +166,7 @@ impl<'a> Writer<'a> {
         Group {
             unknowns: group.unknowns.iter().map(|&index| self.plain(self.unknowns[index])).collect(),
             equations: group.equations.iter().map(|&equation| equation.index()).collect(),
-            kind: group.kind.description(),
+            kind: group.kind,
             method: if determinant.is_some() { Method::ClosedForm } else { Method::Factorization },
             determinant: determinant.map(|value| self.equation(Name::Determinant(number), value)),
             inverse: inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())),

@@ -11,8 +11,8 @@ mod scene;
 mod table;
 
 pub use data::{
-    ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Quantity, Root,
-    SceneDocument, Sensitivity, Symbol,
+    Chain, ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Quantity,
+    Root, SceneDocument, Sensitivity, Symbol,
 };
 pub use driver::of_driver;
 pub use layout::{LONGEST, Layout};

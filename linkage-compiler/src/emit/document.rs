@@ -6,11 +6,12 @@ use quote::{ToTokens, format_ident, quote};
 use super::names::string;
 use super::rust::{separated, separated_integer};
 use crate::document::{
-    ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Node, Number,
-    Quantity, Root, SceneDocument, Sensitivity, Symbol, Table,
+    Chain, ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Node,
+    Number, Quantity, Root, SceneDocument, Sensitivity, Symbol, Table,
 };
 use crate::model::TypeName;
 use crate::program::Operations;
+use crate::structure::GroupKind;
 
 /// The constant `DERIVATION` of a driver.
 pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream) -> TokenStream {
@@ -33,6 +34,7 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
     let [points, outputs] =
         [&document.points, &document.outputs].map(|all| list(all.iter().map(|one| lists.quantity(one))));
     let conditions = lists.formulas(&document.conditions);
+    let chain = option(document.chain.as_ref().map(chain));
     let kernels = list(document.kernels.iter().map(|kernel| lists.kernel(kernel)));
     let table = table(&document.table, &lists);
     quote! {
@@ -61,6 +63,7 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
                     points: #points,
                     outputs: #outputs,
                     conditions: #conditions,
+                    chain: #chain,
                     kernels: #kernels,
                 }
             };
@@ -257,6 +260,20 @@ fn equation([left, right]: &Equation) -> TokenStream {
     quote!(T.equation(#left, #right))
 }
 
+fn chain(Chain { links, joints, conditions }: &Chain) -> TokenStream {
+    let links = list(links.iter().map(|(name, turns_with)| {
+        let (name, turns_with) = (string(name), turns_with.iter().map(|name| string(name)));
+        quote!(ChainLink { name: #name, turns_with: &[#(#turns_with),*] })
+    }));
+    let joints = list(joints.iter().map(|(of, slides_along)| {
+        let of = of.map(Literal::usize_unsuffixed);
+        let slides_along = option(slides_along.as_deref().map(|name| string(name).to_token_stream()));
+        quote!(ChainJoint { links: [#(#of),*], slides_along: #slides_along })
+    }));
+    let conditions = Literal::usize_unsuffixed(*conditions);
+    quote!(KinematicChain { links: #links, joints: #joints, conditions: #conditions })
+}
+
 fn symbol(symbol: &Symbol) -> TokenStream {
     let (name, formula) = (string(&symbol.name), formula(&symbol.formula));
     quote!(Symbol { name: #name, formula: #formula })
@@ -316,7 +333,19 @@ impl Lists {
 
     fn group(&mut self, group: &Group) -> TokenStream {
         let (unknowns, position) = (self.formulas(&group.unknowns), self.equations(&group.position));
-        let kind = string(&group.kind);
+        let kind = string(&group.kind.description());
+        let form = match group.kind {
+            GroupKind::Rrr => quote!(TwoAngles),
+            GroupKind::Rrp => quote!(AngleAndLength),
+            GroupKind::Rpr => quote!(AngleAndTurningLength),
+            GroupKind::Sliders => quote!(TwoLengths),
+            GroupKind::Circles => quote!(TwoDistances),
+            GroupKind::LinkToCircle => quote!(AngleAndDistance),
+            GroupKind::SliderToCircle => quote!(LengthAndDistance),
+            GroupKind::Angle => quote!(OneAngle),
+            GroupKind::Linear => quote!(OneLinear),
+            GroupKind::Scalar | GroupKind::Pair | GroupKind::Loops(_) | GroupKind::Irreducible(..) => quote!(Other),
+        };
         let of_group = group.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
         let root = option(group.root.as_ref().map(|Root { formula, branches }| {
             let root = self::formula(formula);
@@ -333,6 +362,7 @@ impl Lists {
                 unknowns: #unknowns,
                 equations: &[#(#of_group),*],
                 kind: #kind,
+                form: GroupForm::#form,
                 position: #position,
                 root: #root,
                 method: GroupMethod::#method,

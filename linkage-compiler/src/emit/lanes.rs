@@ -81,7 +81,8 @@ pub(super) fn batch(program: &Program<Code>) -> TokenStream {
     quote! {
         impl<T: __rt::Real> #name<T> {
             #[doc = " Many positions at once, from columns or single numbers: the parameters; the inputs, or a guess; the branch;"]
-            #[doc = " the rates of the inputs; their accelerations."]
+            #[doc = " the rates of the inputs; their accelerations. Each position is that of the branch, which at a change point may jump"]
+            #[doc = " to another motion."]
             #[doc = ""]
             #[doc = " # Errors"]
             #[doc = " `InputError::ColumnLength` if two columns differ in length."]

@@ -78,8 +78,14 @@ impl Writer<'_> {
                 self.externals.insert(*function);
             }
             Line::Name { symbol, value } => self.name(of, *symbol, *value),
-            Line::Turn { symbol, principal } => {
-                let principal = self.signed(of, *principal);
+            Line::Turn { symbol, principal, range } => {
+                let principal = match range {
+                    Some([least, most]) => {
+                        let arguments = self.all_signed(of, &[*principal, *least, *most]);
+                        self.call(Intrinsic::InRange, arguments)
+                    }
+                    None => self.signed(of, *principal),
+                };
                 let number = match self.kernel.turns.get(symbol) {
                     Some(&index) => {
                         let (turn, index) = (self.variable(self.context.turn), self.add(Value::Count(index)));

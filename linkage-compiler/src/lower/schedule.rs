@@ -28,6 +28,7 @@ pub enum Line {
     Turn {
         symbol: SymbolId,
         principal: Signed,
+        range: Option<[Signed; 2]>,
     },
     Guard {
         group: GroupId,

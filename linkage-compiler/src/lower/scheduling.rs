@@ -52,7 +52,11 @@ pub fn schedule(
         }
         ordering.lines.push(match step {
             Step::Let { symbol, node } => Line::Name { symbol: *symbol, value: translated[node] },
-            Step::Turn { symbol, principal } => Line::Turn { symbol: *symbol, principal: translated[principal] },
+            Step::Turn { symbol, principal, range } => Line::Turn {
+                symbol: *symbol,
+                principal: translated[principal],
+                range: range.map(|range| range.map(|end| translated[&end])),
+            },
             Step::Guard { group, determinant, scale } => {
                 Line::Guard { group: *group, determinant: translated[determinant], scale: translated[scale] }
             }

@@ -71,6 +71,8 @@ pub(super) struct Links {
     pub(super) bodies: Table<BodyId, usize>,
     /// The loops that begin at a joint which they do not name.
     pub(super) floating: Vec<usize>,
+    /// True if the sides of all loops are sums of vectors.
+    pub(super) is_complete: bool,
 }
 
 /// A leg between two joints.
@@ -98,6 +100,7 @@ impl Links {
             guides: Vec::new(),
             bodies: Table::default(),
             floating: Vec::new(),
+            is_complete: true,
         };
         let zero = graph.zero();
         let origin = links.joints.add([zero; 2]);
@@ -108,8 +111,9 @@ impl Links {
                 false => links.trace(graph, &sides[side], &mut edges),
             };
             let [one, other] = [end(0), end(1)];
-            if let (Some(one), Some(other)) = (one, other) {
-                links.joints.merge(one, other);
+            match (one, other) {
+                (Some(one), Some(other)) => links.joints.merge(one, other),
+                _ => links.is_complete = false,
             }
         }
         for chain in chains.points.iter().chain(&chains.centers) {
@@ -202,6 +206,23 @@ impl Links {
 
     pub(super) fn link(&self, index: usize) -> &RigidLink {
         &self.links[index]
+    }
+
+    /// All links.
+    pub(super) fn indices(&self) -> impl Iterator<Item = usize> {
+        0..self.links.len()
+    }
+
+    /// The direction of a link; links that turn by one angle have the same.
+    pub(super) fn direction(&self, link: usize) -> usize {
+        self.links[link].direction
+    }
+
+    /// The links of each pin at which several meet.
+    pub(super) fn meeting(&self) -> Vec<Vec<usize>> {
+        let joints: BTreeSet<usize> = self.links.iter().flat_map(|link| link.joints.iter().copied()).collect();
+        let pins = joints.into_iter().map(|joint| self.at(joint).collect::<Vec<_>>());
+        pins.filter(|links| links.len() > 1).collect()
     }
 
     /// The joint at a position, if a vector begins or ends there.
@@ -307,8 +328,8 @@ impl Links {
         graph.symbols_of(nodes).iter().any(|symbol| self.moving.contains(symbol))
     }
 
-    /// The index of the direction of an angle.
-    fn direction(&mut self, graph: &mut Graph, angle: NodeId) -> usize {
+    /// The index of the direction of an angle, which is added if it is not known.
+    fn add_direction(&mut self, graph: &mut Graph, angle: NodeId) -> usize {
         if !self.moves(graph, &[angle]) {
             return 0;
         }
@@ -334,7 +355,7 @@ impl Links {
             let vector = link.vector.map(|part| sign(graph, part));
             return Some(vec![Leg { vector, of: LegOf::Rigid { direction: 0 } }]);
         };
-        let direction = link.angle.map_or(0, |angle| self.direction(graph, angle));
+        let direction = link.angle.map_or(0, |angle| self.add_direction(graph, angle));
         let angle = link.angle.unwrap_or(zero);
         let [cosine, sine] = [Function::Cos, Function::Sin].map(|function| graph.call(function, &[angle]));
         let (along, across) = ([cosine, sine], [graph.negate(sine), cosine]);
@@ -408,7 +429,7 @@ impl Links {
         let mut held = Vec::new();
         for (at, body) in bodies.iter().enumerate() {
             let angle = body.inertia.map(|(_, angle)| angle);
-            let direction = angle.map(|angle| self.direction(graph, angle));
+            let direction = angle.map(|angle| self.add_direction(graph, angle));
             let Some((_, center)) = body.mass else {
                 // A moment of inertia without a mass turns with the first link of its angle.
                 let joint = self.joints.add([graph.zero(); 2]);

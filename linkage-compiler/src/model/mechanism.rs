@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::Span;
+use proc_macro2::{Ident, Span};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 
 use super::chain::Chain;
@@ -18,6 +18,7 @@ use crate::ids::{
     UnknownId,
 };
 use crate::structure::{StructurallySingular, System};
+use crate::syntax::{ExpressionId, Range};
 
 /// A mechanism with resolved names.
 pub struct Mechanism {
@@ -33,11 +34,15 @@ pub struct Mechanism {
     pub constraints: Vec<Constraint>,
     /// The vectors of both sides of each `loop`.
     pub loops: Vec<[Chain; 2]>,
+    /// The sides of loops that are zero.
+    pub zero_sides: Vec<[bool; 2]>,
     /// Loops and equations that follow from the constraints.
     pub implied: Vec<Constraint>,
     pub drivers: Table<DriverId, Driver>,
     pub points: Vec<Point>,
     pub outputs: Vec<Output>,
+    /// The ranges of coordinates and outputs, in the order of declaration.
+    pub ranges: Vec<JointRange>,
     pub externals: Vec<ExternalFunction>,
     /// Expressions that the user named with `let`.
     pub named: Vec<(NodeId, String)>,
@@ -143,6 +148,22 @@ pub struct Output {
     pub value: NodeId,
 }
 
+/// A coordinate or an output, and the range that it may have.
+pub struct JointRange {
+    pub name: String,
+    pub value: NodeId,
+    /// The least and the largest value; at least one is given.
+    pub ends: [Option<NodeId>; 2],
+    /// The ends as written.
+    pub(super) written: [Option<ExpressionId>; 2],
+}
+
+impl JointRange {
+    pub(super) fn new(name: &Ident, value: NodeId, ends: [Option<NodeId>; 2], range: &Range) -> Self {
+        Self { name: name.to_string(), value, ends, written: range.ends }
+    }
+}
+
 /// A user function.
 pub struct ExternalFunction {
     pub path: syn::Path,
@@ -182,10 +203,12 @@ impl Mechanism {
             coordinates: Table::default(),
             constraints: Vec::new(),
             loops: Vec::new(),
+            zero_sides: Vec::new(),
             implied: Vec::new(),
             drivers: Table::default(),
             points: Vec::new(),
             outputs: Vec::new(),
+            ranges: Vec::new(),
             externals: Vec::new(),
             named: Vec::new(),
             requests: BTreeSet::new(),
@@ -273,6 +296,17 @@ impl Mechanism {
     #[must_use]
     pub fn rows(&self) -> Table<RowId, NodeId> {
         self.constraints.iter().flat_map(|constraint| constraint.rows.iter().copied()).collect()
+    }
+
+    /// The rows of the constraints that have so many.
+    pub(super) fn rows_of_constraints(&self, count: usize) -> Vec<NodeId> {
+        let constraints = self.constraints.iter().filter(|constraint| constraint.rows.len() == count);
+        constraints.flat_map(|constraint| constraint.rows.iter().copied()).collect()
+    }
+
+    /// The rows of `equation`s, which are conditions between coordinates.
+    pub(super) fn conditions(&self) -> impl Iterator<Item = NodeId> {
+        self.rows_of_constraints(1).into_iter()
     }
 
     /// Psi of a driver in the form in which it is solved, and its groups.

@@ -12,6 +12,7 @@ mod functions;
 mod guess;
 mod joints;
 mod kind;
+mod kinematic_chain;
 mod links;
 mod meant;
 mod mechanism;
@@ -19,6 +20,7 @@ mod name;
 mod opened;
 mod opening;
 mod power;
+mod range;
 mod redundant;
 mod request;
 mod resolve;
@@ -33,8 +35,9 @@ pub use functions::VECTOR_FUNCTIONS;
 pub use guess::{Guess, GuessedGroup};
 pub use joints::Joints;
 pub use kind::Kind;
+pub use kinematic_chain::{ChainJoint, ChainLink, KinematicChain};
 pub use mechanism::{
-    Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, Mechanism, Output, Parameter, Point,
+    Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, JointRange, Mechanism, Output, Parameter, Point,
 };
 pub use name::{Name, TypeName};
 pub use opened::{Load, LoadKind, Opened};

@@ -52,7 +52,7 @@ impl<'o> Opening<'o> {
         let mut definitions = BTreeMap::new();
         for statement in statements {
             let (name, value, is_point) = match &statement.kind {
-                StatementKind::Let { name, value } | StatementKind::Output { name, value } => (name, *value, false),
+                StatementKind::Let { name, value } | StatementKind::Output { name, value, .. } => (name, *value, false),
                 StatementKind::Point { name, value } | StatementKind::Quantity { name, value } => (name, *value, true),
                 _ => continue,
             };

@@ -8,7 +8,7 @@ use syn::{Attribute, Path};
 use super::chain::{Chain, Chains};
 use super::kind::Kind;
 use super::links::Links;
-use super::mechanism::{Coordinate, Driver, ExternalFunction, Mechanism, Output, Parameter, Point};
+use super::mechanism::{Coordinate, Driver, ExternalFunction, JointRange, Mechanism, Output, Parameter, Point};
 use super::name::{Name, TypeName};
 use super::resolver::Resolver;
 use super::scope::Value;
@@ -18,7 +18,7 @@ use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::SymbolId;
 use crate::ids::CoordinateId;
 use crate::structure::System;
-use crate::syntax::{self, KEYWORD_AS_NAME, StatementKind};
+use crate::syntax::{self, Declared, KEYWORD_AS_NAME, StatementKind};
 
 /// The largest number of expressions of a mechanism; its derivatives have several times as many.
 const LARGEST: usize = 25_000;
@@ -51,13 +51,14 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     result.requests = result.requests_at.keys().copied().collect();
     resolver.report_fault(result.name.span());
     resolver.report_undeclared(&statements);
+    resolver.kinds_of_ranges(&result);
     resolver.kinds_of_numbers(&statements);
     resolver.kinds_of_sums(&result);
     if resolver.diagnostics.is_empty() {
         resolver.unused_lets(&statements, &result);
         let chains = resolver.chains(&statements);
         resolver.open_joints(&statements, &chains, &mut result);
-        result.loops = chains.loops;
+        (result.loops, result.zero_sides) = (chains.loops, chains.zeros);
         result.points.iter_mut().zip(chains.points).for_each(|(point, chain)| point.chain = chain);
     } else {
         // For the stub.
@@ -148,13 +149,13 @@ impl Resolver<'_> {
     fn declare(&mut self, statements: &[syntax::Statement], result: &mut Mechanism, roles: &mut Roles) {
         // Coordinates come first in the canonical order of a sum: phi2 - delta, not -(delta - phi2).
         for statement in statements {
-            let (names, role) = match &statement.kind {
-                StatementKind::Inputs(names) => (names, &mut roles.inputs),
-                StatementKind::Unknowns(names) => (names, &mut roles.unknowns),
-                StatementKind::Coordinates(names) => (names, &mut roles.open),
+            let (all, role) = match &statement.kind {
+                StatementKind::Inputs(all) => (all, &mut roles.inputs),
+                StatementKind::Unknowns(all) => (all, &mut roles.unknowns),
+                StatementKind::Coordinates(all) => (all, &mut roles.open),
                 _ => continue,
             };
-            for name in names {
+            for Declared { name, .. } in all {
                 if let Some((name, symbol)) = self.new_symbol(name) {
                     let attributes = statement.attributes.clone();
                     let coordinate = Coordinate::new(name, attributes, symbol);
@@ -278,9 +279,14 @@ impl Resolver<'_> {
                     self.scope.define(name, vector.map_or(Value::Poison, |(x, y)| Value::Vector(x, y)));
                     result.points.push(Point { name: Name::new(name), attributes, x, y, chain: Chain::default() });
                 }
-                StatementKind::Output { name, value } => {
+                StatementKind::Output { name, range, value } => {
+                    let ends = range.as_ref().map(|range| self.ends(name, range, &result.coordinates));
                     let scalar = self.scalar(*value);
                     self.scope.define(name, scalar.map_or(Value::Poison, Value::Scalar));
+                    if let (Some(range), Some(ends), Some(value)) = (range, ends.flatten(), scalar) {
+                        self.ranges.insert(value, ends);
+                        result.ranges.push(JointRange::new(name, value, ends, range));
+                    }
                     let value = scalar.unwrap_or_else(|| self.graph.zero());
                     result.outputs.push(Output { name: Name::new(name), attributes, value });
                 }
@@ -301,10 +307,18 @@ impl Resolver<'_> {
                 }
                 StatementKind::Body(body) => self.body(body, result),
                 StatementKind::Scene(tree) => self.scene(tree, &attributes, &mut reading),
-                StatementKind::Inputs(_)
-                | StatementKind::Unknowns(_)
-                | StatementKind::Coordinates(_)
-                | StatementKind::External { .. }
+                StatementKind::Inputs(all) | StatementKind::Unknowns(all) | StatementKind::Coordinates(all) => {
+                    for Declared { name, range } in all {
+                        let Some(range) = range else { continue };
+                        let ends = self.ends(name, range, &result.coordinates);
+                        if let (Some(ends), Some(symbol)) = (ends, self.scope.symbol(name)) {
+                            let value = self.graph.variable(symbol);
+                            self.ranges.insert(value, ends);
+                            result.ranges.push(JointRange::new(name, value, ends, range));
+                        }
+                    }
+                }
+                StatementKind::External { .. }
                 | StatementKind::Drive { .. }
                 | StatementKind::Unread { .. }
                 | StatementKind::Derive(_) => {}

@@ -22,6 +22,8 @@ pub(super) struct Resolver<'a> {
     pub(super) kinds: Kinds,
     pub(super) assumed: Assumed,
     pub(super) motion: Motion,
+    /// The declared ranges by the values that have them.
+    pub(super) ranges: BTreeMap<NodeId, [Option<NodeId>; 2]>,
     /// The symbols that statements outside of scenes mention.
     pub(super) kinematic: BTreeSet<SymbolId>,
     pub(super) reported: Reported,
@@ -81,6 +83,7 @@ impl<'a> Resolver<'a> {
             kinds: Kinds::default(),
             assumed: Assumed::default(),
             motion: Motion::default(),
+            ranges: BTreeMap::new(),
             kinematic: BTreeSet::new(),
             reported: Reported::default(),
             extreme: None,

@@ -129,7 +129,7 @@ impl Resolver<'_> {
     }
 
     /// The kind of a name that is used as a length or as an angle.
-    fn length_or_angle(&self, symbol: SymbolId) -> Option<Kind> {
+    pub(super) fn length_or_angle(&self, symbol: SymbolId) -> Option<Kind> {
         let has = |kind| self.kinds.known.get(&symbol) == Some(&kind);
         match () {
             () if has(Kind::Angle) => Some(Kind::Angle),

@@ -32,13 +32,14 @@ type Columns = Vec<Vec<NodeId>>;
 
 impl Plan<'_, '_> {
     pub(super) fn any_number(&mut self) -> AnyNumber<Body> {
-        let functions = vec![
+        let mut functions = vec![
             self.residual_of_columns(),
             self.jacobian_unknowns_of_columns(),
             self.jacobian_inputs_of_columns(),
             self.gamma_of_columns(),
             self.quantities_of_columns(),
         ];
+        functions.extend(self.ranged_of_columns());
         AnyNumber { functions, user_functions: self.user_functions() }
     }
 
@@ -111,7 +112,7 @@ impl Plan<'_, '_> {
     }
 
     /// A kernel with the parameters, the unknowns and the inputs, and their rates if it has them.
-    fn kernel_of_columns(&mut self, results: Vec<Output>, has_rates: bool) -> Kernel {
+    pub(super) fn kernel_of_columns(&mut self, results: Vec<Output>, has_rates: bool) -> Kernel {
         let roots: Vec<NodeId> = results.iter().map(|output| output.node).collect();
         let mut sources = vec![self.parameters()];
         for order in [Order::Value, Order::Rate].into_iter().take(if has_rates { 2 } else { 1 }) {
@@ -185,13 +186,16 @@ impl Family {
 impl Signatures<'_> {
     /// The functions of the trait `Formulas`, in its order.
     pub fn of_columns(&self) -> Vec<Function<Body>> {
-        vec![
+        [
             self.residual_of_columns(),
             self.jacobian_of_columns("jacobian_unknowns", self.unknowns()),
             self.jacobian_of_columns("jacobian_inputs", self.inputs()),
             self.gamma_of_columns(),
             self.quantities_of_columns(),
         ]
+        .into_iter()
+        .chain((!self.mechanism.ranges.is_empty()).then(|| self.ranged_of_columns()))
+        .collect()
     }
 
     /// The number of components of points and outputs.
@@ -217,7 +221,7 @@ impl Signatures<'_> {
     }
 
     /// A function of the unknowns and the inputs, and of their rates if it has this order.
-    fn function_of_columns(&self, name: &str, order: Order, returns: Type) -> Function<Body> {
+    pub(super) fn function_of_columns(&self, name: &str, order: Order, returns: Type) -> Function<Body> {
         let (names, u, v) = (&self.arguments, self.unknowns(), self.inputs());
         let all = [(&names.unknowns, u), (&names.inputs, v), (&names.unknown_rates, u), (&names.input_rates, v)];
         let count = if order == Order::Value { 2 } else { 4 };

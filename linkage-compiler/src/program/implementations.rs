@@ -15,6 +15,7 @@ use super::lane_columns::Column;
 use super::lane_functions;
 use super::names::Order;
 use super::pose_functions::of_pose;
+use super::ranges;
 use super::signatures::{Family, Signatures};
 use crate::model::Request;
 
@@ -78,7 +79,7 @@ impl Traits<'_> {
             ("Pose", Associated::Type(self.signatures.pose_type())),
             ("Branch", Associated::Type(self.branch())),
         ];
-        let constants = vec![
+        let mut constants = vec![
             ("NAME", ConstantValue::Own),
             ("UNKNOWNS", unknowns),
             ("INPUTS", inputs),
@@ -92,6 +93,11 @@ impl Traits<'_> {
             let value = Expression::own_call("check_implied", [pose.borrowed()]);
             fallible_of_trait("check_implied", [coordinates("q")], Type::Tuple(Vec::new()), Body::result(value))
         }));
+        if !mechanism.ranges.is_empty() {
+            let names = mechanism.ranges.iter().map(|range| range.name.clone());
+            constants.push(("RANGES", ConstantValue::Texts(names.collect())));
+            functions.push(ranged_at());
+        }
         self.implementation(Implemented::Mechanism, types, constants, functions)
     }
 
@@ -260,6 +266,15 @@ fn forwarded<const N: usize>(name: &str, to: &str, arguments: [&'static str; N],
         _ => Passed::ByValue(Type::OfTrait("Inputs")),
     };
     fallible_of_trait(name, arguments.map(|argument| (argument, of(argument))), returns, Body::result(call))
+}
+
+/// The value with a range at a place of the list `ranges`.
+fn ranged_at() -> Function<Body> {
+    let all = Expression::own_call("ranges", [Expression::name("q")]);
+    let found = Expression::call(Intrinsic::Get, [all, Expression::name("place")]);
+    let found = Expression::call(Intrinsic::Copied, [found]);
+    let returns = Type::Around("Option", Box::new(ranges::ranged()));
+    of_trait("ranged", [("place", Passed::ByValue(Type::Count)), coordinates("q")], returns, Body::plain(found))
 }
 
 fn coordinates(name: &'static str) -> (&'static str, Passed) {

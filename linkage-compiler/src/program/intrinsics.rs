@@ -327,6 +327,8 @@ intrinsics! {
     InTurn "number" Method [Data, Place, Number] {
         finite: Finite::With(2), meaning: Meaning::InTurn { turns: 0, principal: 2 }
     }
+    /// The value of an angle in the turn nearest to a range.
+    InRange "in_range" Function [Number, Number, Number] { finite: Finite::With(0) }
     TurnsFound "turns" Method [Data] {}
     Countable "countable" Function [Mechanism, Numbers] {}
     SideOf "side_of" Function [Number] {}
@@ -341,6 +343,10 @@ intrinsics! {
     LimitOfAngle "Bound::Angle" Function [Part, Numbers, Number] {}
     LimitOfLength "Bound::Length" Function [Part, Numbers] {}
     SearchLength "Search::Length" Function [Number] {}
+
+    Ranged "ranged" Function [Number, Data, Data] {}
+    RangedDirection "ranged_direction" Function [Number, Data, Data] {}
+    RangedModuloTurns "ranged_modulo_turns" Function [Number, Data, Data] {}
 
     // Twice the precision.
     Widened "widened" Function [Number] {}

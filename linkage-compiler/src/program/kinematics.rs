@@ -9,6 +9,7 @@ use super::function::{Body, Failure, Kernel, Source, Value, results};
 use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{Plan, unnamed};
+use super::position::OF_A_BRANCH;
 use super::precise::ROUGH;
 use super::signatures::Family;
 use crate::derivation::{ChordGeometry, Form, Quantity, Step, merged, needed_names};
@@ -39,7 +40,8 @@ impl Plan<'_, '_> {
             "The position, the rates q' and the accelerations q'' of all coordinates in one computation, from the inputs, their",
             "rates v' and their accelerations v''.",
         ]);
-        let doc = doc.into_iter().chain(lines(ERRORS)).collect();
+        let promise = if self.signatures.is_open() { Vec::new() } else { lines([OF_A_BRANCH]) };
+        let doc = doc.into_iter().chain(promise).chain(lines(ERRORS)).collect();
         self.add(self.signatures.kinematics(&self.position), doc, body);
         if self.signatures.has_quantities() {
             self.full_kinematics();
@@ -229,7 +231,8 @@ impl Plan<'_, '_> {
             "The position, the rates q' and the accelerations q'' of all coordinates, and the motion of points and outputs, from the",
             "inputs, their rates v' and their accelerations v''.",
         ]);
-        let doc = doc.into_iter().chain(lines(ERRORS)).collect();
+        let promise = if self.signatures.is_open() { Vec::new() } else { lines([OF_A_BRANCH]) };
+        let doc = doc.into_iter().chain(promise).chain(lines(ERRORS)).collect();
         self.add(self.signatures.full_kinematics(&self.position), doc, body);
     }
 

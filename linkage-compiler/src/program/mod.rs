@@ -31,6 +31,7 @@ mod pose_functions;
 mod position;
 mod precise;
 mod quantities;
+mod ranges;
 mod rates;
 mod ratio_derivatives;
 mod scene;

@@ -38,6 +38,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         let mut plan = Plan::new(mechanism, driver, derivation);
         let wants = |request| mechanism.requests.contains(&request);
         plan.position();
+        plan.ranges();
         if wants(Request::Limits) {
             plan.limits();
         }

@@ -11,8 +11,13 @@ use crate::derivation::{Step, needed_names};
 use crate::graph::{Function as Elementary, NodeId, SymbolId};
 use crate::ids::GroupId;
 
-const ASSEMBLE: [&str; 5] = [
+/// The promise of a function that takes a branch.
+pub(super) const OF_A_BRANCH: &str =
+    "At a change point a branch may jump to another motion; a `RangeOfMotion` stays on one.";
+
+const ASSEMBLE: [&str; 6] = [
     "The position at these inputs in closed form, group by group, on the given branch.",
+    OF_A_BRANCH,
     "",
     "# Errors",
     "`PositionError::Unbuildable` if the links of a group do not reach, `PositionError::Undetermined` if its position is arbitrary,",
@@ -205,6 +210,7 @@ impl Plan<'_, '_> {
         let mut doc = lines([
             "The position at these inputs on the given branch, group by group: in closed form, but the group of",
             &format!("{} by its number among all its positions at these inputs.", listed.join(" and that of ")),
+            OF_A_BRANCH,
         ]);
         doc.extend(lines(ERRORS_BY_NUMBER));
         self.add(self.signatures.assemble(), doc, body);

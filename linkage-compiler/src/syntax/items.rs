@@ -307,20 +307,23 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
         "stop" => {
             const FORM: &str = "stop phi in lower..upper, restitution e;";
             let on = precedence::parse(stream, expressions)?;
-            if !tokens::word(stream, "in") {
+            let range = if tokens::word(stream, "in") {
+                if stream.peek(syn::token::Bracket) || stream.peek(syn::token::Paren) && stream.peek2(Token![,]) {
+                    return Err(expected(stream, FORM));
+                }
+                let lower = precedence::parse(stream, expressions)?;
+                if let Some(region) = take(stream, "..=") {
+                    return Err(syn::Error::new_spanned(region, format!("expected `{FORM}`")));
+                }
+                if stream.parse::<Option<Token![..]>>()?.is_none() {
+                    return Err(expected(stream, FORM));
+                }
+                Some([lower, precedence::parse(stream, expressions)?])
+            } else if stream.peek(Token![,]) {
+                None
+            } else {
                 return Err(expected(stream, FORM));
-            }
-            if stream.peek(syn::token::Bracket) || stream.peek(syn::token::Paren) && stream.peek2(Token![,]) {
-                return Err(expected(stream, FORM));
-            }
-            let lower = precedence::parse(stream, expressions)?;
-            if let Some(region) = take(stream, "..=") {
-                return Err(syn::Error::new_spanned(region, format!("expected `{FORM}`")));
-            }
-            if stream.parse::<Option<Token![..]>>()?.is_none() {
-                return Err(expected(stream, FORM));
-            }
-            let range = [lower, precedence::parse(stream, expressions)?];
+            };
             if stream.parse::<Option<Token![,]>>()?.is_none() || !tokens::word(stream, "restitution") {
                 return Err(expected(stream, FORM));
             }

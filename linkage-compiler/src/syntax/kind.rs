@@ -7,7 +7,7 @@ use syn::{Path, Token};
 
 use super::expression::ExpressionId;
 use super::scene::{self, Body, Scene};
-use crate::diagnostics::nearest;
+use crate::diagnostics::{Region, nearest};
 
 /// The construct that an attribute belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,12 +22,31 @@ pub(super) enum Bearer {
     Part,
 }
 
+/// A coordinate that a statement declares.
+pub struct Declared {
+    pub name: Ident,
+    pub range: Option<Range>,
+}
+
+/// The least and the largest value of a coordinate or an output; at least one is given.
+pub struct Range {
+    pub ends: [Option<ExpressionId>; 2],
+    /// The tokens after `in`.
+    pub region: Region,
+}
+
+impl From<Ident> for Declared {
+    fn from(name: Ident) -> Self {
+        Self { name, range: None }
+    }
+}
+
 /// The kind and the content of a statement.
 pub enum StatementKind {
     Parameters(Vec<(Ident, Option<ExpressionId>)>),
-    Inputs(Vec<Ident>),
-    Unknowns(Vec<Ident>),
-    Coordinates(Vec<Ident>),
+    Inputs(Vec<Declared>),
+    Unknowns(Vec<Declared>),
+    Coordinates(Vec<Declared>),
     Drive {
         name: Ident,
         by: Vec<Ident>,
@@ -53,6 +72,7 @@ pub enum StatementKind {
     },
     Output {
         name: Ident,
+        range: Option<Range>,
         value: ExpressionId,
     },
     /// A user function: its path, its arguments, and the names of its value and derivatives.

@@ -6,9 +6,10 @@ use syn::ext::IdentExt;
 use syn::parse::{ParseStream, Parser};
 
 use super::expression::{ExpressionId, Expressions};
-use super::kind::{at_keyword, at_word};
+use super::kind::{Declared, at_keyword, at_word};
 use super::precedence;
 use super::punctuation::equals;
+use super::range::{no_range, range};
 use super::scene::{EFFECTS, PROPERTIES};
 use super::tokens::{name, take};
 use crate::diagnostics::Region;
@@ -21,6 +22,7 @@ pub(super) fn parameters(
     listed(stream, expressions, &|stream, expressions| {
         let name = name(stream)?;
         skip_type(stream, expressions, "a parameter", &name)?;
+        no_range(stream, expressions, "a parameter", &name)?;
         let has_value = !stream.is_empty() && !stream.peek(Token![,]) && !stream.peek(Token![;]);
         let default = (has_value && !stream.peek(syn::Ident)).then(|| {
             equals(stream, expressions, &format!("{name} = …"))?;
@@ -35,14 +37,32 @@ pub(super) fn names(stream: ParseStream, expressions: &mut Expressions, of: &str
     listed(stream, expressions, &|stream, expressions| {
         let name = name(stream)?;
         skip_type(stream, expressions, &format!("`{of}`"), &name)?;
-        let found = stream.span();
-        if stream.parse::<Option<Token![=]>>()?.is_some() {
-            let message = format!("a name after `{of}` has no value here: pass it to the functions; write `{name}`");
-            expressions.slip(found, message);
-            precedence::parse(stream, expressions)?;
-        }
+        no_range(stream, expressions, &format!("`{of}`"), &name)?;
+        no_value(stream, expressions, of, &name)?;
         Ok(name)
     })
+}
+
+/// Parses `s in 0..1, phi`; a value is reported.
+pub(super) fn declared(stream: ParseStream, expressions: &mut Expressions, of: &str) -> syn::Result<Vec<Declared>> {
+    listed(stream, expressions, &|stream, expressions| {
+        let name = name(stream)?;
+        skip_type(stream, expressions, &format!("`{of}`"), &name)?;
+        let range = range(stream, expressions, &name)?;
+        no_value(stream, expressions, of, &name)?;
+        Ok(Declared { name, range })
+    })
+}
+
+/// Reports a value after a name.
+fn no_value(stream: ParseStream, expressions: &mut Expressions, of: &str, name: &Ident) -> syn::Result<()> {
+    let found = stream.span();
+    if stream.parse::<Option<Token![=]>>()?.is_some() {
+        let message = format!("a name after `{of}` has no value here: pass it to the functions; write `{name}`");
+        expressions.slip(found, message);
+        precedence::parse(stream, expressions)?;
+    }
+    Ok(())
 }
 
 type Item<'a, V> = &'a dyn Fn(ParseStream, &mut Expressions) -> syn::Result<V>;
@@ -113,22 +133,16 @@ fn goes_on(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<bo
     Ok(!ends)
 }
 
-/// Reports a type after a name, or a range.
+/// Reports a type after a name.
 fn skip_type(stream: ParseStream, expressions: &mut Expressions, of: &str, name: &Ident) -> syn::Result<()> {
     // `name: 80` has another sign for `=`.
-    let is_type = stream.peek(Token![:]) && (stream.peek2(syn::Ident) || stream.peek2(Token![&]));
-    let is_range = stream.peek(Token![in]);
-    if !is_type && !is_range {
+    if !(stream.peek(Token![:]) && (stream.peek2(syn::Ident) || stream.peek2(Token![&]))) {
         return Ok(());
     }
-    let mut region: Option<Region> = None;
+    let mut region = Region::from(stream.span());
     while !(stream.is_empty() || [",", ";", "="].iter().any(|sign| take(&stream.fork(), sign).is_some())) {
-        let token: TokenTree = stream.parse()?;
-        region = Some(region.map_or(token.span().into(), |region| region.to(token.span().into())));
+        region = region.to(stream.parse::<TokenTree>()?.span().into());
     }
-    if let Some(region) = region {
-        let what = if is_type { "type" } else { "range" };
-        expressions.slip(region, format!("{of} has no {what} here: write `{name}`"));
-    }
+    expressions.slip(region, format!("{of} has no type here: write `{name}`"));
     Ok(())
 }

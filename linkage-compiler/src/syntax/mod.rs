@@ -14,6 +14,7 @@ mod kind;
 mod list;
 mod precedence;
 mod punctuation;
+mod range;
 mod recovery;
 mod scene;
 mod statement;
@@ -28,7 +29,7 @@ pub use expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Un
 pub(crate) use foreign::constant_of_rust;
 pub use head::Mechanism;
 pub(crate) use identifier::{KEYWORD_AS_NAME, can_be_name, identifier, is_keyword};
-pub use kind::{KEYWORDS, StatementKind};
+pub use kind::{Declared, KEYWORDS, Range, StatementKind};
 pub use scene::{Attachment, Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Scene};
 pub use statement::Statement;
 

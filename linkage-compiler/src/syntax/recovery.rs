@@ -5,7 +5,7 @@ use syn::parse::ParseStream;
 
 use super::expression::{ExpressionId, Expressions, Unread};
 use super::identifier::{can_be_name, is_keyword, plain};
-use super::kind::{KEYWORDS, StatementKind};
+use super::kind::{Declared, KEYWORDS, StatementKind};
 use super::scene::{self, Body, Scene};
 use crate::diagnostics::Region;
 
@@ -109,9 +109,9 @@ pub(super) fn of_keyword(keyword: &Ident, rest: &[TokenTree], expressions: &mut 
     let value = |expressions: &mut Expressions| unread_value(rest, keyword.span(), expressions);
     match (keyword.to_string().as_str(), first) {
         ("param", _) => parameters(rest, expressions),
-        ("input", _) => StatementKind::Inputs(names().collect()),
-        ("unknown", _) => StatementKind::Unknowns(names().collect()),
-        ("coordinate", _) => StatementKind::Coordinates(names().collect()),
+        ("input", _) => StatementKind::Inputs(declared(rest)),
+        ("unknown", _) => StatementKind::Unknowns(declared(rest)),
+        ("coordinate", _) => StatementKind::Coordinates(declared(rest)),
         ("derive", _) => StatementKind::Derive(names().collect()),
         ("drive", Some(name)) => {
             let by = names().skip(1).filter(|word| word != "by").collect();
@@ -123,7 +123,7 @@ pub(super) fn of_keyword(keyword: &Ident, rest: &[TokenTree], expressions: &mut 
         }
         ("let", Some(name)) => StatementKind::Let { name, value: value(expressions) },
         ("point", Some(name)) => StatementKind::Point { name, value: value(expressions) },
-        ("output", Some(name)) => StatementKind::Output { name, value: value(expressions) },
+        ("output", Some(name)) => StatementKind::Output { name, range: None, value: value(expressions) },
         ("body", Some(name)) => StatementKind::Body(Body {
             name,
             properties: vec![(keyword.clone(), value(expressions))],
@@ -137,6 +137,16 @@ pub(super) fn of_keyword(keyword: &Ident, rest: &[TokenTree], expressions: &mut 
         ("extern", _) => StatementKind::Unread { names: names().collect(), is_list: false, is_extern: true },
         _ => StatementKind::Unread { names: names().collect(), is_list: false, is_extern: false },
     }
+}
+
+/// Coordinates: all names but those of a range, from `in` to the next comma.
+fn declared(tokens: &[TokenTree]) -> Vec<Declared> {
+    let is_range = |token: &TokenTree| matches!(token, TokenTree::Ident(word) if word == "in");
+    let items = tokens.split(|token| is_punct(Some(token), ','));
+    items
+        .flat_map(|item| item.iter().take_while(|token| !is_range(token)).filter_map(name))
+        .map(Declared::from)
+        .collect()
 }
 
 /// Parameters: each name at the beginning, after a comma or before `=`.

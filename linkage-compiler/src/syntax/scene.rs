@@ -71,7 +71,7 @@ pub enum EffectKind {
     },
     Stop {
         on: ExpressionId,
-        range: [ExpressionId; 2],
+        range: Option<[ExpressionId; 2]>,
         restitution: ExpressionId,
     },
     Drive {

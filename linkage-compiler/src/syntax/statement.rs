@@ -8,8 +8,9 @@ use syn::{Attribute, Path, Token};
 
 use super::expression::{ExpressionId, Expressions};
 use super::kind::{KEYWORDS, StatementKind, at_keyword, meant};
-use super::list::{names, parameters};
+use super::list::{declared, names, parameters};
 use super::punctuation::{end, equals};
+use super::range::{no_range, range};
 use super::tokens::name;
 use super::{attributes, items, precedence, recovery};
 use crate::diagnostics::Diagnostics;
@@ -199,9 +200,9 @@ fn kind(
     let word = keyword.to_string();
     Ok(match word.as_str() {
         "param" => StatementKind::Parameters(parameters(stream, expressions)?),
-        "input" => StatementKind::Inputs(names(stream, expressions, &word)?),
-        "unknown" => StatementKind::Unknowns(names(stream, expressions, &word)?),
-        "coordinate" => StatementKind::Coordinates(names(stream, expressions, &word)?),
+        "input" => StatementKind::Inputs(declared(stream, expressions, &word)?),
+        "unknown" => StatementKind::Unknowns(declared(stream, expressions, &word)?),
+        "coordinate" => StatementKind::Coordinates(declared(stream, expressions, &word)?),
         "drive" => drive(stream, expressions)?,
         "loop" | "equation" => closed(&word, false, stream, expressions)?,
         "implied" => {
@@ -219,12 +220,16 @@ fn kind(
             }
             let name = name(stream)?;
             after_name(stream, &word, &name, expressions)?;
+            let range = match word.as_str() {
+                "output" => range(stream, expressions, &name)?,
+                _ => no_range(stream, expressions, &format!("a `{word}`"), &name).map(|()| None)?,
+            };
             equals(stream, expressions, &format!("{word} {name} = …;"))?;
             let value = precedence::parse(stream, expressions)?;
             match word.as_str() {
                 "let" => StatementKind::Let { name, value },
                 "point" => StatementKind::Point { name, value },
-                _ => StatementKind::Output { name, value },
+                _ => StatementKind::Output { name, range, value },
             }
         }
         "extern" => external(stream, keyword.span(), expressions)?,

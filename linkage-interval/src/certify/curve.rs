@@ -35,8 +35,8 @@ const TUBES_BACK: usize = 12;
 /// Along it the rank of [J A] is full: no other motion crosses it. With tolerances this holds for each mechanism whose
 /// parameters are within them.
 pub struct Curve<M: Certifiable> {
-    system: System<M>,
-    tubes: Vec<Tube>,
+    pub(super) system: System<M>,
+    pub(super) tubes: Vec<Tube>,
     dead_points: Vec<DeadPoint<M>>,
     turns: Vec<i64>,
     input_turns: i64,

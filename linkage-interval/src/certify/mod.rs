@@ -8,6 +8,8 @@
 //!   again.
 //! - [`Certificate::quantities`] and [`Certificate::velocity_ratios`] enclose smallest and largest values over the whole
 //!   motion, such as those of a transmission angle that is declared as an output.
+//! - [`Certificate::joint_ranges`] and [`Curve::joint_ranges`] prove that the motion keeps the ranges that the mechanism declares,
+//!   or leaves one.
 //! - [`Certify`] has the options: the moving input, tolerances of parameters, other positions, the bound of the work. With
 //!   tolerances all of this holds for every mechanism whose parameters are within them.
 //!
@@ -43,6 +45,7 @@ mod error;
 mod expansion;
 mod extremes;
 mod jet;
+mod joint_ranges;
 mod motion;
 mod reason;
 mod system;
@@ -57,6 +60,7 @@ pub use curve::Curve;
 pub use dead_point::DeadPoint;
 pub use error::CertifyError;
 pub use extremes::Enclosure;
+pub use joint_ranges::{CertifiedRange, RangeProof};
 
 use crate::Interval;
 pub use crate::series::Series;

@@ -4,7 +4,7 @@
 //! [`Series`]; the emitted J, A and gamma are only compared with them.
 
 use linkage_runtime::jacobian::ScalesOf;
-use linkage_runtime::{Certifiable, Column, Dim, Formulas, Number};
+use linkage_runtime::{Certifiable, Column, Dim, Formulas, Number, Ranged};
 
 use super::error::CertifyError;
 use super::turned::repeats;
@@ -159,6 +159,12 @@ impl<M: Certifiable> System<M> {
     pub(super) fn quantities(&self, dimensions: Dimensions, q: &[Series<Interval>]) -> Vec<Series<Interval>> {
         let (unknowns, inputs) = self.split(q);
         self.formulas(dimensions).quantities(&unknowns, &inputs).iter().copied().collect()
+    }
+
+    /// The value with a range at this place, with its ends, over a box.
+    pub(super) fn ranged(&self, place: usize, q: &[Interval]) -> Option<Ranged<Interval>> {
+        let (unknowns, inputs) = self.split(q);
+        self.emitted.ranged(place, &unknowns, &inputs)
     }
 
     /// For each tolerance the derivative of Psi by the parameter, and the difference of its values from the middle.

@@ -91,7 +91,7 @@ pub trait PositionMethod<M: Mechanism> {
     ) -> Result<Self::Position, PositionError>;
 }
 
-/// Closed form, group by group, on a given branch: [`Assembly::assemble`].
+/// Closed form, group by group, on a given branch, not on one motion: [`Assembly::assemble`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ClosedForm;
 

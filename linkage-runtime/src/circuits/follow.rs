@@ -61,13 +61,14 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
                 Some(Event::Zero) => Some(CurveEvent::Mode(self.modes.find(&step.position))),
                 Some(Event::DeadPoint { group }) => Some(CurveEvent::DeadPoint { group }),
                 Some(Event::ChangePoint { groups, .. }) => Some(CurveEvent::ChangePoint { group: groups.first() }),
+                Some(Event::JointRange { of, end }) => Some(CurveEvent::JointRange { of, end }),
                 Some(Event::Limit) | None => None,
             };
             let is_closed = event == Some(CurveEvent::Mode(Some(mode)));
             points.push(point::<M>(step.position, event.filter(|_| !is_closed)));
             let end = if is_closed {
                 CurveEnd::Closed { turns: turns::<M>(&start, &step.position) }
-            } else if matches!(step.event, Some(Event::Limit)) {
+            } else if matches!(step.event, Some(Event::Limit | Event::JointRange { .. })) {
                 CurveEnd::Limits
             } else if self.modes.way(&step.position, &start) > self.most {
                 CurveEnd::Open

@@ -7,6 +7,8 @@
 //! again, after several turns perhaps and through other modes. Two motions that cross at a change point are in one
 //! circuit.
 //!
+//! Positions outside of the ranges that the mechanism declares are no modes, and a motion ends where it meets the end of one.
+//!
 //! A motion that passes none of the start inputs is not found, nor one that crosses a found motion at a change point and
 //! passes none of them: [`Circuits::over`] takes several start inputs.
 //!

@@ -2,7 +2,7 @@
 
 use std::vec::Vec;
 
-use crate::Real;
+use crate::{RangeEnd, Real};
 
 /// An event of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +15,13 @@ pub enum CurveEvent {
     DeadPoint {
         /// The unknowns of the group that is singular.
         group: &'static str,
+    },
+    /// A coordinate or an output is at an end of the range that the mechanism declares; the motion ends there.
+    JointRange {
+        /// Its name.
+        of: &'static str,
+        /// The end of its range.
+        end: RangeEnd,
     },
     /// Motions cross.
     ChangePoint {
@@ -44,7 +51,8 @@ pub enum CurveEnd {
         /// The number of turns that the input has made; zero if it goes to and fro, or is a length.
         turns: i32,
     },
-    /// The motion ends at limits of the range of the input.
+    /// The motion ends at limits of the range of the input, or where a coordinate or an output is at an end of its declared
+    /// range: the first and the last point say so.
     Limits,
     /// A coordinate went farther than [`most_turns`](super::CircuitOptions::most_turns), and the motion did not close.
     Open,
@@ -89,6 +97,11 @@ impl<Q: Copy, T: Real> MotionCurve<Q, T> {
     /// The change points, where motions cross.
     pub fn change_points(&self) -> impl Iterator<Item = CurveMeeting<Q, T>> + '_ {
         self.meetings(|event| matches!(event, CurveEvent::ChangePoint { .. }))
+    }
+
+    /// The ends of declared ranges at which the motion ends.
+    pub fn joint_ranges(&self) -> impl Iterator<Item = CurveMeeting<Q, T>> + '_ {
+        self.meetings(|event| matches!(event, CurveEvent::JointRange { .. }))
     }
 
     fn meetings(&self, is_wanted: fn(CurveEvent) -> bool) -> impl Iterator<Item = CurveMeeting<Q, T>> + '_ {

@@ -1,11 +1,13 @@
 //! A mechanism with several inputs, driven along a path of its inputs.
 
-use crate::{Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real};
+use super::input_path::InputPath;
+use crate::{Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Ranged, Real};
 
 /// A mechanism whose inputs are functions v(s) of one parameter, its only input.
 ///
-/// The function returns v, dv/ds and d2v/ds2, each as inputs by name, or as a vector or array in the order of the
-/// inputs. The parameter is treated as an angle: by default a step changes it by at most 1/4.
+/// The path is a function that returns v, dv/ds and d2v/ds2, each as inputs by name, or as a vector or array in the order
+/// of the inputs, or one of [`OneInput`](super::OneInput) and [`Line`](super::Line). The parameter of a function is treated
+/// as an angle: by default a step changes it by at most 1/4.
 #[derive(Debug, Clone, Copy)]
 pub struct Along<M, F> {
     /// The mechanism.
@@ -44,22 +46,20 @@ pub struct AlongPose<P, T: Real, V: Dim> {
 
 impl<M, F> Along<M, F> {
     /// Returns the coordinates of the mechanism, with the inputs at the parameter.
-    pub fn position<I>(&self, at: &AlongCoordinates<M::Coordinates, M::Scalar>) -> M::Coordinates
+    pub fn position(&self, at: &AlongCoordinates<M::Coordinates, M::Scalar>) -> M::Coordinates
     where
         M: Mechanism,
-        F: Fn(M::Scalar) -> [I; 3],
-        I: Into<PerInput<M>>,
+        F: InputPath<M>,
     {
-        let [inputs, ..] = (self.inputs)(at.parameter);
-        M::with_inputs(&at.q, inputs.into())
+        let [inputs, ..] = self.inputs.at(at.parameter);
+        M::with_inputs(&at.q, inputs)
     }
 }
 
-impl<M, F, I> Mechanism for Along<M, F>
+impl<M, F> Mechanism for Along<M, F>
 where
     M: Mechanism,
-    F: Fn(M::Scalar) -> [I; 3],
-    I: Into<PerInput<M>>,
+    F: InputPath<M>,
 {
     type Scalar = M::Scalar;
     type U = M::U;
@@ -73,10 +73,11 @@ where
 
     const NAME: &'static str = M::NAME;
     const UNKNOWNS: &'static [&'static str] = M::UNKNOWNS;
-    const INPUTS: &'static [&'static str] = &["the parameter"];
+    const INPUTS: &'static [&'static str] = &[F::PARAMETER];
     const UNKNOWN_ANGLES: &'static [bool] = M::UNKNOWN_ANGLES;
-    const INPUT_ANGLES: &'static [bool] = &[true];
+    const INPUT_ANGLES: &'static [bool] = &[F::IS_ANGLE];
     const GROUPS: &'static [Group] = M::GROUPS;
+    const RANGES: &'static [&'static str] = M::RANGES;
 
     fn coordinates(unknowns: PerUnknown<M>, inputs: PerInput<Self>) -> Self::Coordinates {
         AlongCoordinates { q: M::coordinates(unknowns, PerInput::<M>::zeros()), parameter: inputs[0] }
@@ -95,7 +96,7 @@ where
     }
 
     fn pose_at(&self, at: &Self::Coordinates) -> Self::Pose {
-        let [inputs, slope, bend] = (self.inputs)(at.parameter).map(Into::into);
+        let [inputs, slope, bend] = self.inputs.at(at.parameter);
         AlongPose { pose: self.mechanism.pose_at(&M::with_inputs(&at.q, inputs)), slope, bend }
     }
 
@@ -105,6 +106,10 @@ where
 
     fn branch_of(&self, at: &Self::Pose) -> M::Branch {
         self.mechanism.branch_of(&at.pose)
+    }
+
+    fn ranged(&self, place: usize, at: &Self::Coordinates) -> Option<Ranged<M::Scalar>> {
+        self.mechanism.ranged(place, &self.position(at))
     }
 
     fn residual(&self, at: &Self::Pose) -> PerUnknown<M> {
@@ -148,5 +153,13 @@ where
 
     fn solve_jacobian(&self, at: &Self::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
         self.mechanism.solve_jacobian(&at.pose, right)
+    }
+
+    fn length_scale(&self, at: &Self::Pose) -> M::Scalar {
+        F::length_scale(&self.mechanism, &at.pose)
+    }
+
+    fn check_implied(&self, at: &Self::Coordinates) -> Result<(), PositionError> {
+        self.mechanism.check_implied(&self.position(at))
     }
 }

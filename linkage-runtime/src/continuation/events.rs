@@ -3,13 +3,14 @@
 use super::change_point::Crossing;
 use super::curve::Curve;
 use super::groups::Groups;
+use super::joint_ranges::JointEnd;
 use super::options::Options;
 use super::place::Place;
 use super::tangents::Tangents;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Sample, VectorOf as Vector, first_zero, root};
 use crate::scalar::arithmetic::*;
-use crate::{D, Dim, Mechanism, PathError, PositionError, real};
+use crate::{D, Dim, Mechanism, PathError, PositionError, RangeEnd, real};
 
 /// An event of a path. The step ends at the event, located to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +30,13 @@ pub enum Event<R> {
     },
     /// The input is at an end of its range.
     Limit,
+    /// A coordinate or an output is at an end of the range that the mechanism declares.
+    JointRange {
+        /// Its name.
+        of: &'static str,
+        /// The end of its range.
+        end: RangeEnd,
+    },
     /// The watched function is zero.
     Zero,
 }
@@ -139,6 +147,26 @@ where
                 }
             }
         }
+        if options.joint_ranges {
+            for joint in JointEnd::all::<M>(self.mechanism, &from.q) {
+                if ![from, &arrived].iter().all(|place| self.room_along(place, &joint)[0].is_finite()) {
+                    let quantity = "the value of a range";
+                    return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
+                }
+                let along = |place: &Place<M>| self.room_along(place, &joint);
+                let is_known = !self.has_room(from, &joint);
+                match self.find_zero(from, &arrived, [is_known, false], along, |_| true)? {
+                    SignChange::None => {}
+                    SignChange::Lost => return Ok(None),
+                    SignChange::At(place) => {
+                        let place = self.at_joint_end(place, &joint)?;
+                        arrived = place.clone();
+                        let event = Some(Event::JointRange { of: joint.of, end: joint.end });
+                        end = End { place, arrived: None, event, is_target: false, resume: Resume::OnTheWay };
+                    }
+                }
+            }
+        }
         if let Some(watch) = wanted.watch {
             let value = |place: &Place<M>| watch(&place.q, &self.rates(&place.tangent));
             if ![value(from), value(&arrived)].iter().all(M::Scalar::is_finite) {
@@ -224,9 +252,15 @@ where
 
     /// Gives a place exactly this input and corrects the other coordinates, unless the input is at rest.
     pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError> {
-        let q = Self::with_input(&place.q, input);
-        let moves = place.tangent.inputs[0].abs() > nearly_zero() && place.regularity > nearly_zero();
-        if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(M::U::COUNT))? {
+        self.with_exact(place, M::U::COUNT, input)
+    }
+
+    /// Gives a place exactly this value of a coordinate, by its column in [J A], and corrects the others, unless it is at
+    /// rest.
+    pub(super) fn with_exact(&self, place: Place<M>, column: usize, value: M::Scalar) -> Result<Place<M>, PathError> {
+        let q = Self::with_coordinate(&place.q, column, value);
+        let moves = place.tangent.get(column).abs() > nearly_zero() && place.regularity > nearly_zero();
+        if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(column))? {
             return Ok(self.place(q, &elimination, &place.tangent));
         }
         Ok(Place { q, ..place })

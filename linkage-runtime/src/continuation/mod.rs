@@ -11,7 +11,8 @@
 //!    turn explains, and the orientation det [J A; tangent'] keeps its sign. Otherwise it is halved. Without these
 //!    checks a parallelogram may become an antiparallelogram unnoticed.
 //! 3. *Events*: the step ends, to rounding error, where the determinant of a group changes its sign (a dead point),
-//!    where the input reaches the end of its range or its target, and where a watched function is zero. The first of
+//!    where the input reaches the end of its range or its target, where a coordinate or an output is at an end of its
+//!    declared range if that is asked for, and where a watched function is zero. The first of
 //!    several zeros in a step is found, also of two next to each other, from the values and slopes at both ends of the
 //!    step: none is missed of a function that deviates from its cubic by less than a few times what the cubic deviates
 //!    from its chord. A determinant that touches zero within the error of the position does not change its sign.
@@ -32,6 +33,8 @@ mod cone;
 mod curve;
 mod events;
 mod groups;
+mod input_path;
+mod joint_ranges;
 mod options;
 mod path;
 mod place;
@@ -42,6 +45,7 @@ mod touches;
 pub use along::{Along, AlongCoordinates, AlongPose, AlongRates};
 pub use events::Event;
 pub use groups::Groups;
+pub use input_path::{InputPath, Line, OneInput};
 pub use options::{AtChangePoint, Direction, Options};
 pub use path::{Path, PathStep};
 pub use tangents::Tangents;

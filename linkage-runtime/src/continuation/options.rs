@@ -48,6 +48,9 @@ pub struct Options<T = f64> {
     pub at_change_point: AtChangePoint,
     /// The range of the input; the path ends at its limits.
     pub range: Option<[T; 2]>,
+    /// True if the path ends where a coordinate or an output is at an end of the range that the mechanism declares for it,
+    /// and must start within these ranges; by default true.
+    pub joint_ranges: bool,
 }
 
 impl<T: Real> Default for Options<T> {
@@ -58,6 +61,7 @@ impl<T: Real> Default for Options<T> {
             most_steps: 1_000_000,
             at_change_point: AtChangePoint::Keep,
             range: None,
+            joint_ranges: true,
         }
     }
 }

@@ -3,10 +3,12 @@
 use super::curve::{Curve, Rejection};
 use super::events::{End, Event, Resume, Wanted, Watch};
 use super::groups::Groups;
+use super::joint_ranges::JointEnd;
 use super::options::{Direction, Options};
 use super::place::Place;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
+use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::{D, InputError, Mechanism, PathError, PositionError, position, real};
@@ -71,7 +73,8 @@ where
     /// # Errors
     /// Those of [`position::newton`]; [`PathError::NoDirection`] and [`PathError::ChangePoint`] if `direction` is
     /// ambiguous, as where motions touch; [`PathError::Lost`] if the path has no tangent; [`InputError::OutOfRange`] for
-    /// invalid options.
+    /// invalid options, and with [`joint_ranges`](Options::joint_ranges) for a start outside of a range;
+    /// [`InputError::EmptyJointRange`] for a range without room.
     pub fn with(
         mechanism: &'a M,
         guess: &M::Coordinates,
@@ -82,6 +85,9 @@ where
         options.check(M::NAME, Curve::<'_, M>::input(guess))?;
         let solution = position::newton(mechanism, guess)?;
         let q = solution.coordinates;
+        if options.joint_ranges {
+            check_ranges(mechanism, &q)?;
+        }
         let curve = Curve::new(mechanism, &q);
         let at = curve.linear(&q)?;
         let elimination = Elimination::<M>::new(at.jacobian);
@@ -129,6 +135,13 @@ where
     #[must_use]
     pub fn rates(&self) -> M::Rates {
         self.curve.rates(&self.place.tangent)
+    }
+
+    /// The smallest pivot of the Jacobian [J A] divided by the largest, at the current position: 0 at a change point, small
+    /// where the path passes near another motion.
+    #[must_use]
+    pub fn regularity(&self) -> M::Scalar {
+        self.place.regularity
     }
 
     /// Reverses the path.
@@ -191,6 +204,7 @@ where
     ///
     /// # Errors
     /// [`PathError::DeadPoint`] if the input reverses before: the path is then at the dead point;
+    /// [`PathError::JointRange`] if a coordinate or an output is at an end of its range before: the path is then there;
     /// [`PathError::TooManySteps`] after [`most_steps`](Options::most_steps), [`InputError::OutOfRange`] if the input
     /// is outside its range, and those of [`advance`](Self::advance).
     pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError> {
@@ -238,6 +252,17 @@ where
                         return Err(self.dead_point(group, input));
                     }
                 }
+                Some(Event::JointRange { of, end }) => {
+                    let left = self.curve.input_distance(input - self.input()).abs();
+                    if left <= self.curve.rounding_error(&self.place.q) * real(EQUAL_ULPS) {
+                        self.place.q = Curve::<'_, M>::with_input(&self.place.q, input);
+                        return Ok(self.here(step.event));
+                    }
+                    if is_onward {
+                        let gap = to_f64((input - self.input()).abs());
+                        return Err(PathError::JointRange { mechanism: M::NAME, of, end, gap });
+                    }
+                }
                 Some(Event::ChangePoint { groups, .. }) => {
                     passed = step.event;
                     let group = groups.first();
@@ -254,6 +279,32 @@ where
             if is_target {
                 return Ok(PathStep { event: passed, ..step });
             }
+        }
+        Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
+    }
+
+    /// Follows the path for this arc length, through dead points and change points; the event is the last one passed, or
+    /// that which ended the path before.
+    ///
+    /// The arc length is that of [`PathStep::length`], the sum of the chords of all steps. The last step may be longer by an
+    /// eighth of the square of its turn.
+    ///
+    /// # Errors
+    /// [`PositionError::NotFinite`] for a length that is not finite, [`PathError::TooManySteps`] after
+    /// [`most_steps`](Options::most_steps), and those of [`advance`](Self::advance).
+    pub fn advance_by(&mut self, length: M::Scalar) -> Result<PathStep<M>, PathError> {
+        if !length.is_finite() {
+            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the arc length" }.into());
+        }
+        let (end, mut passed) = (self.length + length, None);
+        for _ in 0..self.options.most_steps {
+            let left = end - self.length;
+            if left <= self.curve.rounding_error(&self.place.q) * real(EQUAL_ULPS) || self.is_ended {
+                return Ok(self.here(passed));
+            }
+            self.step = self.step.min(left);
+            let step = self.advance()?;
+            passed = step.event.or(passed);
         }
         Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
     }
@@ -291,6 +342,12 @@ where
         if self.options.range.is_some_and(is_outward) {
             self.is_ended = true;
             return Ok((self.here(Some(Event::Limit)), false));
+        }
+        if self.options.joint_ranges
+            && let Some(JointEnd { of, end, .. }) = self.curve.joint_end_ahead(&self.place)
+        {
+            self.is_ended = true;
+            return Ok((self.here(Some(Event::JointRange { of, end })), false));
         }
         let wanted = Wanted { target, watch, is_at_zero: matches!(self.resume, Resume::AtZero) };
         let shortest = self.curve.rounding_error(&self.place.q) * real(EQUAL_ULPS);
@@ -340,7 +397,8 @@ where
             self.passed = None;
         }
         self.resume = resume;
-        self.is_ended = matches!(end.event, Some(Event::Limit)) || matches!(resume, Resume::Undecided(..));
+        self.is_ended = matches!(end.event, Some(Event::Limit | Event::JointRange { .. }))
+            || matches!(resume, Resume::Undecided(..));
         self.place = end.place;
         (self.here(end.event), end.is_target)
     }

@@ -6,12 +6,14 @@
 pub(crate) mod constants;
 #[doc(hidden)]
 mod display;
+mod kinematic_chain;
 pub mod notation;
 mod scene;
 mod table;
 
 use core::fmt;
 
+pub use kinematic_chain::{ChainJoint, ChainLink, KinematicChain};
 pub use scene::{ContactEffect, Effect, JointForce, SceneDerivation};
 pub use table::{ElementaryFunction, Formula, FormulaList, FormulaNode, FormulaTable, FormulaView, Terms};
 
@@ -74,6 +76,33 @@ pub enum GroupMethod {
     Factorization,
 }
 
+/// The form of the equations of a [`Group`]: the Assur group, with R for a joint that turns and P for one that slides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum GroupForm {
+    /// RRR: the angles of two links between three joints that turn.
+    TwoAngles,
+    /// RRR: the coordinates of a point at two distances.
+    TwoDistances,
+    /// RRR: the angle of a link whose end is at a distance from a point.
+    AngleAndDistance,
+    /// RRP: the angle of a link, and a length along a line that does not turn with it.
+    AngleAndLength,
+    /// RRP: a length along a line, to a distance from a point.
+    LengthAndDistance,
+    /// RPR: an angle, and a length along a line that turns with it.
+    AngleAndTurningLength,
+    /// PRP or RPP: two lengths along given lines.
+    TwoLengths,
+    /// One angle phi in a cos(phi) + b sin(phi) + c = 0: with the slider that follows from it, RRP.
+    OneAngle,
+    /// One unknown that enters linearly: a gear, a belt, or a slider whose link is known.
+    OneLinear,
+    /// Any other.
+    Other,
+}
+
 /// The root that tells the two solutions of a [`Group`] apart by its sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -94,6 +123,8 @@ pub struct Group<'a> {
     pub equations: &'a [usize],
     /// The kind of group: the Assur group, or a description of any other.
     pub kind: &'a str,
+    /// The kind as data, with one case for all that are no dyad and no part of one.
+    pub form: GroupForm,
     /// The position in closed form, each equation in terms of those before it; empty if Newton's method finds it.
     pub position: &'a [Equation<'a>],
     /// The root that tells two solutions apart.
@@ -244,6 +275,8 @@ pub struct Derivation<'a> {
     pub outputs: &'a [Quantity<'a>],
     /// The conditions under which the simplified formulas hold, such as l₄ ≠ 0.
     pub conditions: &'a [Formula<'a>],
+    /// The links and joints; none if the vectors of loops do not show them.
+    pub chain: Option<KinematicChain<'a>>,
     /// The emitted functions.
     pub kernels: &'a [Kernel<'a>],
 }

@@ -31,6 +31,17 @@ pub enum InputError {
         /// The upper limit.
         upper: f64,
     },
+    /// A range of a coordinate or an output whose ends are not numbers, or whose first end is not less than its second.
+    EmptyJointRange {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The coordinate or the output.
+        of: &'static str,
+        /// The least value, minus infinity without one.
+        least: f64,
+        /// The largest value, infinity without one.
+        most: f64,
+    },
     /// The mechanism does not return to its start after one turn of the input.
     NotPeriodic {
         /// The mechanism, or the driver of one.
@@ -84,6 +95,12 @@ impl fmt::Display for InputError {
             }
             Self::EmptyRange { scene, stop, lower, upper } => {
                 write!(f, "the {stop} in {scene} is from {lower} to {upper}: the first must be less than the second")
+            }
+            Self::EmptyJointRange { mechanism, of, least, most } => {
+                write!(
+                    f,
+                    "the range of {of} in {mechanism} is from {least:?} to {most:?}: the first must be less than the second"
+                )
             }
             Self::NotPeriodic { mechanism } => {
                 write!(f, "{mechanism} does not return to its start after one turn of the input")

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::digits::Digits;
 use super::{InputError, PositionError};
+use crate::RangeEnd;
 
 /// The reason why a mechanism cannot be followed along its motion. All measures but the distance to an input are
 /// nondimensional: scaling all lengths of a mechanism changes none of them.
@@ -17,6 +18,17 @@ pub enum PathError {
         mechanism: &'static str,
         /// The unknowns of the group that locks.
         group: &'static str,
+        /// The distance from the input to the requested value, in the unit of the input: radians, if it is an angle.
+        gap: f64,
+    },
+    /// The input cannot reach the requested value: a coordinate or an output is at an end of its range before.
+    JointRange {
+        /// The mechanism, or the driver of one.
+        mechanism: &'static str,
+        /// The coordinate or the output.
+        of: &'static str,
+        /// The end of its range.
+        end: RangeEnd,
         /// The distance from the input to the requested value, in the unit of the input: radians, if it is an angle.
         gap: f64,
     },
@@ -64,6 +76,10 @@ impl fmt::Display for PathError {
         match self {
             Self::DeadPoint { mechanism, group, gap } => {
                 write!(f, "{mechanism} locks {} before this input: group {group} is at a dead point", Digits(*gap))
+            }
+            Self::JointRange { mechanism, of, end, gap } => {
+                let end = if *end == RangeEnd::Least { "least" } else { "largest" };
+                write!(f, "{mechanism} stops {} before this input: {of} has its {end} value", Digits(*gap))
             }
             Self::ChangePoint { mechanism, group } => {
                 write!(

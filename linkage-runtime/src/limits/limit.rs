@@ -1,5 +1,7 @@
 //! An end of an interval of inputs.
 
+use crate::RangeEnd;
+
 /// An end of an interval of inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -15,6 +17,16 @@ pub enum Limit<T> {
         input: T,
         /// The unknowns of the group whose links are in line there.
         group: &'static str,
+    },
+    /// The last input before a coordinate or an output is beyond the end of its declared range: that end itself for the range
+    /// of this input, else one of two neighbouring inputs between which it is.
+    JointRange {
+        /// The input.
+        input: T,
+        /// The coordinate or the output.
+        of: &'static str,
+        /// The end of its range.
+        end: RangeEnd,
     },
     /// A limit found by search, between two neighbouring inputs, or between two inputs where a group is undetermined.
     /// Links that miss each other by a rounding error count as in line, so the true limit lies between the two inputs,
@@ -34,7 +46,7 @@ impl<T: Copy> Limit<T> {
     pub fn input(&self) -> Option<T> {
         match *self {
             Self::Unlimited => None,
-            Self::Exact { input, .. } => Some(input),
+            Self::Exact { input, .. } | Self::JointRange { input, .. } => Some(input),
             Self::Bracketed { assembled, .. } => Some(assembled),
         }
     }

@@ -7,8 +7,12 @@
 //! stops the mechanism, the motion is followed along its tangent, and through a position at which it touches another. A
 //! limit may be a change point, beyond which the motion is on another branch. A search skips inputs at which a group is
 //! undetermined ([`PositionError::Undetermined`]).
+//!
+//! Where the mechanism declares ranges of coordinates and outputs, the nearer of the limit and of the first end of a range
+//! is returned; the range of the input itself is one.
 
 mod limit;
+mod ranges;
 mod search;
 mod searched;
 mod touch;
@@ -59,7 +63,8 @@ pub enum Search<T> {
 /// position nearby, `coordinates` those of a position.
 ///
 /// # Errors
-/// [`PositionError::NotFinite`] if a number is not finite.
+/// [`PositionError::NotFinite`] if a number is not finite; an [`InputError`](crate::InputError) if the position is outside of
+/// a declared range.
 pub fn limits<M: Mechanism, const B: usize>(
     mechanism: &M,
     place: usize,
@@ -90,12 +95,19 @@ pub fn limits<M: Mechanism, const B: usize>(
         Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })
     };
     let (lower, upper) = (exact(lower)?, exact(upper)?);
-    if let Search::ClosedFormOnly = search {
+    let (lower, upper) = match search {
+        Search::ClosedFormOnly => (lower, upper),
+        _ => (
+            searched.toward(start, &position, lower, start - reach)?,
+            searched.toward(start, &position, upper, start + reach)?,
+        ),
+    };
+    if M::RANGES.is_empty() {
         return Ok(Limits { lower, upper });
     }
     Ok(Limits {
-        lower: searched.toward(start, &position, lower, start - reach)?,
-        upper: searched.toward(start, &position, upper, start + reach)?,
+        lower: searched.within_ranges(start, &position, lower, -M::Scalar::one())?,
+        upper: searched.within_ranges(start, &position, upper, M::Scalar::one())?,
     })
 }
 

@@ -13,7 +13,7 @@ use crate::{Dim, Mechanism, PositionError, real};
 /// Steps of a search, one degree each for an angle without other limits. A group that turns forty times as fast as the
 /// input is then sampled nine times in its turn. With a tenth of the steps its limits are missed; twice as many take
 /// twice the time.
-const STEPS: u32 = 360;
+pub(super) const STEPS: u32 = 360;
 
 /// The parts of the first step and of the last one.
 const PARTS: u32 = 8;

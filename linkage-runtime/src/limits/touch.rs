@@ -81,7 +81,7 @@ impl<M: Mechanism> Searched<'_, M> {
 }
 
 /// Unknowns with each angle in the turn nearest to that of other unknowns: an angle in closed form may jump by a turn.
-fn in_turn_of<M: Mechanism>(unknowns: PerUnknown<M>, others: &PerUnknown<M>) -> PerUnknown<M> {
+pub(super) fn in_turn_of<M: Mechanism>(unknowns: PerUnknown<M>, others: &PerUnknown<M>) -> PerUnknown<M> {
     let turn = M::Scalar::two_pi();
     let each = unknowns.iter().zip(others).zip(M::UNKNOWN_ANGLES);
     PerUnknown::<M>::from_iterator(each.map(|((&unknown, &other), &is_angle)| {

@@ -37,9 +37,10 @@ impl Resolver<'_> {
                     self.still(id, node, what);
                     Some(node)
                 };
-                let ends = range.map(|end| still(end, "the end of a stop"));
+                let written = range.map(|range| range.map(|end| still(end, "the end of a stop")));
                 let given = still(*restitution, "the restitution of a stop");
                 let label = format!("stop on {}", self.text(*on)?);
+                let ends = written.unwrap_or_else(|| self.declared_ends(*on, along));
                 let (range, restitution_node) = ([ends[0]?, ends[1]?], given?);
                 let value = |node: NodeId| self.graph.constant_value(node);
                 // A length is not below zero.
@@ -61,6 +62,19 @@ impl Resolver<'_> {
             }
             _ => None,
         }
+    }
+
+    /// The declared range of the scalar of a stop, which is written without one.
+    fn declared_ends(&mut self, on: ExpressionId, along: Option<NodeId>) -> [Option<NodeId>; 2] {
+        let Some(along) = along else { return [None; 2] };
+        let ends = self.ranges.get(&along).copied().unwrap_or_default();
+        if ends.contains(&None) {
+            let name = self.text(on).unwrap_or_default();
+            let what = if ends == [None; 2] { "no range that is declared before" } else { "a range with one end" };
+            let message = format!("`{name}` has {what}: write `stop {name} in lower..upper, restitution e;`");
+            self.diagnostics.error(self.expressions.region(on), message);
+        }
+        ends
     }
 
     /// The scalar and the range of a stop, and whether it is signed. A length never passes an end at zero or below: it stays in -c..c if it stays in 0..c, and so does x of |x|.

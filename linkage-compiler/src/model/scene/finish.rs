@@ -154,8 +154,9 @@ impl Resolver<'_> {
 
     /// Moves parameters that only scenes use from the mechanism to these scenes.
     fn part_parameters(&self, mentions: &[BTreeSet<SymbolId>], result: &mut Mechanism) {
-        let mut kinematic: BTreeSet<SymbolId> =
-            self.graph.symbols_of(&result.kinematic_formulas(&result.rows())).into_iter().collect();
+        let mut formulas = result.kinematic_formulas(&result.rows());
+        formulas.extend(result.ranges.iter().flat_map(|range| range.ends.into_iter().flatten()));
+        let mut kinematic: BTreeSet<SymbolId> = self.graph.symbols_of(&formulas).into_iter().collect();
         let mut held: Vec<BTreeSet<SymbolId>> = result
             .scenes
             .iter()

@@ -45,6 +45,9 @@ impl<'a> Signatures<'a> {
         if !self.mechanism.implied.is_empty() {
             all.push(self.check_implied());
         }
+        if !self.mechanism.ranges.is_empty() {
+            all.push(self.ranges());
+        }
         all.extend([self.velocity(), self.acceleration()]);
         if wants(Request::Jerk) {
             all.push(self.jerk());
@@ -121,7 +124,7 @@ impl<'a> Signatures<'a> {
     }
 
     /// All coordinates, or their derivatives with respect to time.
-    fn coordinates(&self, order: Order) -> Argument {
+    pub(super) fn coordinates(&self, order: Order) -> Argument {
         let passed = Passed::ByReference(self.coordinates_type(order));
         Argument { name: self.arguments.of(order).to_owned(), passed }
     }

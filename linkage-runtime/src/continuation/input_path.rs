@@ -1,0 +1,103 @@
+//! Paths of the inputs of a mechanism by one parameter.
+
+use crate::scalar::arithmetic::*;
+use crate::{InputError, Mechanism, PerInput};
+
+/// The inputs of a mechanism as functions v(s) of one parameter.
+///
+/// Functions that return v, dv/ds and d2v/ds2 implement it, with a parameter that is treated as an angle.
+pub trait InputPath<M: Mechanism> {
+    /// The name of the parameter, as in error messages.
+    const PARAMETER: &'static str = "the parameter";
+    /// True if the parameter is an angle: its scale is 1, and a motion may close after whole turns of it.
+    const IS_ANGLE: bool = true;
+
+    /// v, dv/ds and d2v/ds2.
+    fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3];
+
+    /// The ends of the parameter, if the path has ends.
+    ///
+    /// # Errors
+    /// [`InputError`] if the path has no length.
+    fn range(&self) -> Result<Option<[M::Scalar; 2]>, InputError> {
+        Ok(None)
+    }
+
+    /// The scale of a parameter that is no angle, if no constraint depends on it.
+    #[must_use]
+    fn length_scale(_: &M, _: &M::Pose) -> M::Scalar {
+        M::Scalar::one()
+    }
+}
+
+impl<M, F, I> InputPath<M> for F
+where
+    M: Mechanism,
+    F: Fn(M::Scalar) -> [I; 3],
+    I: Into<PerInput<M>>,
+{
+    fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
+        self(parameter).map(Into::into)
+    }
+}
+
+/// The input with the index `INPUT` as the parameter, with the others held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OneInput<I, const INPUT: usize> {
+    /// The inputs; the value of that which is the parameter is unused.
+    pub held: I,
+}
+
+impl<M, const INPUT: usize> InputPath<M> for OneInput<M::Inputs, INPUT>
+where
+    M: Mechanism,
+{
+    const PARAMETER: &'static str = M::INPUTS[INPUT];
+    const IS_ANGLE: bool = M::INPUT_ANGLES[INPUT];
+
+    fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
+        let held: PerInput<M> = self.held.into();
+        let unit = |place: usize| if place == INPUT { M::Scalar::one() } else { M::Scalar::zero() };
+        let inputs = PerInput::<M>::from_fn(|place| if place == INPUT { parameter } else { held[place] });
+        [inputs, PerInput::<M>::from_fn(unit), PerInput::<M>::zeros()]
+    }
+
+    fn length_scale(mechanism: &M, pose: &M::Pose) -> M::Scalar {
+        mechanism.length_scale(pose)
+    }
+}
+
+/// The straight line between two inputs, with a parameter from 0 to 1. At both ends the inputs are exactly these.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line<I> {
+    /// The inputs at 0.
+    pub from: I,
+    /// The inputs at 1.
+    pub to: I,
+}
+
+impl<M: Mechanism> InputPath<M> for Line<M::Inputs> {
+    const PARAMETER: &'static str = "the part of the way";
+    const IS_ANGLE: bool = false;
+
+    fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
+        let [from, to]: [PerInput<M>; 2] = [self.from.into(), self.to.into()];
+        let inputs = from * (M::Scalar::one() - parameter) + to * parameter;
+        [inputs, to - from, PerInput::<M>::zeros()]
+    }
+
+    fn range(&self) -> Result<Option<[M::Scalar; 2]>, InputError> {
+        let [from, to]: [PerInput<M>; 2] = [self.from.into(), self.to.into()];
+        if from == to {
+            let (of, quantity) = (Some(M::NAME), "the way between the inputs");
+            return Err(InputError::OutOfRange {
+                of,
+                quantity,
+                value: 0.0,
+                least: f64::MIN_POSITIVE,
+                most: f64::INFINITY,
+            });
+        }
+        Ok(Some([M::Scalar::zero(), M::Scalar::one()]))
+    }
+}

@@ -1,0 +1,78 @@
+//! The declared ranges of coordinates and outputs along a step.
+
+use super::curve::Curve;
+use super::place::Place;
+use crate::jacobian::ulp::EQUAL_ULPS;
+use crate::scalar::arithmetic::*;
+use crate::{D, Dim, Mechanism, PathError, RangeEnd, Real, real};
+
+/// An end of a range, with the value at the start of a step.
+pub(super) struct JointEnd<T> {
+    place: usize,
+    pub(super) of: &'static str,
+    pub(super) end: RangeEnd,
+    limit: T,
+    value: T,
+}
+
+impl<T: Real> JointEnd<T> {
+    /// All ends of a mechanism that are given.
+    pub(super) fn all<M: Mechanism<Scalar = T>>(mechanism: &M, q: &M::Coordinates) -> impl Iterator<Item = Self> {
+        let all =
+            M::RANGES.iter().enumerate().filter_map(|(place, of)| Some((place, *of, mechanism.ranged(place, q)?)));
+        all.flat_map(|(place, of, ranged)| {
+            let ends = RangeEnd::BOTH.into_iter().filter_map(move |end| Some((end, ranged.end(end)?)));
+            ends.map(move |(end, limit)| Self { place, of, end, limit, value: ranged.value })
+        })
+    }
+}
+
+impl<M> Curve<'_, M>
+where
+    M: Mechanism<V = D<1>>,
+{
+    /// The distance from an end of a range, negative beyond it; NaN without a value.
+    fn room(&self, q: &M::Coordinates, joint: &JointEnd<M::Scalar>) -> M::Scalar {
+        let ranged = self.mechanism.ranged(joint.place, q).map(|ranged| ranged.following(joint.value));
+        ranged.and_then(|ranged| ranged.room_at(joint.end)).unwrap_or_else(|| real(f64::NAN))
+    }
+
+    /// The distance from an end of a range, and its derivative along the tangent.
+    pub(super) fn room_along(&self, place: &Place<M>, joint: &JointEnd<M::Scalar>) -> [M::Scalar; 2] {
+        let little = self.little(&place.q);
+        let near = self.moved(&place.q, &(place.tangent * little));
+        let here = self.room(&place.q, joint);
+        [here, (self.room(&near, joint) - here) / little]
+    }
+
+    /// True if the distance from an end of a range is more than the rounding error of the place.
+    pub(super) fn has_room(&self, place: &Place<M>, joint: &JointEnd<M::Scalar>) -> bool {
+        let [room, slope] = self.room_along(place, joint);
+        room > slope.abs() * self.rounding_error(&place.q) * real(EQUAL_ULPS)
+    }
+
+    /// An end of a range at which the place is, if the path leads beyond it.
+    pub(super) fn joint_end_ahead(&self, place: &Place<M>) -> Option<JointEnd<M::Scalar>> {
+        let is_ahead = |joint: &JointEnd<M::Scalar>| {
+            !self.has_room(place, joint) && self.room_along(place, joint)[1] < M::Scalar::zero()
+        };
+        JointEnd::all(self.mechanism, &place.q).find(is_ahead)
+    }
+
+    /// Gives a place at an end of a range exactly this value, if a coordinate has the range.
+    pub(super) fn at_joint_end(&self, place: Place<M>, joint: &JointEnd<M::Scalar>) -> Result<Place<M>, PathError> {
+        let column = M::UNKNOWNS.iter().chain(M::INPUTS).position(|name| *name == joint.of);
+        let Some(column) = column.filter(|column| *column <= M::U::COUNT) else { return Ok(place) };
+        let (unknowns, inputs) = M::parts(&place.q);
+        let value = unknowns.iter().chain(&inputs).nth(column).copied();
+        // An angle keeps its turns.
+        let value = value.map_or(joint.limit, |value| {
+            let ranged = self.mechanism.ranged(joint.place, &place.q);
+            let turns = ranged
+                .filter(|ranged| ranged.is_direction)
+                .map_or_else(M::Scalar::zero, |_| ((value - joint.limit) / M::Scalar::two_pi()).round());
+            joint.limit + turns * M::Scalar::two_pi()
+        });
+        self.with_exact(place, column, value)
+    }
+}

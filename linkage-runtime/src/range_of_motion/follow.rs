@@ -1,0 +1,168 @@
+//! The motion from its start to both ends.
+
+use core::cmp::Ordering;
+use std::vec::Vec;
+
+use super::driven::{Driven, same_inputs};
+use super::{MotionEnd, RangeOptions};
+use crate::continuation::{AtChangePoint, Direction, Event, Groups, Path};
+use crate::jacobian::Blocks;
+use crate::jacobian::ulp::nearly_zero;
+use crate::same_position::SamePosition;
+use crate::scalar::arithmetic::*;
+use crate::scalar::to_f64;
+use crate::{Mechanism, PathError, PerUnknown, real};
+
+/// A position at which a step ended.
+pub(super) struct Step<M: Mechanism> {
+    pub(super) position: M::Coordinates,
+    /// The derivatives of the coordinates by arc length.
+    pub(super) rates: M::Rates,
+    /// The arc length from the start, negative before it.
+    pub(super) length: M::Scalar,
+    pub(super) passed: Option<Passed>,
+    /// The smallest pivot of [J A] divided by the largest.
+    pub(super) regularity: M::Scalar,
+}
+
+/// A singular position on the way.
+#[derive(Clone, Copy)]
+pub(super) enum Passed {
+    DeadPoint(&'static str),
+    ChangePoint(Groups),
+}
+
+/// The steps in the order of travel, and the ends.
+pub(super) type Followed<M> = (Vec<Step<M>>, [MotionEnd; 2]);
+
+/// The policy of a motion at a dead point.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum AtDeadPoint {
+    End,
+    GoOn,
+}
+
+/// A motion that is followed from a position.
+pub(super) struct Follower<'a, M: Mechanism> {
+    pub(super) mechanism: &'a M,
+    pub(super) same: &'a SamePosition<M>,
+    pub(super) options: &'a RangeOptions<M::Scalar>,
+    pub(super) at_dead_point: AtDeadPoint,
+}
+
+impl<M: Driven> Follower<'_, M> {
+    /// Follows the motion both ways; first that in which the parameter increases.
+    pub(super) fn both_ways(&self, start: &M::Coordinates) -> Result<Followed<M>, PathError> {
+        let (mut steps, upper) = self.one_way(start, Direction::Increasing)?;
+        if matches!(upper, MotionEnd::Closed { .. }) {
+            return Ok((steps, [upper; 2]));
+        }
+        let (other_side, lower) = self.one_way(start, Direction::Decreasing)?;
+        // The start is in both.
+        steps.splice(..1, other_side.into_iter().rev().map(Step::turned_back));
+        Ok((steps, [lower, upper]))
+    }
+
+    /// The steps from a position in a direction, until the motion closes or ends.
+    fn one_way(
+        &self,
+        start: &M::Coordinates,
+        direction: Direction<M::Rates>,
+    ) -> Result<(Vec<Step<M>>, MotionEnd), PathError> {
+        let Self { mechanism, same, options, at_dead_point } = *self;
+        let mut path = Path::with(mechanism, start, direction, options.path)?;
+        let goes_on = at_dead_point == AtDeadPoint::GoOn;
+        let start = path.position();
+        let at = |q: &M::Coordinates| M::inputs(q)[0];
+        let may_close = goes_on || M::INPUT_ANGLES[0] && options.path.range.is_none();
+        let most = M::Scalar::two_pi() * real(f64::from(options.most_turns));
+        let (rates, regularity) = (path.rates(), path.regularity());
+        let mut steps =
+            Vec::from([Step { position: start, rates, length: M::Scalar::zero(), passed: None, regularity }]);
+        for _ in 0..options.path.most_steps {
+            let step = match may_close {
+                true => path.advance_watching(|q, _| same.side(at(q), at(&start)))?,
+                false => path.advance()?,
+            };
+            let (position, rates, length) = (step.position, step.rates, step.length);
+            let passed = match step.event {
+                Some(Event::DeadPoint { group }) => Some(Passed::DeadPoint(group)),
+                Some(Event::ChangePoint { groups, .. }) => Some(Passed::ChangePoint(groups)),
+                Some(Event::Limit | Event::JointRange { .. } | Event::Zero) | None => None,
+            };
+            // At an end of its range the path takes a step of no length.
+            if steps.last().is_none_or(|last| last.position != position) {
+                steps.push(Step { position, rates, length, passed, regularity: path.regularity() });
+            }
+            let is_at_start = || {
+                same.are_equal(mechanism, &position, &start)
+                    && same_inputs(mechanism, &position, &start)
+                    && !has_counted(mechanism, &position, &start)
+            };
+            let [heading, first] = [&rates, &steps[0].rates].map(|rates| M::rate_parts(rates).1[0]);
+            let heading = same.input_in_units(heading * first.signum());
+            let reverses = || heading <= M::Scalar::zero();
+            let has_reversed = || heading < -nearly_zero::<M::Scalar>();
+            let stops = options.path.at_change_point == AtChangePoint::Stop;
+            let end = match step.event {
+                Some(Event::Zero) if is_at_start() => {
+                    let turns = to_f64(((at(&position) - at(&start)) / M::Scalar::two_pi()).round());
+                    // At most `most_turns`.
+                    MotionEnd::Closed { turns: if M::INPUT_ANGLES[0] { turns.abs() as u32 } else { 0 } }
+                }
+                Some(Event::DeadPoint { group }) if !goes_on => MotionEnd::DeadPoint { group },
+                Some(Event::ChangePoint { groups, .. }) if stops || !goes_on && reverses() => {
+                    MotionEnd::ChangePoint { groups }
+                }
+                Some(Event::Limit) => MotionEnd::Range,
+                Some(Event::JointRange { of, end }) => MotionEnd::JointRange { of, end },
+                // At links that differ by few ulps of the others the sign of a determinant is not resolved.
+                _ if !goes_on && has_reversed() => {
+                    let (_, group) = Blocks::of(mechanism, &mechanism.pose_at(&position)).least_regular();
+                    let farthest = (0..steps.len()).rev().max_by(|&one, &other| {
+                        let [one, other] = [one, other].map(|place| (at(&steps[place].position) - at(&start)).abs());
+                        one.partial_cmp(&other).unwrap_or(Ordering::Equal)
+                    });
+                    steps.truncate(farthest.unwrap_or_default() + 1);
+                    MotionEnd::DeadPoint { group }
+                }
+                _ if same.way(&position, &start) > most => MotionEnd::Open,
+                _ => continue,
+            };
+            return Ok((steps, end));
+        }
+        Err(PathError::TooManySteps { mechanism: M::NAME, steps: options.path.most_steps })
+    }
+}
+
+/// True if a value with a range is another after whole turns, though the position is the same.
+fn has_counted<M: Driven>(mechanism: &M, position: &M::Coordinates, start: &M::Coordinates) -> bool {
+    let whole = |angle: M::Scalar| (angle / M::Scalar::two_pi()).round() * M::Scalar::two_pi();
+    let ((unknowns, inputs), (from, first)) = (M::parts(position), M::parts(start));
+    let turned = (unknowns.iter().zip(&from).zip(M::UNKNOWN_ANGLES))
+        .map(|((to, from), is_angle)| if *is_angle { *from + whole(*to - *from) } else { *from });
+    let turned = M::coordinates(PerUnknown::<M>::from_iterator(turned), first + (inputs - first).map(whole));
+    (0..M::RANGES.len()).any(|place| {
+        let [Some(one), Some(other)] = [start, &turned].map(|q| mechanism.ranged(place, q)) else { return false };
+        let scale = [Some(one.value), Some(other.value), one.least, one.most].into_iter().flatten();
+        let scale = scale.fold(M::Scalar::zero(), |sum, part| sum + part.abs());
+        !one.is_direction && (one.value - other.value).abs() > scale * nearly_zero()
+    })
+}
+
+impl<M: Driven> Step<M> {
+    pub(super) fn input(&self) -> M::Scalar {
+        M::inputs(&self.position)[0]
+    }
+
+    /// The step of the motion in the other direction.
+    fn turned_back(self) -> Self {
+        Self { rates: backwards::<M>(&self.rates), length: -self.length, ..self }
+    }
+}
+
+/// The rates in the other direction.
+pub(super) fn backwards<M: Mechanism>(rates: &M::Rates) -> M::Rates {
+    let (unknowns, inputs) = M::rate_parts(rates);
+    M::rates(-unknowns, -inputs)
+}
