@@ -2,6 +2,7 @@
 //!
 //! - [`Document`]: a derivation as plain text and as LaTeX, its code as FPCore;
 //! - [`Notation`]: a formula as LaTeX and MathML;
+//! - [`report`]: mobility, modes, and one motion from end to end, as data, prose and HTML;
 //! - [`sheet`]: a derivation as HTML, with numbers and pictures;
 //! - [`drawing`]: a linkage as SVG;
 //! - [`Table`]: a motion as columns and as CSV.
@@ -13,6 +14,7 @@ mod document;
 pub mod drawing;
 mod fpcore;
 mod notation;
+pub mod report;
 pub mod sheet;
 mod table;
 

@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::PathBuf;
 
-use linkage_runtime::InputError;
+use linkage_runtime::{InputError, PathError};
 
 /// The reason why a sweep cannot be planned, computed or written.
 #[derive(Debug)]
@@ -72,6 +72,18 @@ pub enum SweepError {
         quantity: &'static str,
         /// Its value.
         value: f64,
+    },
+    /// A case with a parameter that varies, which has no single motion.
+    SeveralDesigns {
+        /// The case.
+        case: u64,
+    },
+    /// A case whose motion cannot be followed from any of its rows.
+    NoMotion {
+        /// The case.
+        case: u64,
+        /// Why not from the last of them.
+        error: PathError,
     },
     /// A standard deviation less than zero.
     NegativeDeviation {
@@ -157,6 +169,11 @@ impl fmt::Display for SweepError {
             Self::NotFinite { column, quantity, value } => {
                 write!(f, "the {quantity} of {column} is {value:?}: it must be a finite number of the scalar type")
             }
+            Self::SeveralDesigns { case } => write!(
+                f,
+                "a parameter varies in case {case}, which has no single motion: the factors of a case vary the input only"
+            ),
+            Self::NoMotion { case, error } => write!(f, "the motion of case {case} cannot be followed: {error}"),
             Self::NegativeDeviation { column, value } => {
                 write!(f, "the standard deviation of {column} is {value:?}: it must be at least 0")
             }
@@ -187,6 +204,7 @@ impl std::error::Error for SweepError {
             Self::Io { source, .. } => Some(source),
             Self::Threads(error) => Some(error),
             Self::Columns(error) => Some(error),
+            Self::NoMotion { error, .. } => Some(error),
             _ => None,
         }
     }

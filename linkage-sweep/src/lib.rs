@@ -15,6 +15,9 @@
 //! A row is accepted if its position, its rates and its accelerations exist; it does not depend on the columns asked for. A
 //! point or an output that does not exist in an accepted row is missing in its own column, and nowhere else.
 //!
+//! Rows are positions on one branch, each for itself; where that branch jumps to another motion,
+//! [`off_motion`](Sweep::off_motion) says which rows of a case are not on the first one.
+//!
 //! A sweep needs a mechanism with `derive lanes;`, which implements [`Lanes`](linkage_runtime::lanes::Lanes).
 //!
 //! ```
@@ -83,6 +86,7 @@ mod count;
 mod deliver;
 mod error;
 mod file;
+mod motion;
 mod names;
 mod plan;
 mod progress;
@@ -100,6 +104,7 @@ pub use error::SweepError;
 // For other formats of files.
 #[doc(hidden)]
 pub use file::{remove_unfinished, write_whole};
+pub use motion::OffMotion;
 #[doc(hidden)]
 pub use names::names;
 pub use plan::{Distribution, Factor, Plan, Sequence};

@@ -79,6 +79,10 @@ impl<M: Lanes> Sweep<M> {
         Ok(self)
     }
 
+    pub(crate) fn branch(&self) -> M::Branch {
+        self.branch
+    }
+
     /// The plan.
     #[must_use]
     pub fn plan(&self) -> &Plan {
@@ -194,7 +198,7 @@ impl<M: Lanes> Sweep<M> {
     }
 
     /// The given numbers of a row.
-    fn numbers(&self, number: u64) -> Result<Vec<M::Scalar>, SweepError> {
+    pub(crate) fn numbers(&self, number: u64) -> Result<Vec<M::Scalar>, SweepError> {
         if number >= self.rows() {
             return Err(SweepError::OutOfRange { quantity: "row", number, count: self.rows() });
         }

@@ -2,8 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use linkage_runtime::continuation::Options;
+use linkage_runtime::range_of_motion::{Driven, MotionByLength, MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::skeleton::{Part as Known, Skeleton};
-use linkage_runtime::{Assembly, Column, PositionError};
+use linkage_runtime::{Assembly, Mechanism, PathError};
 use nalgebra::{Point2, Vector2};
 
 use super::animation::Part;
@@ -112,52 +114,100 @@ impl Animation {
         self.link(&[on, &tip]).sleeve(pin, [on, &tip])
     }
 
-    /// Animates a turn of the input of a mechanism with `derive drawing;`, or the longest stretch of a turn in which it
-    /// can be assembled, forth and back.
+    /// Animates a turn of the input of a mechanism with `derive drawing;`: one motion that begins on this branch and passes
+    /// change points smoothly. If it ends, the longest such motion forth and back.
     ///
     /// # Errors
-    /// [`DrawingError::NoPosition`] if the mechanism has several inputs, or no position in 120 steps of a turn.
+    /// [`DrawingError::NoPosition`] if no motion can be followed from 120 steps of a turn.
     pub fn turn<M>(mechanism: &M, branch: M::Branch) -> Result<Self, DrawingError>
     where
-        M: Skeleton<Scalar = f64> + Assembly,
+        M: Driven<Scalar = f64, Of: Skeleton + Assembly>,
     {
-        let angle = |step: u32| TAU * f64::from(step) / f64::from(FRAMES);
-        let exists = |step: u32| assemble(mechanism, angle(step % FRAMES), branch).is_ok();
-        let Some(stop) = (0..FRAMES).find(|&step| !exists(step)) else {
-            return Self::over(mechanism, branch, (0..=FRAMES).map(angle));
-        };
-        // The longest run of steps with a position; runs may pass the zero of the angle.
-        let (mut longest, mut run) = ((0, 0), (stop, 0));
-        for step in stop..=stop + FRAMES {
-            run = if exists(step) { (run.0, run.1 + 1) } else { (step + 1, 0) };
-            if run.1 > longest.1 {
-                longest = run;
+        let mut longest: Option<RangeOfMotion<'_, M>> = None;
+        let mut reached: Vec<[f64; 2]> = Vec::new();
+        let mut last = PathError::NoDirection { mechanism: M::NAME };
+        for step in 0..FRAMES {
+            let input = TAU * f64::from(step) / f64::from(FRAMES);
+            if reached.iter().any(|[least, most]| (least..=most).contains(&&input)) {
+                continue;
+            }
+            match RangeOfMotion::on_branch(mechanism, branch, [input], RangeOptions::through_change_points()) {
+                Ok(range) if range.is_closed() => return Self::over(&range),
+                Ok(range) => {
+                    let [least, most] = range.inputs();
+                    reached.extend([[least, most], [least + TAU, most + TAU]]);
+                    let length = |[least, most]: [f64; 2]| most - least;
+                    if longest.as_ref().is_none_or(|other| length(other.inputs()) < most - least) {
+                        longest = Some(range);
+                    }
+                }
+                Err(error) => last = error,
             }
         }
-        let (first, count) = longest;
-        if count == 0 {
-            let error = assemble(mechanism, angle(stop), branch).err();
-            return Err(no_position::<M>(error));
-        }
-        let ends = [(first, -1.0), (first + count - 1, 1.0)].map(|(step, side)| {
-            let mut inside = angle(step);
-            let mut outside = inside + side * angle(1);
-            for _ in 0..f64::MANTISSA_DIGITS {
-                let middle = f64::midpoint(inside, outside);
-                *(if assemble(mechanism, middle, branch).is_ok() { &mut inside } else { &mut outside }) = middle;
-            }
-            inside
-        });
-        Self::between(mechanism, branch, ends)
+        longest.map_or_else(|| Err(no_position(&last)), |range| Self::over(&range))
     }
 
-    /// Animates a mechanism with `derive drawing;` from one value of its input to another and back.
+    /// Animates one motion of a mechanism with `derive drawing;`: all of its turns if it closes, else forth and back
+    /// between its ends.
     ///
     /// # Errors
-    /// [`DrawingError::NoPosition`] if the mechanism has several inputs, or no position at one between these.
+    /// [`DrawingError::NoPosition`] if a position of the motion is not found.
+    pub fn over<M>(range: &RangeOfMotion<'_, M>) -> Result<Self, DrawingError>
+    where
+        M: Driven<Scalar = f64, Of: Skeleton>,
+    {
+        let [from, to] = range.inputs();
+        match range.ends()[1] {
+            MotionEnd::Closed { turns } => {
+                let frames = FRAMES.saturating_mul(turns.max(1));
+                let input = |step: u32| from + (to - from) * f64::from(step) / f64::from(frames);
+                Self::at_inputs(range, (0..=frames).map(input), SECONDS * f64::from(turns.max(1)))
+            }
+            _ => Self::forth_and_back(range, [from, to]),
+        }
+    }
+
+    /// Animates a whole motion of a mechanism with `derive drawing;`, through its dead points, at a constant rate of the arc
+    /// length: all of a closed motion, else forth and back between its ends.
+    ///
+    /// # Errors
+    /// [`DrawingError::NoPosition`] if a position of the motion is not found.
+    pub fn along<M>(motion: &MotionByLength<'_, M>) -> Result<Self, DrawingError>
+    where
+        M: Driven<Scalar = f64, Of: Skeleton>,
+    {
+        let length = motion.length();
+        // A turn takes as long as one of `turn`: a frame has no more than its share of the arc length.
+        let rounds = (length / TAU).ceil().clamp(1.0, f64::from(u16::MAX)) as u32;
+        let frames = FRAMES * rounds;
+        let share = |step: u32| f64::from(step) / f64::from(frames);
+        let poses = (0..=frames).map(|step| {
+            let part = if motion.is_closed() { share(step) } else { 1.0 - (2.0 * share(step) - 1.0).abs() };
+            motion.at(length * part).map(|q| motion.driven().pose_at(&q))
+        });
+        let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathError> = poses.collect();
+        Ok(Self::of(motion.driven(), &poses.map_err(|error| no_position(&error))?, SECONDS * f64::from(rounds)))
+    }
+
+    /// Animates a mechanism with `derive drawing;` from one value of its input to another and back: the motion that has this
+    /// branch halfway between them. It passes change points smoothly.
+    ///
+    /// # Errors
+    /// [`DrawingError::NoPosition`] if the motion ends before one of these, or if they are equal.
     pub fn between<M>(mechanism: &M, branch: M::Branch, [from, to]: [f64; 2]) -> Result<Self, DrawingError>
     where
-        M: Skeleton<Scalar = f64> + Assembly,
+        M: Driven<Scalar = f64, Of: Skeleton + Assembly>,
+    {
+        let of = RangeOptions::through_change_points();
+        let path = Options { range: Some([from.min(to), from.max(to)]), ..of.path };
+        let starts = [f64::midpoint(from, to), from, to];
+        let range = RangeOfMotion::on_branch(mechanism, branch, starts, RangeOptions { path, ..of });
+        Self::forth_and_back(&range.map_err(|error| no_position(&error))?, [from, to])
+    }
+
+    fn forth_and_back<M>(range: &RangeOfMotion<'_, M>, [from, to]: [f64; 2]) -> Result<Self, DrawingError>
+    where
+        M: Driven<Scalar = f64, Of: Skeleton>,
     {
         let middle = f64::midpoint(from, to);
         // Exactly `from` and `to` at the ends: the sum below may differ from them in the last digit.
@@ -166,20 +216,20 @@ impl Animation {
             half if 2 * half == FRAMES => to,
             step => middle - (to - middle) * (TAU * f64::from(step) / f64::from(FRAMES)).cos(),
         };
-        Self::over(mechanism, branch, (0..=FRAMES).map(input))
+        Self::at_inputs(range, (0..=FRAMES).map(input), SECONDS)
     }
 
-    fn over<M>(mechanism: &M, branch: M::Branch, inputs: impl Iterator<Item = f64>) -> Result<Self, DrawingError>
+    fn at_inputs<M>(
+        range: &RangeOfMotion<'_, M>,
+        inputs: impl Iterator<Item = f64>,
+        seconds: f64,
+    ) -> Result<Self, DrawingError>
     where
-        M: Skeleton<Scalar = f64> + Assembly,
+        M: Driven<Scalar = f64, Of: Skeleton>,
     {
-        let poses: Result<Vec<M::Pose>, DrawingError> = inputs
-            .map(|input| assemble(mechanism, input, branch).map_err(|error| no_position::<M>(Some(error))))
-            .collect();
-        match M::INPUTS.len() {
-            1 => Ok(Self::of(mechanism, &poses?, SECONDS)),
-            _ => Err(no_position::<M>(None)),
-        }
+        let pose = |input: f64| range.at(input).map(|q| range.driven().pose_at(&q));
+        let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathError> = inputs.map(pose).collect();
+        Ok(Self::of(range.driven(), &poses.map_err(|error| no_position(&error))?, seconds))
     }
 
     /// Removes the parts that connect exactly these points: to draw another one there.
@@ -193,11 +243,6 @@ impl Animation {
     }
 }
 
-fn assemble<M: Assembly<Scalar = f64>>(mechanism: &M, input: f64, branch: M::Branch) -> Result<M::Pose, PositionError> {
-    mechanism.assemble(Column::repeat(input).into(), branch)
-}
-
-fn no_position<M: Assembly>(error: Option<PositionError>) -> DrawingError {
-    let several = || format!("{} has {} inputs: give its poses to `Animation::of`", M::NAME, M::INPUTS.len());
-    DrawingError::NoPosition(error.map_or_else(several, |error| error.to_string()))
+fn no_position(error: &PathError) -> DrawingError {
+    DrawingError::NoPosition(error.to_string())
 }

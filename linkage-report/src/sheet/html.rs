@@ -5,7 +5,7 @@ use crate::document::outline::GeneralEquation;
 use linkage_runtime::derivation::{Formula, FormulaMatrix};
 
 /// Escapes text for an element or for an attribute in double quotes.
-pub(super) fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

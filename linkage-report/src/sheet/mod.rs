@@ -20,6 +20,10 @@ mod page;
 
 use linkage_runtime::derivation::{Derivation, SceneDerivation};
 
+pub(crate) use html::escape;
+pub(crate) use numbers::number;
+pub(crate) use page::document;
+
 #[derive(Debug, Clone, PartialEq)]
 struct Table {
     caption: String,

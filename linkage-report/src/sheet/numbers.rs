@@ -80,7 +80,7 @@ pub(super) fn column(values: &[f64]) -> Vec<String> {
 }
 
 /// A number to seven significant digits.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         let text = if value.is_nan() { "not a number".to_owned() } else { value.abs().to_string() };
         return if value < 0.0 { format!("−{}", text.replace("inf", "∞")) } else { text.replace("inf", "∞") };

@@ -45,12 +45,16 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     }
     page.conditions(derivation.conditions);
     let title = escape(sheet.title.as_deref().unwrap_or(derivation.mechanism));
+    document(&title, &page.body)
+}
+
+/// A page with this title and this body, both HTML.
+pub(crate) fn document(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n\
-         </head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
-        page.body
+         </head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n"
     )
 }
 

@@ -5,6 +5,7 @@ mod common;
 mod errors;
 mod files;
 mod front;
+mod motion;
 mod reducers;
 mod rows;
 mod samples;

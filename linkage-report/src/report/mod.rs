@@ -1,0 +1,201 @@
+//! A report of a mechanism: its mobility, its modes and circuits, and one motion from end to end.
+//!
+//! A report is data, in radians and in the unit of the lengths. As text it reads as prose, with angles in degrees; as HTML
+//! it is a page that stands alone.
+//!
+//! ```
+//! linkage::linkage! {
+//!     /// A crank-rocker.
+//!     pub mechanism FourBar {
+//!         param ground = 80, crank = 20, coupler = 50, rocker = 70;
+//!         input theta;
+//!         unknown phi, psi;
+//!         loop crank@theta + coupler@phi = ground@0 + rocker@psi;
+//!         output swing = psi;
+//!     }
+//! }
+//! use linkage::report::{GrashofClass, Report, ReportOptions};
+//!
+//! let (m, branch) = (FourBar::default(), FourBarBranch::new(linkage::Elbow::Left));
+//! let report = Report::on_branch(&m, FourBar::DERIVATION, branch, [1.0], &ReportOptions::default())?;
+//! let motion = report.motion.as_ref().unwrap();
+//! assert_eq!(motion.four_bars[0].class, GrashofClass::CrankRocker);
+//! let worst = motion.transmission[0].least;
+//! assert!((worst.value.to_degrees() - 57.12).abs() < 0.01);
+//! println!("{report}");
+//! # Ok::<(), linkage::Error>(())
+//! ```
+
+mod dwells;
+mod dyad;
+mod four_bar;
+mod mobility;
+mod modes;
+mod motion;
+mod options;
+mod page;
+mod prose;
+mod strokes;
+mod transmission;
+
+use linkage_runtime::circuits::CircuitError;
+use linkage_runtime::derivation::Derivation;
+use linkage_runtime::range_of_motion::RangeOfMotion;
+use linkage_runtime::{Assembly, Branches, D, Kinematic, Mechanism, PathError};
+
+pub use dwells::Dwell;
+pub use dyad::DyadKind;
+pub use four_bar::{FourBarLoop, GrashofClass};
+pub use mobility::{LinksAndJoints, Mobility};
+pub use modes::{ListedMode, ListedMotion, Modes, SingularInput};
+pub use motion::{MotionReport, NearMissInput, QuantityReport};
+pub use options::{DwellOptions, ReportOptions};
+pub use strokes::Stroke;
+pub use transmission::{NoTransmission, Transmission};
+
+/// A report of a mechanism.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Report {
+    /// The mechanism, or the driver of one.
+    pub mechanism: String,
+    /// The inputs.
+    pub inputs: Vec<ReportedCoordinate>,
+    /// The unknowns.
+    pub unknowns: Vec<ReportedCoordinate>,
+    /// The links, joints and degrees of freedom.
+    pub mobility: Mobility,
+    /// The modes and circuits at the input of the start.
+    pub modes: ReportedModes,
+    /// One motion from end to end; none for a mechanism with several inputs, which has as many motions as paths of its
+    /// inputs.
+    pub motion: Option<MotionReport>,
+}
+
+/// A coordinate by name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ReportedCoordinate {
+    /// The name in the `linkage!` language.
+    pub name: String,
+    /// True for an angle.
+    pub is_angle: bool,
+}
+
+/// The modes of a report, or the reason why it has none.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum ReportedModes {
+    /// The modes.
+    Listed(Modes),
+    /// The positions at the start, or the motions through them, cannot be computed.
+    Failed(CircuitError),
+    /// The mechanism does not implement [`Branches`], or the report was made without.
+    NotListed,
+}
+
+impl Report {
+    /// The report of a mechanism with one input, of the motion through a position near `start`. `derivation` is the
+    /// constant `DERIVATION` of the mechanism.
+    ///
+    /// # Errors
+    /// The reason why the motion cannot be followed from there, as from a dead point.
+    pub fn of<M>(
+        mechanism: &M,
+        derivation: &Derivation<'_>,
+        start: &M::Coordinates,
+        options: &ReportOptions,
+    ) -> Result<Self, PathError>
+    where
+        M: Kinematic<Scalar = f64, V = D<1>> + Branches,
+    {
+        let range = RangeOfMotion::of(mechanism, start, options.range)?;
+        Self::with_modes(&range, derivation, start, options)
+    }
+
+    /// The report of the motion that begins on a branch, at the first of these inputs from which it can be followed.
+    ///
+    /// # Errors
+    /// If there is none, why the motion cannot be followed from the last of them; see [`RangeOfMotion::on_branch`].
+    pub fn on_branch<M>(
+        mechanism: &M,
+        derivation: &Derivation<'_>,
+        branch: M::Branch,
+        inputs: impl IntoIterator<Item = f64>,
+        options: &ReportOptions,
+    ) -> Result<Self, PathError>
+    where
+        M: Kinematic<Scalar = f64, V = D<1>> + Branches + Assembly,
+    {
+        let mut last = PathError::NoDirection { mechanism: M::NAME };
+        for input in inputs {
+            let found = RangeOfMotion::on_branch(mechanism, branch, [input], options.range);
+            match found.and_then(|range| Ok((range.at(input)?, range))) {
+                Ok((start, range)) => return Self::with_modes(&range, derivation, &start, options),
+                Err(error) => last = error,
+            }
+        }
+        Err(last)
+    }
+
+    /// The report of a motion that is known, without modes: for mechanisms whose positions cannot be listed.
+    ///
+    /// # Errors
+    /// The reason why a position or a velocity along the motion cannot be computed.
+    pub fn of_motion<M>(
+        range: &RangeOfMotion<'_, M>,
+        derivation: &Derivation<'_>,
+        options: &ReportOptions,
+    ) -> Result<Self, PathError>
+    where
+        M: Kinematic<Scalar = f64, V = D<1>>,
+    {
+        let [first, last] = range.inputs();
+        let report = Self::without_motion::<M>(derivation, ReportedModes::NotListed);
+        let motion = MotionReport::of(range, derivation, inside(first, last), options)?;
+        Ok(Self { motion: Some(motion), ..report })
+    }
+
+    /// The report of a mechanism with any number of inputs, without a motion: its mobility, and its modes at the inputs of
+    /// a position.
+    pub fn at<M>(mechanism: &M, derivation: &Derivation<'_>, start: &M::Coordinates) -> Self
+    where
+        M: Branches<Scalar = f64>,
+    {
+        let modes = Modes::at(mechanism, start).map_or_else(ReportedModes::Failed, ReportedModes::Listed);
+        Self::without_motion::<M>(derivation, modes)
+    }
+
+    fn with_modes<M>(
+        range: &RangeOfMotion<'_, M>,
+        derivation: &Derivation<'_>,
+        start: &M::Coordinates,
+        options: &ReportOptions,
+    ) -> Result<Self, PathError>
+    where
+        M: Kinematic<Scalar = f64, V = D<1>> + Branches,
+    {
+        let modes = Modes::of(range.mechanism(), start, options.circuits);
+        let modes = modes.map_or_else(ReportedModes::Failed, ReportedModes::Listed);
+        let motion = MotionReport::of(range, derivation, M::inputs(start)[0], options)?;
+        Ok(Self { motion: Some(motion), ..Self::without_motion::<M>(derivation, modes) })
+    }
+
+    fn without_motion<M: Mechanism>(derivation: &Derivation<'_>, modes: ReportedModes) -> Self {
+        let named =
+            |(name, is_angle): (&&str, &bool)| ReportedCoordinate { name: (*name).to_owned(), is_angle: *is_angle };
+        Self {
+            mechanism: M::NAME.to_owned(),
+            inputs: M::INPUTS.iter().zip(M::INPUT_ANGLES).map(named).collect(),
+            unknowns: M::UNKNOWNS.iter().zip(M::UNKNOWN_ANGLES).map(named).collect(),
+            mobility: Mobility::of(derivation),
+            modes,
+            motion: None,
+        }
+    }
+}
+
+/// A regular input between two: not in the middle, where symmetric mechanisms are singular.
+fn inside(first: f64, last: f64) -> f64 {
+    first + (last - first) * 0.382
+}

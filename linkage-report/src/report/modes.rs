@@ -1,0 +1,145 @@
+//! Modes and circuits at the input at which the motion begins.
+
+use std::f64::consts::TAU;
+
+use linkage_runtime::circuits::{CircuitError, CircuitOptions, Circuits, CurveEnd, CurveEvent, MotionCurve};
+use linkage_runtime::{Branches, D, Mechanism};
+
+/// The modes of a mechanism at an input, and how they are connected.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Modes {
+    /// The inputs at which the modes are listed.
+    pub inputs: Vec<f64>,
+    /// The modes: all positions at these inputs.
+    pub modes: Vec<ListedMode>,
+    /// The motions through the modes; none with several inputs.
+    pub motions: Vec<ListedMotion>,
+    /// The motions of each circuit, by index: those that can be reached from each other without taking the mechanism apart.
+    pub circuits: Vec<Vec<usize>>,
+    /// The mode from which the motion of the report is followed, by index.
+    pub followed: Option<usize>,
+}
+
+/// A position at the inputs of the list.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ListedMode {
+    /// Its branch, as Rust writes it.
+    pub branch: String,
+    /// The unknowns, in the order of their names.
+    pub unknowns: Vec<f64>,
+    /// Its motion, by index.
+    pub motion: Option<usize>,
+}
+
+/// A motion through modes, with dead points passed.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ListedMotion {
+    /// The least and the largest input.
+    pub range: [f64; 2],
+    /// Its end.
+    pub end: CurveEnd,
+    /// The turns of the input until it closes without a dead point; 0 if there is none.
+    pub full_turns: i32,
+    /// The dead points, where the input reverses.
+    pub dead_points: Vec<SingularInput>,
+    /// The change points, where motions cross.
+    pub change_points: Vec<SingularInput>,
+}
+
+/// The input of a singular position.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SingularInput {
+    /// The input.
+    pub input: f64,
+    /// The unknowns of the groups that are singular.
+    pub groups: Vec<String>,
+}
+
+impl Modes {
+    /// The modes and circuits at the input of a position.
+    ///
+    /// # Errors
+    /// Those of [`Circuits::of`].
+    pub(super) fn of<M>(mechanism: &M, start: &M::Coordinates, options: CircuitOptions) -> Result<Self, CircuitError>
+    where
+        M: Branches<Scalar = f64, V = D<1>>,
+    {
+        let input = M::inputs(start)[0];
+        let circuits = Circuits::of(mechanism, input, options)?;
+        let positions = circuits.modes.iter().map(|mode| mode.position);
+        let followed = nearest::<M>(positions, start);
+        let modes = circuits.modes.iter().map(|mode| ListedMode {
+            branch: format!("{:?}", mode.branch),
+            unknowns: M::unknowns(&mode.position).as_slice().to_vec(),
+            motion: Some(mode.motion),
+        });
+        let modes = modes.collect();
+        let motions = circuits.motions.iter().map(listed::<M>).collect();
+        Ok(Self { inputs: vec![input], modes, motions, circuits: circuits.circuits, followed })
+    }
+
+    /// The modes at the inputs of a position, without circuits.
+    ///
+    /// # Errors
+    /// Those of [`Branches::all_positions`].
+    pub(super) fn at<M>(mechanism: &M, start: &M::Coordinates) -> Result<Self, CircuitError>
+    where
+        M: Branches<Scalar = f64>,
+    {
+        let inputs = M::inputs(start);
+        let all: Vec<_> = mechanism.all_positions(inputs.into())?.collect();
+        let followed = nearest::<M>(all.iter().map(|(_, position)| *position), start);
+        let modes = all.iter().map(|(branch, position)| ListedMode {
+            branch: format!("{branch:?}"),
+            unknowns: M::unknowns(position).as_slice().to_vec(),
+            motion: None,
+        });
+        let inputs = inputs.as_slice().to_vec();
+        Ok(Self { inputs, modes: modes.collect(), motions: Vec::new(), circuits: Vec::new(), followed })
+    }
+
+    /// The circuit of the mode from which the motion is followed, by index.
+    #[must_use]
+    pub fn followed_circuit(&self) -> Option<usize> {
+        let motion = self.modes.get(self.followed?)?.motion?;
+        self.circuits.iter().position(|circuit| circuit.contains(&motion))
+    }
+}
+
+fn listed<M: Mechanism<Scalar = f64>>(motion: &MotionCurve<M::Coordinates>) -> ListedMotion {
+    let singular = |input: f64, event: Option<CurveEvent>| {
+        let group = match event {
+            Some(CurveEvent::DeadPoint { group } | CurveEvent::ChangePoint { group }) => vec![group.to_owned()],
+            _ => Vec::new(),
+        };
+        SingularInput { input, groups: group }
+    };
+    ListedMotion {
+        range: motion.range().unwrap_or_default(),
+        end: motion.end,
+        full_turns: motion.full_turns(),
+        dead_points: motion.dead_points().map(|at| singular(at.point.input, at.point.event)).collect(),
+        change_points: motion.change_points().map(|at| singular(at.point.input, at.point.event)).collect(),
+    }
+}
+
+/// The position nearest to another, by index, whole turns of angles aside.
+fn nearest<M: Mechanism<Scalar = f64>>(
+    positions: impl Iterator<Item = M::Coordinates>,
+    to: &M::Coordinates,
+) -> Option<usize> {
+    let distance = |position: M::Coordinates| {
+        let off = M::unknowns(&position) - M::unknowns(to);
+        let pairs = off.iter().zip(M::UNKNOWN_ANGLES);
+        pairs.fold(0.0_f64, |most, (&off, &is_angle)| {
+            let off = if is_angle { off - TAU * (off / TAU).round() } else { off };
+            most.max(off.abs())
+        })
+    };
+    let distances = positions.map(distance).enumerate();
+    distances.min_by(|(_, one), (_, other)| one.total_cmp(other)).map(|(place, _)| place)
+}
