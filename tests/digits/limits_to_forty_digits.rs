@@ -169,6 +169,7 @@ macro_rules! sweep {
                         bracketed.note($of, &parameters, assembled);
                         bracketed.note($of, &parameters, unbuildable);
                     }
+                    Limit::JointRange { .. } => panic!("{m:?} has no ranges: {limit:?}"),
                 }
             }
         }

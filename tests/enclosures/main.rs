@@ -1,4 +1,5 @@
 //! Formulas, velocities and motions over intervals.
 
 mod certificates;
+mod certified_ranges;
 mod intervals;

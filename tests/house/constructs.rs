@@ -9,12 +9,12 @@ use linkage_compiler::graph::written;
 use linkage_compiler::model::{Request, VECTOR_FUNCTIONS};
 use linkage_compiler::syntax::{
     self, Attachment, EFFECTS, EffectKind, Expression, Expressions, Joint, KEYWORDS, Mechanism, Operator, PROPERTIES,
-    StatementKind, Unit,
+    Range, StatementKind, Unit,
 };
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Constructs that no list of the compiler has: forms of statements, effects and expressions, and attributes.
-const FORMS: [&str; 48] = [
+const FORMS: [&str; 53] = [
     "attribute of a mechanism",
     "attribute of `param`",
     "attribute of `drive`",
@@ -33,6 +33,9 @@ const FORMS: [&str; 48] = [
     "`implied loop`",
     "`implied equation`",
     "`let _name`",
+    "`s in 0..1`",
+    "`s in 0..`",
+    "`s in ..1`",
     "`extern fn` of one argument",
     "`extern fn` of two arguments",
     "`scene NAME of DRIVER`",
@@ -50,6 +53,8 @@ const FORMS: [&str; 48] = [
     "`friction mu, reaction on s;`",
     "`friction mu, r, reaction on phi;`",
     "`friction mu, r, reaction at P on phi;`",
+    "`stop s in 0..1, restitution e;`",
+    "`stop s, restitution e;`",
     "`reaction at P;`",
     "`reaction on s;`",
     "`r@phi`",
@@ -160,9 +165,14 @@ impl Found {
                 }
                 "param"
             }
-            StatementKind::Inputs(_) => "input",
-            StatementKind::Unknowns(_) => "unknown",
-            StatementKind::Coordinates(_) => "coordinate",
+            StatementKind::Inputs(all) | StatementKind::Unknowns(all) | StatementKind::Coordinates(all) => {
+                all.iter().for_each(|one| self.range(one.range.as_ref()));
+                match kind {
+                    StatementKind::Inputs(_) => "input",
+                    StatementKind::Unknowns(_) => "unknown",
+                    _ => "coordinate",
+                }
+            }
             StatementKind::Drive { .. } => "drive",
             StatementKind::Loop { is_implied: true, .. } => {
                 self.add("`implied loop`");
@@ -186,7 +196,10 @@ impl Found {
                 "let"
             }
             StatementKind::Point { .. } => "point",
-            StatementKind::Output { .. } => "output",
+            StatementKind::Output { range, .. } => {
+                self.range(range.as_ref());
+                "output"
+            }
             StatementKind::External { arguments, .. } => {
                 self.one_of(arguments.len() == 1, ["`extern fn` of one argument", "`extern fn` of two arguments"]);
                 "extern"
@@ -211,6 +224,15 @@ impl Found {
             }
             StatementKind::Quantity { .. } | StatementKind::Unread { .. } => panic!("a mistake in the manual"),
         }
+    }
+
+    fn range(&mut self, range: Option<&Range>) {
+        let Some(Range { ends: [least, most], .. }) = range else { return };
+        self.add(match (least, most) {
+            (Some(_), Some(_)) => "`s in 0..1`",
+            (Some(_), None) => "`s in 0..`",
+            _ => "`s in ..1`",
+        });
     }
 
     fn effect(&mut self, kind: &EffectKind) {
@@ -242,10 +264,12 @@ impl Found {
             EffectKind::Reaction(joint) => {
                 self.one_of(matches!(joint, Joint::At(_)), ["`reaction at P;`", "`reaction on s;`"]);
             }
+            EffectKind::Stop { range, .. } => {
+                self.one_of(range.is_some(), ["`stop s in 0..1, restitution e;`", "`stop s, restitution e;`"]);
+            }
             EffectKind::Torque { .. }
             | EffectKind::Force { .. }
             | EffectKind::Potential(_)
-            | EffectKind::Stop { .. }
             | EffectKind::Drive { .. }
             | EffectKind::Request => {}
             EffectKind::Unread(_) => panic!("a mistake in the manual"),

@@ -10,13 +10,13 @@ const EVERYTHING: &str = "
     #[derive(Clone)]
     pub mechanism Crank {
         param r = 1, l = 3, e = 30deg;
-        coordinate a, b, x;
+        coordinate a in 0deg..150deg, b, x in ..r + l;
         extern fn table::gas(s, p) -> (gas, slope, bend);
         let d = r@(a + e);
         loop d + l@b = (x, 0);
         implied equation x = r * cos(a + e) + l * cos(b);
         point P = 2 * d;
-        output o = x^2 + gas(x, 3);
+        output o in 1.. = x^2 + gas(x, 3);
         drive Turned by a;
         body rod { mass 2; inertia r; center P; angle b; }
         scene Loaded of Turned {

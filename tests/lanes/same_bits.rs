@@ -11,7 +11,7 @@ use linkage::{Dim, real};
 use linkage_gallery::{
     Fixture, cam_rocker, cart_pendulum, crank_shaper, double_pendulum, every_function, five_bar, geared_five_bar,
     geneva, implied_loops, inverted_slider_crank, jansen, klann, norton_four_bar, offset_slider_crank, pendulum,
-    scotch_yoke, stephenson_ii, three_link_arm,
+    scotch_yoke, sprocket_strand, stephenson_ii, three_link_arm,
 };
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
@@ -202,6 +202,7 @@ same_bits! {
     offset_slider_crank: OffsetSliderCrank OffsetSliderCrankBranch 0.1;
     pendulum: Pendulum PendulumBranch 0.99;
     scotch_yoke: ScotchYoke ScotchYokeBranch 0.1;
+    sprocket_strand: SprocketStrand SprocketStrandBranch 0.1;
     stephenson_ii: StephensonII StephensonIIBranch 0.1;
     three_link_arm: ThreeLinkArm ThreeLinkArmBranch 0.99;
 }

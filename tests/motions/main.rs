@@ -5,3 +5,7 @@ mod circuits;
 mod continuation;
 mod crossings;
 mod hard_cases;
+mod joint_ranges;
+mod parameters;
+mod range_of_motion;
+mod reports;

@@ -5,5 +5,6 @@ mod door_closer;
 mod engine;
 mod example_files;
 mod manual;
+mod report;
 mod sheet;
 mod skeleton;

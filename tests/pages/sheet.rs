@@ -27,7 +27,7 @@ fn sheet() -> String {
 }
 
 /// Every element that needs an end has one, in order.
-fn assert_balanced(html: &str) {
+pub(super) fn assert_balanced(html: &str) {
     const VOID: [&str; 4] = ["!DOCTYPE", "meta", "img", "br"];
     let mut open: Vec<&str> = Vec::new();
     for piece in html.split('<').skip(1) {

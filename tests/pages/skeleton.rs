@@ -168,8 +168,8 @@ fn what_cannot_be_drawn() {
     assert!(matches!(&error, DrawingError::NoPosition(why) if why.contains("theta3, theta4")), "{error}");
     let error = Animation::between(&Rocker::default(), RockerBranch::new(Elbow::Left), [1.0, 3.0]).unwrap_err();
     assert!(matches!(error, DrawingError::NoPosition(_)), "{error}");
-    let error = Animation::turn(&FiveBar::default(), FiveBarBranch::new(Elbow::Left)).unwrap_err();
-    assert!(matches!(&error, DrawingError::NoPosition(why) if why.contains("2 inputs")), "{error}");
+    let error = Animation::between(&Rocker::default(), RockerBranch::new(Elbow::Left), [1.0, 1.0]).unwrap_err();
+    assert!(matches!(error, DrawingError::NoPosition(_)), "{error}");
     let m = FourBar { l2: f64::NAN, ..FourBar::default() };
     assert!(Animation::turn(&m, FourBarBranch::new(Elbow::Left)).is_err());
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
 use linkage::extremes::{over_range, over_turn};
-use linkage::{Elbow, InputError, OutputMotion, PositionError, Slider, Table, linkage};
+use linkage::{Elbow, OutputMotion, PathError, PositionError, Slider, Table, linkage};
 
 linkage! {
     pub mechanism FourBar {
@@ -159,7 +159,7 @@ fn a_turn_as_a_table() {
         }
         assert_eq!(table.column("s").unwrap()[step].to_bits(), motion.pose.s.to_bits());
     }
-    assert_eq!((table.column("phi").unwrap().len(), table.rejected(), table.column("none")), (24, 0, None));
+    assert_eq!((table.column("phi").unwrap().len(), table.rejected().len(), table.column("none")), (24, 0, None));
 }
 
 #[test]
@@ -167,20 +167,14 @@ fn inputs_without_a_position_have_no_row() {
     let m = SliderCrank { l: 10.0, e: 0.0, ..SliderCrank::default() };
     let table = Table::turn(&m, SliderCrankBranch { psi_s: Slider::Far }, 360, 1.0).unwrap();
     let rows = table.column("phi").unwrap();
-    // |sin phi| <= 1/2; at the limits themselves the velocity is infinite.
-    assert!(rows.iter().all(|phi| phi.sin().abs() < 0.5) && rows.len() + table.rejected() == 360);
-    assert!(rows.len() >= 118 && table.to_csv().lines().count() == rows.len() + 1);
+    // |sin phi| <= 1/2 in one motion about 0, and in another about 180 degrees; at the limits the velocity is infinite.
+    // A limit of these inputs is inside by an ulp.
+    assert!(rows.iter().all(|phi| phi.sin().abs() < 0.5 && phi.cos() > 0.0));
+    assert_eq!((rows.len(), table.rejected().len()), (60, 300));
+    let is_at_or_beyond_the_end = |error: &PathError| {
+        matches!(error, PathError::DeadPoint { .. } | PathError::Position(PositionError::Singular { .. }))
+    };
+    assert!(table.rejected().iter().all(|rejected| is_at_or_beyond_the_end(&rejected.error)));
+    assert_eq!(table.to_csv().lines().count(), rows.len() + 1);
     assert!(!table.to_csv().contains("NaN"));
-
-    linkage! {
-        mechanism FiveBar {
-            param a = 3, b = 4, d = 5;
-            input left, right;
-            unknown phi, psi;
-            loop a@left + b@phi = d@0 + a@right + b@psi;
-            derive lanes;
-        }
-    }
-    let several = Table::turn(&FiveBar::default(), FiveBarBranch::new(Elbow::Left), 4, 1.0);
-    assert!(matches!(several, Err(InputError::ColumnLength { column: "inputs", expected: 2, .. })), "{several:?}");
 }

@@ -1,6 +1,7 @@
 //! Types with text of the program, such as the names of groups: they can be written, not read.
 
 use linkage::continuation::{AtChangePoint, Direction, Options, Path};
+use linkage::report::{Report, ReportOptions};
 use linkage::simulation::{Start, simulate};
 use linkage::skeleton::Skeleton;
 use linkage::{Error, Mechanism, Scene, Table, linkage, singularity};
@@ -93,7 +94,15 @@ fn names_limits_tables_and_errors() {
     let table = Table::turn(&m, branch, 12, 1.0).unwrap();
     let written = to_value(&table).unwrap();
     assert_eq!(written["names"][0], "theta");
-    assert_eq!(written["columns"][0].as_array().unwrap().len() + table.rejected(), 12);
+    assert_eq!(written["columns"][0].as_array().unwrap().len() + table.rejected().len(), 12);
+
+    let start = ParallelogramCoordinates { theta: 0.6, phi: 0.0, psi: 0.6 };
+    let report = Report::of(&m, Parallelogram::DERIVATION, &start, &ReportOptions::default()).unwrap();
+    let written = to_value(&report).unwrap();
+    assert_eq!(written["mobility"]["chain"]["turning"], 4);
+    assert_eq!(written["motion"]["ends"][0]["Closed"]["turns"], 1);
+    assert_eq!(written["motion"]["four_bars"][0]["class"], "ChangePoint");
+    assert_eq!(written["modes"]["Listed"]["modes"].as_array().unwrap().len(), 2);
 
     let error: Error =
         four_bar().0.solve(&FourBarCoordinates { theta2: f64::NAN, theta3: 0.0, theta4: 0.0 }).unwrap_err().into();

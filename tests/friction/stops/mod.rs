@@ -1,6 +1,7 @@
 //! Stops at zero, where an absolute rounding error has no scale, in positions in which the inputs are singular.
 
 mod crank;
+mod declared;
 mod five_bar;
 mod ladder;
 

@@ -119,6 +119,7 @@ fn in_unit(limits: Limits<f64>, unit: f64) -> Limits<f64> {
         Limit::Bracketed { assembled, unbuildable, group } => {
             Limit::Bracketed { assembled: assembled / unit, unbuildable: unbuildable / unit, group }
         }
+        Limit::JointRange { input, of, end } => Limit::JointRange { input: input / unit, of, end },
     });
     Limits { lower, upper }
 }

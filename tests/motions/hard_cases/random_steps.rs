@@ -66,7 +66,8 @@ fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
         let all = (0..1000).map(|_| starts(random.random_range(0.0..TAU), random)).find(|all| !all.is_empty());
         let all = all.unwrap_or_else(|| panic!("{}: no position", M::NAME));
         let start = all[random.random_range(0..all.len())];
-        let options = Options { at_change_point: AtChangePoint::Stop, ..Options::default() };
+        // Ranges stop a motion anywhere.
+        let options = Options { at_change_point: AtChangePoint::Stop, joint_ranges: false, ..Options::default() };
         let mut path = match Path::with(m, &start, Direction::Increasing, options) {
             Ok(path) => path,
             Err(error) => {

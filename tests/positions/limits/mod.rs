@@ -491,7 +491,7 @@ fn no_limit_is_not_finite() {
         for limit in [lower, upper] {
             let numbers = match limit {
                 Limit::Unlimited => vec![],
-                Limit::Exact { input, .. } => vec![input],
+                Limit::Exact { input, .. } | Limit::JointRange { input, .. } => vec![input],
                 Limit::Bracketed { assembled, unbuildable, .. } => vec![assembled, unbuildable],
             };
             assert!(numbers.iter().all(|number| number.is_finite()), "{case:?} {start:?}: {limit:?}");

@@ -12,7 +12,7 @@ use linkage::singularity::{accuracy, report, sigma_min};
 use linkage::Kink;
 use linkage::{
     Bearing, Column, Contact, D, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
-    PositionError, Prescribed, Scene, StateParts, Unreduced,
+    PositionError, Ranged, Prescribed, Scene, StateParts, Unreduced,
 };
 
 use super::tally::evaluated;
@@ -38,6 +38,7 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     const UNKNOWN_ANGLES: &'static [bool] = M::UNKNOWN_ANGLES;
     const INPUT_ANGLES: &'static [bool] = M::INPUT_ANGLES;
     const GROUPS: &'static [Group] = M::GROUPS;
+    const RANGES: &'static [&'static str] = M::RANGES;
 
     fn coordinates(unknowns: PerUnknown<M>, inputs: PerInput<M>) -> M::Coordinates {
         M::coordinates(unknowns, inputs)
@@ -93,6 +94,9 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     }
     fn length_scale(&self, pose: &M::Pose) -> f64 {
         self.0.length_scale(pose)
+    }
+    fn ranged(&self, place: usize, q: &M::Coordinates) -> Option<Ranged<f64>> {
+        self.0.ranged(place, q)
     }
 }
 

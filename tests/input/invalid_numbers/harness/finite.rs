@@ -185,7 +185,7 @@ impl Finite for Limit<f64> {
     fn all_finite(&self) -> bool {
         match self {
             Self::Unlimited => true,
-            Self::Exact { input, group: _ } => input.all_finite(),
+            Self::Exact { input, group: _ } | Self::JointRange { input, of: _, end: _ } => input.all_finite(),
             Self::Bracketed { assembled, unbuildable, group: _ } => [*assembled, *unbuildable].all_finite(),
         }
     }
