@@ -27,7 +27,7 @@ pub use linkage_interval::{Interval, certify, enclose};
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;
 #[cfg(feature = "sheet")]
-pub use linkage_report::{Document, FpCore, Notation, Table, sheet};
+pub use linkage_report::{Document, FpCore, Notation, Table, report, sheet};
 /// A four-bar near a dead point, where coupler and rocker are parallel to within 1e-6 rad: the velocity at stored angles
 /// keeps its digits, but not if the angles themselves are measured, to 1e-9 rad.
 ///
@@ -59,15 +59,15 @@ pub use linkage_report::{Document, FpCore, Notation, Table, sheet};
 /// ```
 #[cfg(all(feature = "rounding", any(feature = "std", feature = "libm")))]
 pub use linkage_rounding::Rounded;
-#[cfg(feature = "std")]
-pub use linkage_runtime::circuits;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Dim, Elbow, Formulas, Group,
     InputError, Kinematic, Limits, Matrix, Mechanism, Number, OutputMotion, PathError, PerInput, PerUnknown,
-    PointMotion, PositionError, Real, Slider, Slope, Solution, accuracy, continuation, derivation, extremes, kinematic,
-    lanes, limits, nalgebra, position, real, singularity, skeleton,
+    PointMotion, PositionError, RangeEnd, Ranged, Real, Slider, Slope, Solution, accuracy, continuation, derivation,
+    extremes, kinematic, lanes, limits, nalgebra, position, real, singularity, skeleton,
 };
+#[cfg(feature = "std")]
+pub use linkage_runtime::{circuits, range_of_motion};
 
 /// An example without a `scene`, a crank and slider: the rate function solves for the position, with the last
 /// position as the guess. With a `scene` the macro emits the equations of motion.

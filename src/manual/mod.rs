@@ -5,6 +5,7 @@
 //! | [`first_mechanism`] | from a drawing to numbers |
 //! | [`first_picture`] | a picture and an animation in three lines |
 //! | [`first_sheet`] | the derivation as a document |
+//! | [`first_report`] | mobility, limits, transmission angles, strokes and dwells in one call |
 //! | [`first_simulation`] | bodies, forces and a motion in time |
 //! | [`linkage!`](crate::linkage!) | the language |
 //! | [`emitted`] | the types and functions of a mechanism |
@@ -36,6 +37,11 @@ pub mod first_picture {}
 ///
 #[doc = include_str!("first_sheet.md")]
 pub mod first_sheet {}
+
+/// The first questions about a mechanism, answered in one call.
+///
+#[doc = include_str!("first_report.md")]
+pub mod first_report {}
 
 /// Bodies, forces, and a motion in time.
 ///
