@@ -37,7 +37,7 @@ impl<T: Real, U: Dim, V: Dim> Scales<T, U, V> {
         let residuals = Column::from_fn(|row| {
             let of_unknowns = of_angles(&by_unknowns.row(row), M::UNKNOWN_ANGLES);
             let of_angles = larger(of_unknowns, of_angles(&by_inputs.row(row), M::INPUT_ANGLES));
-            scale_or_one(if of_angles.is_zero() { terms[row] } else { of_angles })
+            scale_or_one(if of_angles.is_zero() { terms.part(row) } else { of_angles })
         });
         let free = scale_or_one(mechanism.length_scale(pose));
         let coordinates = Vector {
@@ -122,8 +122,8 @@ fn of_coordinates<T: Real, U: Dim, C: Dim>(
     free: T,
 ) -> Column<T, C> {
     let entries = largest_entries(sizes, residuals);
-    Column::from_fn(|place| match entries[place] {
-        _ if angles[place] => T::one(),
+    Column::from_fn(|place| match entries.part(place) {
+        _ if angles.get(place) == Some(&true) => T::one(),
         none if none.is_zero() => free,
         entry => entry.recip(),
     })
