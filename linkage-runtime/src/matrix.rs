@@ -83,11 +83,11 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
         self.0[column]
     }
 
-    /// Returns a row.
+    /// Returns a row; zeros outside the matrix.
     #[inline]
     #[must_use]
     pub fn row(&self, row: usize) -> Column<T, C> {
-        self.0.map(|column| column[row])
+        self.0.map(|column| column.part(row))
     }
 
     /// Replaces a column.
