@@ -134,8 +134,26 @@ impl Plot {
 /// A section of a page: its name, and pictures with captions.
 pub type Section = (&'static str, Vec<(String, String)>);
 
+/// A table of a page.
+pub struct Table {
+    /// The heading above it.
+    pub name: &'static str,
+    /// The names of its columns; none without a head.
+    pub head: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+    /// A note below it; empty if there is none.
+    pub remark: String,
+}
+
 /// Writes a page: title, introduction, pictures, and a table of numbers.
 pub fn page(title: &str, about: &str, sections: &[Section], rows: &[[String; 2]]) -> String {
+    let rows = rows.iter().map(|row| row.to_vec()).collect();
+    let numbers = Table { name: "In numbers", head: Vec::new(), rows, remark: String::new() };
+    page_with_tables(title, about, sections, &[numbers])
+}
+
+/// Writes a page: title, introduction, pictures and tables.
+pub fn page_with_tables(title: &str, about: &str, sections: &[Section], tables: &[Table]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>{title}</title>\n\
@@ -148,10 +166,31 @@ pub fn page(title: &str, about: &str, sections: &[Section], rows: &[[String; 2]]
         }
         html.push_str("</div>\n</section>\n");
     }
-    html.push_str("<section>\n<h2>In numbers</h2>\n<table>\n");
-    for [name, value] in rows {
-        let _ = writeln!(html, "<tr><th>{name}</th><td>{}</td></tr>", value.replace('-', "−"));
+    for Table { name, head, rows, remark } in tables {
+        let _ = writeln!(html, "<section>\n<h2>{name}</h2>\n<div class=\"wide\"><table>");
+        for (kind, row) in [head]
+            .into_iter()
+            .filter(|head| !head.is_empty())
+            .map(|head| (" class=\"head\"", head))
+            .chain(rows.iter().map(|row| ("", row)))
+        {
+            let _ = write!(html, "<tr{kind}>");
+            for (column, cell) in row.iter().enumerate() {
+                let kind = if column == 0 { "th" } else { "td" };
+                let _ = write!(
+                    html,
+                    "<{kind}>{}</{kind}>",
+                    if column == 0 { cell.clone() } else { cell.replace('-', "−") }
+                );
+            }
+            html.push_str("</tr>\n");
+        }
+        html.push_str("</table></div>\n");
+        if !remark.is_empty() {
+            let _ = writeln!(html, "<p class=\"remark\">{remark}</p>");
+        }
+        html.push_str("</section>\n");
     }
-    html.push_str("</table>\n</section>\n</main>\n</body>\n</html>\n");
+    html.push_str("</main>\n</body>\n</html>\n");
     html
 }

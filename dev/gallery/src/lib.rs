@@ -5,6 +5,7 @@
 
 pub mod andrews_motion;
 pub mod cam_laws;
+pub mod car_axis_motion;
 pub mod checks;
 pub mod families;
 mod fixture;
@@ -35,6 +36,7 @@ macro_rules! all_mechanisms {
             block: Block closed;
             cam_follower: CamFollower closed;
             cam_rocker: CamRocker closed;
+            car_axis: CarAxis open;
             cardan: Cardan closed;
             cart_pendulum: CartPendulum open, orders;
             chebyshev: ChebyshevRocker closed ChebyshevCoupler closed;

@@ -2,6 +2,7 @@
 
 mod andrews;
 mod backward;
+mod car_axis;
 mod change_points;
 mod contacts;
 mod contacts_of_linkages;
