@@ -10,7 +10,7 @@ use linkage_gallery::car_axis::Riding;
 use linkage_gallery::car_axis_motion::{END, END_TIME, END_VELOCITIES, START, START_RATES};
 
 /// The number of repetitions; the fastest counts.
-const REPETITIONS: usize = if cfg!(debug_assertions) { 1 } else { 50 };
+pub const REPETITIONS: usize = if cfg!(debug_assertions) { 1 } else { 50 };
 
 /// The cost of a run, and its error.
 pub struct Run {

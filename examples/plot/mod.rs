@@ -152,6 +152,13 @@ pub fn page(title: &str, about: &str, sections: &[Section], rows: &[[String; 2]]
     page_with_tables(title, about, sections, &[numbers])
 }
 
+/// A cell with the sign of a number instead of a hyphen.
+fn minus(cell: &str) -> String {
+    let is_sign =
+        |at: usize| cell[at..].starts_with('-') && cell[at + 1..].starts_with(|next: char| next.is_ascii_digit());
+    cell.char_indices().map(|(at, letter)| if is_sign(at) { '−' } else { letter }).collect()
+}
+
 /// Writes a page: title, introduction, pictures and tables.
 pub fn page_with_tables(title: &str, about: &str, sections: &[Section], tables: &[Table]) -> String {
     let mut html = format!(
@@ -177,11 +184,7 @@ pub fn page_with_tables(title: &str, about: &str, sections: &[Section], tables: 
             let _ = write!(html, "<tr{kind}>");
             for (column, cell) in row.iter().enumerate() {
                 let kind = if column == 0 { "th" } else { "td" };
-                let _ = write!(
-                    html,
-                    "<{kind}>{}</{kind}>",
-                    if column == 0 { cell.clone() } else { cell.replace('-', "−") }
-                );
+                let _ = write!(html, "<{kind}>{}</{kind}>", if column == 0 { cell.clone() } else { minus(cell) });
             }
             html.push_str("</tr>\n");
         }
