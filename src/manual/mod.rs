@@ -9,6 +9,9 @@
 //! | [`first_simulation`] | bodies, forces and a motion in time |
 //! | [`linkage!`](crate::linkage!) | the language |
 //! | [`emitted`] | the types and functions of a mechanism |
+//! | [`velocity_ratios`] | the matrix W, its properties, and transmission ratios |
+//! | [`assur_groups`] | the groups in which a mechanism is solved, by their names in textbooks |
+//! | [`two_inputs`] | a mechanism with two degrees of freedom |
 //! | [`cam_laws`] | your own functions |
 //! | [`scenes`] | all effects of a scene; dry friction and stops |
 //! | [`dead_points`], [`change_points`] | motions through positions where the input cannot drive, and where motions cross |
@@ -52,6 +55,27 @@ pub mod first_simulation {}
 ///
 #[doc = include_str!("emitted.md")]
 pub mod emitted {}
+
+/// The matrix W of velocity ratios: its six properties, and transmission ratios.
+///
+#[doc = include_str!("velocity_ratios.svg")]
+///
+#[doc = include_str!("velocity_ratios.md")]
+pub mod velocity_ratios {}
+
+/// The groups in which a mechanism is solved: RRR, RRP, RPR, PRP and RPP.
+///
+#[doc = include_str!("assur_groups.svg")]
+///
+#[doc = include_str!("assur_groups.md")]
+pub mod assur_groups {}
+
+/// A mechanism with two degrees of freedom.
+///
+#[doc = include_str!("two_inputs.svg")]
+///
+#[doc = include_str!("two_inputs.md")]
+pub mod two_inputs {}
 
 /// Your own functions: cam laws, tables, errors of gears, with their derivatives.
 ///

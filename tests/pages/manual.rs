@@ -4,7 +4,8 @@ use std::path::Path;
 use std::{env, fs};
 
 use linkage::drawing::{Animation, Drawing};
-use linkage::{Elbow, linkage};
+use linkage::nalgebra::Vector2;
+use linkage::{Elbow, Slider, linkage};
 
 linkage! {
     pub mechanism FourBar {
@@ -39,15 +40,78 @@ linkage! {
         point D = b@0;
         derive drawing;
     }
+    pub mechanism Stretched {
+        param l2 = 20, l3 = 50, l4 = 70;
+        input theta2, l1;
+        unknown theta3, theta4;
+        loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+        point A = (0, 0);
+        point B = l2@theta2;
+        point C = l2@theta2 + l3@theta3;
+        point D = l1@0;
+    }
+    pub mechanism FiveBar {
+        param a = 3, b = 4, d = 5;
+        input left, right;
+        unknown phi, psi;
+        loop a@left + b@phi = d@0 + a@right + b@psi;
+        point A = (0, 0);
+        point B = a@left;
+        point P = a@left + b@phi;
+        point C = d@0 + a@right;
+        point D = d@0;
+    }
+    pub mechanism Rrr {
+        param r = 1, a = 3.2, b = 2.4, d = 3;
+        input theta;
+        unknown phi, psi;
+        loop r@theta + a@phi = d@0 + b@psi;
+        point A = r@theta;
+        derive drawing;
+    }
+    pub mechanism Rrp {
+        param r = 1, a = 3, tilt = 15deg;
+        input theta;
+        unknown phi, s;
+        loop r@theta + a@phi = s@tilt;
+        derive drawing;
+    }
+    pub mechanism Rpr {
+        param r = 1, d = 2.2;
+        input theta;
+        unknown phi, s;
+        loop r@theta = (0, -d) + s@phi;
+        derive drawing;
+    }
+    pub mechanism Prp {
+        param h = 2, tilt = 10deg;
+        input theta;
+        unknown s, t;
+        loop s@theta = (0, h) + t@tilt;
+        derive drawing;
+    }
+    pub mechanism Rpp {
+        param r = 1, slot = 70deg;
+        input theta;
+        unknown s, t;
+        loop r@theta + s@slot = t@0;
+        derive drawing;
+    }
 }
 
-/// In a page of rustdoc an empty line would end the picture.
+/// A picture of a page; in rustdoc an empty line would end it.
 fn compare(name: &str, svg: &str) {
-    let lines: Vec<&str> = svg.lines().filter(|line| !line.trim().is_empty()).collect();
-    let text = format!("<div style=\"max-width: 30em\">\n{}\n</div>\n", lines.join("\n"));
+    compare_text(name, &format!("<div style=\"max-width: 30em\">\n{}\n</div>\n", without_empty_lines(svg)));
+}
+
+fn without_empty_lines(svg: &str) -> String {
+    svg.lines().filter(|line| !line.trim().is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+fn compare_text(name: &str, text: &str) {
     let path = Path::new(linkage_tests::ROOT).join("src/manual").join(name);
     if env::var_os("UPDATE").is_some() {
-        fs::write(&path, &text).unwrap();
+        fs::write(&path, text).unwrap();
     }
     let found = fs::read_to_string(&path).unwrap_or_default();
     assert!(found == text, "{name} is another picture than the library draws: run with UPDATE=1 and look at it");
@@ -75,4 +139,52 @@ fn pictures() {
         drawing.bar(&names[0], &names[1]).bar(&names[1], &names[2]).bar(&names[2], &names[3]);
     }
     compare("parallelogram.svg", &drawing.to_svg().unwrap());
+}
+
+/// The columns of the matrix of a point, and their sum.
+#[test]
+fn columns_of_a_point() {
+    let m = Stretched::default();
+    let left = StretchedBranch::new(Elbow::Left);
+    let pose = m.assemble(StretchedInputs { theta2: 60_f64.to_radians(), l1: 80.0 }, left).unwrap();
+    let (points, of_c) = (m.points(&pose).unwrap(), m.point_ratios(&pose).unwrap().c);
+    let mut drawing = Drawing::new("The velocity of C by the crank at 2 rad/s, by the frame at 60 mm/s, and by both");
+    drawing.ground("A", points.a).joint("B", points.b).joint("C", points.c).ground("D", points.d);
+    drawing.bar("A", "B").bar("B", "C").bar("C", "D").units("mm", "s");
+    let columns = [of_c.column(0) * 2.0, of_c.column(1) * 60.0];
+    for velocity in [columns[0], columns[1], columns[0] + columns[1]] {
+        drawing.velocity("C", velocity);
+    }
+    compare("velocity_ratios.svg", &drawing.velocity_scale(0.5).to_svg().unwrap());
+
+    let m = FiveBar::default();
+    let pose = m.assemble(FiveBarInputs { left: 2.0, right: 1.2 }, FiveBarBranch::new(Elbow::Left)).unwrap();
+    let (points, of_p) = (m.points(&pose).unwrap(), m.point_ratios(&pose).unwrap().p);
+    let mut drawing = Drawing::new("The velocity of P by the left crank, by the right one, and by both");
+    drawing.ground("A", points.a).joint("B", points.b).joint("P", points.p).joint("C", points.c).ground("D", points.d);
+    drawing.bar("A", "B").bar("B", "P").bar("P", "C").bar("C", "D");
+    for rates in [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
+        drawing.velocity("P", of_p * Vector2::from(rates));
+    }
+    compare("two_inputs.svg", &drawing.velocity_scale(0.5).to_svg().unwrap());
+}
+
+/// A mechanism for each dyad.
+#[test]
+fn dyads() {
+    let far = Slider::Far;
+    let films = [
+        ("RRR", Animation::turn(&Rrr::default(), RrrBranch::new(Elbow::Left))),
+        ("RRP", Animation::turn(&Rrp::default(), RrpBranch::new(far))),
+        ("RPR", Animation::turn(&Rpr::default(), RprBranch::new(far))),
+        ("PRP", Animation::between(&Prp::default(), PrpBranch::new(), [50_f64, 130.0].map(f64::to_radians))),
+        ("RPP", Animation::turn(&Rpp::default(), RppBranch::new())),
+    ];
+    let mut text = String::from("<div style=\"display: flex; flex-wrap: wrap; gap: 1em\">\n");
+    for (name, film) in films {
+        let svg = without_empty_lines(&film.unwrap().to_svg().unwrap());
+        text +=
+            &format!("<figure style=\"margin: 0; width: 15em\">\n{svg}\n<figcaption>{name}</figcaption>\n</figure>\n");
+    }
+    compare_text("assur_groups.svg", &(text + "</div>\n"));
 }
