@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     assert!(best.errors[0] < 1e-10 && best.errors[1] < 1e-8, "{:?}", best.errors);
     let ride = Ride::new(Riding::default())?;
     let [gained, work] = ride.balance;
-    println!("energy gained {gained:.9}, work of the road {work:.9}");
+    println!("energy gained {gained:.9}, work of the bumps {work:.9}");
     let path = output::write("target/car_axis.html", &page::html(&ride, &high, &low)?)?;
     println!("Pictures: {path}");
     Ok(())

@@ -76,7 +76,7 @@ fn figures(ride: &Ride) -> Result<Vec<(String, String)>, Box<dyn std::error::Err
         Ok([state.t, scene.mechanism.outputs(&pose)?.spring])
     });
     let springs = springs.collect::<Result<Vec<_>, PositionError>>()?;
-    let road = |state: &State<Riding>| scene.r * (scene.w * state.t).sin();
+    let bumps = |state: &State<Riding>| scene.r * (scene.w * state.t).sin();
     let torques = ride.moments.iter().zip(&ride.torques).map(|(state, torque)| [state.t, *torque]);
     let plots = [
         (
@@ -84,8 +84,8 @@ fn figures(ride: &Ride) -> Result<Vec<(String, String)>, Box<dyn std::error::Err
                 .every(0.5)
                 .curve("left end", heights(ride, 1)?)
                 .curve("right end", heights(ride, 3)?)
-                .curve("road", over_time(&road)),
-            "The right wheel follows the road; the left one stays at the origin.",
+                .curve("bumps", over_time(&bumps)),
+            "The right wheel follows the bumps; the left one stays at the origin.",
         ),
         (
             Plot::new("Springs", "time", "length")
@@ -95,7 +95,7 @@ fn figures(ride: &Ride) -> Result<Vec<(String, String)>, Box<dyn std::error::Err
             "The springs are stiff and the chassis is light: the right spring vibrates a few times for each bump.",
         ),
         (
-            Plot::new("Torque of the road on the axis", "time", "").every(0.5).curve("", torques),
+            Plot::new("Torque of the bumps on the axis", "time", "").every(0.5).curve("", torques),
             "Inverse dynamics of the driven angle: its work is the energy that the chassis gains.",
         ),
     ];
@@ -151,10 +151,10 @@ fn end(found: [[f64; 4]; 2]) -> Table {
     let [at, moving] = found;
     let rows =
         of("", PUBLISHED_END, END, at).chain(of(", rate", PUBLISHED_VELOCITIES, END_VELOCITIES, moving)).collect();
-    let head = ["", "test set", "40 digits", "error at 1e-12"].map(str::to_owned).to_vec();
+    let head = ["", "test set", "with 40 digits", "error at 1e-12"].map(str::to_owned).to_vec();
     let remark = "Published in the Test Set for Initial Value Problem Solvers, release 2.4, problem \"car axis\" (F. Mazzia and \
                   C. Magherini, 2008). The 40 digits are by extrapolation of order 32 in its four coordinates with two \
-                  multipliers; two lengths of the steps give the same 26 digits."
+                  multipliers; two lengths of the steps give the same 28 digits."
         .to_owned();
     Table { name: "At t = 3", head, rows, remark }
 }
@@ -184,7 +184,7 @@ pub fn html(ride: &Ride, high: &[Run], low: &[Run]) -> Result<String, Box<dyn st
     let about = "A hard problem of differential-algebraic equations: a chassis on two stiff springs, of which the right one \
                  stands on a wheel that rides over bumps, and the left one stays perpendicular to the axis. As four \
                  coordinates with two constraints it has index 3. As a linkage it is an open chain of three inputs, of \
-                 which the road drives one: nothing is left to solve, and an explicit method rides over the road.";
+                 which the bumps drive one: there is no constraint to solve, and an explicit method rides over them.";
     let chart =
         "Evaluations of the equations of motion by correct digits of the positions. Those of scipy are counted by the \
                  figures of the test set, which have twelve."
@@ -201,7 +201,7 @@ pub fn html(ride: &Ride, high: &[Run], low: &[Run]) -> Result<String, Box<dyn st
             row("least energy of the ride", least),
             row("largest energy", most),
             row("energy gained from start to end", gained),
-            row("work of the road", work),
+            row("work of the bumps", work),
         ],
         remark:
             "Kinetic and potential energy; the work is the integral of the torque on the axis over its angle, by Gauss \

@@ -15,16 +15,16 @@ pub struct Ride {
     pub scene: Riding,
     /// The states in order, several in each step.
     pub moments: Vec<State<Riding>>,
-    /// The torque of the road on the axis at each of them.
+    /// The torque of the bumps on the axis at each of them.
     pub torques: Vec<f64>,
     /// The least and the largest kinetic plus potential energy of the ride.
     pub energies: [f64; 2],
-    /// The energy that the ride gains, and the work of the road by Gauss quadrature within each step.
+    /// The energy that the ride gains, and the work of the bumps by Gauss quadrature within each step.
     pub balance: [f64; 2],
 }
 
 impl Ride {
-    /// Rides over the road.
+    /// Rides over the bumps.
     ///
     /// # Errors
     /// Those of the simulation.

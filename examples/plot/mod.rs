@@ -174,7 +174,8 @@ pub fn page_with_tables(title: &str, about: &str, sections: &[Section], tables: 
         html.push_str("</div>\n</section>\n");
     }
     for Table { name, head, rows, remark } in tables {
-        let _ = writeln!(html, "<section>\n<h2>{name}</h2>\n<div class=\"wide\"><table>");
+        let kind = if head.is_empty() { "" } else { " class=\"wide\"" };
+        let _ = writeln!(html, "<section>\n<h2>{name}</h2>\n<div{kind}><table>");
         for (kind, row) in [head]
             .into_iter()
             .filter(|head| !head.is_empty())

@@ -1,10 +1,11 @@
 //! The pictures of the manual are those that the library draws. `UPDATE=1` writes them.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 use std::{env, fs};
 
 use linkage::drawing::{Animation, Drawing};
-use linkage::nalgebra::Vector2;
+use linkage::nalgebra::{Point2, Vector2};
 use linkage::{Elbow, Slider, linkage};
 
 linkage! {
@@ -67,6 +68,8 @@ linkage! {
         unknown phi, psi;
         loop r@theta + a@phi = d@0 + b@psi;
         point A = r@theta;
+        point C = A + a@phi;
+        point B = d@0;
         derive drawing;
     }
     pub mechanism Rrp {
@@ -74,6 +77,8 @@ linkage! {
         input theta;
         unknown phi, s;
         loop r@theta + a@phi = s@tilt;
+        point A = r@theta;
+        point C = A + a@phi;
         derive drawing;
     }
     pub mechanism Rpr {
@@ -81,6 +86,8 @@ linkage! {
         input theta;
         unknown phi, s;
         loop r@theta = (0, -d) + s@phi;
+        point A = (0, -d);
+        point B = r@theta;
         derive drawing;
     }
     pub mechanism Prp {
@@ -88,6 +95,7 @@ linkage! {
         input theta;
         unknown s, t;
         loop s@theta = (0, h) + t@tilt;
+        point C = s@theta;
         derive drawing;
     }
     pub mechanism Rpp {
@@ -95,7 +103,8 @@ linkage! {
         input theta;
         unknown s, t;
         loop r@theta + s@slot = t@0;
-        derive drawing;
+        point A = r@theta;
+        point Foot = t@0;
     }
 }
 
@@ -148,10 +157,10 @@ fn columns_of_a_point() {
     let left = StretchedBranch::new(Elbow::Left);
     let pose = m.assemble(StretchedInputs { theta2: 60_f64.to_radians(), l1: 80.0 }, left).unwrap();
     let (points, of_c) = (m.points(&pose).unwrap(), m.point_ratios(&pose).unwrap().c);
-    let mut drawing = Drawing::new("The velocity of C by the crank at 2 rad/s, by the frame at 60 mm/s, and by both");
+    let mut drawing = Drawing::new("The velocity of C by the crank at 2 rad/s, by the frame at 300 mm/s, and by both");
     drawing.ground("A", points.a).joint("B", points.b).joint("C", points.c).ground("D", points.d);
     drawing.bar("A", "B").bar("B", "C").bar("C", "D").units("mm", "s");
-    let columns = [of_c.column(0) * 2.0, of_c.column(1) * 60.0];
+    let columns = [of_c.column(0) * 2.0, of_c.column(1) * 300.0];
     for velocity in [columns[0], columns[1], columns[0] + columns[1]] {
         drawing.velocity("C", velocity);
     }
@@ -169,6 +178,31 @@ fn columns_of_a_point() {
     compare("two_inputs.svg", &drawing.velocity_scale(0.5).to_svg().unwrap());
 }
 
+/// A scotch yoke: its slot is no vector of the loop, so that the drawing cannot know it.
+fn yoke() -> Animation {
+    let (m, reach) = (Rpp::default(), 1.6);
+    let mut film = Animation::new("Rpp", 4.0);
+    for step in 0..=120 {
+        let pose = m.assemble(TAU * f64::from(step) / 120.0, RppBranch::new()).unwrap();
+        let points = m.points(&pose).unwrap();
+        let along = Vector2::new(m.slot.cos(), m.slot.sin()) * reach;
+        let [below, above] = [points.foot - along, points.foot + along];
+        film.frame([
+            ("O", Point2::origin()),
+            ("A", points.a),
+            ("Foot", points.foot),
+            ("Below", below),
+            ("Above", above),
+        ]);
+    }
+    film.ground("O")
+        .crank(&["O", "A"])
+        .link(&["Below", "Foot", "Above"])
+        .sleeve("A", ["Below", "Above"])
+        .slider("Foot");
+    film
+}
+
 /// A mechanism for each dyad.
 #[test]
 fn dyads() {
@@ -178,7 +212,7 @@ fn dyads() {
         ("RRP", Animation::turn(&Rrp::default(), RrpBranch::new(far))),
         ("RPR", Animation::turn(&Rpr::default(), RprBranch::new(far))),
         ("PRP", Animation::between(&Prp::default(), PrpBranch::new(), [50_f64, 130.0].map(f64::to_radians))),
-        ("RPP", Animation::turn(&Rpp::default(), RppBranch::new())),
+        ("RPP", Ok(yoke())),
     ];
     let mut text = String::from("<div style=\"display: flex; flex-wrap: wrap; gap: 1em\">\n");
     for (name, film) in films {

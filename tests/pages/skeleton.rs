@@ -48,6 +48,15 @@ linkage! {
         loop a@theta = d@0 + b@phi;
         derive drawing;
     }
+    /// An arm whose end is a point too.
+    pub mechanism Arm {
+        param h = 2, tilt = 10deg;
+        input theta;
+        unknown s, t;
+        loop s@theta = (0, h) + t@tilt;
+        point Block = s@theta;
+        derive drawing;
+    }
     /// Two inputs.
     pub mechanism FiveBar {
         param a = 3, b = 4, d = 5;
@@ -110,6 +119,13 @@ fn loops_and_points_become_parts() {
     let mut found = parts::<FiveBar>();
     found.sort_unstable();
     assert_eq!(found, ["bar 1-2", "bar 2-4", "crank 3-4", "crank O-1", "ground 3", "ground O"]);
+}
+
+/// A vector of a loop and of a point is drawn once.
+#[test]
+fn a_vector_is_one_part() {
+    assert_eq!(parts::<Arm>(), ["ground O", "sleeve Block on O", "slider Block"]);
+    Animation::between(&Arm::default(), ArmBranch::new(), [1.0, 2.0]).unwrap().to_svg().unwrap();
 }
 
 #[test]

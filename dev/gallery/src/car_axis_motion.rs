@@ -6,7 +6,7 @@ use crate::car_axis::{CarAxisCoordinates, CarAxisInputs};
 /// problem "car axis".
 pub const START: CarAxisCoordinates = CarAxisCoordinates { beta: 0.0, s: 0.5, phi: 0.0 };
 
-/// The rates there: the axis turns with the road.
+/// The rates there: the first bump turns the axis.
 pub const START_RATES: CarAxisInputs = CarAxisInputs { beta: 1.0, s: 0.0, phi: 0.0 };
 
 /// The end of the motion in the unit of time.

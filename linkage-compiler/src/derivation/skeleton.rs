@@ -161,7 +161,11 @@ impl Tracer<'_> {
                     });
                     let towards = arm.and_then(|arm| arm.joints.iter().copied().find(|&joint| joint != from));
                     pivots.extend(is_fixed[from].then_some(from));
-                    parts.push(Part::Sleeve { pin: to, on: from, towards });
+                    // A loop and a point may have one vector.
+                    let sleeve = Part::Sleeve { pin: to, on: from, towards };
+                    if !parts.contains(&sleeve) {
+                        parts.push(sleeve);
+                    }
                 }
                 None => {
                     let along = edge.link.vector.map(|part| self.moves(&[part]));

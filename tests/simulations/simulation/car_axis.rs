@@ -51,7 +51,7 @@ fn ends_as_published() {
     assert!(exact[0] < 2.5e-13 && exact[1] < 5e-11, "{exact:?}");
     assert!(published[0] < 6.6e-13 && published[1] < 5.8e-10, "{published:?}");
 
-    // The road turns the axis against the guide of the left end, whose force is the test set's first multiplier times the
+    // The bumps turn the axis against the guide of the left end, whose force is the test set's first multiplier times the
     // vector of the axis (GAMD in quadruple precision), and against the right spring at the wheel.
     let multiplier = -0.004_736_886_590_848_933;
     let Riding { k, l0, .. } = scene;
@@ -89,9 +89,9 @@ fn as_few_steps_as_by_hand() {
     }
 }
 
-/// The energy that the chassis gains is the work of the road.
+/// The energy that the chassis gains is the work of the bumps.
 #[test]
-fn the_road_does_the_work() {
+fn the_bumps_do_the_work() {
     let ride = Ride::new(Riding::default()).unwrap();
     let ([least, most], [gained, work]) = (ride.energies, ride.balance);
     println!("{gained} {work} {least} {most}");

@@ -1,7 +1,7 @@
 use linkage::linkage;
 
 linkage! {
-    /// A car axis whose right wheel rides over a bumpy road: two springs carry the chassis, and the left spring stays
+    /// A car axis whose right wheel rides over bumps: two springs carry the chassis, and the left spring stays
     /// perpendicular to the axis.
     ///
     /// Problem "car axis" of the Test Set for IVP Solvers (F. Mazzia, C. Magherini), there with four coordinates and two
@@ -26,7 +26,7 @@ linkage! {
         body left { mass m; center Left; }
         body right { mass m; center Right; }
 
-        /// The road turns the axis.
+        /// The bumps turn the axis.
         scene Riding {
             inertia;
             gravity (0, -g);
