@@ -155,12 +155,12 @@ fn pictures() {
 fn columns_of_a_point() {
     let m = Stretched::default();
     let left = StretchedBranch::new(Elbow::Left);
-    let pose = m.assemble(StretchedInputs { theta2: 60_f64.to_radians(), l1: 80.0 }, left).unwrap();
+    let pose = m.assemble(StretchedInputs { theta2: 20_f64.to_radians(), l1: 80.0 }, left).unwrap();
     let (points, of_c) = (m.points(&pose).unwrap(), m.point_ratios(&pose).unwrap().c);
-    let mut drawing = Drawing::new("The velocity of C by the crank at 2 rad/s, by the frame at 300 mm/s, and by both");
+    let mut drawing = Drawing::new("The velocity of C by the crank at 2 rad/s, by the frame at 60 mm/s, and by both");
     drawing.ground("A", points.a).joint("B", points.b).joint("C", points.c).ground("D", points.d);
     drawing.bar("A", "B").bar("B", "C").bar("C", "D").units("mm", "s");
-    let columns = [of_c.column(0) * 2.0, of_c.column(1) * 300.0];
+    let columns = [of_c.column(0) * 2.0, of_c.column(1) * 60.0];
     for velocity in [columns[0], columns[1], columns[0] + columns[1]] {
         drawing.velocity("C", velocity);
     }
