@@ -26,8 +26,10 @@ pub use linkage_dynamics::{
 pub use linkage_interval::{Interval, certify, enclose};
 #[cfg(feature = "drawing")]
 pub use linkage_report::drawing;
+#[cfg(all(feature = "sheet", feature = "double-double"))]
+pub use linkage_report::price;
 #[cfg(feature = "sheet")]
-pub use linkage_report::{Document, FpCore, Notation, Table, report, sheet};
+pub use linkage_report::{Document, FpCore, Notation, Table, chart, report, sheet};
 /// A four-bar near a dead point, where coupler and rocker are parallel to within 1e-6 rad: the velocity at stored angles
 /// keeps its digits, but not if the angles themselves are measured, to 1e-9 rad.
 ///

@@ -5,15 +5,20 @@
 //! - [`report`]: mobility, modes, and one motion from end to end, as data, prose and HTML;
 //! - [`sheet`]: a derivation as HTML, with numbers and pictures;
 //! - [`drawing`]: a linkage as SVG;
+//! - [`chart`]: curves over axes as SVG;
+//! - `price`: errors and times of a mechanism and of a scene, with the feature `double-double`;
 //! - [`Table`]: a motion as columns and as CSV.
 
 #![warn(missing_docs)]
 
+pub mod chart;
 mod document;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod fpcore;
 mod notation;
+#[cfg(feature = "double-double")]
+pub mod price;
 pub mod report;
 pub mod sheet;
 mod table;

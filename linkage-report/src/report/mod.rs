@@ -34,7 +34,7 @@ mod modes;
 mod motion;
 mod options;
 mod page;
-mod prose;
+pub(crate) mod prose;
 mod strokes;
 mod transmission;
 

@@ -380,7 +380,7 @@ impl Writer<'_> {
     }
 }
 
-fn end(end: MotionEnd) -> String {
+pub(crate) fn end(end: MotionEnd) -> String {
     match end {
         MotionEnd::Range => "that of the range that was asked for".to_owned(),
         MotionEnd::JointRange { of, end } => {
@@ -399,7 +399,7 @@ fn end(end: MotionEnd) -> String {
 }
 
 /// A value, an angle in degrees to 1e-9.
-pub(super) fn written(value: f64, is_angle: bool) -> String {
+pub(crate) fn written(value: f64, is_angle: bool) -> String {
     if is_angle { in_degrees(rounded(value.to_degrees())) } else { number(value) }
 }
 
