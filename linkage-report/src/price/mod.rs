@@ -42,6 +42,7 @@
 //! median of the ratios within rounds, which noise disturbs less than the times: compare methods by it, and times of two
 //! runs of a program not at all. Without optimisation all times are long, and not in proportion.
 
+mod effects;
 mod error;
 mod frontier;
 mod methods;
@@ -49,12 +50,17 @@ mod motion;
 mod page;
 mod prediction;
 mod reference;
+mod scene;
 mod text;
 mod timing;
 
+pub use effects::EffectPrice;
 pub use error::PriceError;
 pub use frontier::{Cost, SAME_ERROR, cheapest, frontier};
 pub use motion::{Family, Gap, InOtherScalars, MethodPrice, MotionPrice, PriceOptions, QUANTITIES, QuantityPrice};
 pub use page::style;
 pub use prediction::{Counts, Machine};
+pub use scene::{
+    Order, PartPrice, RunOutcome, RunPrice, ScenePrice, ScenePriceOptions, StartOf, WithoutPrice,
+};
 pub use timing::Time;
