@@ -125,5 +125,21 @@ linkage! {
             reaction at Piston;
             reaction on z;
         }
+
+        /// Without the friction of the rings.
+        scene Frictionless {
+            inertia;
+            gravity (-g, 0);
+            force (-area * (pressure - ambient), 0) at Piston;
+            damper brake on phi;
+        }
+
+        /// Without gas.
+        scene Motored {
+            inertia;
+            gravity (-g, 0);
+            friction mu, tension on z;
+            damper brake on phi;
+        }
     }
 }
