@@ -1,106 +1,90 @@
-//! The chart: error against time on logarithmic axes, with the Pareto front.
+//! The charts: error against time, errors along a motion, predicted and measured times.
 
-use std::fmt::Write;
+use linkage::chart::{Axis, Chart, Curve, Line, Look, Unit};
 
-use crate::comparison::Comparison;
-use crate::{METHODS, QUANTITIES};
-use linkage_examples::price::axes::{self, Axes, LEFT};
-use linkage_examples::price::frontier::Prices;
+use crate::METHODS;
+use crate::comparison::{Comparison, Point, QUANTITIES};
+use crate::motion::Motion;
 
-/// The size of a panel, in pixels.
-pub const SIZE: [f64; 2] = [340.0, 240.0];
+/// Errors below are drawn here: a result may be exact.
+const LEAST: f64 = 1e-34;
 
-/// Colours for light and dark mode, and the text on them.
-pub const STYLE: &str = ".front{fill:none;stroke:#d9730d;stroke-width:2}\
-    .on circle{fill:#d9730d;stroke:#d9730d}.on text{fill:#fff}\
-    .off circle{fill:var(--card,#fff);stroke:currentColor;stroke-opacity:.55}\
-    circle{stroke-width:1.2}.mark text{font-size:10px;font-weight:600;text-anchor:middle}";
+/// The quantity of the chart of predicted times: position and velocity.
+const ORDER: usize = 1;
 
-/// The panels of a mechanism with their titles, for well-conditioned poses from the input.
-pub fn panels(comparison: &Comparison) -> Vec<String> {
-    let from_input = |(_, point): &(usize, &crate::Point)| point.pose == "benign" && !point.angles_given;
+/// The colour of a method: closed forms are orange, Newton's method is blue, tables are green.
+pub fn colour(method: usize) -> usize {
+    match METHODS[method].split([' ', ',']).next() {
+        Some("Newton") => 1,
+        Some("table") => 2,
+        _ => 0,
+    }
+}
+
+/// A curve of a method, with its number.
+fn curve(method: usize, look: Look) -> Curve {
+    Curve { label: (method + 1).to_string(), colour: colour(method), ..Curve::new(METHODS[method], look, []) }
+}
+
+fn without_legend(title: String, x: Axis, y: Axis) -> Chart {
+    Chart { has_legend: false, ..Chart::new(title, x, y) }
+}
+
+/// The charts of a mechanism for well-conditioned poses from the input. A step line passes the Pareto front.
+pub fn error_and_time(comparison: &Comparison) -> Vec<Chart> {
+    let from_input = |(_, point): &(usize, &Point)| point.pose == "benign" && !point.angles_given;
     let points = comparison.points.iter().enumerate().filter(from_input);
     points
         .map(|(index, point)| {
-            panel(
-                &format!("{}, {}", comparison.mechanism, QUANTITIES[point.order]),
-                &comparison.at(index),
-                &comparison.front(index),
-            )
+            let time = Axis::logarithmic("time").unit(Unit::Seconds);
+            let title = format!("{}, {}", comparison.mechanism, QUANTITIES[point.order]);
+            let mut chart = without_legend(title, time, Axis::logarithmic("largest error"));
+            let costs = comparison.at(index);
+            let at = |method: usize| costs[method].map(|cost| [cost.time, cost.error]);
+            let front = comparison.front(index).into_iter().filter_map(at);
+            chart.curves.push(Curve { colour: 4, ..Curve::new("the Pareto front", Look::Steps, front) });
+            chart.curves.extend(
+                (0..METHODS.len()).map(|method| Curve { points: vec![at(method)], ..curve(method, Look::Discs) }),
+            );
+            chart
         })
         .collect()
 }
 
-fn panel(title: &str, prices: &Prices, front: &[usize]) -> String {
-    let axes = Axes::around(SIZE, prices.iter().flatten());
-    let mut svg = axes.svg(title);
-    let mut push = |text: std::fmt::Arguments| {
-        // Writing to a string does not fail.
-        let _ = svg.write_fmt(text);
-    };
-    let mut path = String::new();
-    for (place, &method) in front.iter().enumerate() {
-        let Some(price) = prices[method] else { continue };
-        let [x, y] = axes.at(price);
-        // A staircase: between two points the best error is that of the faster method.
-        let step = if place == 0 { format!("M{x:.1} {y:.1}") } else { format!("H{x:.1}V{y:.1}") };
-        path.push_str(&step);
+/// The curves over the input of a motion. A curve is broken where its method returns an error; dominated methods are dashed.
+pub fn errors_along(motion: &Motion, dominated: &[Option<usize>]) -> Chart {
+    let input = Axis::linear("input").unit(Unit::Degrees);
+    let mut chart = without_legend(motion.title(), input, Axis::logarithmic("error"));
+    for (method, errors) in motion.curves.iter().enumerate().filter(|(_, errors)| !errors.is_empty()) {
+        let points = errors.iter().map(|(input, error)| error.map(|error| [*input, error.max(LEAST)])).collect();
+        let look = if dominated[method].is_none() { Look::Line } else { Look::Dashed };
+        chart.curves.push(Curve { points, ..curve(method, look) });
     }
-    push(format_args!("<path class=\"front\" d=\"{path}\"/>"));
-    // Points on the front are drawn last, on top.
-    for is_on in [false, true] {
-        for (method, price) in prices.iter().enumerate().filter(|(method, _)| front.contains(method) == is_on) {
-            let Some(price) = price else { continue };
-            let class = if is_on { "on" } else { "off" };
-            let [x, y] = axes.at(*price);
-            push(format_args!(
-                "<g class=\"mark {class}\"><title>{}: {:.1e}, {:.0} ns</title><circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\"/>\
-                 <text x=\"{x:.1}\" y=\"{:.1}\">{}</text></g>",
-                METHODS[method],
-                price.error,
-                price.time,
-                y + 3.6,
-                method + 1
-            ));
-        }
-    }
-    svg
+    let dead = motion.point.dead.iter();
+    chart.lines.extend(dead.map(|&at| Line { at, name: format!("dead point at {:.3}°", at.to_degrees()) }));
+    chart
 }
 
-/// One panel as an SVG.
-pub fn figure(panel: &str) -> String {
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\">{panel}</svg>",
-        SIZE[0], SIZE[1]
-    )
+/// The predicted and measured seconds of each method from the input at well-conditioned poses.
+pub fn times(comparison: &Comparison) -> impl Iterator<Item = (&'static str, Option<f64>, f64)> {
+    let is_shown = |point: &&Point| point.pose == "benign" && !point.angles_given && point.order == ORDER;
+    let point = comparison.points.iter().position(|point| is_shown(&point)).expect("a point of the list");
+    METHODS.iter().enumerate().filter_map(move |(method, name)| {
+        let measured = comparison.costs[method][point]?.time;
+        Some((*name, comparison.predicted[method][point], measured))
+    })
 }
 
-/// All panels with the names of the methods.
-pub fn svg(comparisons: &[Comparison]) -> String {
-    let (width, height) = (3.0 * SIZE[0], comparisons.len() as f64 * SIZE[1] + 110.0);
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\"><style>svg{{background:#fff;color:#1f2126}}{}{STYLE}</style>",
-        axes::STYLE
-    );
-    for (row, comparison) in comparisons.iter().enumerate() {
-        for (column, panel) in panels(comparison).iter().enumerate() {
-            let (x, y) = (column as f64 * SIZE[0], row as f64 * SIZE[1]);
-            let _ = write!(svg, "<g transform=\"translate({x} {y})\">{panel}</g>");
-        }
-    }
-    for (method, name) in METHODS.iter().enumerate() {
-        let (x, y) = (LEFT + (method % 4) as f64 * 245.0, height - 80.0 + (method / 4) as f64 * 26.0);
-        let note = if comparisons[0].dominated[method].is_some() { " (dominated)" } else { "" };
-        let _ = write!(
-            svg,
-            "<g class=\"mark off\"><circle cx=\"{x}\" cy=\"{y}\" r=\"8\"/><text x=\"{x}\" y=\"{}\">{}</text></g>\
-             <text x=\"{}\" y=\"{}\">{name}{note}</text>",
-            y + 3.6,
-            method + 1,
-            x + 14.0,
-            y + 4.0
-        );
-    }
-    svg.push_str("</svg>\n");
-    svg
+/// A row for each method: a dot for the measured time, a circle for the predicted one.
+pub fn predicted_and_measured(comparison: &Comparison) -> Chart {
+    let rows: Vec<_> = times(comparison).collect();
+    let names = rows.iter().map(|(name, ..)| (*name).to_owned()).collect();
+    let time = Axis::logarithmic("time").unit(Unit::Seconds);
+    let title = format!("{} and {}", QUANTITIES[0], QUANTITIES[ORDER]);
+    let mut chart = Chart::new(title, time, Axis::linear("").unit(Unit::Names(names)));
+    let places = || rows.iter().enumerate().map(|(place, row)| (place as f64, row));
+    let predicted = places().filter_map(|(place, (_, predicted, _))| Some([(*predicted)?, place]));
+    chart.curves.push(Curve { colour: 1, ..Curve::new("predicted", Look::Rings, predicted) });
+    chart.curves.push(Curve::new("measured", Look::Dots, places().map(|(place, (.., measured))| [*measured, place])));
+    chart
 }

@@ -1,11 +1,11 @@
 //! The methods for one mechanism, evaluated and timed.
 
 use linkage::PositionError;
+use linkage::price::{Cost, frontier};
 
 use crate::motion::Motion;
 use linkage_examples::accuracy_cost::dominance::dominated;
 use linkage_examples::accuracy_cost::oracle::Poses;
-use linkage_examples::price::frontier::{Price, Prices, frontier};
 
 /// The computed quantities, by order of derivative.
 pub const QUANTITIES: [&str; 3] = ["position", "velocity", "acceleration"];
@@ -35,7 +35,7 @@ pub struct Work {
     pub errors: Vec<Result<f64, PositionError>>,
     /// The input of each case.
     pub inputs: Vec<f64>,
-    /// Nanoseconds by the operations of one evaluation.
+    /// Seconds by the operations of one evaluation.
     pub predicted: Option<f64>,
     /// Evaluates all cases once and drops the results.
     pub pass: Box<dyn Fn()>,
@@ -45,8 +45,8 @@ pub struct Work {
 pub struct Comparison {
     pub mechanism: &'static str,
     pub points: Vec<Point>,
-    pub prices: Vec<Prices>,
-    /// The predicted nanoseconds, by method and point.
+    pub costs: Vec<Vec<Option<Cost>>>,
+    /// The predicted seconds, by method and point.
     pub predicted: Vec<Vec<Option<f64>>>,
     /// The errors along motions.
     pub motions: Vec<Motion>,
@@ -103,11 +103,11 @@ impl Comparison {
         for _ in 0..rounds {
             for ((work, times), &passes) in works.iter().zip(&mut times).zip(&passes) {
                 if work.errors.iter().all(Result::is_ok) {
-                    times.push(1e9 * seconds(&*work.pass, passes) / work.inputs.len() as f64);
+                    times.push(seconds(&*work.pass, passes) / work.inputs.len() as f64);
                 }
             }
         }
-        let mut prices = vec![vec![None; points.len()]; methods.len()];
+        let mut costs = vec![vec![None; points.len()]; methods.len()];
         let mut predicted = vec![vec![None; points.len()]; methods.len()];
         let mut failures = Vec::new();
         for (work, mut times) in works.into_iter().zip(times) {
@@ -116,22 +116,22 @@ impl Comparison {
             times.sort_by(f64::total_cmp);
             predicted[method][point] = work.predicted;
             match work.error() {
-                Ok(error) => prices[method][point] = Some(Price { error, time: times[times.len() / 2] }),
+                Ok(error) => costs[method][point] = Some(Cost { error, time: times[times.len() / 2] }),
                 Err(error) => failures.push((method, point, error)),
             }
         }
-        Self { mechanism, points, prices, predicted, motions, failures, dominated: vec![None; methods.len()] }
+        Self { mechanism, points, costs, predicted, motions, failures, dominated: vec![None; methods.len()] }
     }
 
     /// Error and time of each method at one point.
-    pub fn at(&self, point: usize) -> Prices {
-        self.prices.iter().map(|prices| prices[point]).collect()
+    pub fn at(&self, point: usize) -> Vec<Option<Cost>> {
+        self.costs.iter().map(|costs| costs[point]).collect()
     }
 
     /// Error and time of the methods that are not dominated, at one point.
-    pub fn offered(&self, point: usize) -> Prices {
-        let prices = self.prices.iter().zip(&self.dominated);
-        prices.map(|(prices, by)| prices[point].filter(|_| by.is_none())).collect()
+    pub fn offered(&self, point: usize) -> Vec<Option<Cost>> {
+        let costs = self.costs.iter().zip(&self.dominated);
+        costs.map(|(costs, by)| costs[point].filter(|_| by.is_none())).collect()
     }
 
     /// The methods on the Pareto front at one point.
@@ -142,10 +142,10 @@ impl Comparison {
 
 /// Marks the methods that are dominated over all points of all mechanisms.
 pub fn compare(comparisons: &mut [Comparison]) {
-    let methods = comparisons.first().map_or(0, |comparison| comparison.prices.len());
-    let everywhere = (0..methods)
-        .map(|method| comparisons.iter().flat_map(|comparison| comparison.prices[method].clone()).collect());
-    let dominated = dominated(&everywhere.collect::<Vec<Prices>>());
+    let methods = comparisons.first().map_or(0, |comparison| comparison.costs.len());
+    let everywhere =
+        (0..methods).map(|method| comparisons.iter().flat_map(|comparison| comparison.costs[method].clone()).collect());
+    let dominated = dominated(&everywhere.collect::<Vec<Vec<Option<Cost>>>>());
     comparisons.iter_mut().for_each(|comparison| comparison.dominated.clone_from(&dominated));
 }
 

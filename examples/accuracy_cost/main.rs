@@ -1,7 +1,7 @@
 //! Accuracy and time of the position methods on the four-bar, the Jansen leg and the double butterfly, at
 //! well-conditioned and at nearly singular poses.
 //!
-//! `cargo run --release --example accuracy_cost` prints the tables and writes `target/accuracy_cost.html` and `.svg`;
+//! `cargo run --release --example accuracy_cost` prints the tables and writes `target/accuracy_cost.html`;
 //! with `-- --patient` it measures longer, for three stable digits of the times.
 
 use std::error::Error;
@@ -12,18 +12,15 @@ mod methods;
 mod comparison;
 mod motion;
 mod page;
-mod predicted;
-mod prediction;
 
 mod double_butterfly;
 mod four_bar;
 mod jansen;
 
+use linkage::price::{Machine, cheapest};
 use linkage_examples::output;
-use linkage_examples::price::frontier;
 
 use comparison::{Comparison, Point, QUANTITIES, Work};
-use prediction::Machine;
 
 /// All methods, in the order of the tables.
 const METHODS: [&str; 10] = [
@@ -74,10 +71,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     if cfg!(debug_assertions) {
         println!("The times are for unoptimised code: run with --release.");
     }
-    output::write("target/accuracy_cost.svg", &chart::svg(&comparisons))?;
     let html = page::html(&comparisons);
     let path = output::write("target/accuracy_cost.html", &html)?;
-    println!("Tables: {path}, {} kB, and .svg", html.len() / 1000);
+    println!("Tables: {path}, {} kB", html.len() / 1000);
     check(&comparisons);
     Ok(())
 }
@@ -91,7 +87,7 @@ fn print(comparison: &Comparison) {
         for (method, price) in prices.iter().enumerate() {
             let mark = if front.contains(&method) { '*' } else { ' ' };
             if let Some(price) = price {
-                println!("    {mark} {:<20} {:8.1e} {:9.1} ns", METHODS[method], price.error, price.time);
+                println!("    {mark} {:<20} {:8.1e} {:9.1} ns", METHODS[method], price.error, 1e9 * price.time);
             } else if let Some((.., error)) = comparison.failures.iter().find(|(m, p, _)| (*m, *p) == (method, index)) {
                 println!("      {:<20} {error}", METHODS[method]);
             }
@@ -107,9 +103,9 @@ fn print_motions(comparison: &Comparison) {
         println!("The {}, {}: {}", comparison.mechanism, motion.title(), errors.join(", "));
     }
     println!("The {}, nanoseconds of position and velocity: predicted by operations, measured", comparison.mechanism);
-    for (name, predicted, measured) in predicted::times(comparison) {
-        let predicted = predicted.map_or_else(String::new, |predicted| format!("{predicted:.0}"));
-        println!("    {name:<20} {predicted:>9} {measured:9.0}");
+    for (name, predicted, measured) in chart::times(comparison) {
+        let predicted = predicted.map_or_else(String::new, |predicted| format!("{:.0}", 1e9 * predicted));
+        println!("    {name:<20} {predicted:>9} {:9.0}", 1e9 * measured);
     }
 }
 
@@ -124,7 +120,7 @@ fn answer(comparison: &Comparison, point: &Point) -> String {
     let index = comparison.points.iter().position(|other| other == point).expect("a point of the list");
     let prices = comparison.offered(index);
     let what = format!("Fastest with error {WANTED:.0e}: {} of the {}", QUANTITIES[point.order], comparison.mechanism);
-    let Some((best, faster)) = frontier::cheapest(&prices, WANTED) else { return format!("{what}: none") };
+    let Some((best, faster)) = cheapest(&prices, WANTED) else { return format!("{what}: none") };
     let price = |method: usize| prices[method].expect("a price");
     let reason = faster.map_or_else(
         || "no listed method is faster".to_owned(),
@@ -132,12 +128,12 @@ fn answer(comparison: &Comparison, point: &Point) -> String {
             format!(
                 "{} takes {:.0} ns, but its error is {:.0e}",
                 METHODS[faster],
-                price(faster).time,
+                1e9 * price(faster).time,
                 price(faster).error
             )
         },
     );
-    format!("{what}: {}, {:.0} ns, error {:.0e}; {reason}", METHODS[best], price(best).time, price(best).error)
+    format!("{what}: {}, {:.0} ns, error {:.0e}; {reason}", METHODS[best], 1e9 * price(best).time, price(best).error)
 }
 
 /// Checks relations that hold on every machine.
@@ -145,7 +141,7 @@ fn check(comparisons: &[Comparison]) {
     for comparison in comparisons {
         let price = |name: &str, point: usize| {
             let method = METHODS.iter().position(|method| *method == name).expect("a method of the list");
-            comparison.prices[method][point]
+            comparison.costs[method][point]
         };
         for (index, point) in comparison.points.iter().enumerate() {
             let (prices, front) = (comparison.at(index), comparison.front(index));

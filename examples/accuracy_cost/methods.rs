@@ -5,6 +5,7 @@ use std::hint::black_box;
 use std::rc::Rc;
 
 use linkage::accuracy::{Newton, PositionMethod, Reached};
+use linkage::derivation::Operations;
 use linkage::{Assembly, D, Mechanism, PerUnknown, PositionError, Real, position};
 
 use super::comparison::{Point, Work};
@@ -135,6 +136,11 @@ pub fn dyad(first: [f64; 2], second: [f64; 2], right: [f64; 2]) -> [f64; 2] {
     [(right[0] * second[1] - right[1] * second[0]) * inverse, (first[0] * right[1] - first[1] * right[0]) * inverse]
 }
 
+/// The operations of so many dyads by Cramer's rule.
+pub fn by_dyads(dyads: usize) -> Operations {
+    Operations { functions: 0, divisions: dyads, multiplications: 14 * dyads, additions: 5 * dyads }
+}
+
 /// The derivative of a link's vector with respect to its angle.
 #[inline]
 pub fn turned(length: f64, direction: linkage::nalgebra::UnitComplex<f64>) -> [f64; 2] {
@@ -148,7 +154,7 @@ pub fn less(right: [f64; 2], column: [f64; 2], rate: f64) -> [f64; 2] {
 
 /// Defines `works()` for a mechanism: each method at each of its points.
 macro_rules! works {
-    ($Mechanism:ident, $U:literal, $(closed, products $products:ident)? $(newton $steps:literal, factorised $block:literal)?) => {
+    ($Mechanism:ident, $U:literal, $(closed, products $products:ident)? $(newton $steps:literal)?) => {
         use linkage::accuracy::{Newton, Table};
         use linkage::nalgebra::SVector;
         use linkage::{Column, Mechanism, PerUnknown, PositionError, Real};
@@ -157,7 +163,7 @@ macro_rules! works {
         use super::methods::{self, Shared, ToTolerance, near};
         use linkage_examples::accuracy_cost::oracle::{Case, poses_of};
         use super::comparison::{Work, points};
-        use super::prediction::{Counts, Machine};
+        use linkage::price::{Counts, Machine};
 
         type Pose<T> = <$Mechanism<T> as Mechanism>::Pose;
         type Unknowns<T> = PerUnknown<$Mechanism<T>>;
@@ -193,8 +199,7 @@ macro_rules! works {
         )?
 
         pub fn works(machine: &Machine) -> Vec<Work> {
-            let factorised = 0 $(+ $block)?;
-            let counts = Counts { derivation: &<$Mechanism<f64>>::DERIVATION, factorised };
+            let counts = Counts::of(<$Mechanism<f64>>::DERIVATION);
             let name = module_path!().rsplit("::").next().expect("a module");
             let cases = |index: usize| poses_of(name).swap_remove(index).cases.into_iter();
             let mut works = Vec::new();
@@ -236,7 +241,7 @@ macro_rules! works {
                         from_input!("double-double", ClosedForm, DoubleDouble, branch, emitted, operations);
                         if point.order > 0 {
                             let _ = $products;
-                            let operations = Some(counts.products(point.order));
+                            let operations = Some(counts.solved_by(methods::by_dyads($U / 2), point.order));
                             from_input!("f64, products", ClosedForm, f64, branch, in_products, operations);
                         }
                     )?

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::density::{Cells, Grid};
-use linkage_examples::plot::ticks::{label, nice, ticks};
+use crate::ticks::{label, nice, ticks};
 
 /// The width of a chart and its margins, in pixels.
 const WIDTH: f64 = 400.0;

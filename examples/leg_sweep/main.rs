@@ -15,6 +15,7 @@ mod legs;
 mod machine;
 mod page;
 mod study;
+mod ticks;
 
 use legs::Walker;
 use linkage_examples::output;

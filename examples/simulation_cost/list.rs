@@ -2,13 +2,15 @@
 
 use std::time::Instant;
 
-use crate::price::frontier::{Price, Prices, cheapest, frontier};
+use linkage::price::{Cost, cheapest, frontier};
 
 /// A curve of the charts.
 pub struct Method {
     pub name: &'static str,
-    /// The style class: colour and dashes.
-    pub class: &'static str,
+    /// The colour of its curve.
+    pub colour: usize,
+    /// True for methods of order 5.
+    pub is_dashed: bool,
     /// The kind of its settings.
     pub setting: Setting,
 }
@@ -19,8 +21,8 @@ pub enum Setting {
     Step,
 }
 
-const fn method(name: &'static str, class: &'static str, setting: Setting) -> Method {
-    Method { name, class, setting }
+const fn method(name: &'static str, colour: usize, is_dashed: bool, setting: Setting) -> Method {
+    Method { name, colour, is_dashed, setting }
 }
 
 pub const SIMULATE_8: usize = 0;
@@ -39,20 +41,20 @@ pub const PROJECTED: usize = 13;
 
 /// All methods, in the order of the tables.
 pub const METHODS: [Method; 14] = [
-    method("simulate, 8(5,3)", "simulate", Setting::Tolerance),
-    method("simulate, 5(4)", "simulate five", Setting::Tolerance),
-    method("integrate, 8(5,3)", "integrate", Setting::Tolerance),
-    method("integrate, 5(4)", "integrate five", Setting::Tolerance),
-    method("ode_solvers, 8(5,3)", "ode-solvers", Setting::Tolerance),
-    method("ode_solvers, 5(4)", "ode-solvers five", Setting::Tolerance),
-    method("differential-equations, 8(5,3)", "differential-equations", Setting::Tolerance),
-    method("differential-equations, 5(4)", "differential-equations five", Setting::Tolerance),
-    method("diffsol, Tsitouras 5(4)", "diffsol five", Setting::Tolerance),
-    method("RealTime, order 4", "real-time", Setting::Step),
-    method("index 1, order 4", "accelerations", Setting::Step),
-    method("index 1, Baumgarte weak", "weakly", Setting::Step),
-    method("index 1, Baumgarte strong", "strongly", Setting::Step),
-    method("index 1, projected", "projected", Setting::Step),
+    method("simulate, 8(5,3)", 0, false, Setting::Tolerance),
+    method("simulate, 5(4)", 0, true, Setting::Tolerance),
+    method("integrate, 8(5,3)", 8, false, Setting::Tolerance),
+    method("integrate, 5(4)", 8, true, Setting::Tolerance),
+    method("ode_solvers, 8(5,3)", 1, false, Setting::Tolerance),
+    method("ode_solvers, 5(4)", 1, true, Setting::Tolerance),
+    method("differential-equations, 8(5,3)", 2, false, Setting::Tolerance),
+    method("differential-equations, 5(4)", 2, true, Setting::Tolerance),
+    method("diffsol, Tsitouras 5(4)", 4, true, Setting::Tolerance),
+    method("RealTime, order 4", 6, false, Setting::Step),
+    method("index 1, order 4", 7, false, Setting::Step),
+    method("index 1, Baumgarte weak", 5, false, Setting::Step),
+    method("index 1, Baumgarte strong", 9, false, Setting::Step),
+    method("index 1, projected", 3, false, Setting::Step),
 ];
 
 /// The result of a run.
@@ -78,7 +80,7 @@ pub struct Work {
 pub struct Row {
     pub method: usize,
     pub setting: f64,
-    pub outcome: Result<(Outcome, Price), String>,
+    pub outcome: Result<(Outcome, Cost), String>,
 }
 
 /// All runs for one mechanism.
@@ -88,8 +90,8 @@ pub struct List {
     pub rows: Vec<Row>,
 }
 
-/// Runs longer than this, in nanoseconds, are timed fewer times.
-const LONG: f64 = 1e7;
+/// Runs longer than this, in seconds, are timed fewer times.
+const LONG: f64 = 1e-2;
 const ROUNDS_OF_LONG: usize = 3;
 
 /// Errors are raised to this value for the logarithmic axis: smaller ones are coincidences of rounding errors.
@@ -98,7 +100,7 @@ const LEAST: f64 = 1e-17;
 fn timed(work: &Work) -> (Result<Outcome, String>, f64) {
     let clock = Instant::now();
     let outcome = std::hint::black_box((work.run)());
-    (outcome, 1e9 * clock.elapsed().as_secs_f64())
+    (outcome, clock.elapsed().as_secs_f64())
 }
 
 impl List {
@@ -116,7 +118,7 @@ impl List {
         let rows = works.into_iter().zip(outcomes).zip(times).map(|((work, outcome), mut times)| {
             times.sort_by(f64::total_cmp);
             let priced = |outcome: Outcome| {
-                let price = Price { error: outcome.error.max(LEAST), time: times[times.len() / 2] };
+                let price = Cost { error: outcome.error.max(LEAST), time: times[times.len() / 2] };
                 if outcome.error.is_finite() { Ok((outcome, price)) } else { Err("the error is NaN".to_owned()) }
             };
             Row { method: work.method, setting: work.setting, outcome: outcome.and_then(priced) }
@@ -125,26 +127,27 @@ impl List {
     }
 
     /// Error and time of each row.
-    pub fn prices(&self) -> Prices {
+    pub fn costs(&self) -> Vec<Option<Cost>> {
         self.rows.iter().map(|row| row.outcome.as_ref().ok().map(|(_, price)| *price)).collect()
     }
 
     /// The rows that are clearly more accurate than every faster one.
     pub fn front(&self) -> Vec<usize> {
-        frontier(&self.prices())
+        frontier(&self.costs())
     }
 
     /// The fastest row of these methods with at most this error.
-    pub fn cheapest(&self, methods: &[usize], error: f64) -> Option<(&Row, Outcome, Price)> {
-        let priced = self.rows.iter().zip(self.prices());
-        let prices: Prices = priced.map(|(row, price)| price.filter(|_| methods.contains(&row.method))).collect();
-        let (index, _) = cheapest(&prices, error)?;
+    pub fn cheapest(&self, methods: &[usize], error: f64) -> Option<(&Row, Outcome, Cost)> {
+        let priced = self.rows.iter().zip(self.costs());
+        let costs: Vec<Option<Cost>> =
+            priced.map(|(row, price)| price.filter(|_| methods.contains(&row.method))).collect();
+        let (index, _) = cheapest(&costs, error)?;
         let row = &self.rows[index];
         row.outcome.as_ref().ok().map(|&(outcome, price)| (row, outcome, price))
     }
 
     /// The result of a method at a setting.
-    pub fn at(&self, method: usize, setting: f64) -> Option<(Outcome, Price)> {
+    pub fn at(&self, method: usize, setting: f64) -> Option<(Outcome, Cost)> {
         let is_it = |row: &&Row| row.method == method && (row.setting / setting - 1.0).abs() < 1e-9;
         self.rows.iter().find(is_it)?.outcome.as_ref().ok().copied()
     }

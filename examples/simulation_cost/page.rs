@@ -6,7 +6,7 @@ use super::chart;
 use super::list::{List, METHODS};
 use super::reading::Paragraph;
 use super::report::setting;
-use crate::price::{self, axes};
+use crate::price;
 
 /// Additions to the shared style.
 const STYLE: &str = ".legend{list-style:none;columns:17rem;max-width:64rem;margin:1rem 0 0;padding:0}\
@@ -18,21 +18,25 @@ pub fn html(lists: &[List], reading: &[Paragraph]) -> String {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>Accuracy and time of simulation</title>\n\
-         <style>{}{}{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>Accuracy and time of simulation</h1>\n\
+         <style>{}{}{STYLE}</style>\n</head>\n<body>\n<header>\n<h1>Accuracy and time of simulation</h1>\n\
          <p>The largest error of an angle at the end, in radians, and the median time of a whole run; the methods are \
          timed alternately. Ringed: clearly more accurate than every faster run, fixed steps included. Dashed: \
          order 5. All but the formulations with multipliers (index 1) use the same right-hand side. Without projection the \
          absolute tolerance equals the relative one, in rad and rad/s.</p>\n<ul class=\"legend\">",
         price::STYLE,
-        axes::STYLE,
-        chart::STYLE
+        linkage::chart::STYLE
     );
     let mut push = |text: std::fmt::Arguments| {
         // Writing to a string does not fail.
         let _ = html.write_fmt(text);
     };
-    for (_, name, class) in chart::methods(lists) {
-        push(format_args!("<li><svg viewBox=\"0 0 28 14\">{}</svg>{name}</li>", chart::swatch(class)));
+    for method in chart::methods(lists) {
+        let class = if method.is_dashed { "curve dashed" } else { "curve" };
+        push(format_args!(
+            "<li><svg class=\"chart\" viewBox=\"0 0 28 14\"><g class=\"k{}\"><path class=\"{class}\" d=\"M1 7H27\"/>\
+             <circle class=\"dot\" cx=\"14\" cy=\"7\" r=\"2.4\"/></g></svg>{}</li>",
+            method.colour, method.name
+        ));
     }
     push(format_args!("</ul>\n</header>\n<main>\n<h2>Conclusions</h2>\n"));
     for paragraph in reading {
@@ -45,8 +49,8 @@ pub fn html(lists: &[List], reading: &[Paragraph]) -> String {
             "<section>\n<h2>{}</h2>\n<p class=\"about\">{}</p>\n<div class=\"charts\">",
             list.title, list.about
         ));
-        for panel in chart::panels(list) {
-            push(format_args!("<figure>{}</figure>", chart::figure(&panel)));
+        for chart in chart::charts(list) {
+            push(format_args!("<figure>{}</figure>", chart.to_svg_fragment()));
         }
         push(format_args!(
             "</div>\n<details><summary>All numbers</summary>\n<table><tr><th>method</th><td>setting</td><td>error</td>\
@@ -62,7 +66,7 @@ pub fn html(lists: &[List], reading: &[Paragraph]) -> String {
                     "<td>{:.1e}</td><td>{}</td><td>{:.3}</td><td>{:.0e}</td></tr>",
                     price.error,
                     outcome.evaluations,
-                    1e-6 * price.time,
+                    1e3 * price.time,
                     outcome.gap
                 )),
                 Err(error) => {

@@ -125,8 +125,8 @@ fn formulations(list: &List) -> Paragraph {
     }
 }
 
-fn milliseconds(nanoseconds: f64) -> String {
-    format!("{:.2} ms", 1e-6 * nanoseconds)
+fn milliseconds(seconds: f64) -> String {
+    format!("{:.2} ms", 1e3 * seconds)
 }
 
 fn metres(gap: f64) -> String {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::list::{ACCELERATIONS, List, METHODS, PROJECTED, REAL_TIME, Setting, WEAKLY, Work};
 use super::problem::Problem;
-use super::{chart, fixed_steps, four_bars, integrators, page, problems, reading};
+use super::{fixed_steps, four_bars, integrators, page, problems, reading};
 use crate::output;
 
 /// The squeezer, the windows, the four-bar with a spring and the turning one.
@@ -91,10 +91,9 @@ pub fn write(works: [Vec<Work>; 4]) -> Result<(), Box<dyn Error>> {
     if cfg!(debug_assertions) {
         println!("The times are for unoptimised code: run with --release.");
     }
-    output::write("target/simulation_cost.svg", &chart::svg(&lists))?;
     let html = page::html(&lists, &reading);
     let path = output::write("target/simulation_cost.html", &html)?;
-    println!("Tables: {path}, {} kB, and .svg", html.len() / 1000);
+    println!("Tables: {path}, {} kB", html.len() / 1000);
     Ok(())
 }
 
@@ -110,7 +109,7 @@ fn print(list: &List) {
                 "  {mark} {name:<32} {setting:>10} {:9.1e} {:12} {:10.3} {:9.1e}",
                 price.error,
                 outcome.evaluations,
-                1e-6 * price.time,
+                1e3 * price.time,
                 outcome.gap
             ),
             Err(error) => println!("    {name:<32} {setting:>10} {}", error.lines().next().unwrap_or_default()),
@@ -122,9 +121,8 @@ fn print(list: &List) {
 /// Checks relations that hold on every machine.
 fn check([squeezer, _, sprung, turning]: &[List; 4]) {
     for list in [squeezer, sprung] {
-        let prices = list.prices();
-        let errors: Vec<f64> =
-            list.front().iter().filter_map(|&index| prices[index]).map(|price| price.error).collect();
+        let costs = list.costs();
+        let errors: Vec<f64> = list.front().iter().filter_map(|&index| costs[index]).map(|price| price.error).collect();
         assert!(errors.windows(2).all(|pair| pair[1] < pair[0]), "errors fall along the front");
         for row in list.rows.iter().filter(|row| row.method < REAL_TIME && row.setting < 2e-7) {
             let (name, error) = (METHODS[row.method].name, row.outcome.as_ref().map(|(_, price)| price.error));

@@ -3,10 +3,10 @@
 
 use linkage::DoubleDouble;
 use linkage::chart::{Chart, Look};
+use linkage::nalgebra::{ComplexField, RealField};
 use linkage::price::{InOtherScalars, MotionPrice, PriceError, PriceOptions, QUANTITIES};
 use linkage::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
 use linkage::{InputError, linkage};
-use linkage::nalgebra::{ComplexField, RealField};
 
 /// Few samples, each timed once.
 fn quick() -> PriceOptions {
@@ -64,7 +64,7 @@ mod bead {
         (x * x, x + x, linkage::real(2.0))
     }
 
-    /// The same in `f64`.
+    /// A parabola in `f64`.
     fn rounded<T: Real>(x: T) -> (T, T, T) {
         let x: f64 = linkage::nalgebra::try_convert(x).unwrap_or(f64::NAN);
         (linkage::real(x * x), linkage::real(x + x), linkage::real(2.0))
@@ -164,8 +164,15 @@ fn digits_of_each_method() {
     let price = lever_price(&quick()).unwrap();
     let names: Vec<&str> = price.methods.iter().map(|method| &*method.name).collect();
     let all = [
-        "f64", "f32", "double-double", "Newton, 1 step", "Newton, 2 steps", "Newton, 3 steps", "Newton to tolerance",
-        "table of 64", "table of 1024",
+        "f64",
+        "f32",
+        "double-double",
+        "Newton, 1 step",
+        "Newton, 2 steps",
+        "Newton, 3 steps",
+        "Newton to tolerance",
+        "table of 64",
+        "table of 1024",
     ];
     assert_eq!(names, all);
     for order in 0..3 {

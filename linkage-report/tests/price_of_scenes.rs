@@ -54,11 +54,8 @@ mod bars {
     }
 }
 
-const START: Start<f64, wheel::WheelCoordinates<f64>, wheel::WheelInputs<f64>> = Start {
-    t: 0.0,
-    q: wheel::WheelCoordinates { theta: 1.0 },
-    input_rates: wheel::WheelInputs { theta: 0.0 },
-};
+const START: Start<f64, wheel::WheelCoordinates<f64>, wheel::WheelInputs<f64>> =
+    Start { t: 0.0, q: wheel::WheelCoordinates { theta: 1.0 }, input_rates: wheel::WheelInputs { theta: 0.0 } };
 
 const END: f64 = 7.0;
 

@@ -6,12 +6,12 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Table};
 use linkage::nalgebra::SVector;
+use linkage::price::{Cost, cheapest, frontier};
 use linkage::{D, InputError, Kinematic, Mechanism, PerInput, PerUnknown, PositionError, Real};
 use linkage_double::DoubleDouble;
 
 use linkage_examples::accuracy_cost::dominance::dominated;
 use linkage_examples::accuracy_cost::oracle::{Case, poses_of};
-use linkage_examples::price::frontier::{Price, cheapest, frontier};
 
 use linkage_gallery::double_butterfly::*;
 use linkage_gallery::four_bar::*;
@@ -347,8 +347,8 @@ fn by_type_is_the_direct_call() {
     }
 }
 
-fn price(error: f64, time: f64) -> Option<Price> {
-    Some(Price { error, time })
+fn price(error: f64, time: f64) -> Option<Cost> {
+    Some(Cost { error, time })
 }
 
 #[test]
@@ -367,7 +367,7 @@ fn dominated_methods() {
     partial[1] = None;
     assert_eq!(dominated(&[fast.clone(), partial]), [None, Some(0)]);
     // Equal methods do not dominate each other.
-    let alike = fast.iter().map(|one| one.map(|Price { error, time }| Price { error: 2.0 * error, time: 1.05 * time }));
+    let alike = fast.iter().map(|one| one.map(|Cost { error, time }| Cost { error: 2.0 * error, time: 1.05 * time }));
     let alike = alike.collect();
     assert_eq!(dominated(&[fast.clone(), alike]), [None; 2]);
 }

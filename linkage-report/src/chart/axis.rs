@@ -7,13 +7,15 @@ pub struct Axis {
     pub name: String,
     /// Linear or logarithmic.
     pub scale: Scale,
-    /// How values are written.
+    /// The way in which values are written.
     pub unit: Unit,
     /// The ends; by default those of the curves.
     pub range: Option<[f64; 2]>,
+    /// The distance of grid lines on a linear axis, by default a round number.
+    pub step: Option<f64>,
 }
 
-/// How values are spaced.
+/// The spacing of values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Evenly.
@@ -22,10 +24,10 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// How values are written.
+/// The way in which values are written.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unit {
-    /// As numbers.
+    /// Numbers.
     Number,
     /// Angles in radians, written in degrees.
     Degrees,
@@ -44,11 +46,14 @@ pub(super) struct Tick {
 /// More decades than the first of a pair have a grid line every so many.
 const MANY_DECADES: [(f64, i32); 3] = [(16.0, 8), (9.0, 4), (5.0, 2)];
 
+/// A smaller part of an axis than this is no distance of grid lines.
+const LEAST_STEP: f64 = 1e-3;
+
 impl Axis {
     /// A linear axis of numbers.
     #[must_use]
     pub fn linear(name: impl Into<String>) -> Self {
-        Self { name: name.into(), scale: Scale::Linear, unit: Unit::Number, range: None }
+        Self { name: name.into(), scale: Scale::Linear, unit: Unit::Number, range: None, step: None }
     }
 
     /// A logarithmic axis of numbers.
@@ -67,6 +72,12 @@ impl Axis {
     #[must_use]
     pub fn range(self, range: [f64; 2]) -> Self {
         Self { range: Some(range), ..self }
+    }
+
+    /// Draws grid lines at this distance.
+    #[must_use]
+    pub fn every(self, step: f64) -> Self {
+        Self { step: Some(step), ..self }
     }
 
     /// The distance along the axis, in its own measure.
@@ -107,6 +118,9 @@ impl Axis {
 
     /// The distance of grid lines.
     fn step(&self, [low, high]: [f64; 2]) -> f64 {
+        if let Some(step) = self.step.filter(|step| *step > (high - low) * LEAST_STEP) {
+            return step;
+        }
         if self.unit == Unit::Degrees {
             let steps = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0, 720.0];
             let span = (high - low).to_degrees();

@@ -47,16 +47,16 @@ pub struct Curve {
     pub label: String,
     /// The colour, counted from 0, of [`COLOURS`] in turn.
     pub colour: usize,
-    /// How it is drawn.
+    /// The way in which it is drawn.
     pub look: Look,
     /// The points; a curve is broken where there is none.
     pub points: Vec<Option<[f64; 2]>>,
 }
 
 /// The number of colours; the next curve has the first one again.
-pub const COLOURS: usize = 6;
+pub const COLOURS: usize = 10;
 
-/// How points are drawn.
+/// The way in which points are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Look {
     /// A line through the points.

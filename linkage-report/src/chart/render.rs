@@ -36,7 +36,9 @@ impl<'a> Frame<'a> {
         let points = || chart.curves.iter().flat_map(|curve| curve.points.iter().flatten());
         let marks = chart.lines.iter().map(|line| line.at).chain(chart.spans.iter().flat_map(|span| span.ends));
         let left = match &chart.y.unit {
-            Unit::Names(names) => LETTER * names.iter().map(|name| name.chars().count()).max().unwrap_or(0) as f64 + 18.0,
+            Unit::Names(names) => {
+                LETTER * names.iter().map(|name| name.chars().count()).max().unwrap_or(0) as f64 + 18.0
+            }
             _ => LEFT,
         };
         let has_labels = chart.curves.iter().any(|curve| curve.look != Look::Discs && !curve.label.is_empty());
@@ -157,11 +159,7 @@ impl Frame<'_> {
             let (y, label) = (self.down(tick.at), escape(&tick.label));
             let class = if tick.at == 0.0 && chart.y == super::Axis::linear(&*chart.y.name) { "zero" } else { "grid" };
             push(format_args!("<path class=\"{class}\" d=\"M{left:.1} {y:.1}H{right:.1}\"/>"));
-            push(format_args!(
-                "<text class=\"soft end\" x=\"{:.1}\" y=\"{:.1}\">{label}</text>",
-                left - 6.0,
-                y + 4.0
-            ));
+            push(format_args!("<text class=\"soft end\" x=\"{:.1}\" y=\"{:.1}\">{label}</text>", left - 6.0, y + 4.0));
         }
         let [across, up] = [&chart.x.name, &chart.y.name].map(|name| escape(name));
         push(format_args!("<text class=\"soft end\" x=\"{right:.1}\" y=\"{:.1}\">{across}</text>", bottom + 32.0));

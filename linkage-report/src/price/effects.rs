@@ -1,23 +1,28 @@
-//! What the effects of a scene cost, by the operations of their formulas.
+//! The cost of the effects of a scene, by the operations of their formulas.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use linkage_runtime::derivation::{Effect, Equation, Formula, FormulaView, Operations, SceneDerivation};
+use linkage_runtime::derivation::{
+    Effect, ElementaryFunction as Function, Equation, Formula, FormulaView, Operations, SceneDerivation,
+};
 
 use super::prediction::Machine;
 
-/// What a body or an effect costs in a right-hand side.
+/// The cost of a body or an effect in a right-hand side.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct EffectPrice {
     /// Its name in error messages: "spring on theta3".
     pub name: String,
-    /// The operations of its contribution to the forces, of which common ones count once.
+    /// The operations of its contribution to the forces, of which common ones count once. Sines and cosines of coordinates
+    /// are those of the pose.
     pub operations: Operations,
     /// Those of them that no other body or effect has: without it, a right-hand side has so many less.
     pub alone: Operations,
     /// The calls of user functions, whose operations are not known.
     pub calls: Vec<String>,
+    /// True if its formula has a part that is too long to be printed, whose operations are not known.
+    pub is_shortened: bool,
     /// The time of the operations that are known, in seconds.
     pub predicted: f64,
 }
@@ -57,6 +62,7 @@ pub(super) fn effects(derivation: &SceneDerivation<'_>, machine: &Machine) -> Ve
             operations,
             alone,
             calls: calls.collect(),
+            is_shortened: all.values().any(|formula| matches!(formula.view(), FormulaView::Ellipsis)),
             predicted: machine.time::<f64>(operations),
         }
     });
@@ -83,14 +89,26 @@ fn nodes<'a>(formula: Formula<'a>, all: &mut BTreeMap<u32, Formula<'a>>) {
     }
 }
 
+/// The operations of the sine or cosine of an angle. Those of coordinates are in the pose, and those of a sum of them follow
+/// by the addition theorem.
+fn of_pose(angle: Formula<'_>) -> Operations {
+    let is_name = |formula: Formula<'_>| matches!(formula.view(), FormulaView::Name(_));
+    match angle.view() {
+        FormulaView::Name(_) => Operations::default(),
+        FormulaView::Sum(terms) if terms.iter().all(|(_, term)| is_name(term)) => {
+            let sums = terms.iter().len().saturating_sub(1);
+            Operations { functions: 0, divisions: 0, multiplications: 2 * sums, additions: sums }
+        }
+        _ => Operations { functions: 1, ..Operations::default() },
+    }
+}
+
 /// The operations of a node alone.
 fn operations(formula: Formula<'_>) -> Operations {
     let none = Operations::default();
     match formula.view() {
         FormulaView::Sum(terms) => Operations { additions: terms.iter().len().saturating_sub(1), ..none },
-        FormulaView::Product(factors) => {
-            Operations { multiplications: factors.iter().len().saturating_sub(1), ..none }
-        }
+        FormulaView::Product(factors) => Operations { multiplications: factors.iter().len().saturating_sub(1), ..none },
         FormulaView::Multiple(..) => Operations { multiplications: 1, ..none },
         FormulaView::Quotient(..) => Operations { divisions: 1, ..none },
         // By squares and products.
@@ -98,6 +116,7 @@ fn operations(formula: Formula<'_>) -> Operations {
             let products = exponent.checked_ilog2().unwrap_or(0) + exponent.count_ones().saturating_sub(1);
             Operations { multiplications: products as usize, ..none }
         }
+        FormulaView::Call(Function::Sin | Function::Cos, arguments) => arguments.only().map_or(none, of_pose),
         FormulaView::Call(..) => Operations { functions: 1, ..none },
         _ => none,
     }

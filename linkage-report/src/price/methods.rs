@@ -9,7 +9,7 @@ use linkage_runtime::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Tab
 use linkage_runtime::derivation::Operations;
 use linkage_runtime::{Assembly, D, Kinematic, Mechanism, PerInput, PerUnknown, PositionError, position, real};
 
-use super::motion::{Family, MethodPrice, QuantityPrice};
+use super::data::{Family, MethodPrice, QuantityPrice};
 use super::prediction::{Counts, Machine};
 use super::reference::{Exact, Reference, in_scalar};
 

@@ -1,4 +1,4 @@
-//! What accuracy costs: errors against numbers of 31 digits and times, of one mechanism over a range of its input, and of
+//! The price of accuracy: errors against numbers of 31 digits and times, of one mechanism over a range of its input, and of
 //! one scene by tolerance.
 //!
 //! A [`MotionPrice`] compares the methods of [`accuracy`](linkage_runtime::accuracy) along one motion; a [`ScenePrice`]
@@ -35,6 +35,38 @@
 //! # Ok::<(), linkage::Error>(())
 //! ```
 //!
+//! A scene, its error against the simulation in double-double, and what its effects cost:
+//!
+//! ```
+//! linkage::linkage! {
+//!     #[derive(Clone)]
+//!     pub mechanism Wheel {
+//!         param j = 0.5, k = 2;
+//!         input theta;
+//!         body wheel { inertia j; angle theta; }
+//!         scene Sprung { inertia; spring k, 0 on theta; }
+//!         scene Free { inertia; }
+//!     }
+//! }
+//! use linkage::DoubleDouble;
+//! use linkage::price::{ScenePrice, ScenePriceOptions};
+//! use linkage::simulation::Start;
+//!
+//! let scene = Sprung::default();
+//! let start = Start { t: 0.0, q: WheelCoordinates { theta: 1.0 }, input_rates: WheelInputs { theta: 0.0 } };
+//! let twice = scene.clone().map(DoubleDouble::from);
+//! # let options = ScenePriceOptions { tolerances: vec![1e-6], rounds: 1, span: 0.0, ..ScenePriceOptions::default() };
+//! # let _ = stringify!(
+//! let options = ScenePriceOptions::default();
+//! # );
+//! let mut price = ScenePrice::of(&scene, &twice, Sprung::<f64>::DERIVATION, start, 3.0, &options)?;
+//! assert!(price.runs[0].outcome.is_ok_and(|outcome| outcome.error < 1e-4));
+//! // As measured, not by formulas: the same scene without the spring.
+//! price.without("the spring", (&scene, start), (&Free::default(), start))?;
+//! println!("{price}");
+//! # Ok::<(), linkage::Error>(())
+//! ```
+//!
 //! # Times
 //!
 //! All methods are timed in turn, round after round, and each time is the median of the rounds: a disturbance of the machine
@@ -42,6 +74,7 @@
 //! median of the ratios within rounds, which noise disturbs less than the times: compare methods by it, and times of two
 //! runs of a program not at all. Without optimisation all times are long, and not in proportion.
 
+mod data;
 mod effects;
 mod error;
 mod frontier;
@@ -54,13 +87,12 @@ mod scene;
 mod text;
 mod timing;
 
+pub use data::{Family, MethodPrice, QUANTITIES, QuantityPrice};
 pub use effects::EffectPrice;
 pub use error::PriceError;
 pub use frontier::{Cost, SAME_ERROR, cheapest, frontier};
-pub use motion::{Family, Gap, InOtherScalars, MethodPrice, MotionPrice, PriceOptions, QUANTITIES, QuantityPrice};
+pub use motion::{Gap, InOtherScalars, MotionPrice, PriceOptions};
 pub use page::style;
 pub use prediction::{Counts, Machine};
-pub use scene::{
-    Order, PartPrice, RunOutcome, RunPrice, ScenePrice, ScenePriceOptions, StartOf, WithoutPrice,
-};
+pub use scene::{Order, PartPrice, RunOutcome, RunPrice, ScenePrice, ScenePriceOptions, StartOf, WithoutPrice};
 pub use timing::Time;

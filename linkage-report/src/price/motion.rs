@@ -3,18 +3,16 @@
 use linkage_double::DoubleDouble;
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion};
-use linkage_runtime::{Assembly, D, InputError, Kinematic, PositionError};
+use linkage_runtime::{Assembly, D, InputError, Kinematic};
 
+use super::PriceError;
+use super::data::{MethodPrice, QUANTITIES};
 use super::frontier::{Cost, cheapest, frontier};
 use super::methods::{Methods, Sample, Work};
 use super::prediction::Counts;
 use super::reference::{Reference, check_digits, in_scalar};
 use super::timing::{Time, Timed, in_turn};
-use super::PriceError;
 use crate::report::{ReportedCoordinate, SingularInput};
-
-/// The quantities, by order of derivative.
-pub const QUANTITIES: [&str; 3] = ["position", "velocity", "acceleration"];
 
 /// The options of a [`MotionPrice`].
 #[derive(Debug, Clone, PartialEq)]
@@ -86,44 +84,6 @@ pub struct Gap {
     pub to: f64,
     /// Why the motion ends.
     pub reason: MotionEnd,
-}
-
-/// A method with its errors and times.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct MethodPrice {
-    /// Its name.
-    pub name: String,
-    /// Its kind.
-    pub family: Family,
-    /// The position, and the position with the velocity and with velocity and acceleration.
-    pub quantities: [QuantityPrice; 3],
-}
-
-/// The kind of a method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Family {
-    /// Closed form.
-    ClosedForm,
-    /// Newton's method.
-    Newton,
-    /// Interpolation in a table.
-    Table,
-}
-
-/// The errors and the time of one quantity by one method.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct QuantityPrice {
-    /// The error at each input, or that of the method. Of a position in radians, of lengths divided by those of their
-    /// loops; of a velocity relative to the largest one; of an acceleration relative to the larger of the largest one and
-    /// the square of the largest velocity.
-    pub errors: Vec<Result<f64, PositionError>>,
-    /// The time of one evaluation from the input; none if the method fails everywhere.
-    pub time: Option<Time>,
-    /// The time by the number of operations, in seconds; none if that depends on the input.
-    pub predicted: Option<f64>,
 }
 
 impl MotionPrice {
@@ -251,30 +211,6 @@ impl MotionPrice {
     }
 }
 
-impl QuantityPrice {
-    /// The largest error.
-    ///
-    /// # Errors
-    /// The first error of the method.
-    pub fn largest(&self) -> Result<f64, PositionError> {
-        self.errors.iter().try_fold(0.0, |largest: f64, error| Ok(largest.max((*error)?)))
-    }
-
-    /// The median of the errors where there is one.
-    #[must_use]
-    pub fn median(&self) -> Option<f64> {
-        let mut errors: Vec<f64> = self.errors.iter().filter_map(|error| error.ok()).collect();
-        errors.sort_by(f64::total_cmp);
-        errors.get(errors.len() / 2).copied()
-    }
-
-    /// The number of inputs at which the method fails.
-    #[must_use]
-    pub fn failures(&self) -> usize {
-        self.errors.iter().filter(|error| error.is_err()).count()
-    }
-}
-
 /// The inputs of a price.
 struct Inputs<M: Kinematic> {
     /// The ends that are asked for.
@@ -355,7 +291,12 @@ where
         let input = low + (place as f64 + 0.5) * part;
         let position = range.at(input)?;
         let near = if input - step > low { input - step } else { input + step };
-        Ok(Sample { input, position, before: range.at(near)?, reference: Reference::at(range.mechanism(), twice, &position)? })
+        Ok(Sample {
+            input,
+            position,
+            before: range.at(near)?,
+            reference: Reference::at(range.mechanism(), twice, &position)?,
+        })
     };
     (0..options.samples).map(sample).collect()
 }

@@ -1,8 +1,9 @@
 //! Prices as charts and pages.
 
-use super::motion::{Family, MethodPrice, MotionPrice, QUANTITIES};
+use super::data::{Family, MethodPrice, QUANTITIES};
+use super::motion::MotionPrice;
 use super::scene::{Order, PartPrice, RunOutcome, ScenePrice, WithoutPrice};
-use super::text::{UNOPTIMISED, error, operations, time, user_functions};
+use super::text::{UNOPTIMISED, error, not_counted, operations, time};
 use crate::chart::{self, Axis, Chart, Curve, Line, Look, Span, Unit};
 use crate::report::prose::end;
 use crate::sheet::{document, escape};
@@ -125,7 +126,11 @@ impl MotionPrice {
                          dependent operations. Checks and memory are not in it.";
         body += &figures("Error against time", against, orders().map(|order| self.error_and_time(order)));
         body += &figures("Error along the motion", along, orders().map(|order| self.errors_along(order)));
-        body += &figures("Predicted and measured time", predicted, orders().map(|order| self.predicted_and_measured(order)));
+        body += &figures(
+            "Predicted and measured time",
+            predicted,
+            orders().map(|order| self.predicted_and_measured(order)),
+        );
         body += "<section>\n<h2>The fastest for a wanted error</h2>\n<ul>\n";
         for wanted in &self.wanted {
             for order in orders() {
@@ -148,7 +153,8 @@ impl MotionPrice {
             let quantity = &method.quantities[order];
             let class = if front.contains(&place) { " class=\"front\"" } else { "" };
             rows += &format!("<tr{class}><th>{}</th>", escape(&method.name));
-            if let (Ok(largest), Some(median), Some(measured)) = (quantity.largest(), quantity.median(), quantity.time) {
+            if let (Ok(largest), Some(median), Some(measured)) = (quantity.largest(), quantity.median(), quantity.time)
+            {
                 let [low, high] = measured.quartiles.map(time);
                 rows += &format!(
                     "<td>{}</td><td>{}</td><td>{}</td><td>{low} to {high}</td><td>{:.2}</td><td>{}</td></tr>\n",
@@ -250,7 +256,7 @@ impl ScenePrice {
         }
         body += "</ul>\n</section>\n";
         let parts = "What a step calls, as measured, and what bodies and effects add to a right-hand side by the operations of their \
-                     formulas, without those of user functions.";
+                     formulas, without those of user functions; sines and cosines of coordinates are those of the pose.";
         body += &figures("What its parts cost", parts, [self.parts_and_effects()].into_iter());
         body += &self.parts_table();
         body += &self.effects_table();
@@ -302,9 +308,13 @@ impl ScenePrice {
         let rows = self.effects.iter().map(|effect| {
             let all = operations(effect.operations).map(|count| format!("<td>{count}</td>")).concat();
             let alone: usize = operations(effect.alone).iter().sum();
-            let calls = user_functions(&effect.calls);
+            let calls = not_counted(effect);
             let name = escape(&effect.name);
-            format!("<tr><th>{name}{}</th>{all}<td>{alone}</td><td>{}</td></tr>\n", escape(&calls), time(effect.predicted))
+            format!(
+                "<tr><th>{name}{}</th>{all}<td>{alone}</td><td>{}</td></tr>\n",
+                escape(&calls),
+                time(effect.predicted)
+            )
         });
         let heads = ["functions", "quotients", "products", "sums", "of it alone", "time"];
         table("Bodies and effects by their formulas", &heads, rows)
@@ -320,12 +330,7 @@ impl ScenePrice {
                 let ratio = times[1].map_or(f64::NAN, |of| of.ratio);
                 format!("<td>{} → {}</td><td>{ratio:.2}</td>", texts[0], texts[1])
             };
-            format!(
-                "<tr><th>{}</th>{}<td>{with} → {without}</td>{}</tr>\n",
-                escape(name),
-                of(derivative),
-                of(run)
-            )
+            format!("<tr><th>{}</th>{}<td>{with} → {without}</td>{}</tr>\n", escape(name), of(derivative), of(run))
         });
         let heads = ["a right-hand side", "ratio", "right-hand sides", "a run", "ratio"];
         table("Without an effect, as measured", &heads, rows)
@@ -336,7 +341,9 @@ impl ScenePrice {
 fn table(caption: &str, heads: &[&str], rows: impl Iterator<Item = String>) -> String {
     let heads: String = heads.iter().map(|head| format!("<td>{head}</td>")).collect();
     let rows: String = rows.collect();
-    format!("<div class=\"wide\"><table><caption>{caption}</caption>\n<tr><th></th>{heads}</tr>\n{rows}</table></div>\n")
+    format!(
+        "<div class=\"wide\"><table><caption>{caption}</caption>\n<tr><th></th>{heads}</tr>\n{rows}</table></div>\n"
+    )
 }
 
 fn quantity(order: usize) -> &'static str {

@@ -187,7 +187,9 @@ fn user_function(equation: &Equation<'static>) -> Option<&'static str> {
             FormulaView::Product(all) | FormulaView::Call(_, all) | FormulaView::AtMost(all) => {
                 all.iter().find_map(within)
             }
-            FormulaView::Quotient(one, other) | FormulaView::Multiple(one, other) => within(one).or_else(|| within(other)),
+            FormulaView::Quotient(one, other) | FormulaView::Multiple(one, other) => {
+                within(one).or_else(|| within(other))
+            }
             FormulaView::Power(of, _) | FormulaView::NonZero(of) | FormulaView::Exists(of) => within(of),
             _ => None,
         }

@@ -65,11 +65,11 @@ pub struct ScenePrice {
     pub reference_error: f64,
     /// The right-hand sides of the reference.
     pub reference_evaluations: usize,
-    /// What is evaluated in a step.
+    /// The functions that a step calls.
     pub parts: Vec<PartPrice>,
     /// The bodies and effects, by their formulas.
     pub effects: Vec<EffectPrice>,
-    /// The same scene without some of its effects, as measured.
+    /// Scenes without some of its effects, as measured.
     pub without: Vec<WithoutPrice>,
     /// The errors for which the fastest run is named.
     pub wanted: Vec<f64>,
@@ -114,7 +114,7 @@ pub struct RunOutcome {
     pub time: Option<Time>,
 }
 
-/// What a function of the scene costs.
+/// The cost of a function of the scene.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PartPrice {
@@ -128,7 +128,7 @@ pub struct PartPrice {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WithoutPrice {
-    /// What it lacks.
+    /// The effects that it lacks.
     pub name: String,
     /// The time of `derivative` with the effects and without; the ratio of the second is to the first.
     pub derivative: [Option<Time>; 2],
@@ -184,7 +184,13 @@ impl ScenePrice {
     {
         check::<S>(options, [start.t, end])?;
         let times: Vec<f64> = (1..=options.samples)
-            .map(|place| if place == options.samples { end } else { start.t + (end - start.t) * (place as f64 / options.samples as f64) })
+            .map(|place| {
+                if place == options.samples {
+                    end
+                } else {
+                    start.t + (end - start.t) * (place as f64 / options.samples as f64)
+                }
+            })
             .collect();
         let y = S::state(&start.q, &start.input_rates.into());
         let ends_early = |Failed { t, error }| PriceError::EndsEarly { scene: S::NAME, t, end, error };
@@ -336,7 +342,8 @@ fn measured<S: Scene<Scalar = f64>>(
     samples: usize,
 ) -> Result<Measured<'_>, PriceError> {
     let y = S::state(&start.q, &start.input_rates);
-    let times: Vec<f64> = (1..=samples).map(|place| start.t + (end - start.t) * (place as f64 / samples as f64)).collect();
+    let times: Vec<f64> =
+        (1..=samples).map(|place| start.t + (end - start.t) * (place as f64 / samples as f64)).collect();
     simulate_from(scene, (start.t, &y), end, TYPICAL).map_err(PriceError::Start)?;
     let found = run::<S, Dop853>(scene, (start.t, &y), &times, TYPICAL);
     let found = found.map_err(|Failed { t, error }| PriceError::EndsEarly { scene: S::NAME, t, end, error })?;
@@ -447,9 +454,7 @@ fn run_to_end<S: Scene<Scalar = f64>>(
     end: f64,
     (order, tolerance): (Order, f64),
 ) -> Result<Counts, MotionError> {
-    fn finished<S: Scene, M: Method>(
-        motion: Simulation<'_, S>,
-    ) -> Result<Counts, MotionError> {
+    fn finished<S: Scene, M: Method>(motion: Simulation<'_, S>) -> Result<Counts, MotionError> {
         let mut motion = motion.method::<M>()?.most_steps(MOST_STEPS);
         motion.finish(|_, _| true)?;
         Ok(motion.counts())
@@ -462,11 +467,7 @@ fn run_to_end<S: Scene<Scalar = f64>>(
 }
 
 /// The largest of these differences of coordinates from a state, each divided by its scale; infinite if one is NaN.
-fn error<S: Scene<Scalar = f64>>(
-    scene: &S,
-    difference: &Column<DoubleDouble, S::State>,
-    at: &StateColumn<S>,
-) -> f64 {
+fn error<S: Scene<Scalar = f64>>(scene: &S, difference: &Column<DoubleDouble, S::State>, at: &StateColumn<S>) -> f64 {
     let (m, q) = (scene.mechanism(), S::parts(at).q);
     let scales = Scales::of(m, &m.pose_at(&q)).coordinates;
     let difference = S::parts(&difference.map(DoubleDouble::high)).q;
@@ -483,12 +484,7 @@ const SMALL: f64 = 1.0 / (1_u64 << 30) as f64;
 
 /// Returns an error if the accelerations in double-double have fewer digits: their slopes over a tiny and over a small part
 /// of a step differ at most of the states. At some they may, next to a kink.
-fn check_digits<S, T>(
-    twice: &T,
-    states: &[StateColumn<S>],
-    times: &[f64],
-    step: f64,
-) -> Result<(), PriceError>
+fn check_digits<S, T>(twice: &T, states: &[StateColumn<S>], times: &[f64], step: f64) -> Result<(), PriceError>
 where
     S: Scene<Scalar = f64>,
     T: Scene<Scalar = DoubleDouble, State = S::State>,

@@ -5,7 +5,9 @@ use core::fmt;
 use linkage_dynamics::integrate::Counts;
 use linkage_runtime::derivation::Operations;
 
-use super::motion::{MethodPrice, MotionPrice, QUANTITIES};
+use super::data::{MethodPrice, QUANTITIES};
+use super::effects::EffectPrice;
+use super::motion::MotionPrice;
 use super::scene::{Order, PartPrice, RunOutcome, ScenePrice, WithoutPrice};
 use super::timing::Time;
 use crate::report::prose::{end, written};
@@ -20,7 +22,8 @@ pub(super) fn time(seconds: f64) -> String {
         .find(|(unit, _)| seconds >= *unit)
         .unwrap_or((1e-9, "ns"));
     let number = seconds / unit;
-    let digits = [(100.0, 0), (10.0, 1)].into_iter().find(|(least, _)| number >= *least).map_or(2, |(_, digits)| digits);
+    let digits =
+        [(100.0, 0), (10.0, 1)].into_iter().find(|(least, _)| number >= *least).map_or(2, |(_, digits)| digits);
     format!("{number:.digits$} {name}")
 }
 
@@ -38,10 +41,17 @@ impl MotionPrice {
         let mut about = vec![format!("{} inputs, {name} from {low} to {high}.", self.inputs.len())];
         about.extend(self.gaps.iter().map(|gap| {
             let (from, to) = (at(gap.from), at(gap.to));
-            format!("No position between {name} = {from} and {to}: the end of the motion at {from} is {}.", end(gap.reason))
+            format!(
+                "No position between {name} = {from} and {to}: the end of the motion at {from} is {}.",
+                end(gap.reason)
+            )
         }));
         about.extend(self.change_points.iter().map(|point| {
-            format!("At {name} = {} other motions cross: a change point of {}.", at(point.input), point.groups.join("; "))
+            format!(
+                "At {name} = {} other motions cross: a change point of {}.",
+                at(point.input),
+                point.groups.join("; ")
+            )
         }));
         let reference = error(self.reference);
         about.push(format!("The reference has 31 digits; the last step of Newton's method to it was {reference}."));
@@ -102,7 +112,12 @@ impl fmt::Display for MotionPrice {
         writeln!(f)?;
         for wanted in &self.wanted {
             for (order, quantity) in QUANTITIES.iter().enumerate() {
-                writeln!(f, "Fastest {quantity} with an error of {}: {}.", error(*wanted), self.answer(order, *wanted))?;
+                writeln!(
+                    f,
+                    "Fastest {quantity} with an error of {}: {}.",
+                    error(*wanted),
+                    self.answer(order, *wanted)
+                )?;
             }
         }
         if self.is_optimised { Ok(()) } else { writeln!(f, "{UNOPTIMISED}") }
@@ -118,7 +133,7 @@ impl ScenePrice {
             format!("From t = {start} to {end}."),
             format!(
                 "The reference is a simulation in double-double at the tolerance {tolerance}, with {} right-hand sides; at ten times \
-                 that tolerance it differs by {reference}.",
+                 that tolerance it differs by {reference}. Smaller errors are not resolved.",
                 self.reference_evaluations
             ),
         ]
@@ -189,7 +204,7 @@ impl fmt::Display for ScenePrice {
         writeln!(f, "\nBodies and effects by their formulas  functions  quotients  products  sums    time")?;
         for effect in &self.effects {
             let [functions, divisions, products, sums] = operations(effect.operations);
-            let (seconds, calls) = (time(effect.predicted), user_functions(&effect.calls));
+            let (seconds, calls) = (time(effect.predicted), not_counted(effect));
             writeln!(
                 f,
                 "  {:<36} {functions:9} {divisions:10} {products:9} {sums:5} {seconds:>7}{calls}",
@@ -213,18 +228,18 @@ impl fmt::Display for ScenePrice {
     }
 }
 
-/// A note of the user functions that are called.
-pub(super) fn user_functions(calls: &[String]) -> String {
-    let mut names: Vec<&str> = calls.iter().map(String::as_str).collect();
+/// A note of the operations of an effect that are not known.
+pub(super) fn not_counted(effect: &EffectPrice) -> String {
+    let mut names: Vec<&str> = effect.calls.iter().map(String::as_str).collect();
     names.sort_unstable();
     names.dedup();
     let counted = |name: &&str| {
-        let count = calls.iter().filter(|call| call == name).count();
+        let count = effect.calls.iter().filter(|call| call == name).count();
         if count == 1 { (*name).to_owned() } else { format!("{name} {count} times") }
     };
-    if names.is_empty() {
-        String::new()
-    } else {
-        format!(", and {}", names.iter().map(counted).collect::<Vec<_>>().join(", "))
+    let mut parts: Vec<String> = names.iter().map(counted).collect();
+    if effect.is_shortened {
+        parts.push("parts that are not printed".to_owned());
     }
+    if parts.is_empty() { String::new() } else { format!(", and {}", parts.join(", ")) }
 }

@@ -29,7 +29,7 @@ const LEAST: f64 = 1e-9;
 
 /// Passes longer than this, in seconds, are timed in fewer rounds.
 const LONG: f64 = 0.02;
-const ROUNDS_OF_LONG: usize = 5;
+const ROUNDS_OF_LONG: usize = 9;
 
 /// The times of all computations, in turn, round after round: each fills `span` seconds in a round. The order changes from
 /// round to round, so that none always follows the same other one.

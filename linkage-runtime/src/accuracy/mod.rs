@@ -14,7 +14,7 @@
 //! Largest error against 45-digit arithmetic at poses far from dead points (position in radians, velocity relative),
 //! and time for the position and for position with velocity, from the input, on two cores in 2026. Newton's method
 //! starts one degree away. The example `accuracy_cost` measures all of it on the machine that it runs on, with
-//! acceleration and poses near a dead point.
+//! acceleration and poses near a dead point; `linkage::price` measures any mechanism, with the feature `double-double`.
 //!
 //! | | four-bar | | Jansen leg | | double butterfly | |
 //! |---|---|---|---|---|---|---|
