@@ -41,6 +41,20 @@ mod bars {
     }
 }
 
+mod parallel {
+    use super::linkage;
+
+    linkage! {
+        #[derive(Clone)]
+        pub mechanism Parallelogram {
+            param a = 2, b = 5;
+            input theta;
+            unknown phi, psi;
+            loop a@theta + b@phi = b@0 + a@psi;
+        }
+    }
+}
+
 mod kepler {
     use super::linkage;
 
@@ -255,6 +269,28 @@ fn a_range_beyond_dead_points() {
     // Of a turn there is no table here.
     let table = &price.method("table of 64").unwrap().quantities[0];
     assert!(table.largest().unwrap() > 1e-12);
+}
+
+/// The bars are in line at 0 and at 180 degrees, where the sixth of eleven inputs is: it has no reference and is left out.
+#[test]
+fn a_change_point_among_the_inputs() {
+    let m = parallel::Parallelogram::default();
+    let start = parallel::ParallelogramCoordinates { theta: 0.5, phi: 0.0, psi: 0.5 };
+    let range = RangeOfMotion::of(&m, &start, RangeOptions::through_change_points()).unwrap();
+    let options = PriceOptions { inputs: Some([0.0, std::f64::consts::TAU]), samples: 11, ..quick() };
+    let price = MotionPrice::of(&range, parallel::Parallelogram::<f64>::DERIVATION, &others!(m), &options).unwrap();
+    let [out] = &price.left_out[..] else { panic!("{:?}", price.left_out) };
+    assert!((out.input - std::f64::consts::PI).abs() < 1e-15, "{out:?}");
+    assert!(matches!(out.error, PriceError::Reference { .. } | PriceError::Path(_)), "{out:?}");
+    assert_eq!(price.inputs.len(), 10);
+    assert!(price.change_points.iter().any(|point| (point.input - std::f64::consts::PI).abs() < 1e-12));
+    // The cranks stay parallel, phi is 0.
+    let chart = price.errors_along(0);
+    assert!(chart.lines.iter().any(|line| line.name.contains("change point of phi, psi")), "{:?}", chart.lines);
+    let text = price.to_string();
+    assert!(text.contains("other motions cross: a change point of phi, psi.") && text.contains("Left out: "), "{text}");
+    let errors = &price.method("double-double").unwrap().quantities[0].errors;
+    assert!(errors.iter().all(|error| error.is_ok_and(|error| error < 1e-28)), "{errors:?}");
 }
 
 /// E - e sin E = M has no closed form; its solution by bisection in 31 digits.

@@ -208,20 +208,26 @@ impl Frame<'_> {
         format!("<g class=\"k{colour}\"><title>{name}</title>{drawn}</g>")
     }
 
-    /// The labels of lines right of their ends, moved upwards where they would overlap.
+    /// The labels of lines right of their ends, moved upwards where they would overlap, and downwards at the top.
     fn labels(&self) -> String {
         let labelled = self.chart.curves.iter().filter(|curve| curve.look != Look::Discs && !curve.label.is_empty());
         let end = |curve: &Curve| curve.points.iter().rev().flatten().find_map(|point| self.at(*point));
         let mut ends: Vec<(&Curve, f64)> = labelled.filter_map(|curve| Some((curve, end(curve)?[1]))).collect();
         ends.sort_by(|(_, one), (_, other)| other.total_cmp(one));
         let mut below = self.bottom + APART;
+        for (_, y) in &mut ends {
+            *y = y.min(below - APART);
+            below = *y;
+        }
+        // From the top downwards again, so that none is above the curves.
+        let mut above = TOP - APART;
+        for (_, y) in ends.iter_mut().rev() {
+            *y = y.max(above + APART);
+            above = *y;
+        }
         let labels = ends.into_iter().map(|(curve, y)| {
-            below = y.min(below - APART);
             let (x, colour, label) = (self.right + 5.0, curve.colour % COLOURS, escape(&curve.label));
-            format!(
-                "<g class=\"k{colour}\"><text class=\"label\" x=\"{x:.1}\" y=\"{:.1}\">{label}</text></g>",
-                below + 3.6
-            )
+            format!("<g class=\"k{colour}\"><text class=\"label\" x=\"{x:.1}\" y=\"{:.1}\">{label}</text></g>", y + 3.6)
         });
         labels.collect()
     }

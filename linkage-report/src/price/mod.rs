@@ -91,7 +91,7 @@ pub use data::{Family, MethodPrice, QUANTITIES, QuantityPrice};
 pub use effects::EffectPrice;
 pub use error::PriceError;
 pub use frontier::{Cost, SAME_ERROR, cheapest, frontier};
-pub use motion::{Gap, InOtherScalars, MotionPrice, PriceOptions};
+pub use motion::{Gap, InOtherScalars, LeftOut, MotionPrice, PriceOptions};
 pub use page::style;
 pub use prediction::{Counts, Machine};
 pub use scene::{Order, PartPrice, RunOutcome, RunPrice, ScenePrice, ScenePriceOptions, StartOf, WithoutPrice};

@@ -11,7 +11,7 @@ use super::frontier::{Cost, cheapest, frontier};
 use super::methods::{Methods, Sample, Work};
 use super::prediction::Counts;
 use super::reference::{Reference, check_digits, in_scalar};
-use super::timing::{Time, Timed, in_turn};
+use super::timing::{Timed, in_turn};
 use crate::report::{ReportedCoordinate, SingularInput};
 
 /// The options of a [`MotionPrice`].
@@ -62,6 +62,8 @@ pub struct MotionPrice {
     pub inputs: Vec<f64>,
     /// The parts of the inputs that were asked for without a position.
     pub gaps: Vec<Gap>,
+    /// The inputs without a reference, as at a change point; they have no errors.
+    pub left_out: Vec<LeftOut>,
     /// The change points that the motion passes.
     pub change_points: Vec<SingularInput>,
     /// The methods, the first of which is that of the ratios.
@@ -86,14 +88,23 @@ pub struct Gap {
     pub reason: MotionEnd,
 }
 
+/// An input without a reference.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LeftOut {
+    /// The input.
+    pub input: f64,
+    /// Why it has none.
+    pub error: PriceError,
+}
+
 impl MotionPrice {
     /// The price of a mechanism with a closed form along one motion. `derivation` is its constant `DERIVATION`.
     ///
     /// # Errors
     /// [`PriceError::Input`] for an option that is invalid and for a motion that has none of the inputs;
     /// [`PriceError::OtherParameters`] and [`PriceError::FewDigits`] if the mechanism in double-double is not the same one
-    /// or has fewer digits; [`PriceError::Path`] and [`PriceError::Reference`] if there is no position at an input within the
-    /// motion.
+    /// or has fewer digits; [`PriceError::Path`] and [`PriceError::Reference`] if no input has a reference.
     pub fn of<M, S, T>(
         range: &RangeOfMotion<'_, M>,
         derivation: &Derivation<'static>,
@@ -171,6 +182,7 @@ impl MotionPrice {
             input: ReportedCoordinate { name: M::INPUTS[0].to_owned(), is_angle: M::INPUT_ANGLES[0] },
             asked,
             gaps: gaps(range, asked, within),
+            left_out: inputs.left_out.clone(),
             change_points: crossings.filter(|crossing| is_within(crossing.input)).collect(),
             methods,
             reference: samples.iter().map(|sample| sample.reference.correction).fold(0.0, f64::max),
@@ -218,6 +230,7 @@ struct Inputs<M: Kinematic> {
     /// The ends of those that the motion has.
     within: [f64; 2],
     samples: Vec<Sample<M>>,
+    left_out: Vec<LeftOut>,
     /// True if they are a turn after which the motion closes.
     are_a_turn: bool,
 }
@@ -233,12 +246,12 @@ impl<M: Kinematic<Scalar = f64, V = D<1>>> Inputs<M> {
         T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
     {
         let [asked, within] = ends(range, options)?;
-        let samples = samples(range, twice, within, options)?;
+        let (samples, left_out) = samples(range, twice, within, options)?;
         for sample in &samples {
             check_digits(twice, derivation, &in_scalar::<M, T>(&sample.position))?;
         }
         let is_turn = matches!(range.ends()[1], MotionEnd::Closed { turns: 1 });
-        Ok(Self { asked, within, samples, are_a_turn: is_turn && asked == range.inputs() })
+        Ok(Self { asked, within, samples, left_out, are_a_turn: is_turn && asked == range.inputs() })
     }
 }
 
@@ -279,7 +292,7 @@ fn samples<M, T>(
     twice: &T,
     [low, high]: [f64; 2],
     options: &PriceOptions,
-) -> Result<Vec<Sample<M>>, PriceError>
+) -> Result<(Vec<Sample<M>>, Vec<LeftOut>), PriceError>
 where
     M: Kinematic<Scalar = f64, V = D<1>>,
     T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
@@ -287,8 +300,7 @@ where
     let whole = if M::INPUT_ANGLES[0] { std::f64::consts::TAU } else { high - low };
     let step = options.step.unwrap_or(whole / 360.0).min(0.25 * (high - low));
     let part = (high - low) / options.samples as f64;
-    let sample = |place: usize| {
-        let input = low + (place as f64 + 0.5) * part;
+    let sample = |input: f64| {
         let position = range.at(input)?;
         let near = if input - step > low { input - step } else { input + step };
         Ok(Sample {
@@ -298,7 +310,21 @@ where
             reference: Reference::at(range.mechanism(), twice, &position)?,
         })
     };
-    (0..options.samples).map(sample).collect()
+    let (mut samples, mut left_out) = (Vec::with_capacity(options.samples), Vec::new());
+    for place in 0..options.samples {
+        let input = low + (place as f64 + 0.5) * part;
+        match sample(input) {
+            Ok(sample) => samples.push(sample),
+            Err(error @ (PriceError::Path(_) | PriceError::Reference { .. })) => {
+                left_out.push(LeftOut { input, error })
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    match (samples.is_empty(), left_out.first()) {
+        (true, Some(first)) => Err(first.error),
+        _ => Ok((samples, left_out)),
+    }
 }
 
 /// The parts of the inputs that were asked for beyond the ends of the motion.

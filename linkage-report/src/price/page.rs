@@ -44,8 +44,8 @@ impl MotionPrice {
     }
 
     /// The chart of the errors along the motion for a quantity, by its order of derivative. A curve is broken where its
-    /// method fails; inputs without a position are shaded; dashed lines are at dead points, at other ends and at change
-    /// points.
+    /// method fails; inputs without a position are shaded; dashed lines are at dead points, at other ends, at change points
+    /// and at inputs that are left out.
     #[must_use]
     pub fn errors_along(&self, order: usize) -> Chart {
         let unit = if self.input.is_angle { Unit::Degrees } else { Unit::Number };
@@ -68,6 +68,8 @@ impl MotionPrice {
             Line { at: point.input, name }
         });
         chart.lines.extend(points);
+        let left_out = self.left_out.iter().map(|out| Line { at: out.input, name: out.error.to_string() });
+        chart.lines.extend(left_out);
         chart
     }
 

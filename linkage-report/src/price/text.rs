@@ -40,11 +40,9 @@ impl MotionPrice {
         let [low, high] = self.asked.map(at);
         let mut about = vec![format!("{} inputs, {name} from {low} to {high}.", self.inputs.len())];
         about.extend(self.gaps.iter().map(|gap| {
-            let (from, to) = (at(gap.from), at(gap.to));
-            format!(
-                "No position between {name} = {from} and {to}: the end of the motion at {from} is {}.",
-                end(gap.reason)
-            )
+            let [low, high] = [gap.from.min(gap.to), gap.from.max(gap.to)].map(at);
+            let (from, reason) = (at(gap.from), end(gap.reason));
+            format!("No position between {name} = {low} and {high}: the end of the motion at {from} is {reason}.")
         }));
         about.extend(self.change_points.iter().map(|point| {
             format!(
@@ -53,6 +51,7 @@ impl MotionPrice {
                 point.groups.join("; ")
             )
         }));
+        about.extend(self.left_out.iter().map(|out| format!("Left out: {}.", out.error)));
         let reference = error(self.reference);
         about.push(format!("The reference has 31 digits; the last step of Newton's method to it was {reference}."));
         about
