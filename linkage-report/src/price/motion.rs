@@ -172,18 +172,13 @@ impl MotionPrice {
                 quantity.time = *time;
             }
         }
-        let crossings = range.crossings().map(|crossing| SingularInput {
-            input: crossing.input,
-            groups: crossing.groups.iter().map(str::to_owned).collect(),
-        });
-        let is_within = |input: f64| within[0] < input && input < within[1];
         Self {
             mechanism: M::NAME.to_owned(),
             input: ReportedCoordinate { name: M::INPUTS[0].to_owned(), is_angle: M::INPUT_ANGLES[0] },
             asked,
             gaps: gaps(range, asked, within),
             left_out: inputs.left_out.clone(),
-            change_points: crossings.filter(|crossing| is_within(crossing.input)).collect(),
+            change_points: change_points(range, within),
             methods,
             reference: samples.iter().map(|sample| sample.reference.correction).fold(0.0, f64::max),
             inputs: samples.iter().map(|sample| sample.input).collect(),
@@ -325,6 +320,25 @@ where
         (true, Some(first)) => Err(first.error),
         _ => Ok((samples, left_out)),
     }
+}
+
+/// The change points between these inputs; a closed motion passes its own ones in each cycle.
+fn change_points<M>(range: &RangeOfMotion<'_, M>, [low, high]: [f64; 2]) -> Vec<SingularInput>
+where
+    M: Kinematic<Scalar = f64, V = D<1>>,
+{
+    let [first, last] = range.inputs();
+    let cycle = last - first;
+    let cycles =
+        if range.is_closed() { [((low - last) / cycle).floor(), ((high - first) / cycle).ceil()] } else { [0.0; 2] };
+    let cycles = (0..).map(|count| cycles[0] + f64::from(count)).take_while(|cycle| *cycle <= cycles[1]);
+    let points = cycles.flat_map(|count| {
+        range.crossings().map(move |crossing| SingularInput {
+            input: crossing.input + count * cycle,
+            groups: crossing.groups.iter().map(str::to_owned).collect(),
+        })
+    });
+    points.filter(|point| low < point.input && point.input < high).collect()
 }
 
 /// The parts of the inputs that were asked for beyond the ends of the motion.

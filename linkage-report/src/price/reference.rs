@@ -124,12 +124,6 @@ impl Reference {
         // Where nothing moves, the error is relative to the motion of the input.
         largest / if size > 0.0 { size } else { self.input_scale.powi(-(order as i32)) }
     }
-
-    /// The unknowns, rates and accelerations, rounded.
-    #[cfg(test)]
-    pub(super) fn values(&self) -> &[Vec<DoubleDouble>; 3] {
-        &self.values
-    }
 }
 
 /// Coordinates in another scalar.
