@@ -4,8 +4,6 @@ use core::fmt;
 
 #[cfg(feature = "dynamics")]
 use linkage_dynamics::MotionError;
-#[cfg(all(feature = "sheet", feature = "double-double"))]
-use linkage_report::price::PriceError;
 #[cfg(feature = "std")]
 use linkage_runtime::circuits::CircuitError;
 use linkage_runtime::{InputError, PathError, PositionError};
@@ -27,9 +25,6 @@ pub enum Error {
     /// A motion cannot be computed.
     #[cfg(feature = "dynamics")]
     Motion(MotionError),
-    /// The price of accuracy cannot be computed.
-    #[cfg(all(feature = "sheet", feature = "double-double"))]
-    Price(PriceError),
 }
 
 impl fmt::Display for Error {
@@ -42,8 +37,6 @@ impl fmt::Display for Error {
             Self::Circuit(error) => error.fmt(f),
             #[cfg(feature = "dynamics")]
             Self::Motion(error) => error.fmt(f),
-            #[cfg(all(feature = "sheet", feature = "double-double"))]
-            Self::Price(error) => error.fmt(f),
         }
     }
 }
@@ -93,17 +86,6 @@ impl From<MotionError> for Error {
             MotionError::Position(error) => Self::Position(error),
             MotionError::Path(error) => Self::Path(error),
             error => Self::Motion(error),
-        }
-    }
-}
-
-#[cfg(all(feature = "sheet", feature = "double-double"))]
-impl From<PriceError> for Error {
-    fn from(error: PriceError) -> Self {
-        match error {
-            PriceError::Input(error) => Self::Input(error),
-            PriceError::Path(error) => error.into(),
-            error => Self::Price(error),
         }
     }
 }

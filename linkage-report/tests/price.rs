@@ -189,7 +189,7 @@ fn digits_of_each_method() {
         "table of 1024",
     ];
     assert_eq!(names, all);
-    for order in 0..3 {
+    for (order, quantity) in QUANTITIES.iter().enumerate() {
         let largest = |name: &str| price.method(name).unwrap().quantities[order].largest().unwrap();
         for (name, [least, most]) in [
             ("f64", [1e-17, 2e-15]),
@@ -199,7 +199,7 @@ fn digits_of_each_method() {
             ("table of 64", [1e-9, 1e-5]),
         ] {
             let error = largest(name);
-            assert!(least < error && error < most, "{name}, {}: {error:e}", QUANTITIES[order]);
+            assert!(least < error && error < most, "{name}, {quantity}: {error:e}");
         }
         // Sixteen times the entries, in a table of cubics, are four powers of that in the error.
         let ratio = largest("table of 64") / largest("table of 1024");

@@ -135,7 +135,8 @@ fn a_scene_that_ends_early() {
     // A motion that does not even start has an error of its own.
     let start = Start { input_rates: bars::BarsInputs { theta: 2.0 }, ..start };
     let error = ScenePrice::of(&scene, &twice, bars::Driven::<f64>::DERIVATION, start, 0.5, &quick()).unwrap_err();
-    assert!(matches!(error, PriceError::Start(MotionError::Input(InputError::Inconsistent { .. }))), "{error:?}");
+    let PriceError::Start(error) = error else { panic!("{error:?}") };
+    assert!(matches!(*error, MotionError::Input(InputError::Inconsistent { .. })), "{error:?}");
 }
 
 #[test]

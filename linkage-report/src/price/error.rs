@@ -6,7 +6,7 @@ use linkage_dynamics::MotionError;
 use linkage_runtime::{InputError, PathError, PositionError};
 
 /// The reason why there is no price.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PriceError {
@@ -48,7 +48,7 @@ pub enum PriceError {
         scene: &'static str,
     },
     /// A scene cannot be started.
-    Start(MotionError),
+    Start(Box<MotionError>),
     /// A scene ends before the time that was asked for.
     EndsEarly {
         /// The scene.
@@ -58,7 +58,7 @@ pub enum PriceError {
         /// The time that was asked for.
         end: f64,
         /// The reason.
-        error: MotionError,
+        error: Box<MotionError>,
     },
 }
 

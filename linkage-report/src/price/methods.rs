@@ -84,14 +84,14 @@ impl<'a, M: Kinematic<Scalar = f64, V = D<1>>> Methods<'a, M> {
         S: Kinematic<Scalar = f32, U = M::U, V = D<1>>,
         T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
     {
-        self.to_tolerance(m);
+        self.until_converged(m);
         let (of_single, of_twice) = (self.near(single), self.near(twice));
         let newton = |steps| move |counts: &Counts<'_>, order| Some(counts.newton(steps, order));
         self.add::<Newton<3>, _, _>(("f32, 3 steps", Family::Newton), single, of_single, newton(3));
         self.add::<Newton<4>, _, _>(("double-double, 4 steps", Family::Newton), twice, of_twice, newton(4));
     }
 
-    pub(super) fn to_tolerance(&mut self, m: &'a M) {
+    pub(super) fn until_converged(&mut self, m: &'a M) {
         let near = self.near(m);
         // The number of its steps is not known beforehand.
         self.add::<ToTolerance, _, _>(("Newton to tolerance", Family::Newton), m, near, |_, _| None);

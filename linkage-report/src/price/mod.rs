@@ -32,7 +32,7 @@
 //! let errors = &price.method("f64").unwrap().quantities[0].errors;
 //! assert!(errors.iter().all(|error| error.is_ok_and(|error| error < 1e-15)));
 //! println!("{price}");
-//! # Ok::<(), linkage::Error>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! A scene, its error against the simulation in double-double, and what its effects cost:
@@ -64,7 +64,7 @@
 //! // As measured, not by formulas: the same scene without the spring.
 //! price.without("the spring", (&scene, start), (&Free::default(), start))?;
 //! println!("{price}");
-//! # Ok::<(), linkage::Error>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # Times

@@ -89,7 +89,7 @@ pub struct Gap {
 }
 
 /// An input without a reference.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LeftOut {
     /// The input.
@@ -121,7 +121,7 @@ impl MotionPrice {
         let mut methods = Methods::new(&inputs.samples, Counts::of(derivation));
         methods.closed(m, single, double_double);
         methods.steps(m);
-        methods.to_tolerance(m);
+        methods.until_converged(m);
         methods.tables(m, inputs.are_a_turn);
         Ok(Self::measured(range, &inputs, methods.works, options))
     }
@@ -317,7 +317,7 @@ where
         }
     }
     match (samples.is_empty(), left_out.first()) {
-        (true, Some(first)) => Err(first.error),
+        (true, Some(first)) => Err(first.error.clone()),
         _ => Ok((samples, left_out)),
     }
 }

@@ -193,8 +193,8 @@ impl ScenePrice {
             })
             .collect();
         let y = S::state(&start.q, &start.input_rates.into());
-        let ends_early = |Failed { t, error }| PriceError::EndsEarly { scene: S::NAME, t, end, error };
-        simulate_from(scene, (start.t, &y), end, TYPICAL).map_err(PriceError::Start)?;
+        let ends_early = |Failed { t, error }| PriceError::EndsEarly { scene: S::NAME, t, end, error: Box::new(error) };
+        simulate_from(scene, (start.t, &y), end, TYPICAL).map_err(|error| PriceError::Start(Box::new(error)))?;
         // In `f64` first: a motion that ends early is known sooner.
         let rough = run::<S, Dop853>(scene, (start.t, &y), &times, TYPICAL).map_err(ends_early)?;
         let twice = (DoubleDouble::from(start.t), y.map(DoubleDouble::from));
@@ -344,9 +344,14 @@ fn measured<S: Scene<Scalar = f64>>(
     let y = S::state(&start.q, &start.input_rates);
     let times: Vec<f64> =
         (1..=samples).map(|place| start.t + (end - start.t) * (place as f64 / samples as f64)).collect();
-    simulate_from(scene, (start.t, &y), end, TYPICAL).map_err(PriceError::Start)?;
+    simulate_from(scene, (start.t, &y), end, TYPICAL).map_err(|error| PriceError::Start(Box::new(error)))?;
     let found = run::<S, Dop853>(scene, (start.t, &y), &times, TYPICAL);
-    let found = found.map_err(|Failed { t, error }| PriceError::EndsEarly { scene: S::NAME, t, end, error })?;
+    let found = found.map_err(|Failed { t, error }| PriceError::EndsEarly {
+        scene: S::NAME,
+        t,
+        end,
+        error: Box::new(error),
+    })?;
     let counts = run_to_end(scene, (start.t, &y), end, (Order::Eight, TYPICAL)).unwrap_or(found.counts);
     let states = found.states;
     Ok(Measured {
@@ -509,6 +514,9 @@ where
     if differ.len() > agree.len() { Err(PriceError::FewDigitsOfScene { scene: S::NAME }) } else { Ok(()) }
 }
 
+/// A function with its name.
+type Call<'a> = (&'static str, Box<dyn Fn() + 'a>);
+
 /// The functions that a step calls.
 fn parts<S: Scene<Scalar = f64>>(
     scene: &S,
@@ -528,7 +536,7 @@ fn parts<S: Scene<Scalar = f64>>(
         })
         .collect();
     let with_rates = &with_rates;
-    let mut works: Vec<(&str, Box<dyn Fn() + '_>)> = vec![(
+    let mut works: Vec<Call<'_>> = vec![(
         "derivative: position, M, Q and accelerations",
         Box::new(move || {
             for (t, y) in at {
