@@ -19,7 +19,7 @@ mod lever {
     linkage! {
         #[derive(Clone)]
         pub mechanism SlottedLever {
-            param crank = 50, offset = 120;
+            param crank = 120, offset = 50;
             input theta;
             unknown psi, s;
             loop crank@theta = (0, -offset) + s@psi;
@@ -114,14 +114,15 @@ macro_rules! others {
 
 fn lever_price(options: &PriceOptions) -> Result<MotionPrice, PriceError> {
     let m = lever::SlottedLever::default();
-    let start = lever::SlottedLeverCoordinates { theta: 0.0, psi: 1.2, s: 130.0 };
+    let start = lever::SlottedLeverCoordinates { theta: 0.0, psi: 0.4, s: 130.0 };
     let range = RangeOfMotion::of(&m, &start, RangeOptions::default())?;
     MotionPrice::of(&range, lever::SlottedLever::<f64>::DERIVATION, &others!(m), options)
 }
 
-/// psi and s of the lever with two derivatives, by trigonometry: s^2 = r^2 + o^2 + 2 r o sin theta.
+/// psi and s of the lever with two derivatives, by trigonometry: s^2 = r^2 + o^2 + 2 r o sin theta. The lever turns: the
+/// square of its velocity is in places larger than its acceleration, in others smaller.
 fn by_trigonometry(theta: f64) -> [[DoubleDouble; 2]; 3] {
-    let [r, o, theta, two] = [50.0, 120.0, theta, 2.0].map(DoubleDouble::from);
+    let [r, o, theta, two] = [120.0, 50.0, theta, 2.0].map(DoubleDouble::from);
     let (sine, cosine) = (theta.sin(), theta.cos());
     let square = r * r + o * o + two * r * o * sine;
     let s = square.sqrt();
@@ -138,7 +139,7 @@ fn by_trigonometry(theta: f64) -> [[DoubleDouble; 2]; 3] {
 fn errors_of_the_closed_form() {
     let price = lever_price(&quick()).unwrap();
     let m = lever::SlottedLever::default();
-    let start = lever::SlottedLeverCoordinates { theta: 0.0, psi: 1.2, s: 130.0 };
+    let start = lever::SlottedLeverCoordinates { theta: 0.0, psi: 0.4, s: 130.0 };
     let branch = m.branch_of(&m.pose_at(&start));
     assert_eq!(price.inputs.len(), 24);
     for (place, &theta) in price.inputs.iter().enumerate() {
@@ -147,8 +148,8 @@ fn errors_of_the_closed_form() {
         let acceleration = m.acceleration(&pose, &velocity, 0.0).unwrap();
         let q = pose.coordinates();
         let expected = by_trigonometry(theta);
-        // The longest length of the loop is s itself.
-        let scale = expected[0][1].high();
+        // The longest length of the loop.
+        let scale = expected[0][1].high().max(120.0);
         let apart = |order: usize, [psi, s]: [f64; 2]| {
             let [exact_psi, exact_s] = expected[order];
             let turns = ((psi - exact_psi.high()) / std::f64::consts::TAU).round();
