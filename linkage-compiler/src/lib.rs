@@ -30,7 +30,7 @@ use quote::quote;
 use budget::{Budget, Spent};
 use derivation::Derivation;
 use diagnostics::Diagnostics;
-use document::{Document, SceneDocument};
+use document::{Document, SceneDocument, SheetDocument};
 pub use facade::Facade;
 use lower::Code;
 use model::{Driver, Mechanism};
@@ -210,6 +210,21 @@ pub fn documents(mechanism: &Mechanism) -> Result<(Vec<Document>, Vec<SceneDocum
     let (documents, scenes): (Vec<_>, Vec<_>) =
         of_checked(mechanism, |of| emit::documents(&of.program, &of.derivation))?.into_iter().unzip();
     Ok((documents.into_iter().flatten().collect(), scenes.into_iter().flatten().collect()))
+}
+
+/// Returns the documents of the sheets of a mechanism, one for each driver, as `derive sheet` adds them.
+///
+/// # Errors
+/// As [`compile`], and the names of unknowns that are solved together without formulas.
+pub fn sheets(mechanism: &Mechanism) -> Result<Vec<SheetDocument>, Vec<String>> {
+    let of_driver = |Lowered { derivation, program }: Lowered<'_>| {
+        let without = derivation.groups.iter().find(|group| group.determinant.is_none());
+        match without {
+            Some(group) => Err(vec![group.names(&derivation)]),
+            None => Ok(document::of_sheet(mechanism, program.signatures.driver, &derivation)),
+        }
+    };
+    of_checked(mechanism, of_driver)?.into_iter().collect()
 }
 
 /// The largest rounding errors that the functions of one driver can have.

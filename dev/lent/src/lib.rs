@@ -1,14 +1,15 @@
 //! The compiler's documents as derivations of the runtime, without emitted constants: what tests compare constants with.
 //! The values are never freed.
 
-use linkage_compiler::document::{self, Document, Node, Number, SceneDocument};
+use linkage_compiler::document::{self, Document, Node, Number, SceneDocument, SheetDocument};
 use linkage_compiler::graph::Function;
 use linkage_compiler::program;
 use linkage_compiler::structure::GroupKind;
 use linkage_runtime::derivation::{
-    ChainJoint, ChainLink, ContactEffect, Derivation, Effect, ElementaryFunction, Entry, Equation, Formula,
-    FormulaMatrix, FormulaNode, FormulaTable, Group, GroupForm, GroupMethod, JointForce, Kernel, KernelCheck,
-    KernelCode, KernelResult, KinematicChain, Operations, Quantity, Root, SceneDerivation, Sensitivity, Symbol,
+    ChainJoint, ChainLink, ChainVector, ContactEffect, Derivation, DriverChoice, Effect, ElementaryFunction, Entry,
+    Equation, Formula, FormulaMatrix, FormulaNode, FormulaTable, Group, GroupForm, GroupMethod, JointForce, Kernel,
+    KernelCheck, KernelCode, KernelResult, KinematicChain, Operations, PointVectors, Quantity, Root, SceneDerivation,
+    Sensitivity, SheetDerivation, Symbol, Turning,
 };
 
 /// The derivation of a document.
@@ -89,6 +90,44 @@ pub fn scene(document: &SceneDocument) -> SceneDerivation<'static> {
         multipliers: table.formulas(&document.multipliers),
         contacts: list(&document.contacts, |symbol| table.symbol(symbol)),
         kernels: list(&document.kernels, |kernel| table.kernel(kernel)),
+    }
+}
+
+/// The analysis by hand of a document.
+///
+/// # Panics
+/// If the table of the document refers to what it does not have.
+#[must_use]
+pub fn sheet(document: &SheetDocument) -> SheetDerivation<'static> {
+    let table = Table::of(&document.table);
+    let matrix = |matrix: &document::Matrix| table.matrix(matrix);
+    SheetDerivation {
+        mechanism: text(&document.mechanism),
+        jacobian_rates: document.jacobian_rates.each_ref().map(matrix),
+        jacobians_of_rates: document.jacobians_of_rates.each_ref().map(matrix),
+        terms: document.terms.each_ref().map(matrix),
+        gamma: document.gamma.each_ref().map(matrix),
+        accelerations: document.accelerations.each_ref().map(|all| table.equations(all)),
+        choices: list(&document.choices, |choice| DriverChoice {
+            inputs: table.formulas(&choice.inputs),
+            determinant: choice.determinant.map(|equation| table.equation(equation)),
+        }),
+        turning: list(&document.turning, |turning| Turning {
+            with: list(&turning.with, |name| text(name)),
+            rate: table.matrix(&turning.rate),
+            acceleration: table.matrix(&turning.acceleration),
+        }),
+        points: list(&document.points, |point| PointVectors {
+            name: text(&point.name),
+            vectors: list(&point.vectors, |vector| ChainVector {
+                vector: table.matrix(&vector.vector),
+                matrix: table.matrix(&vector.matrix),
+                rates: table.matrix(&vector.rates),
+                velocity: table.matrix(&vector.velocity),
+                acceleration: table.matrix(&vector.acceleration),
+            }),
+        }),
+        conditions: table.formulas(&document.conditions),
     }
 }
 

@@ -89,8 +89,14 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
     for request in &mechanism.requests {
         match request {
             // Limits are derived from the assembly when they are emitted; lanes have the formulas of `kinematics`, and
-            // intervals those of Psi and its derivatives; `serde` changes types only.
-            Request::Limits | Request::Lanes | Request::Serde | Request::Fpcore | Request::Intervals => {}
+            // intervals those of Psi and its derivatives; `serde` changes types only. A sheet is derived apart from all
+            // else, for its document.
+            Request::Limits
+            | Request::Lanes
+            | Request::Serde
+            | Request::Fpcore
+            | Request::Intervals
+            | Request::Sheet => {}
             Request::Drawing => {
                 derivation.skeleton = Some(Skeleton::of(mechanism, driver, &mut derivation.graph));
             }

@@ -137,6 +137,59 @@ pub struct SceneDocument {
     pub kernels: Vec<Kernel>,
 }
 
+/// The document of an analysis by hand, line by line.
+#[derive(Debug, Clone)]
+pub struct SheetDocument {
+    pub table: Table,
+    pub mechanism: String,
+    /// J' and A'.
+    pub jacobian_rates: [Matrix; 2],
+    /// (J u')_u and (A v')_v.
+    pub jacobians_of_rates: [Matrix; 2],
+    /// H1, H2, H3 and H0.
+    pub terms: [Matrix; 4],
+    /// The parts of gamma by u', by v', and by both.
+    pub gamma: [Matrix; 3],
+    /// u'' by both methods.
+    pub accelerations: [Vec<Equation>; 2],
+    pub choices: Vec<DriverChoice>,
+    pub turning: Vec<Turning>,
+    pub points: Vec<PointVectors>,
+    pub conditions: Vec<Number>,
+}
+
+/// A choice of inputs, and the determinant of J in the other coordinates if it has a formula.
+#[derive(Debug, Clone)]
+pub struct DriverChoice {
+    pub inputs: Vec<Number>,
+    pub determinant: Option<Equation>,
+}
+
+/// The skew matrices of the rate and acceleration of a link, which turns with these coordinates.
+#[derive(Debug, Clone)]
+pub struct Turning {
+    pub with: Vec<String>,
+    pub rate: Matrix,
+    pub acceleration: Matrix,
+}
+
+/// The vectors that lead to a point.
+#[derive(Debug, Clone)]
+pub struct PointVectors {
+    pub name: String,
+    pub vectors: Vec<Vector>,
+}
+
+/// A vector, the matrix and the rates whose product is its velocity, its velocity and its acceleration.
+#[derive(Debug, Clone)]
+pub struct Vector {
+    pub vector: Matrix,
+    pub matrix: Matrix,
+    pub rates: Matrix,
+    pub velocity: Matrix,
+    pub acceleration: Matrix,
+}
+
 /// The contribution of a body or an effect to the generalised forces.
 #[derive(Debug, Clone)]
 pub struct Effect {
@@ -215,6 +268,11 @@ numbers! {
     KernelCode: steps checks results;
     Document: parameters inputs unknowns residual implied jacobian_unknowns jacobian_inputs groups determinant ratios
         ratio_derivatives gamma jerk sensitivity points outputs conditions kernels;
+    DriverChoice: inputs determinant;
+    Turning: rate acceleration;
+    PointVectors: vectors;
+    Vector: vector matrix rates velocity acceleration;
+    SheetDocument: jacobian_rates jacobians_of_rates terms gamma accelerations choices turning points conditions;
     Effect: forces;
     ContactEffect: force along bound bearing rebound forces;
     JointForce: components;

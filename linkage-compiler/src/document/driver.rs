@@ -149,7 +149,13 @@ impl<'a> Writer<'a> {
         nodes.iter().enumerate().map(&mut numbered).collect()
     }
 
-    fn matrix<C: Id>(&mut self, name: Name, factor: Option<NodeId>, rows: &[Row<C>], columns: usize) -> Matrix {
+    pub(super) fn matrix<C: Id>(
+        &mut self,
+        name: Name,
+        factor: Option<NodeId>,
+        rows: &[Row<C>],
+        columns: usize,
+    ) -> Matrix {
         let name = self.layout.table.name(name);
         let factor = factor.map(|factor| self.formula(factor));
         let mut entries = Vec::new();

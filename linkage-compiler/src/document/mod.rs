@@ -8,16 +8,18 @@ mod driver;
 mod layout;
 mod name;
 mod scene;
+mod sheet;
 mod table;
 
 pub use data::{
-    Chain, ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Quantity,
-    Root, SceneDocument, Sensitivity, Symbol,
+    Chain, ContactEffect, Document, DriverChoice, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix,
+    Method, PointVectors, Quantity, Root, SceneDocument, Sensitivity, SheetDocument, Symbol, Turning, Vector,
 };
 pub use driver::of_driver;
 pub use layout::{LONGEST, Layout};
 pub use name::Name;
 pub use scene::of_scene;
+pub use sheet::of_sheet;
 pub use table::{Node, Number, Table};
 
 use table::Numbers;
@@ -47,6 +49,14 @@ impl SceneDocument {
         numbers
     }
 
+    /// This document with the nodes that it needs of a table.
+    fn with(mut self, table: Table) -> Self {
+        let table = table.reduced(&mut self);
+        Self { table, ..self }
+    }
+}
+
+impl SheetDocument {
     /// This document with the nodes that it needs of a table.
     fn with(mut self, table: Table) -> Self {
         let table = table.reduced(&mut self);

@@ -6,8 +6,9 @@ use quote::{ToTokens, format_ident, quote};
 use super::names::string;
 use super::rust::{separated, separated_integer};
 use crate::document::{
-    Chain, ContactEffect, Document, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix, Method, Node,
-    Number, Quantity, Root, SceneDocument, Sensitivity, Symbol, Table,
+    Chain, ContactEffect, Document, DriverChoice, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix,
+    Method, Node, Number, PointVectors, Quantity, Root, SceneDocument, Sensitivity, SheetDocument, Symbol, Table,
+    Turning, Vector,
 };
 use crate::model::TypeName;
 use crate::program::Operations;
@@ -111,6 +112,56 @@ pub(super) fn of_scene(name: &TypeName, document: &SceneDocument, root: &TokenSt
                     multipliers: #multipliers,
                     contacts: #contacts,
                     kernels: #kernels,
+                }
+            };
+        }
+    }
+}
+
+/// The constant `SHEET` of a driver: its analysis by hand.
+pub(super) fn of_sheet(name: &TypeName, document: &SheetDocument, root: &TokenStream) -> TokenStream {
+    let mut lists = Lists::default();
+    let mechanism = string(&document.mechanism);
+    let mut matrices = |all: &[Matrix]| {
+        let all = all.iter().map(|matrix| lists.matrix(matrix));
+        quote!([#(#all),*])
+    };
+    let [jacobian_rates, jacobians_of_rates] =
+        [&document.jacobian_rates, &document.jacobians_of_rates].map(|pair| matrices(pair));
+    let [terms, gamma] = [matrices(&document.terms), matrices(&document.gamma)];
+    let [first, second] = document.accelerations.each_ref().map(|all| lists.equations(all));
+    let choices = list(document.choices.iter().map(|DriverChoice { inputs, determinant }| {
+        let (inputs, determinant) = (lists.formulas(inputs), option(determinant.as_ref().map(equation)));
+        quote!(DriverChoice { inputs: #inputs, determinant: #determinant })
+    }));
+    let turning = list(document.turning.iter().map(|Turning { with, rate, acceleration }| {
+        let with = with.iter().map(|name| string(name));
+        let [rate, acceleration] = [rate, acceleration].map(|matrix| lists.matrix(matrix));
+        quote!(Turning { with: &[#(#with),*], rate: #rate, acceleration: #acceleration })
+    }));
+    let points = list(document.points.iter().map(|PointVectors { name, vectors }| {
+        let (name, vectors) = (string(name), list(vectors.iter().map(|vector| lists.vector(vector))));
+        quote!(PointVectors { name: #name, vectors: #vectors })
+    }));
+    let conditions = lists.formulas(&document.conditions);
+    let table = table(&document.table, &lists);
+    quote! {
+        impl #name {
+            /// The analysis by hand as data, line by line. If it is not used, it is not in the program.
+            pub const SHEET: &'static #root::__rt::derivation::prelude::SheetDerivation<'static> = {
+                use #root::__rt::derivation::prelude::*;
+                #table
+                &SheetDerivation {
+                    mechanism: #mechanism,
+                    jacobian_rates: #jacobian_rates,
+                    jacobians_of_rates: #jacobians_of_rates,
+                    terms: #terms,
+                    gamma: #gamma,
+                    accelerations: [#first, #second],
+                    choices: #choices,
+                    turning: #turning,
+                    points: #points,
+                    conditions: #conditions,
                 }
             };
         }
@@ -379,6 +430,21 @@ impl Lists {
                 .map(|all| self.equations(all));
         quote! {
             Quantity { name: #name, value: #value, ratios: #ratios, ratio_derivatives: #second, sensitivities: #first }
+        }
+    }
+
+    fn vector(&mut self, vector: &Vector) -> TokenStream {
+        let Vector { vector, matrix, rates, velocity, acceleration } = vector;
+        let [vector, matrix, rates, velocity, acceleration] =
+            [vector, matrix, rates, velocity, acceleration].map(|matrix| self.matrix(matrix));
+        quote! {
+            ChainVector {
+                vector: #vector,
+                matrix: #matrix,
+                rates: #rates,
+                velocity: #velocity,
+                acceleration: #acceleration,
+            }
         }
     }
 

@@ -1,8 +1,8 @@
 //! Printers of a lowered program: as Rust with the user's names and with formulas in doc comments, and as text.
 //!
 //! A body that computes or decides is planned in [`program`] and printed here. Written by hand are types,
-//! signatures, and the conversions and forwards that `tests/bodies_by_hand.rs` lists. Only the constant `DERIVATION` is
-//! made of the derivation; all else is in the program.
+//! signatures, and the conversions and forwards that `tests/bodies_by_hand.rs` lists. Only the constants `DERIVATION`
+//! and `SHEET` are made of the derivation; all else is in the program.
 
 mod any_number;
 mod conversions;
@@ -58,7 +58,7 @@ pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     self::mechanism(mechanism, drivers, root)
 }
 
-/// Emits the items of one driver and of its scenes; without a derivation, which only `DERIVATION` shows, a stub.
+/// Emits the items of one driver and of its scenes; without a derivation, which only `DERIVATION` and `SHEET` show, a stub.
 #[must_use]
 pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
     let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
@@ -97,6 +97,10 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let kernels = |table: &mut Table| kernels(&program.functions, straight.as_ref(), table);
         let document = crate::document::of_driver(mechanism, driver, derivation, derived, &kernels);
         tokens.extend(document::of_driver(&driver.name, &document, root));
+        if mechanism.requests.contains(&Request::Sheet) {
+            let sheet = crate::document::of_sheet(mechanism, driver, derivation);
+            tokens.extend(document::of_sheet(&driver.name, &sheet, root));
+        }
     }
     for (number, scene) in program.scenes.iter().enumerate() {
         let name = &scene.signatures.scene.name;

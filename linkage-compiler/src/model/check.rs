@@ -11,7 +11,7 @@ use super::scope::Scope;
 use crate::diagnostics::Diagnostics;
 use crate::graph::SymbolId;
 use crate::ids::{RowId, Table, UnknownId};
-use crate::structure::StructurallySingular;
+use crate::structure::{Method, StructurallySingular};
 
 /// Reports declarations that are not used.
 pub(super) fn usage(mechanism: &Mechanism, scope: &Scope, diagnostics: &mut Diagnostics) {
@@ -179,6 +179,26 @@ pub(super) fn open_chain(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
             }
             _ => continue,
         };
+        diagnostics.error(span, message);
+    }
+}
+
+/// Reports a sheet of unknowns that are solved together without formulas: the first group of them.
+pub(super) fn sheet(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
+    let Some(&span) = mechanism.requests_at.get(&Request::Sheet) else { return };
+    let groups =
+        mechanism.drivers.iter().flat_map(|driver| driver.system.groups.iter().map(move |group| (driver, group)));
+    let without = groups.filter(|(_, group)| group.method() == Method::Factorization).next();
+    if let Some((driver, group)) = without {
+        let name = |unknown: &UnknownId| format!("`{}`", mechanism.coordinates[driver.unknowns[*unknown]].name.text);
+        let names: Vec<String> = group.unknowns.iter().map(name).collect();
+        let message = format!(
+            "`sheet` writes formulas, but {} of `{}` are solved together, and {} unknowns have no closed form\n\
+             remove `sheet`: `Analysis` of the module `analysis` has the same quantities as numbers",
+            names.join(", "),
+            driver.name,
+            names.len(),
+        );
         diagnostics.error(span, message);
     }
 }

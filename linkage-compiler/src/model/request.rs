@@ -28,11 +28,13 @@ pub enum Request {
     Fpcore,
     /// The formulas over numbers without order, such as intervals.
     Intervals,
+    /// The formulas of an analysis by hand, line by line.
+    Sheet,
 }
 
 impl Request {
     /// The keywords.
-    pub const ALL: [(&str, Self); 9] = [
+    pub const ALL: [(&str, Self); 10] = [
         ("limits", Self::Limits),
         ("jerk", Self::Jerk),
         ("velocity_ratio_derivatives", Self::VelocityRatioDerivatives),
@@ -42,6 +44,7 @@ impl Request {
         ("serde", Self::Serde),
         ("fpcore", Self::Fpcore),
         ("intervals", Self::Intervals),
+        ("sheet", Self::Sheet),
     ];
 }
 

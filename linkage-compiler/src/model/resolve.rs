@@ -94,6 +94,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
         check::constraints(&mut result, &scope, diagnostics);
         if diagnostics.is_empty() {
             check::open_chain(&result, diagnostics);
+            check::sheet(&result, diagnostics);
         }
         if is_idle {
             guess::without_idle(&mut result, &scope);

@@ -9,12 +9,14 @@ mod display;
 mod kinematic_chain;
 pub mod notation;
 mod scene;
+mod sheet;
 mod table;
 
 use core::fmt;
 
 pub use kinematic_chain::{ChainJoint, ChainLink, KinematicChain};
 pub use scene::{ContactEffect, Effect, JointForce, SceneDerivation};
+pub use sheet::{ChainVector, DriverChoice, PointVectors, SheetDerivation, Turning};
 pub use table::{ElementaryFunction, Formula, FormulaList, FormulaNode, FormulaTable, FormulaView, Terms};
 
 /// A parameter or coordinate.
@@ -279,6 +281,39 @@ pub struct Derivation<'a> {
     pub chain: Option<KinematicChain<'a>>,
     /// The emitted functions.
     pub kernels: &'a [Kernel<'a>],
+}
+
+/// The numbers of coordinates and equations of a mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Counts {
+    /// n, the coordinates q.
+    pub coordinates: usize,
+    /// p, the constraint equations Ψ, without those that are declared as implied by others.
+    pub equations: usize,
+}
+
+impl Counts {
+    /// F = n − p, the degrees of freedom: the number of inputs.
+    #[must_use]
+    pub fn freedom(self) -> usize {
+        self.coordinates.saturating_sub(self.equations)
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { coordinates, equations } = self;
+        write!(f, "n = {coordinates}, p = {equations}, F = n − p = {}", self.freedom())
+    }
+}
+
+impl Derivation<'_> {
+    /// The numbers n of coordinates and p of constraint equations.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        Counts { coordinates: self.inputs.len() + self.unknowns.len(), equations: self.residual.len() }
+    }
 }
 
 impl<'a> FormulaMatrix<'a> {

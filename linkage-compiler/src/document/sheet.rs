@@ -1,0 +1,139 @@
+//! The document of an analysis by hand, line by line.
+
+use super::data::{DriverChoice, Matrix, PointVectors, SheetDocument, Turning, Vector};
+use super::driver::Writer;
+use super::layout::{LONGEST, Layout};
+use super::name::{Name, names, texts};
+use super::table::{Node, Table};
+use crate::derivation::{self, Derivation, PolarVector, Row, Sheet};
+use crate::graph::{NodeId, SymbolId};
+use crate::ids::{ColumnId, Id, UnknownId};
+use crate::model::{Driver, Mechanism};
+
+/// A sheet is asked for its formulas: one of them may be as long as several lines of a document that all get.
+const LONGEST_OF_SHEET: usize = 4 * LONGEST;
+
+/// The document of the sheet of a driver. It is derived in a copy, so that all else is what it is without it.
+#[must_use]
+pub fn of_sheet(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation) -> SheetDocument {
+    let mut derivation = derivation.clone();
+    derivation.graph.take_conditions();
+    let sheet = Sheet::of(&mut derivation, mechanism);
+    let conditions = derivation.graph.take_conditions();
+    let derivation = &derivation;
+    let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
+    let names = names(mechanism, derivation, &inputs, &unknowns);
+    let graph = &derivation.graph;
+    let shown = |symbol: SymbolId| names.get(&symbol).copied().unwrap_or(Name::Plain(graph.symbol_name(symbol)));
+    let mut writer = Writer {
+        layout: Layout::new(graph, &shown).longest(LONGEST_OF_SHEET),
+        derivation,
+        parameters: &[],
+        inputs: &inputs,
+        unknowns: &unknowns,
+    };
+    let name_of = |column: ColumnId| match shown(derivation.coordinates[column].value) {
+        Name::Plain(name) => name.to_owned(),
+        _ => String::new(),
+    };
+    let (rows, inputs_count) = (unknowns.len(), inputs.len());
+    let [gamma_u, gamma_v, gamma_uv] = &sheet.gamma;
+    let [h1, h2, h3, h0] = &sheet.terms;
+    let document = SheetDocument {
+        table: Table::default(),
+        mechanism: driver.name.to_string(),
+        jacobian_rates: [
+            writer.matrix(Name::Rate("J"), None, &sheet.jacobian_rates.0, rows),
+            writer.matrix(Name::Rate("A"), None, &sheet.jacobian_rates.1, inputs_count),
+        ],
+        jacobians_of_rates: [
+            writer.matrix(Name::Plain("Hu_u"), None, &sheet.jacobians_of_rates.0, rows),
+            writer.matrix(Name::Plain("Hv_v"), None, &sheet.jacobians_of_rates.1, inputs_count),
+        ],
+        terms: [("H1", h1), ("H2", h2), ("H3", h3), ("H0", h0)].map(|(name, of)| writer.column(name, of)),
+        gamma: [("gamma_u", gamma_u), ("gamma_v", gamma_v), ("gamma_uv", gamma_uv)]
+            .map(|(name, of)| writer.column(name, of)),
+        accelerations: sheet.accelerations.each_ref().map(|all| {
+            let equation =
+                |(unknown, &node): (UnknownId, &NodeId)| writer.equation(Name::Acceleration(unknowns[unknown]), node);
+            all.enumerated().map(equation).collect()
+        }),
+        choices: sheet
+            .choices
+            .iter()
+            .map(|derivation::DriverChoice { inputs, determinant }| {
+                let names: Vec<String> = inputs.iter().map(|&input| name_of(input)).collect();
+                DriverChoice {
+                    determinant: determinant.map(|node| {
+                        let matrix = writer.plain(&format!("J_{}", names.join("_")));
+                        [writer.layout.table.add(Node::Determinant(matrix)), writer.formula(node)]
+                    }),
+                    inputs: names.iter().map(|name| writer.plain(name)).collect(),
+                }
+            })
+            .collect(),
+        turning: sheet.turning.iter().map(|of| writer.turning(of, &name_of)).collect(),
+        points: mechanism
+            .points
+            .iter()
+            .zip(&sheet.points)
+            .filter(|(_, vectors)| !vectors.is_empty())
+            .map(|(point, vectors)| PointVectors {
+                name: point.name.text.clone(),
+                vectors: (1..)
+                    .zip(vectors)
+                    .map(|(number, vector)| writer.vector(&format!("{}_{number}", point.name.text), vector))
+                    .collect(),
+            })
+            .collect(),
+        conditions: conditions.into_iter().map(|condition| writer.layout.condition(condition)).collect(),
+    };
+    document.with(writer.layout.table)
+}
+
+impl Writer<'_> {
+    /// A matrix of one column.
+    fn column(&mut self, name: &str, nodes: &[NodeId]) -> Matrix {
+        self.dense(name, &nodes.iter().map(|&node| [node]).collect::<Vec<_>>())
+    }
+
+    /// A matrix by its rows, with the entries that are not zero.
+    fn dense<const N: usize>(&mut self, name: &str, rows: &[[NodeId; N]]) -> Matrix {
+        let rows: Vec<Row<ColumnId>> = rows
+            .iter()
+            .map(|row| {
+                let entries = row.iter().enumerate().filter(|(_, node)| !self.derivation.graph.is_zero(**node));
+                entries.map(|(column, &node)| (ColumnId::new(column), node)).collect()
+            })
+            .collect();
+        self.matrix(Name::Plain(name), None, &rows, N)
+    }
+
+    /// The skew matrices of the rate and acceleration of a link.
+    fn turning(&mut self, of: &derivation::Turning, name_of: &dyn Fn(ColumnId) -> String) -> Turning {
+        let with: Vec<String> = of.with.iter().map(|&column| name_of(column)).collect();
+        let ending = with.join("_");
+        let mut skew = |name: &str, node: NodeId| {
+            let number = self.formula(node);
+            let minus = self.layout.table.add(Node::Sum(vec![(true, number)]));
+            Matrix {
+                name: self.plain(&format!("{name}_{ending}")),
+                factor: None,
+                rows: 2,
+                columns: 2,
+                entries: vec![([0, 1], minus), ([1, 0], number)],
+            }
+        };
+        Turning { rate: skew("Omega", of.rate), acceleration: skew("Alpha", of.acceleration), with }
+    }
+
+    fn vector(&mut self, name: &str, of: &PolarVector) -> Vector {
+        Vector {
+            vector: self.column(&format!("r_{name}"), &of.vector),
+            matrix: self.dense(&format!("M_{name}"), &of.matrix),
+            rates: self.column(&format!("w_{name}"), &of.rates),
+            velocity: self.column(&format!("v_{name}"), &of.velocity),
+            acceleration: self.column(&format!("a_{name}"), &of.acceleration),
+        }
+    }
+}
