@@ -11,7 +11,8 @@
 //! - [`PositionError`], [`PathError`], [`InputError`]: the errors, with mechanism, residual and distance from a
 //!   singularity;
 //! - [`singularity`]: singular configurations, and the attainable accuracy of a position;
-//! - [`derivation`]: the formulas behind the code, as data.
+//! - [`derivation`]: the formulas behind the code, as data;
+//! - [`analysis`]: the numbers of an analysis by hand at a position.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 // The crate is empty without elementary functions; `linkage` reports the missing feature.
@@ -23,6 +24,7 @@ pub mod __rt;
 #[doc(hidden)]
 pub mod __shared;
 pub mod accuracy;
+pub mod analysis;
 mod arctangent;
 mod bounded;
 mod branch;

@@ -2,9 +2,9 @@
 
 use core::fmt::{self, Write};
 
-use super::outline::{GeneralEquation, Pen};
+use super::outline::{GeneralEquation, Lines, Pen, words};
 use crate::Notation;
-use linkage_runtime::derivation::{Equation, Formula, FormulaMatrix, Group, Kernel, Root};
+use linkage_runtime::derivation::{Counts, Equation, Formula, FormulaMatrix, Group, Kernel, Root};
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
 const LARGEST_MATRIX: usize = 6;
@@ -24,18 +24,9 @@ fn escape(name: &str) -> String {
     name.replace('_', "\\_")
 }
 
-impl Pen for Latex<'_> {
-    fn title(&mut self, mechanism: &str) -> fmt::Result {
-        writeln!(self.out, "\\section*{{{}}}", escape(mechanism))
-    }
-
+impl Lines for Latex<'_> {
     fn heading(&mut self, heading: &str) -> fmt::Result {
         writeln!(self.out, "\n\\subsection*{{{heading}}}")
-    }
-
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
-        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.to_latex())).collect();
-        writeln!(self.out, "{role}: {}\\par", formulas.join(", "))
     }
 
     fn lead(&mut self, words: &str) -> fmt::Result {
@@ -81,6 +72,23 @@ impl Pen for Latex<'_> {
             writeln!(self.out, "  {} \\\\", entries.collect::<Vec<_>>().join(" & "))?;
         }
         writeln!(self.out, "\\end{{pmatrix}} \\]")
+    }
+}
+
+impl Pen for Latex<'_> {
+    fn title(&mut self, mechanism: &str) -> fmt::Result {
+        writeln!(self.out, "\\section*{{{}}}", escape(mechanism))
+    }
+
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
+        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.to_latex())).collect();
+        writeln!(self.out, "{role}: {}\\par", formulas.join(", "))
+    }
+
+    fn counts(&mut self, counts: Counts) -> fmt::Result {
+        let Counts { coordinates, equations } = counts;
+        let freedom = counts.freedom();
+        writeln!(self.out, "{}: $n = {coordinates}$, $p = {equations}$, $F = n - p = {freedom}$\\par", words::COUNTS)
     }
 
     fn group(&mut self, n: usize, group: &Group<'_>) -> fmt::Result {

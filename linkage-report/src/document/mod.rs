@@ -2,10 +2,12 @@
 
 mod latex;
 pub(crate) mod outline;
+pub(crate) mod sheet;
 mod text;
 
 use crate::FpCore;
-use linkage_runtime::derivation::{Derivation, SceneDerivation};
+use crate::sheet::Values;
+use linkage_runtime::derivation::{Derivation, SceneDerivation, SheetDerivation};
 
 /// A derivation that can be written as a document.
 ///
@@ -59,6 +61,32 @@ impl Document for SceneDerivation<'_> {
     fn fpcore(&self) -> Vec<FpCore<'_>> {
         FpCore::of(self.scene, self.kernels)
     }
+}
+
+/// The analysis by hand of a mechanism; it has no functions.
+impl Document for SheetDerivation<'_> {
+    fn to_text(&self) -> String {
+        written(|text| write_sheet(self, &mut text::Text::new(text)))
+    }
+
+    fn to_latex(&self) -> String {
+        written(|text| write_sheet(self, &mut latex::Latex::new(text)))
+    }
+
+    fn fpcore(&self) -> Vec<FpCore<'_>> {
+        Vec::new()
+    }
+}
+
+/// Writes an analysis by hand as plain text, with the number of each formula at a position.
+#[must_use]
+pub fn text_at(sheet: &SheetDerivation<'_>, values: &Values) -> String {
+    written(|text| write_sheet(sheet, &mut text::Text::new(text).at(values)))
+}
+
+fn write_sheet<P: outline::Pen>(sheet: &SheetDerivation<'_>, pen: &mut P) -> core::fmt::Result {
+    pen.title(sheet.mechanism)?;
+    sheet::write(sheet, pen, &mut 0)
 }
 
 fn written(write: impl FnOnce(&mut String) -> core::fmt::Result) -> String {

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use linkage_runtime::derivation::{
-    Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Quantity, Root, SceneDerivation, Symbol,
+    Counts, Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Quantity, Root, SceneDerivation, Symbol,
 };
 
 /// An equation of matrices that holds for every mechanism, in all notations.
@@ -117,6 +117,7 @@ pub(crate) mod words {
     pub(crate) const GIVEN: &str = "Given";
     pub(crate) const DRIVEN: &str = "Driven";
     pub(crate) const UNKNOWN: &str = "Unknown";
+    pub(crate) const COUNTS: &str = "Counts";
 
     pub(crate) const LEAD_OPEN_CHAIN: &str =
         "The driven coordinates determine the position, and no equation is solved.";
@@ -129,6 +130,8 @@ pub(crate) mod words {
     pub(crate) const LEAD_NEWTON: &str = "The position has no closed form: Newton's method finds it from a guess, and the list of branches has all positions of loops of links.";
     pub(crate) const LEAD_RATIOS: &str = "Differentiated once, the constraint equations give";
     pub(crate) const LEAD_VELOCITY: &str = "so that";
+    pub(crate) const LEAD_TRANSMISSION: &str =
+        "With one input they are the transmission ratios, each the rate of an unknown divided by that of the input:";
     pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the constraint equations give";
     pub(crate) const LEAD_GAMMA: &str = "with the terms that contain no acceleration:";
     pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "The derivatives of the velocity ratios follow from the rates of all coordinates at a unit rate of each input, and from the quadratic velocity term as a bilinear form of two of them:";
@@ -153,17 +156,23 @@ pub(crate) mod words {
     pub(crate) const LEAD_CONDITIONS: &str = "The formulas assume that";
 }
 
-/// The writer of one document format.
-pub(super) trait Pen {
-    fn title(&mut self, mechanism: &str) -> fmt::Result;
+/// The writer of headings, sentences and formulas in one format.
+pub(crate) trait Lines {
     fn heading(&mut self, heading: &str) -> fmt::Result;
-    /// A line such as "Given: l₁, l₂".
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result;
     fn lead(&mut self, words: &str) -> fmt::Result;
     fn general_equation(&mut self, general: &GeneralEquation) -> fmt::Result;
     fn display(&mut self, formula: &Formula<'_>) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result;
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result;
+}
+
+/// The writer of one document format.
+pub(super) trait Pen: Lines {
+    fn title(&mut self, mechanism: &str) -> fmt::Result;
+    /// A line such as "Given: l₁, l₂".
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result;
+    /// The numbers of coordinates and equations.
+    fn counts(&mut self, counts: Counts) -> fmt::Result;
     /// The n-th group, counted from 1.
     fn group(&mut self, n: usize, group: &Group<'_>) -> fmt::Result;
     /// The signs of a root on both branches.
@@ -184,6 +193,7 @@ pub(super) fn write(derivation: &Derivation<'_>, pen: &mut dyn Pen) -> fmt::Resu
     for (role, symbols) in roles.into_iter().filter(|(_, symbols)| !symbols.is_empty()) {
         pen.list(role, &mut symbols.iter().map(|symbol| symbol.formula))?;
     }
+    pen.counts(derivation.counts())?;
 
     match derivation.unknowns {
         [] => {
@@ -259,6 +269,9 @@ fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) ->
     pen.general_equation(&RATIOS)?;
     pen.lead(words::LEAD_VELOCITY)?;
     pen.general_equation(&VELOCITY)?;
+    if derivation.inputs.len() == 1 {
+        pen.lead(words::LEAD_TRANSMISSION)?;
+    }
     equations(pen, number, derivation.ratios)?;
 
     pen.heading(words::ACCELERATION)?;
@@ -384,7 +397,7 @@ pub(crate) fn system(group: &Group<'_>) -> String {
     format!("Velocities and accelerations solve a linear system, {}.", group.method.words())
 }
 
-fn equations(pen: &mut dyn Pen, number: &mut usize, equations: &[Equation<'_>]) -> fmt::Result {
+pub(super) fn equations<P: Lines + ?Sized>(pen: &mut P, number: &mut usize, equations: &[Equation<'_>]) -> fmt::Result {
     for equation in equations {
         *number += 1;
         pen.equation(*number, equation)?;

@@ -2,17 +2,33 @@
 
 use core::fmt::{self, Write};
 
-use super::outline::{GeneralEquation, Pen};
-use linkage_runtime::derivation::{Equation, Formula, FormulaMatrix, Group, Kernel, Root};
+use super::outline::{GeneralEquation, Lines, Pen, words};
+use crate::sheet::{Values, number};
+use linkage_runtime::derivation::{Counts, Equation, Formula, FormulaMatrix, Group, Kernel, Root};
 
 pub(super) struct Text<'a> {
     out: &'a mut String,
     sections: usize,
+    /// The numbers after formulas.
+    values: Option<&'a Values>,
 }
 
 impl<'a> Text<'a> {
     pub(super) fn new(out: &'a mut String) -> Self {
-        Self { out, sections: 0 }
+        Self { out, sections: 0, values: None }
+    }
+
+    /// With numbers after formulas.
+    pub(super) fn at(self, values: &'a Values) -> Self {
+        Self { values: Some(values), ..self }
+    }
+
+    /// The number of a formula, and the end of the line.
+    fn number(&mut self, formula: Formula<'_>) -> fmt::Result {
+        match self.values.and_then(|values| values.of_unless_number(formula)) {
+            Some(value) => writeln!(self.out, "  ≈ {}", number(value)),
+            None => writeln!(self.out),
+        }
     }
 
     fn underline(&mut self, text: &str, line: &str) -> fmt::Result {
@@ -24,22 +40,10 @@ impl<'a> Text<'a> {
     }
 }
 
-impl Pen for Text<'_> {
-    fn title(&mut self, mechanism: &str) -> fmt::Result {
-        self.underline(mechanism, "═")
-    }
-
+impl Lines for Text<'_> {
     fn heading(&mut self, heading: &str) -> fmt::Result {
         self.sections += 1;
         writeln!(self.out, "\n{}. {heading}\n", self.sections)
-    }
-
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
-        write!(self.out, "  {role:<8}")?;
-        for (index, formula) in formulas.enumerate() {
-            write!(self.out, "{} {formula}", if index == 0 { "" } else { "," })?;
-        }
-        writeln!(self.out)
     }
 
     fn lead(&mut self, words: &str) -> fmt::Result {
@@ -56,7 +60,8 @@ impl Pen for Text<'_> {
 
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
         let width = if number < 10 { 3 } else { 2 };
-        writeln!(self.out, "  ({number}){:width$}{equation}", "")
+        write!(self.out, "  ({number}){:width$}{equation}", "")?;
+        self.number(equation.right)
     }
 
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
@@ -66,11 +71,30 @@ impl Pen for Text<'_> {
         for entry in matrix.entries {
             let (row, column) = (entry.row + 1, entry.column + 1);
             match matrix.factor {
-                Some(_) => writeln!(self.out, "          [{row}, {column}] = {}", entry.value)?,
-                None => writeln!(self.out, "        {}[{row}, {column}] = {}", matrix.name, entry.value)?,
+                Some(_) => write!(self.out, "          [{row}, {column}] = {}", entry.value)?,
+                None => write!(self.out, "        {}[{row}, {column}] = {}", matrix.name, entry.value)?,
             }
+            self.number(entry.value)?;
         }
         Ok(())
+    }
+}
+
+impl Pen for Text<'_> {
+    fn title(&mut self, mechanism: &str) -> fmt::Result {
+        self.underline(mechanism, "═")
+    }
+
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
+        write!(self.out, "  {role:<8}")?;
+        for (index, formula) in formulas.enumerate() {
+            write!(self.out, "{} {formula}", if index == 0 { "" } else { "," })?;
+        }
+        writeln!(self.out)
+    }
+
+    fn counts(&mut self, counts: Counts) -> fmt::Result {
+        writeln!(self.out, "  {:<8} {counts}", words::COUNTS)
     }
 
     fn group(&mut self, n: usize, group: &Group<'_>) -> fmt::Result {

@@ -17,12 +17,17 @@ mod html;
 mod lines;
 mod numbers;
 mod page;
+mod properties;
+mod values;
 
-use linkage_runtime::derivation::{Derivation, SceneDerivation};
+use linkage_runtime::derivation::{Derivation, SceneDerivation, SheetDerivation};
 
+pub use crate::document::text_at;
 pub(crate) use html::escape;
 pub(crate) use numbers::number;
 pub(crate) use page::document;
+pub use properties::{RatioNumber, RatioProperty, ratio_properties};
+pub use values::Values;
 
 #[derive(Debug, Clone, PartialEq)]
 struct Table {
@@ -42,6 +47,9 @@ pub struct Sheet<'a> {
     derivation: &'a Derivation<'a>,
     title: Option<String>,
     scenes: Vec<&'a SceneDerivation<'a>>,
+    by_hand: Option<&'a SheetDerivation<'a>>,
+    values: Option<Values>,
+    properties: Vec<RatioProperty>,
     tables: Vec<Table>,
     pictures: Vec<Picture>,
 }
@@ -50,7 +58,16 @@ impl<'a> Sheet<'a> {
     /// Creates the sheet of a derivation, without numbers or pictures.
     #[must_use]
     pub fn new(derivation: &'a Derivation<'a>) -> Self {
-        Self { derivation, title: None, scenes: Vec::new(), tables: Vec::new(), pictures: Vec::new() }
+        Self {
+            derivation,
+            title: None,
+            scenes: Vec::new(),
+            by_hand: None,
+            values: None,
+            properties: Vec::new(),
+            tables: Vec::new(),
+            pictures: Vec::new(),
+        }
     }
 
     /// Sets the heading; the default is the name of the mechanism.
@@ -62,6 +79,24 @@ impl<'a> Sheet<'a> {
     /// Adds the equations of motion of a scene of this mechanism, after the kinematics.
     pub fn scene(&mut self, scene: &'a SceneDerivation<'a>) -> &mut Self {
         self.scenes.push(scene);
+        self
+    }
+
+    /// Adds the analysis by hand of this mechanism, line by line: `SHEET` of a mechanism with `derive sheet`.
+    pub fn by_hand(&mut self, by_hand: &'a SheetDerivation<'a>) -> &mut Self {
+        self.by_hand = Some(by_hand);
+        self
+    }
+
+    /// Adds the number of each formula of the analysis by hand at a position.
+    pub fn at(&mut self, values: Values) -> &mut Self {
+        self.values = Some(values);
+        self
+    }
+
+    /// Adds the properties of the velocity ratios with their numbers, as [`ratio_properties`] finds them.
+    pub fn properties(&mut self, properties: impl IntoIterator<Item = RatioProperty>) -> &mut Self {
+        self.properties.extend(properties);
         self
     }
 

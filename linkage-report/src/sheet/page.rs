@@ -1,13 +1,17 @@
 //! Writes the page, section by section.
 
+use std::fmt;
+
 use crate::Notation;
-use crate::document::outline::{self, GeneralEquation, words};
+use crate::document::outline::{self, GeneralEquation, Lines, words};
+use crate::document::sheet;
 use linkage_runtime::derivation::{
-    ContactEffect, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation, Symbol,
+    ContactEffect, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation,
+    SheetDerivation, Symbol,
 };
 
-use super::html::{display, escape, inline, matrix, svg_address};
-use super::{Picture, Sheet, Table, lines, numbers};
+use super::html::{self, display, escape, inline, matrix, svg_address};
+use super::{Picture, RatioNumber, RatioProperty, Sheet, Table, Values, lines, numbers};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -31,6 +35,10 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
         page.ratios(derivation);
         page.acceleration(derivation);
         page.requests(derivation);
+    }
+    page.properties(derivation, &sheet.properties);
+    if let Some(by_hand) = sheet.by_hand {
+        page.by_hand(by_hand, sheet.values.as_ref());
     }
     page.quantities(words::POINTS, derivation.points);
     page.quantities(words::OUTPUTS, derivation.outputs);
@@ -117,6 +125,8 @@ impl Page {
             let symbols = list(symbols.iter().map(|Symbol { formula, .. }| formula));
             self.push(&format!("<div><dt>{role}</dt><dd>{symbols}</dd></div>"));
         }
+        let counts = derivation.counts();
+        self.push(&format!("<div><dt>{}</dt><dd>{counts}</dd></div>", words::COUNTS));
         self.push("</dl>\n</header>");
     }
 
@@ -187,8 +197,48 @@ impl Page {
             page.general_equation(&outline::RATIOS);
             page.lead(words::LEAD_VELOCITY);
             page.general_equation(&outline::VELOCITY);
+            if derivation.inputs.len() == 1 {
+                page.lead(words::LEAD_TRANSMISSION);
+            }
             page.equations(derivation.ratios);
         });
+    }
+
+    /// The properties of the velocity ratios, each with a table of its numbers.
+    fn properties(&mut self, derivation: &Derivation<'_>, properties: &[RatioProperty]) {
+        if properties.is_empty() {
+            return;
+        }
+        self.section("Properties of the velocity ratios", |page| {
+            for (index, RatioProperty { statement, numbers: all }) in properties.iter().enumerate() {
+                page.push(&format!("<article>\n<p>{}. {}</p>", index + 1, escape(statement)));
+                if !all.is_empty() {
+                    page.push(
+                        "<div class=\"scroll\">\n<table class=\"operations\">\n<thead><tr><th></th><th scope=\"col\">by W</th>\
+                         <th scope=\"col\">otherwise</th></tr></thead>\n<tbody>",
+                    );
+                    for RatioNumber { name, by_ratios, otherwise } in all {
+                        let name = numbers::name(derivation, name);
+                        let [by_ratios, otherwise] = [by_ratios, otherwise].map(|value| numbers::number(*value));
+                        page.push(&format!(
+                            "<tr><th scope=\"row\">{name}</th><td>{by_ratios}</td><td>{otherwise}</td></tr>"
+                        ));
+                    }
+                    page.push("</tbody>\n</table>\n</div>");
+                }
+                page.push("</article>");
+            }
+        });
+    }
+
+    fn by_hand(&mut self, by_hand: &SheetDerivation<'_>, values: Option<&Values>) {
+        let mut number = self.equations;
+        let mut sections = Sections { page: self, values, is_open: false };
+        // A page takes every line.
+        let _ = sheet::write(by_hand, &mut sections, &mut number);
+        if sections.is_open {
+            self.push("</section>");
+        }
     }
 
     fn acceleration(&mut self, derivation: &Derivation<'_>) {
@@ -385,6 +435,57 @@ impl Page {
             let conditions = list(conditions.iter());
             page.push(&format!("<p>{} {conditions}.</p>", words::LEAD_CONDITIONS));
         });
+    }
+}
+
+/// Writes an analysis by hand as sections, with numbers below formulas.
+struct Sections<'p, 'v> {
+    page: &'p mut Page,
+    values: Option<&'v Values>,
+    is_open: bool,
+}
+
+impl Lines for Sections<'_, '_> {
+    fn heading(&mut self, heading: &str) -> fmt::Result {
+        if self.is_open {
+            self.page.push("</section>");
+        }
+        self.is_open = true;
+        self.page.push(&format!("<section>\n<h2>{}</h2>", escape(heading)));
+        Ok(())
+    }
+
+    fn lead(&mut self, words: &str) -> fmt::Result {
+        self.page.lead(&escape(words));
+        Ok(())
+    }
+
+    fn general_equation(&mut self, general: &GeneralEquation) -> fmt::Result {
+        self.page.general_equation(general);
+        Ok(())
+    }
+
+    fn display(&mut self, formula: &Formula<'_>) -> fmt::Result {
+        self.page.push(&format!("<p>{}</p>", inline(formula)));
+        Ok(())
+    }
+
+    fn equation(&mut self, _: usize, equation: &Equation<'_>) -> fmt::Result {
+        self.page.equations(&[*equation]);
+        if let Some(value) = self.values.and_then(|values| values.of_unless_number(equation.right)) {
+            let left = equation.left.to_mathml();
+            let number = numbers::number(value);
+            self.page.push(&format!("<p class=\"at\"><math>{left}<mo>=</mo><mn>{number}</mn></math></p>"));
+        }
+        Ok(())
+    }
+
+    fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
+        self.page.matrix(matrix, None);
+        if let Some(numbers) = self.values.and_then(|values| html::numbers(matrix, values)) {
+            self.page.push(&format!("<div class=\"at\">{numbers}</div>"));
+        }
+        Ok(())
     }
 }
 

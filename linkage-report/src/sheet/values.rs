@@ -1,0 +1,120 @@
+//! Values of formulas at a position.
+
+use std::collections::BTreeMap;
+
+use linkage_runtime::Mechanism;
+use linkage_runtime::analysis::AnalysisOf;
+use linkage_runtime::derivation::notation::Name;
+use linkage_runtime::derivation::{Derivation, ElementaryFunction, Formula, FormulaList, FormulaView};
+
+/// Numbers for the names in the formulas of a mechanism: those of a position, with its rates and accelerations.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Values {
+    /// By the order of the derivative.
+    of: [BTreeMap<String, f64>; 3],
+    ratios: BTreeMap<(String, String), f64>,
+}
+
+impl Values {
+    /// The numbers of a position with its [`Analysis`](linkage_runtime::analysis::Analysis).
+    #[must_use]
+    pub fn of<'n, M: Mechanism<Scalar = f64>>(
+        derivation: &Derivation<'_>,
+        parameters: impl IntoIterator<Item = (&'n str, f64)>,
+        q: &M::Coordinates,
+        analysis: &AnalysisOf<M>,
+    ) -> Self {
+        let mut values = Self::default();
+        let [plain, rates, accelerations] = &mut values.of;
+        plain.extend(parameters.into_iter().map(|(name, value)| (name.to_owned(), value)));
+        let (unknowns, inputs) = M::parts(q);
+        let names = |symbols: &[linkage_runtime::derivation::Symbol<'_>]| -> Vec<String> {
+            symbols.iter().map(|symbol| symbol.name.to_owned()).collect()
+        };
+        let (of_unknowns, of_inputs) = (names(derivation.unknowns), names(derivation.inputs));
+        let [_, second] = &analysis.accelerations;
+        for (order, of_unknown, of_input) in [
+            (plain, unknowns, inputs),
+            (rates, analysis.unknown_rates, analysis.input_rates),
+            (accelerations, *second, analysis.input_accelerations),
+        ] {
+            order.extend(of_unknowns.iter().cloned().zip(of_unknown));
+            order.extend(of_inputs.iter().cloned().zip(of_input));
+        }
+        for (by, column) in of_inputs.iter().zip(analysis.ratios.columns()) {
+            values.ratios.extend(of_unknowns.iter().zip(column).map(|(of, ratio)| ((of.clone(), by.clone()), *ratio)));
+        }
+        values
+    }
+
+    /// The value of a formula; none if it contains a name without a number, a user function, or a part that is left out.
+    #[must_use]
+    pub fn value(&self, formula: Formula<'_>) -> Option<f64> {
+        let all = |list: FormulaList<'_>| list.iter().map(|one| self.value(one)).collect::<Option<Vec<f64>>>();
+        Some(match formula.view() {
+            FormulaView::Name(name) => self.named(name)?,
+            FormulaView::Integer(number) => number as f64,
+            FormulaView::Decimal(number) => number,
+            FormulaView::Pi => std::f64::consts::PI,
+            FormulaView::Sum(terms) => {
+                let mut sum = 0.0;
+                for (is_subtracted, term) in terms.iter() {
+                    let term = self.value(term)?;
+                    sum += if is_subtracted { -term } else { term };
+                }
+                sum
+            }
+            FormulaView::Product(factors) => all(factors)?.into_iter().product(),
+            FormulaView::Multiple(one, other) => self.value(one)? * self.value(other)?,
+            FormulaView::Quotient(above, below) => self.value(above)? / self.value(below)?,
+            FormulaView::Power(base, exponent) => self.value(base)?.powi(i32::try_from(exponent).ok()?),
+            FormulaView::Call(function, arguments) => called(function, &all(arguments)?)?,
+            _ => return None,
+        })
+    }
+
+    /// The value of a formula that is not a number itself.
+    pub(crate) fn of_unless_number(&self, formula: Formula<'_>) -> Option<f64> {
+        match formula.view() {
+            FormulaView::Integer(_) | FormulaView::Decimal(_) => None,
+            _ => self.value(formula),
+        }
+    }
+
+    fn named(&self, name: Name<'_>) -> Option<f64> {
+        let [plain, rates, accelerations] = &self.of;
+        match name {
+            Name::Plain(name) => plain.get(name).copied(),
+            Name::Rate(name) => rates.get(name).copied(),
+            Name::Acceleration(name) => accelerations.get(name).copied(),
+            Name::Ratio { of, by } => self.ratios.get(&(of.to_owned(), by.to_owned())).copied(),
+            _ => None,
+        }
+    }
+}
+
+fn called(function: ElementaryFunction, arguments: &[f64]) -> Option<f64> {
+    use ElementaryFunction as F;
+    Some(match (function, arguments) {
+        (F::Sin, [x]) => x.sin(),
+        (F::Cos, [x]) => x.cos(),
+        (F::Tan, [x]) => x.tan(),
+        (F::Asin, [x]) => x.asin(),
+        (F::Acos, [x]) => x.acos(),
+        (F::Atan, [x]) => x.atan(),
+        (F::Atan2, [y, x]) => y.atan2(*x),
+        (F::Sqrt, [x]) => x.sqrt(),
+        (F::Abs, [x]) => x.abs(),
+        (F::Exp, [x]) => x.exp(),
+        (F::Ln, [x]) => x.ln(),
+        (F::Hypot, [x, y]) => x.hypot(*y),
+        (F::IfNonzero, [a, v, w]) => {
+            if *a == 0.0 {
+                *w
+            } else {
+                *v
+            }
+        }
+        _ => return None,
+    })
+}
