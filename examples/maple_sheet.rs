@@ -1,15 +1,18 @@
 //! The four-bar of the Maple sheet (La Sapienza, Meccanica applicata alle macchine, 2009-2010, "Analisi cinematica
-//! mediante il metodo delle equazioni di vincolo"), step by step: loop equations, Jacobians, determinant, velocity
-//! ratios, Newton's iterates, velocities, accelerations by both methods, and the picture. Each number is printed next
-//! to the value of the sheet, which has ten digits.
+//! mediante il metodo delle equazioni di vincolo"), line by line: counts, loop equations, Jacobians, determinant, velocity
+//! ratios, Newton's iterates, velocities, the derivatives of the Jacobian, accelerations by both methods, the matrices of
+//! the links, the points on them, and the picture. Each number is printed next to the value of the sheet, which has ten
+//! digits; each formula is printed with its number.
 //!
-//! `cargo run --example maple_sheet`
+//! `cargo run --example maple_sheet` writes `target/maple_sheet.svg` and `target/maple_sheet.html`.
 
 use std::error::Error;
 
+use linkage::analysis::{Analysis, AnalysisOf, Turning};
 use linkage::drawing::Drawing;
-use linkage::nalgebra::{SMatrix, SVector, Vector2};
-use linkage::{Mechanism, PositionError, linkage, position};
+use linkage::nalgebra::{SMatrix, SVector};
+use linkage::sheet::{Sheet, Values, ratio_properties, text_at};
+use linkage::{Mechanism, PointMotion, linkage, position};
 
 mod output;
 
@@ -28,6 +31,8 @@ linkage! {
         point G2 = (l2/2)@theta2;
         point G3 = B + (l3/2)@theta3;
         point G4 = C + (l4/2)@theta4;
+
+        derive sheet;
     }
 }
 
@@ -53,6 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let guess =
         FourBarCoordinates { theta2: 20_f64.to_radians(), theta3: 70_f64.to_radians(), theta4: (-50_f64).to_radians() };
 
+    println!("Four-bar, {}", FourBar::DERIVATION.counts());
     println!("Four-bar l1 = 80, l2 = 20, l3 = 50, l4 = 70 at theta2 = 20 deg, q = (theta3, theta4 | theta2)");
     let pose = four_bar.pose_at(&guess);
     heading("Psi at the start (70 deg, -50 deg)");
@@ -98,26 +104,45 @@ fn main() -> Result<(), Box<dyn Error>> {
     beside("omega3", velocity.theta3, -18.425_284_25);
     beside("omega4", velocity.theta4, -10.783_359_24);
 
-    heading("gamma = (Psi_q q')_q q'");
-    let gamma = four_bar.gamma(&pose, &velocity);
-    println!("  ({:.9}, {:.9})", gamma[0], gamma[1]);
+    let at = Analysis::of(&four_bar, &pose, omega2, 0.0)?;
+    heading("The derivatives of Psi_u and Psi_v with respect to time, and ([Psi_u] u')_u, which is the first of them");
+    println!("{:.9}{:.9}", SMatrix::from(at.jacobian_rates.unknowns), SMatrix::from(at.jacobian_rates.inputs));
+    println!("{:.9}", SMatrix::from(at.jacobians_of_rates.unknowns));
+    let largest = at.jacobian_rates.unknowns.largest();
+    assert!((at.jacobian_rates.unknowns - at.jacobians_of_rates.unknowns).largest() <= 1e-13 * largest);
 
-    heading("Accelerations");
+    heading("H1, H2, H3, H0; gamma1 by u', gamma2 by v', and gamma0");
+    for (name, column) in ["H1", "H2", "H3", "H0"].into_iter().zip(at.terms) {
+        println!("  {name:<7} ({:.9}, {:.9})", column[0], column[1]);
+    }
+    let [by_unknowns, by_inputs, mixed] = at.gamma_parts;
+    for (name, column) in [("gamma1", by_unknowns), ("gamma2", by_inputs), ("gamma0", at.gamma)] {
+        println!("  {name:<7} ({:.9}, {:.9})", column[0], column[1]);
+    }
+    assert!(mixed.largest() <= 1e-13 * at.gamma.largest());
+
+    heading("Accelerations by both methods, -J^-1 H0 and W v'' - J^-1 gamma");
     table();
-    let acceleration = four_bar.acceleration(&pose, &velocity, 0.0)?;
-    beside("alpha3", acceleration.theta3, -259.655_463_7);
-    beside("alpha4", acceleration.theta4, 584.710_757_2);
-    let other = by_derivatives_of_the_jacobian(&four_bar, &q, &velocity, 0.0)?;
-    let second = SVector::from([acceleration.theta3, acceleration.theta4]);
-    let difference = second - other;
-    println!("  the sheet's first method, -J^-1 (A v'' + J' u' + A' v'): ({:.12}, {:.12})", other.x, other.y);
-    println!("  difference of the two methods: ({:.1e}, {:.1e}); it must be zero", difference.x, difference.y);
-    assert!(difference.amax() <= 1e-13 * second.amax());
+    let [first, second] = at.accelerations;
+    for (place, (name, sheet)) in [("alpha3", -259.655_463_7), ("alpha4", 584.710_757_2)].into_iter().enumerate() {
+        beside(name, first[place], sheet);
+        beside(name, second[place], sheet);
+    }
+    let difference = second - first;
+    println!("  difference of the two methods: ({:.1e}, {:.1e}); it must be zero", difference[0], difference[1]);
+    assert!(difference.largest() <= 1e-13 * second.largest());
+
+    let links = links(&at);
+    heading("Omega and Alpha of the links 2, 3, 4");
+    for (number, link) in (2..).zip(&links) {
+        println!("  link {number}{:.9}{:.9}", link.rate_matrix(), link.acceleration_matrix());
+    }
 
     heading("Velocities and accelerations of G2, G3, G4 and C, by the fused kernel");
     table();
     let motion = four_bar.motion(&q, omega2, 0.0)?;
     let points = motion.points;
+    on_links(&links, &points);
     let rows = [
         (
             "G2",
@@ -151,37 +176,70 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
 
-    let path = std::env::args().nth(1).unwrap_or_else(|| "target/maple_sheet.svg".to_owned());
-    let path = output::write(path, &picture(&four_bar, &points)?)?;
-    println!("\nPicture: {path}");
+    heading("The properties of the velocity ratios: by W, and without it");
+    let properties = ratio_properties(&four_bar, FourBar::DERIVATION, &q, omega2)?;
+    for (number, property) in (1..).zip(&properties) {
+        print!("{number}. {property}");
+    }
+
+    heading("The formulas, line by line, with their numbers");
+    let parameters = FourBar::<f64>::PARAMETERS.into_iter().zip(<[f64; 4]>::from(four_bar.clone()));
+    let values = Values::of::<FourBar>(FourBar::DERIVATION, parameters, &q, &at);
+    println!("{}", text_at(FourBar::SHEET, &values));
+
+    let svg = picture(&four_bar, &points)?;
+    let mut sheet = Sheet::new(FourBar::DERIVATION);
+    sheet
+        .title("The four-bar of the sheet, line by line")
+        .by_hand(FourBar::SHEET)
+        .at(values)
+        .properties(properties)
+        .picture(
+            svg.clone(),
+            "The linkage at 20 degrees, with velocities and accelerations of the middles of its links",
+        );
+    let mut paths = std::env::args().skip(1);
+    let mut path = |default: &str| paths.next().unwrap_or_else(|| default.to_owned());
+    let picture = output::write(path("target/maple_sheet.svg"), &svg)?;
+    let page = output::write(path("target/maple_sheet.html"), &sheet.to_html())?;
+    println!("\nPicture: {picture}, page: {page}");
     Ok(())
 }
 
-/// The sheet's first method: u'' = -J^-1 (A v'' + J' u' + A' v') with the time derivatives J' and A', written by hand
-/// as in the sheet.
-fn by_derivatives_of_the_jacobian(
-    four_bar: &FourBar,
-    q: &FourBarCoordinates,
-    velocity: &FourBarRates,
-    alpha2: f64,
-) -> Result<Vector2<f64>, PositionError> {
-    let FourBar { l2, l3, l4, .. } = *four_bar;
-    let column = |l: f64, theta: f64, omega: f64| [-l * theta.cos() * omega, -l * theta.sin() * omega];
-    let j_rate =
-        SMatrix::<f64, 2, 2>::from([column(l3, q.theta3, velocity.theta3), column(l4, q.theta4, velocity.theta4)]);
-    let a_rate = SMatrix::<f64, 2, 1>::from([column(l2, q.theta2, velocity.theta2)]);
-    let pose = four_bar.pose_at(q);
-    let h1 = SMatrix::from(four_bar.jacobian_inputs(&pose)) * alpha2;
-    let h2 = j_rate * Vector2::new(velocity.theta3, velocity.theta4);
-    let h3 = a_rate * velocity.theta2;
-    Ok(four_bar.solve_jacobian(&pose, &(-(h1 + h2 + h3)).into())?.into())
+/// The links 2, 3 and 4 with their rates and accelerations.
+fn links(at: &AnalysisOf<FourBar>) -> [Turning; 3] {
+    let crank = Turning { rate: at.input_rates[0], acceleration: at.input_accelerations[0] };
+    let [_, accelerations] = at.accelerations;
+    let of = |place: usize| Turning { rate: at.unknown_rates[place], acceleration: accelerations[place] };
+    [crank, of(0), of(1)]
+}
+
+/// The motions of points from other points of the same link, by its matrices: PB and PG2 from A, BG3, CG4 and DG4.
+fn on_links([crank, coupler, rocker]: &[Turning; 3], points: &FourBarPoints<PointMotion>) {
+    let at_rest = PointMotion { position: [0.0; 2].into(), velocity: [0.0; 2].into(), acceleration: [0.0; 2].into() };
+    let end = PointMotion { position: [80.0, 0.0].into(), ..at_rest };
+    for (name, link, from, to) in [
+        ("PB", crank, &at_rest, &points.b),
+        ("PG2", crank, &at_rest, &points.g2),
+        ("BG3", coupler, &points.b, &points.g3),
+        ("BC", coupler, &points.b, &points.c),
+        ("CG4", rocker, &points.c, &points.g4),
+        ("DG4", rocker, &end, &points.g4),
+    ] {
+        let arm = to.position - from.position;
+        let found = link.point(from, arm);
+        let [velocity, acceleration] = [link.relative_velocity(arm), link.relative_acceleration(arm)];
+        println!(
+            "  {name:<4} r = ({:.9}, {:.9}), Omega r = ({:.9}, {:.9}), (Omega^2 + Alpha) r = ({:.6}, {:.6})",
+            arm.x, arm.y, velocity.x, velocity.y, acceleration.x, acceleration.y
+        );
+        assert!((found.velocity - to.velocity).norm() <= 1e-12 * to.velocity.norm(), "{name}");
+        assert!((found.acceleration - to.acceleration).norm() <= 1e-12 * to.acceleration.norm(), "{name}");
+    }
 }
 
 /// The sheet's picture: velocities green at 0.02, accelerations red at 0.0005.
-fn picture(
-    four_bar: &FourBar,
-    points: &FourBarPoints<linkage::PointMotion>,
-) -> Result<String, linkage::drawing::DrawingError> {
+fn picture(four_bar: &FourBar, points: &FourBarPoints<PointMotion>) -> Result<String, linkage::drawing::DrawingError> {
     let mut drawing = Drawing::new("Four-bar of the sheet at theta2 = 20 deg, 400 rpm");
     drawing
         .units("mm", "s")
