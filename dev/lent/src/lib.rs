@@ -117,15 +117,17 @@ pub fn sheet(document: &SheetDocument) -> SheetDerivation<'static> {
             rate: table.matrix(&turning.rate),
             acceleration: table.matrix(&turning.acceleration),
         }),
+        vectors: list(&document.vectors, |vector| ChainVector {
+            vector: table.matrix(&vector.vector),
+            matrix: table.matrix(&vector.matrix),
+            rates: table.matrix(&vector.rates),
+            velocity: table.matrix(&vector.velocity),
+            acceleration: table.matrix(&vector.acceleration),
+        }),
         points: list(&document.points, |point| PointVectors {
             name: text(&point.name),
-            vectors: list(&point.vectors, |vector| ChainVector {
-                vector: table.matrix(&vector.vector),
-                matrix: table.matrix(&vector.matrix),
-                rates: table.matrix(&vector.rates),
-                velocity: table.matrix(&vector.velocity),
-                acceleration: table.matrix(&vector.acceleration),
-            }),
+            vectors: point.vectors.clone().leak(),
+            sums: point.sums.map(|equation| table.equation(equation)),
         }),
         conditions: table.formulas(&document.conditions),
     }

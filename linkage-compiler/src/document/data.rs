@@ -154,6 +154,8 @@ pub struct SheetDocument {
     pub accelerations: [Vec<Equation>; 2],
     pub choices: Vec<DriverChoice>,
     pub turning: Vec<Turning>,
+    /// The vectors of points, each once.
+    pub vectors: Vec<Vector>,
     pub points: Vec<PointVectors>,
     pub conditions: Vec<Number>,
 }
@@ -173,11 +175,12 @@ pub struct Turning {
     pub acceleration: Matrix,
 }
 
-/// The vectors that lead to a point.
+/// The vectors that lead to a point, by their places in the list of all; its position, velocity and acceleration as sums.
 #[derive(Debug, Clone)]
 pub struct PointVectors {
     pub name: String,
-    pub vectors: Vec<Vector>,
+    pub vectors: Vec<usize>,
+    pub sums: [Equation; 3],
 }
 
 /// A vector, the matrix and the rates whose product is its velocity, its velocity and its acceleration.
@@ -270,9 +273,10 @@ numbers! {
         ratio_derivatives gamma jerk sensitivity points outputs conditions kernels;
     DriverChoice: inputs determinant;
     Turning: rate acceleration;
-    PointVectors: vectors;
+    PointVectors: sums;
     Vector: vector matrix rates velocity acceleration;
-    SheetDocument: jacobian_rates jacobians_of_rates terms gamma accelerations choices turning points conditions;
+    SheetDocument: jacobian_rates jacobians_of_rates terms gamma accelerations choices turning vectors points
+        conditions;
     Effect: forces;
     ContactEffect: force along bound bearing rebound forces;
     JointForce: components;

@@ -39,6 +39,7 @@ pub fn of_sheet(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation)
     let (rows, inputs_count) = (unknowns.len(), inputs.len());
     let [gamma_u, gamma_v, gamma_uv] = &sheet.gamma;
     let [h1, h2, h3, h0] = &sheet.terms;
+    let (vectors, of_points) = each_once(&sheet.points);
     let document = SheetDocument {
         table: Table::default(),
         mechanism: driver.name.to_string(),
@@ -73,18 +74,13 @@ pub fn of_sheet(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation)
             })
             .collect(),
         turning: sheet.turning.iter().map(|of| writer.turning(of, &name_of)).collect(),
+        vectors: (1..).zip(&vectors).map(|(number, vector)| writer.vector(number, vector)).collect(),
         points: mechanism
             .points
             .iter()
-            .zip(&sheet.points)
-            .filter(|(_, vectors)| !vectors.is_empty())
-            .map(|(point, vectors)| PointVectors {
-                name: point.name.text.clone(),
-                vectors: (1..)
-                    .zip(vectors)
-                    .map(|(number, vector)| writer.vector(&format!("{}_{number}", point.name.text), vector))
-                    .collect(),
-            })
+            .zip(of_points)
+            .filter(|(_, places)| !places.is_empty())
+            .map(|(point, vectors)| writer.point(&point.name.text, vectors))
             .collect(),
         conditions: conditions.into_iter().map(|condition| writer.layout.condition(condition)).collect(),
     };
@@ -124,16 +120,50 @@ impl Writer<'_> {
                 entries: vec![([0, 1], minus), ([1, 0], number)],
             }
         };
-        Turning { rate: skew("Omega", of.rate), acceleration: skew("Alpha", of.acceleration), with }
+        Turning { rate: skew("Omega", of.rate), acceleration: skew("alpha", of.acceleration), with }
     }
 
-    fn vector(&mut self, name: &str, of: &PolarVector) -> Vector {
+    fn vector(&mut self, number: usize, of: &PolarVector) -> Vector {
         Vector {
-            vector: self.column(&format!("r_{name}"), &of.vector),
-            matrix: self.dense(&format!("M_{name}"), &of.matrix),
-            rates: self.column(&format!("w_{name}"), &of.rates),
-            velocity: self.column(&format!("v_{name}"), &of.velocity),
-            acceleration: self.column(&format!("a_{name}"), &of.acceleration),
+            vector: self.column(&format!("r{number}"), &of.vector),
+            matrix: self.dense(&format!("M{number}"), &of.matrix),
+            rates: self.column(&format!("w{number}"), &of.rates),
+            velocity: self.column(&format!("v{number}"), &of.velocity),
+            acceleration: self.column(&format!("a{number}"), &of.acceleration),
         }
     }
+
+    /// A point as a sum of vectors, its velocity as a sum of matrices times rates, and its acceleration.
+    fn point(&mut self, name: &str, vectors: Vec<usize>) -> PointVectors {
+        let table = &mut self.layout.table;
+        let mut named = |letter: &str, place: usize| table.plain(&format!("{letter}{}", place + 1));
+        let [positions, accelerations] = ["r", "a"].map(|letter| {
+            let terms = vectors.iter().map(|&place| (false, named(letter, place)));
+            terms.collect::<Vec<_>>()
+        });
+        let factors: Vec<_> = vectors.iter().map(|&place| ["M", "w"].map(|letter| named(letter, place))).collect();
+        let velocities = factors.into_iter().map(|pair| (false, table.product(pair.to_vec()))).collect();
+        let sums =
+            [(Name::Plain(name), positions), (Name::Rate(name), velocities), (Name::Acceleration(name), accelerations)];
+        let sums = sums.map(|(left, terms)| [table.name(left), table.sum(terms)]);
+        PointVectors { name: name.to_owned(), vectors, sums }
+    }
+}
+
+/// The different vectors of all points, and their places for each point.
+fn each_once(points: &[Vec<PolarVector>]) -> (Vec<PolarVector>, Vec<Vec<usize>>) {
+    let mut all: Vec<PolarVector> = Vec::new();
+    let places = points.iter().map(|vectors| {
+        let place = |vector: &PolarVector| {
+            all.iter().position(|other| (other.vector, other.matrix) == (vector.vector, vector.matrix)).unwrap_or_else(
+                || {
+                    all.push(vector.clone());
+                    all.len() - 1
+                },
+            )
+        };
+        vectors.iter().map(place).collect()
+    });
+    let places = places.collect();
+    (all, places)
 }

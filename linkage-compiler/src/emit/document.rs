@@ -139,9 +139,11 @@ pub(super) fn of_sheet(name: &TypeName, document: &SheetDocument, root: &TokenSt
         let [rate, acceleration] = [rate, acceleration].map(|matrix| lists.matrix(matrix));
         quote!(Turning { with: &[#(#with),*], rate: #rate, acceleration: #acceleration })
     }));
-    let points = list(document.points.iter().map(|PointVectors { name, vectors }| {
-        let (name, vectors) = (string(name), list(vectors.iter().map(|vector| lists.vector(vector))));
-        quote!(PointVectors { name: #name, vectors: #vectors })
+    let vectors = list(document.vectors.iter().map(|vector| lists.vector(vector)));
+    let points = list(document.points.iter().map(|PointVectors { name, vectors, sums }| {
+        let (name, vectors) = (string(name), vectors.iter().map(|place| Literal::usize_unsuffixed(*place)));
+        let sums = sums.iter().map(equation);
+        quote!(PointVectors { name: #name, vectors: &[#(#vectors),*], sums: [#(#sums),*] })
     }));
     let conditions = lists.formulas(&document.conditions);
     let table = table(&document.table, &lists);
@@ -160,6 +162,7 @@ pub(super) fn of_sheet(name: &TypeName, document: &SheetDocument, root: &TokenSt
                     accelerations: [#first, #second],
                     choices: #choices,
                     turning: #turning,
+                    vectors: #vectors,
                     points: #points,
                     conditions: #conditions,
                 }

@@ -164,6 +164,10 @@ pub(crate) trait Lines {
     fn display(&mut self, formula: &Formula<'_>) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result;
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result;
+    /// An equation whose right side is the sum of these columns.
+    fn sum(&mut self, number: usize, equation: &Equation<'_>, _: &[&FormulaMatrix<'_>]) -> fmt::Result {
+        self.equation(number, equation)
+    }
 }
 
 /// The writer of one document format.

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use linkage_runtime::derivation::{ChainVector, DriverChoice, PointVectors, SheetDerivation, Turning};
+use linkage_runtime::derivation::{ChainVector, DriverChoice, FormulaMatrix, PointVectors, SheetDerivation, Turning};
 
 use super::outline::{GeneralEquation, Lines, equations, words};
 
@@ -289,9 +289,7 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
     }
     if !sheet.choices.is_empty() && jacobian_rate.rows > 0 {
         pen.heading("Singular for each choice of inputs")?;
-        pen.lead(
-            "If other coordinates drive, the unknowns are the rest, and no force of the driver moves the linkage where",
-        )?;
+        pen.lead("J has the columns of the coordinates that do not drive. The mechanism is singular where")?;
         pen.general_equation(&SINGULAR)?;
         for DriverChoice { inputs, determinant } in sheet.choices {
             match determinant {
@@ -316,14 +314,24 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
         pen.heading("Points as sums of vectors")?;
         pen.lead("The velocity of a point is a sum of matrices times rates of lengths and angles:")?;
         pen.general_equation(&SUM)?;
-        for PointVectors { name, vectors } in sheet.points {
-            pen.lead(name)?;
-            for ChainVector { vector, matrix, rates, velocity, acceleration } in *vectors {
-                for part in [vector, matrix, rates, velocity, acceleration] {
-                    if !part.entries.is_empty() {
-                        pen.matrix(part)?;
-                    }
+        for ChainVector { vector, matrix, rates, velocity, acceleration } in sheet.vectors {
+            for part in [vector, matrix, rates, velocity, acceleration] {
+                if !part.entries.is_empty() {
+                    pen.matrix(part)?;
                 }
+            }
+        }
+        for PointVectors { name, vectors, sums } in sheet.points {
+            pen.lead(name)?;
+            let all = || vectors.iter().filter_map(|&place| sheet.vectors.get(place));
+            let parts: [Vec<&FormulaMatrix<'_>>; 3] = [
+                all().map(|of| &of.vector).collect(),
+                all().map(|of| &of.velocity).collect(),
+                all().map(|of| &of.acceleration).collect(),
+            ];
+            for (sum, parts) in sums.iter().zip(&parts) {
+                *number += 1;
+                pen.sum(*number, sum, parts)?;
             }
         }
     }

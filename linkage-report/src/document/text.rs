@@ -78,6 +78,15 @@ impl Lines for Text<'_> {
         }
         Ok(())
     }
+
+    fn sum(&mut self, number: usize, equation: &Equation<'_>, of: &[&FormulaMatrix<'_>]) -> fmt::Result {
+        let width = if number < 10 { 3 } else { 2 };
+        write!(self.out, "  ({number}){:width$}{equation}", "")?;
+        match self.values.and_then(|values| values.sum(of)) {
+            Some([x, y]) => writeln!(self.out, "  ≈ ({}, {})", self::number(x), self::number(y)),
+            None => writeln!(self.out),
+        }
+    }
 }
 
 impl Pen for Text<'_> {

@@ -1,7 +1,8 @@
 //! Formats names and values in tables of numbers.
 
 use crate::Notation;
-use linkage_runtime::derivation::{Derivation, Equation, Quantity, Symbol};
+use linkage_runtime::derivation::notation::Name;
+use linkage_runtime::derivation::{Derivation, Equation, Formula, FormulaView, Quantity};
 
 use super::html::escape;
 
@@ -27,6 +28,12 @@ fn formula(derivation: &Derivation<'_>, name: &str) -> Option<String> {
         return Some(symbol.formula.to_mathml());
     }
     let quantities = derivation.points.iter().chain(derivation.outputs);
+    // A symbol, or a component of a point or an output.
+    let named = |name: &str| {
+        let is_name = |of: &Formula<'_>| matches!(of.view(), FormulaView::Name(Name::Plain(text)) if text == name);
+        let mut components = quantities.clone().flat_map(|quantity| quantity.value).map(|equation| equation.left);
+        symbol(name).map(|symbol| symbol.formula).or_else(|| components.find(is_name))
+    };
     let mut equations = derivation
         .ratios
         .iter()
@@ -35,7 +42,7 @@ fn formula(derivation: &Derivation<'_>, name: &str) -> Option<String> {
         .chain(derivation.groups.iter().flat_map(|group| group.position.iter().chain(&group.determinant)))
         .chain(derivation.ratio_derivatives.into_iter().flatten())
         .chain(derivation.sensitivity.iter().flat_map(|sensitivity| sensitivity.formulas))
-        .chain(quantities.flat_map(|quantity| {
+        .chain(quantities.clone().flat_map(|quantity| {
             let Quantity { value, ratios, ratio_derivatives, sensitivities, .. } = quantity;
             value.iter().chain(*ratios).chain(*ratio_derivatives).chain(*sensitivities)
         }));
@@ -43,16 +50,16 @@ fn formula(derivation: &Derivation<'_>, name: &str) -> Option<String> {
         return Some(left.to_mathml());
     }
     if let Some((of, by)) = name.split_once('/') {
-        let side = |symbol: &Symbol| format!("<mrow><mo>∂</mo>{}</mrow>", symbol.formula.to_mathml());
-        return Some(format!("<mfrac>{}{}</mfrac>", side(symbol(of)?), side(symbol(by)?)));
+        let side = |of: Formula<'_>| format!("<mrow><mo>∂</mo>{}</mrow>", of.to_mathml());
+        return Some(format!("<mfrac>{}{}</mfrac>", side(named(of)?), side(named(by)?)));
     }
     let dotted = [("_rate", "˙"), ("_acceleration", "¨")];
-    dotted.into_iter().find_map(|(ending, dots)| Some(dot(symbol(name.strip_suffix(ending)?)?, dots)))
+    dotted.into_iter().find_map(|(ending, dots)| Some(dot(named(name.strip_suffix(ending)?)?, dots)))
 }
 
 /// A symbol with dots above its letter.
-fn dot(symbol: &Symbol<'_>, dots: &str) -> String {
-    let mathml = symbol.formula.to_mathml();
+fn dot(of: Formula<'_>, dots: &str) -> String {
+    let mathml = of.to_mathml();
     let over = |letter: &str| format!("<mover>{letter}<mo>{dots}</mo></mover>");
     match mathml.strip_prefix("<msub>").and_then(|inside| inside.split_once("</mi>")) {
         Some((letter, rest)) => format!("<msub>{}{rest}", over(&format!("{letter}</mi>"))),

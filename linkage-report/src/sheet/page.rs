@@ -480,6 +480,17 @@ impl Lines for Sections<'_, '_> {
         Ok(())
     }
 
+    fn sum(&mut self, _: usize, equation: &Equation<'_>, of: &[&FormulaMatrix<'_>]) -> fmt::Result {
+        self.page.equations(&[*equation]);
+        if let Some(sum) = self.values.and_then(|values| values.sum(of)) {
+            let (left, [x, y]) = (equation.left.to_mathml(), sum.map(numbers::number));
+            self.page.push(&format!(
+                "<p class=\"at\"><math>{left}<mo>=</mo><mo>(</mo><mn>{x}</mn><mo>,</mo><mn>{y}</mn><mo>)</mo></math></p>"
+            ));
+        }
+        Ok(())
+    }
+
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
         self.page.matrix(matrix, None);
         if let Some(numbers) = self.values.and_then(|values| html::numbers(matrix, values)) {

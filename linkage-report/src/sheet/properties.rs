@@ -82,7 +82,7 @@ pub fn ratio_properties<M: Kinematic<Scalar = f64>>(
         let [far, near] = [quotient(2.0 * step)?, quotient(step)?];
         derivatives.extend(numbers(of_input, column, near + (near - far) / 3.0));
         let small = unit * step;
-        let of_displacements = derivation.unknowns.iter().map(|unknown| format!("d {}", unknown.name));
+        let of_displacements = derivation.unknowns.iter().map(|unknown| format!("d {}", unknown.formula));
         let of_displacements: Vec<String> = of_displacements.collect();
         displacements.extend(numbers(&of_displacements, ratios * small, moved(small)?));
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use linkage_runtime::Mechanism;
 use linkage_runtime::analysis::AnalysisOf;
 use linkage_runtime::derivation::notation::Name;
-use linkage_runtime::derivation::{Derivation, ElementaryFunction, Formula, FormulaList, FormulaView};
+use linkage_runtime::derivation::{Derivation, ElementaryFunction, Formula, FormulaList, FormulaMatrix, FormulaView};
 
 /// Numbers for the names in the formulas of a mechanism: those of a position, with its rates and accelerations.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -71,6 +71,17 @@ impl Values {
             FormulaView::Call(function, arguments) => called(function, &all(arguments)?)?,
             _ => return None,
         })
+    }
+
+    /// The sum of columns of two entries.
+    pub(crate) fn sum(&self, columns: &[&FormulaMatrix<'_>]) -> Option<[f64; 2]> {
+        let mut sum = [0.0; 2];
+        for column in columns {
+            for (place, sum) in sum.iter_mut().enumerate() {
+                *sum += column.entry(place, 0).map_or(Some(0.0), |entry| self.value(entry))?;
+            }
+        }
+        Some(sum)
     }
 
     /// The value of a formula that is not a number itself.

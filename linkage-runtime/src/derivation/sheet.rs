@@ -23,6 +23,8 @@ pub struct SheetDerivation<'a> {
     pub choices: &'a [DriverChoice<'a>],
     /// The links that turn.
     pub turning: &'a [Turning<'a>],
+    /// The vectors of points, each once.
+    pub vectors: &'a [ChainVector<'a>],
     /// The points that are written as sums of vectors.
     pub points: &'a [PointVectors<'a>],
     /// The conditions under which the simplified formulas hold.
@@ -59,8 +61,10 @@ pub struct Turning<'a> {
 pub struct PointVectors<'a> {
     /// The name in the `linkage!` language.
     pub name: &'a str,
-    /// The vectors.
-    pub vectors: &'a [ChainVector<'a>],
+    /// Its vectors: indices of [`SheetDerivation::vectors`].
+    pub vectors: &'a [usize],
+    /// The position as the sum of vectors, the velocity as that of matrices times rates, the acceleration.
+    pub sums: [Equation<'a>; 3],
 }
 
 /// A vector of length z at an angle φ.

@@ -3,4 +3,5 @@
 mod mechanisms;
 mod outside;
 mod random;
+mod sheet;
 mod table;
