@@ -5,6 +5,7 @@
 //! | [`first_mechanism`] | from a drawing to numbers |
 //! | [`first_picture`] | a picture and an animation in three lines |
 //! | [`first_sheet`] | the derivation as a document |
+//! | [`the_sheet`] | the sheet, line by line: two courses, and where each of their formulas is |
 //! | [`first_report`] | mobility, limits, transmission angles, strokes and dwells in one call |
 //! | [`first_simulation`] | bodies, forces and a motion in time |
 //! | [`linkage!`](crate::linkage!) | the language |
@@ -40,6 +41,11 @@ pub mod first_picture {}
 ///
 #[doc = include_str!("first_sheet.md")]
 pub mod first_sheet {}
+
+/// The sheet, line by line: all that two courses write out, with its place and its test.
+///
+#[doc = include_str!("the_sheet.md")]
+pub mod the_sheet {}
 
 /// The first questions about a mechanism, answered in one call.
 ///

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod any_mechanism;
+mod by_hand;
 mod implied;
 mod orders;
 mod three_ways;

@@ -176,6 +176,39 @@ fn lanes_and_intervals_are_emitted_if_asked_for() {
     }
 }
 
+/// `derive sheet` adds the constant `SHEET` and changes no other token; without it there is none.
+#[test]
+fn a_sheet_adds_one_constant() {
+    let root: TokenStream = "::linkage".parse().unwrap();
+    let is_sheet = |item: &Item| match item {
+        Item::Impl(item) => item.items.iter().any(|item| matches!(item, ImplItem::Const(one) if one.ident == "SHEET")),
+        _ => false,
+    };
+    for (file, drivers) in [("four_bar", 1), ("six_bar", 1), ("slider_crank", 2), ("five_bar", 1), ("cart_pendulum", 1)] {
+        let without = source::tokens_of(file);
+        let with: TokenStream = {
+            let mut tokens: Vec<_> = without.clone().into_iter().collect();
+            for token in &mut tokens {
+                if let proc_macro2::TokenTree::Group(group) = token
+                    && group.delimiter() == proc_macro2::Delimiter::Brace
+                {
+                    let inside = group.stream();
+                    *group = proc_macro2::Group::new(group.delimiter(), quote::quote!(#inside derive sheet;));
+                }
+            }
+            tokens.into_iter().collect()
+        };
+        let [without, with] = [without, with].map(|tokens| {
+            syn::parse2::<syn::File>(linkage_compiler::expand(tokens, &root)).unwrap().items
+        });
+        let text = |items: &[&Item]| items.iter().map(|item| item.to_token_stream().to_string()).collect::<Vec<_>>();
+        let (sheets, rest): (Vec<&Item>, Vec<&Item>) = with.iter().partition(|item| is_sheet(item));
+        assert_eq!(sheets.len(), drivers, "{file}");
+        assert_eq!(text(&rest), text(&without.iter().collect::<Vec<_>>()), "{file}");
+        assert!(!without.iter().any(is_sheet));
+    }
+}
+
 /// The tokens of `four_bar_scenes` with those statements that begin with none of these words.
 fn scenes_without(words: &[&str]) -> TokenStream {
     let keep = |statement: &str| !words.iter().any(|word| statement.starts_with(word));

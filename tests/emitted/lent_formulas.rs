@@ -2,7 +2,7 @@
 //!
 //! `MECHANISM=four_bar cargo test --all-features --test emitted lent_formulas` compares one mechanism, by its file or its name.
 
-use linkage::derivation::{Derivation, Kernel, KernelCode, SceneDerivation};
+use linkage::derivation::{Derivation, Kernel, KernelCode, SceneDerivation, SheetDerivation};
 use linkage::{Document, sheet::Sheet};
 use linkage_gallery::checks::each;
 use linkage_gallery::listed::all;
@@ -46,4 +46,51 @@ fn scenes() {
         assert_eq!(*emitted, lent);
         assert_eq!(emitted.to_latex(), lent.to_latex());
     }
+}
+
+macro_rules! with_source {
+    ($($tokens:tt)*) => {
+        linkage::linkage! { $($tokens)* }
+
+        const SOURCE: &str = stringify!($($tokens)*);
+    };
+}
+
+with_source! {
+    /// A slider-crank with a point beside the rod, whose choice of input is open.
+    pub mechanism Sheets {
+        param r = 1, l = 3, e = 0.2, w = 0.5;
+        coordinate phi, psi, s;
+        loop r@phi + l@psi = (s, e);
+        point Pin = r@phi;
+        point Beside = Pin + (l/2, w)@psi;
+        drive Crank by phi;
+        drive Piston by s;
+        derive sheet;
+    }
+}
+
+/// The constants `SHEET` are the documents of the compiler, and a page shows them, also with numbers.
+#[test]
+fn sheets() {
+    let mechanism = linkage_compiler::read(SOURCE.parse().unwrap()).unwrap().remove(0);
+    let documents = linkage_compiler::sheets(&mechanism).unwrap();
+    let emitted: [(&Derivation<'_>, &SheetDerivation<'_>); 2] =
+        [(Crank::<f64>::DERIVATION, Crank::<f64>::SHEET), (Piston::<f64>::DERIVATION, Piston::<f64>::SHEET)];
+    assert_eq!(documents.len(), emitted.len());
+    for (document, (derivation, emitted)) in documents.iter().zip(emitted) {
+        let lent = linkage_lent::sheet(document);
+        assert_eq!(*emitted, lent);
+        assert_eq!((emitted.to_text(), emitted.to_latex()), (lent.to_text(), lent.to_latex()));
+        let pages = [emitted, &lent].map(|sheet| Sheet::new(derivation).by_hand(sheet).to_html());
+        assert_eq!(pages[0], pages[1]);
+        let latex = emitted.to_latex();
+        for (opening, closing) in [("{", "}"), ("\\begin", "\\end"), ("\\[", "\\]")] {
+            assert_eq!(latex.matches(opening).count(), latex.matches(closing).count(), "{opening}");
+        }
+    }
+    insta::with_settings!({ omit_expression => true }, {
+        insta::assert_snapshot!("sheet_in_text", Crank::<f64>::SHEET.to_text());
+        insta::assert_snapshot!("sheet_in_latex", Piston::<f64>::SHEET.to_latex());
+    });
 }

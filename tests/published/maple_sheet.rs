@@ -5,7 +5,10 @@
 //! references below are the same formulas in 40-digit arithmetic.
 
 use approx::assert_relative_eq;
-use linkage::{PointMotion, position};
+use linkage::analysis::{Analysis, PolarVector, Turning};
+use linkage::derivation::FormulaMatrix;
+use linkage::sheet::Values;
+use linkage::{Document, PointMotion, position};
 
 use linkage_gallery::four_bar::*;
 
@@ -135,4 +138,141 @@ fn points() {
             }
         }
     }
+}
+
+/// The derivatives of `psi_u` and `psi_v` with respect to time, H2, H3 and H0, in exact arithmetic.
+const J_RATE: [[f64; 2]; 2] = [[306.754_749_702_237_1, 868.694_004_586_951_9], [480.480_299_389_376, -582.163_879_346_512_1]];
+const A_RATE: [f64; 2] = [-787.235_049_091_613_2, -286.530_125_240_439_76];
+const H: [[f64; 2]; 4] = [
+    [0.0, 0.0],
+    [-10_833.235_144_750_9, -9_728.251_711_918_187],
+    [-32_975.624_624_994_82, -12_002.145_819_833_719],
+    [-43_808.859_769_745_73, -21_730.397_531_751_903],
+];
+
+/// The determinants of J if theta2, theta3 or theta4 drives.
+const DETERMINANTS: [f64; 3] = [-2_999.559_667_160_038, 1_319.420_090_706_785_7, -772.187_861_385_715_7];
+
+/// The second half of the sheet in numbers: from J, A and gamma, and by the formulas of `derive sheet`.
+#[test]
+fn derivatives_of_the_jacobian_and_both_accelerations() {
+    let (m, q) = (FourBar::default(), solved());
+    let at = Analysis::of(&m, &m.pose_at(&q), OMEGA2, 0.0).unwrap();
+    let close = |found: &[f64], exact: &[f64]| {
+        assert_eq!(found.len(), exact.len());
+        for (&found, &exact) in found.iter().zip(exact) {
+            assert_relative_eq!(found, exact, max_relative = EXACT);
+        }
+    };
+    let columns: Vec<f64> = J_RATE.concat();
+    close(&at.jacobian_rates.unknowns.iter().copied().collect::<Vec<_>>(), &columns);
+    close(&at.jacobians_of_rates.unknowns.iter().copied().collect::<Vec<_>>(), &columns);
+    close(at.jacobian_rates.inputs.column(0).as_slice(), &A_RATE);
+    for (found, exact) in at.terms.iter().zip(H) {
+        close(found.as_slice(), &exact);
+    }
+    close(at.gamma_parts[0].as_slice(), &H[1]);
+    close(at.gamma_parts[1].as_slice(), &H[2]);
+    assert!(at.gamma_parts[2].largest() <= EXACT * at.gamma.largest());
+    let alphas = [-259.655_463_740_965, 584.710_757_984_326_3];
+    for found in at.accelerations {
+        close(found.as_slice(), &alphas);
+    }
+    let choices = [[2], [0], [1]].map(|choice| at.determinant_of(&choice).unwrap());
+    close(&choices, &DETERMINANTS);
+    for wrong in [&[][..], &[3], &[0, 1]] {
+        assert_eq!(at.determinant_of(wrong), None);
+    }
+
+    // The same by formulas.
+    let mechanism = linkage_compiler::read(linkage_gallery::source::tokens_of("four_bar")).unwrap().remove(0);
+    let sheet = linkage_lent::sheet(&linkage_compiler::sheets(&mechanism).unwrap()[0]);
+    let names = FourBar::<f64>::PARAMETERS.into_iter().zip(<[f64; 4]>::from(m.clone()));
+    let values = Values::of::<FourBar>(FourBar::DERIVATION, names, &q, &at);
+    let numbers = |matrix: &FormulaMatrix<'_>| -> Vec<f64> {
+        let places = (0..matrix.columns).flat_map(|column| (0..matrix.rows).map(move |row| (row, column)));
+        places.map(|(row, column)| matrix.entry(row, column).map_or(0.0, |entry| values.value(entry).unwrap())).collect()
+    };
+    close(&numbers(&sheet.jacobian_rates[0]), &columns);
+    close(&numbers(&sheet.jacobian_rates[1]), &A_RATE);
+    for (matrix, exact) in sheet.terms.iter().zip(H) {
+        close(&numbers(matrix), &exact);
+    }
+    for equations in sheet.accelerations {
+        let found: Vec<f64> = equations.iter().map(|one| values.value(one.right).unwrap()).collect();
+        close(&found, &alphas);
+    }
+    let determinants = sheet.choices.iter().map(|choice| values.value(choice.determinant.unwrap().right).unwrap());
+    close(&determinants.collect::<Vec<_>>(), &DETERMINANTS);
+}
+
+/// The formulas of the sheet as it prints them.
+#[test]
+fn formulas_of_the_sheet() {
+    let mechanism = linkage_compiler::read(linkage_gallery::source::tokens_of("four_bar")).unwrap().remove(0);
+    let sheet = linkage_lent::sheet(&linkage_compiler::sheets(&mechanism).unwrap()[0]);
+    let text = sheet.to_text();
+    for line in [
+        "J̇[1, 1] = −l₃·θ̇₃·cos(θ₃)",
+        "Ȧ[2, 1] = −l₂·θ̇₂·sin(θ₂)",
+        "They are J̇ and Ȧ themselves",
+        "γ_u[1, 1] = −l₃·θ̇₃²·cos(θ₃) − l₄·θ̇₄²·cos(θ₄)",
+        "γ_v[2, 1] = −l₂·θ̇₂²·sin(θ₂)",
+        "H₁[2, 1] = l₂·θ̈₂·cos(θ₂)",
+        "H₂[1, 1] = l₂·θ̇₃·θ̇₂·cos(θ₃)·sin(θ₂ − θ₄)/sin(θ₃ − θ₄) − l₂·θ̇₄·θ̇₂·cos(θ₄)·sin(θ₂ − θ₃)/sin(θ₃ − θ₄)",
+        "H₃[1, 1] = −l₂·θ̇₂²·cos(θ₂)",
+        "det J_θ₃ = l₂·l₄·sin(θ₂ − θ₄)",
+        "Ω_θ₃[1, 2] = −θ̇₃",
+        "α_θ₄[2, 1] = θ̈₄",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    assert_eq!(FourBar::DERIVATION.counts().to_string(), "n = 3, p = 2, F = n − p = 1");
+}
+
+/// `VG3_B`, `VG4_C` and the accelerations relative to B and C: a point of a link from another one.
+#[test]
+fn points_of_one_link() {
+    let motion = FourBar::default().motion(&solved(), OMEGA2, 0.0).unwrap();
+    let (points, rates, bent) = (motion.points, motion.rates, motion.accelerations);
+    let coupler = Turning { rate: rates.theta3, acceleration: bent.theta3 };
+    let rocker = Turning { rate: rates.theta4, acceleration: bent.theta4 };
+    for (link, from, to, velocity, acceleration) in [
+        (
+            coupler,
+            points.b,
+            points.g3,
+            [434.347_002_293_475_96, -153.377_374_851_118_56],
+            [3_294.946_104_695_846, -10_164.413_876_247_678],
+        ),
+        (
+            rocker,
+            points.c,
+            points.g4,
+            [-291.081_939_673_256_04, -240.240_149_694_688],
+            [13_192.866_207_801_568, 16_165.486_786_164_536],
+        ),
+    ] {
+        let arm = to.position - from.position;
+        let found = [link.relative_velocity(arm), link.relative_acceleration(arm)];
+        let matrices = [
+            link.rate_matrix() * arm,
+            link.rate_matrix() * link.rate_matrix() * arm + link.acceleration_matrix() * arm,
+        ];
+        for (found, exact) in found.into_iter().chain(matrices).zip([velocity, acceleration].into_iter().cycle()) {
+            assert_relative_eq!(found[0], exact[0], max_relative = EXACT);
+            assert_relative_eq!(found[1], exact[1], max_relative = EXACT);
+        }
+        let moved = link.point(&from, arm);
+        assert_relative_eq!(moved.velocity, to.velocity, max_relative = EXACT);
+        assert_relative_eq!(moved.acceleration, to.acceleration, max_relative = EXACT);
+    }
+    // Equation 1.3 of the lecture notes: the velocity of G3 as a sum of matrices times rates.
+    let q = solved();
+    let vectors = [
+        PolarVector { value: [20.0, q.theta2], rate: [0.0, rates.theta2] },
+        PolarVector { value: [25.0, q.theta3], rate: [0.0, rates.theta3] },
+    ];
+    let sum = vectors.iter().map(PolarVector::velocity).sum::<linkage::nalgebra::Vector2<f64>>();
+    assert_relative_eq!(sum, points.g3.velocity, max_relative = EXACT);
 }

@@ -10,9 +10,11 @@ use std::marker::PhantomData;
 use std::rc::Rc;
 use std::sync::LazyLock;
 
+use linkage::analysis::{Analysis, Columns};
 use linkage::derivation::Derivation;
 use linkage::kinematic::{FullKinematics, Kinematic, Kinematics, PerCoordinate};
 use linkage::position::newton;
+use linkage::sheet::{RatioProperty, ratio_properties};
 use linkage::{Column, Dim, Matrix, Mechanism, OutputMotion, PointMotion, PositionError, Real};
 use nalgebra::DMatrix;
 
@@ -163,6 +165,39 @@ pub trait Values<T: Real>: Named {
     fn outputs(&self, parameters: &[T], q: &[T]) -> Result<Vec<T>, PositionError>;
 }
 
+/// A mechanism with its analysis by hand.
+pub trait Analysed: Named {
+    /// The analysis at coordinates and at rates and accelerations of the inputs.
+    fn analysis(
+        &self,
+        parameters: &[f64],
+        q: &[f64],
+        input_rates: &[f64],
+        given: &[f64],
+    ) -> Result<ByHand, PositionError>;
+    /// The determinants of [J A] without the columns of these choices of inputs.
+    fn determinants(&self, parameters: &[f64], q: &[f64], choices: &[Vec<usize>]) -> Result<Vec<f64>, PositionError>;
+    /// The properties of the velocity ratios at a position that Newton's method finds.
+    fn properties(
+        &self,
+        parameters: &[f64],
+        q: &[f64],
+        input_rates: &[f64],
+    ) -> Result<[RatioProperty; 6], PositionError>;
+}
+
+/// The numbers of an analysis by hand in lists.
+pub struct ByHand {
+    pub jacobian_rates: [DMatrix<f64>; 2],
+    pub jacobians_of_rates: [DMatrix<f64>; 2],
+    pub gamma: Vec<f64>,
+    pub gamma_parts: [Vec<f64>; 3],
+    pub terms: [Vec<f64>; 4],
+    pub accelerations: [Vec<f64>; 2],
+    /// The numbers of the names in formulas.
+    pub values: linkage::sheet::Values,
+}
+
 /// A type of the gallery, as an object.
 struct Entry<M>(PhantomData<fn() -> M>);
 
@@ -217,6 +252,47 @@ impl<T: Real, M: Fixture<Scalar = T>> Values<T> for Entry<M> {
     fn outputs(&self, parameters: &[T], q: &[T]) -> Result<Vec<T>, PositionError> {
         let m = M::with_parameters(parameters);
         Ok(M::each_output(m.outputs(&m.pose_at(&named::<M, _>(q)))?).as_slice().to_vec())
+    }
+}
+
+impl<M: Fixture<Scalar = f64>> Analysed for Entry<M> {
+    fn analysis(
+        &self,
+        parameters: &[f64],
+        q: &[f64],
+        input_rates: &[f64],
+        given: &[f64],
+    ) -> Result<ByHand, PositionError> {
+        let (m, q) = (M::with_parameters(parameters), named::<M, _>(q));
+        let at = Analysis::of(&m, &m.pose_at(&q), inputs::<M>(input_rates), inputs::<M>(given))?;
+        let names = M::DERIVATION.parameters.iter().map(|parameter| parameter.name);
+        let pair = |columns: Columns<f64, M::U, M::V>| [matrix(columns.unknowns), matrix(columns.inputs)];
+        let list = |column: Column<f64, M::U>| column.as_slice().to_vec();
+        Ok(ByHand {
+            jacobian_rates: pair(at.jacobian_rates),
+            jacobians_of_rates: pair(at.jacobians_of_rates),
+            gamma: list(at.gamma),
+            gamma_parts: at.gamma_parts.map(list),
+            terms: at.terms.map(list),
+            accelerations: at.accelerations.map(list),
+            values: linkage::sheet::Values::of::<M>(M::DERIVATION, names.zip(parameters.iter().copied()), &q, &at),
+        })
+    }
+    fn determinants(&self, parameters: &[f64], q: &[f64], choices: &[Vec<usize>]) -> Result<Vec<f64>, PositionError> {
+        let m = M::with_parameters(parameters);
+        let still = vec![0.0; M::INPUTS.len()];
+        let at = Analysis::of(&m, &m.pose_at(&named::<M, _>(q)), inputs::<M>(&still), inputs::<M>(&still))?;
+        Ok(choices.iter().map(|choice| at.determinant_of(choice).expect("different coordinates")).collect())
+    }
+    fn properties(
+        &self,
+        parameters: &[f64],
+        q: &[f64],
+        input_rates: &[f64],
+    ) -> Result<[RatioProperty; 6], PositionError> {
+        let m = M::with_parameters(parameters);
+        let q = newton(&m, &named::<M, _>(q))?.coordinates;
+        ratio_properties(&m, M::DERIVATION, &q, inputs::<M>(input_rates))
     }
 }
 
@@ -421,6 +497,12 @@ macro_rules! lists {
         #[must_use]
         pub fn values_of<T: Real>() -> Vec<&'static dyn Values<T>> {
             vec![$($(&Entry::<crate::$file::$Mechanism<T>>(PhantomData)),+),*]
+        }
+
+        /// All mechanisms with their analysis by hand.
+        #[must_use]
+        pub fn analysed() -> Vec<&'static dyn Analysed> {
+            vec![$($(&Entry::<crate::$file::$Mechanism<f64>>(PhantomData)),+),*]
         }
 
         /// The values of all mechanisms of the lines with `orders` in a scalar.

@@ -23,6 +23,18 @@ linkage! {
     }
 }
 
+linkage! {
+    pub mechanism Together {
+        param a = 1, b = 2;
+        input v;
+        unknown x, y, z;
+        equation x * y = v + a * z;
+        equation y * z = b + x;
+        equation z * x = v * y;
+        derive sheet;
+    }
+}
+
 fn main() {
     // The stub has the functions that are asked for.
     let crank = Crank::default();
