@@ -184,7 +184,8 @@ fn a_sheet_adds_one_constant() {
         Item::Impl(item) => item.items.iter().any(|item| matches!(item, ImplItem::Const(one) if one.ident == "SHEET")),
         _ => false,
     };
-    for (file, drivers) in [("four_bar", 1), ("six_bar", 1), ("slider_crank", 2), ("five_bar", 1), ("cart_pendulum", 1)] {
+    for (file, drivers) in [("four_bar", 1), ("six_bar", 1), ("slider_crank", 2), ("five_bar", 1), ("cart_pendulum", 1)]
+    {
         let without = source::tokens_of(file);
         let with: TokenStream = {
             let mut tokens: Vec<_> = without.clone().into_iter().collect();
@@ -198,9 +199,8 @@ fn a_sheet_adds_one_constant() {
             }
             tokens.into_iter().collect()
         };
-        let [without, with] = [without, with].map(|tokens| {
-            syn::parse2::<syn::File>(linkage_compiler::expand(tokens, &root)).unwrap().items
-        });
+        let [without, with] = [without, with]
+            .map(|tokens| syn::parse2::<syn::File>(linkage_compiler::expand(tokens, &root)).unwrap().items);
         let text = |items: &[&Item]| items.iter().map(|item| item.to_token_stream().to_string()).collect::<Vec<_>>();
         let (sheets, rest): (Vec<&Item>, Vec<&Item>) = with.iter().partition(|item| is_sheet(item));
         assert_eq!(sheets.len(), drivers, "{file}");

@@ -141,7 +141,8 @@ fn points() {
 }
 
 /// The derivatives of `psi_u` and `psi_v` with respect to time, H2, H3 and H0, in exact arithmetic.
-const J_RATE: [[f64; 2]; 2] = [[306.754_749_702_237_1, 868.694_004_586_951_9], [480.480_299_389_376, -582.163_879_346_512_1]];
+const J_RATE: [[f64; 2]; 2] =
+    [[306.754_749_702_237_1, 868.694_004_586_951_9], [480.480_299_389_376, -582.163_879_346_512_1]];
 const A_RATE: [f64; 2] = [-787.235_049_091_613_2, -286.530_125_240_439_76];
 const H: [[f64; 2]; 4] = [
     [0.0, 0.0],
@@ -191,7 +192,9 @@ fn derivatives_of_the_jacobian_and_both_accelerations() {
     let values = Values::of::<FourBar>(FourBar::DERIVATION, names, &q, &at);
     let numbers = |matrix: &FormulaMatrix<'_>| -> Vec<f64> {
         let places = (0..matrix.columns).flat_map(|column| (0..matrix.rows).map(move |row| (row, column)));
-        places.map(|(row, column)| matrix.entry(row, column).map_or(0.0, |entry| values.value(entry).unwrap())).collect()
+        places
+            .map(|(row, column)| matrix.entry(row, column).map_or(0.0, |entry| values.value(entry).unwrap()))
+            .collect()
     };
     close(&numbers(&sheet.jacobian_rates[0]), &columns);
     close(&numbers(&sheet.jacobian_rates[1]), &A_RATE);

@@ -15,7 +15,7 @@ use super::data::Derivation;
 use super::jacobian::jacobian;
 use super::linear::Row;
 use crate::algebra;
-use crate::graph::{Function, Graph, NodeId, Number, SymbolId};
+use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Id, InputId, RowId, Table, UnknownId};
 use crate::model::{Chain, Link, Mechanism};
 use crate::structure;
@@ -181,7 +181,7 @@ impl Derivation {
         let names = self.unknowns.iter().map(|&unknown| self.coordinates[unknown].acceleration).collect();
         let (formulas, _) = self.solution_formulas(&(side, names));
         let zero = self.graph.zero();
-        formulas.iter().map(|formula| formula.unwrap_or(zero)).collect()
+        formulas.iter().map(|formula| without_minus(&mut self.graph, formula.unwrap_or(zero))).collect()
     }
 
     /// All choices of as many inputs, this one first; if there are many, those with one input exchanged for an unknown.
@@ -285,6 +285,21 @@ impl Derivation {
         let pair = |of: Vec<NodeId>| [of[0], of[1]];
         PolarVector { vector, matrix, rates: pair(rates), velocity: pair(velocity), acceleration: pair(acceleration) }
     }
+}
+
+/// A product with a minus and a sum of negative terms without either.
+fn without_minus(graph: &mut Graph, node: NodeId) -> NodeId {
+    let Node::Product { coefficient, mut factors } = graph.node(node).clone() else { return node };
+    let is_negative = |(base, exponent): &(NodeId, i32)| match graph.node(*base) {
+        Node::Sum { constant, terms } => {
+            *exponent == 1 && constant.is_zero() && terms.iter().all(|(coefficient, _)| coefficient.is_negative())
+        }
+        _ => false,
+    };
+    let Some(place) = factors.iter().position(is_negative).filter(|_| coefficient.is_negative()) else { return node };
+    factors[place].0 = graph.negate(factors[place].0);
+    let product = graph.product(&factors);
+    graph.scale(coefficient.negate(), product)
 }
 
 /// A vector as lengths at angles; none if it is not written as `r@angle`, `(x, y)@angle` or `(x, y)`.

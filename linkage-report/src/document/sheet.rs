@@ -268,7 +268,7 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
         pen.matrix(by_unknowns)?;
         pen.matrix(by_inputs)?;
         match mixed.entries {
-            [] => pen.lead("No term has the rate of an unknown and that of an input: γ_uv = 0.")?,
+            [] => pen.lead("No term has the rate of an unknown and that of an input: the last part is zero.")?,
             _ => pen.matrix(mixed)?,
         }
 
