@@ -218,7 +218,7 @@ fn formulas_of_the_sheet() {
     for line in [
         "J̇[1, 1] = −l₃·θ̇₃·cos(θ₃)",
         "Ȧ[2, 1] = −l₂·θ̇₂·sin(θ₂)",
-        "They are J̇ and Ȧ themselves",
+        "They are the derivatives of J and A themselves",
         "γ_u[1, 1] = −l₃·θ̇₃²·cos(θ₃) − l₄·θ̇₄²·cos(θ₄)",
         "γ_v[2, 1] = −l₂·θ̇₂²·sin(θ₂)",
         "H₁[2, 1] = l₂·θ̈₂·cos(θ₂)",

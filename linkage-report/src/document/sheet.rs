@@ -253,16 +253,16 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
         pen.lead("By the chain rule")?;
         pen.general_equation(&UNKNOWNS_RATE)?;
         pen.general_equation(&INPUTS_RATE)?;
-        pen.lead("with ∂(J·u̇)/∂u and ∂(A·v̇)/∂v:")?;
+        pen.lead("Of these the first and the last are")?;
         let [of_unknowns, of_inputs] = &sheet.jacobians_of_rates;
         pen.matrix(of_unknowns)?;
         pen.matrix(of_inputs)?;
         pen.lead(match of_unknowns.entries == jacobian_rate.entries && of_inputs.entries == input_rate.entries {
-            true => "They are J̇ and Ȧ themselves: J does not depend on the inputs, nor A on the unknowns.",
-            false => "They are not J̇ and Ȧ: J depends on the inputs, or A on the unknowns.",
+            true => "They are the derivatives of J and A themselves: J does not depend on the inputs, nor A on the unknowns.",
+            false => "They are not the derivatives of J and A: J depends on the inputs, or A on the unknowns.",
         })?;
 
-        pen.heading("Terms without accelerations, by parts")?;
+        pen.heading("The quadratic velocity terms by parts")?;
         pen.general_equation(&GAMMA)?;
         let [by_unknowns, by_inputs, mixed] = &sheet.gamma;
         pen.matrix(by_unknowns)?;
@@ -281,7 +281,7 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
         let [first, second] = sheet.accelerations;
         equations(pen, number, first)?;
 
-        pen.heading("Acceleration from γ")?;
+        pen.heading("Acceleration from the quadratic velocity terms")?;
         pen.general_equation(&SECOND)?;
         equations(pen, number, second)?;
         pen.lead("Both are equal, since")?;

@@ -68,6 +68,9 @@ impl Lines for Text<'_> {
         if let Some(factor) = matrix.factor {
             writeln!(self.out, "        {} = {factor} times the matrix with", matrix.name)?;
         }
+        if matrix.entries.is_empty() {
+            writeln!(self.out, "        {} = 0", matrix.name)?;
+        }
         for entry in matrix.entries {
             let (row, column) = (entry.row + 1, entry.column + 1);
             match matrix.factor {

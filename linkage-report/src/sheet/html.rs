@@ -4,8 +4,6 @@ use crate::Notation;
 use crate::document::outline::GeneralEquation;
 use linkage_runtime::derivation::{Formula, FormulaMatrix};
 
-use super::{Values, number};
-
 /// Escapes text for an element or for an attribute in double quotes.
 pub(crate) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -37,7 +35,7 @@ pub(super) fn display(mathml: &str, latex: &str) -> String {
 }
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
-const LARGEST_MATRIX: usize = 6;
+pub(super) const LARGEST_MATRIX: usize = 6;
 
 /// The MathML and LaTeX of `name = matrix`, or of each entry of a large matrix. A `general` such as J = ∂Ψ/∂u defines
 /// the matrix.
@@ -79,28 +77,6 @@ pub(super) fn matrix(matrix: &FormulaMatrix<'_>, general: Option<&GeneralEquatio
         "<mrow>{name}<mo>=</mo>{before}<mrow><mo>(</mo><mtable class=\"matrix\" displaystyle=\"{large}\">{mathml}</mtable><mo>)</mo></mrow></mrow>"
     );
     vec![(mathml, format!("{name_latex} = {before_latex} \\begin{{pmatrix}}{latex} \\end{{pmatrix}}"))]
-}
-
-/// The numbers of a matrix at a position; none if it is large, or if one of its entries has no number.
-pub(super) fn numbers(matrix: &FormulaMatrix<'_>, values: &Values) -> Option<String> {
-    let FormulaMatrix { name, rows, columns, .. } = matrix;
-    if *rows.max(columns) > LARGEST_MATRIX || matrix.factor.is_some() {
-        return None;
-    }
-    let mut mathml = String::new();
-    for row in 0..*rows {
-        mathml.push_str("<mtr>");
-        for column in 0..*columns {
-            let value = matrix.entry(row, column).map_or(Some(0.0), |entry| values.value(entry))?;
-            mathml.push_str(&format!("<mtd><mn>{}</mn></mtd>", number(value)));
-        }
-        mathml.push_str("</mtr>");
-    }
-    let name = name.to_mathml();
-    Some(format!(
-        "<div class=\"scroll\"><math display=\"block\"><mrow>{name}<mo>=</mo><mrow><mo>(</mo><mtable class=\"matrix\">\
-         {mathml}</mtable><mo>)</mo></mrow></mrow></math></div>"
-    ))
 }
 
 /// An SVG file as a data URL.

@@ -13,6 +13,7 @@
 //! }
 //! ```
 
+mod at;
 mod html;
 mod lines;
 mod numbers;

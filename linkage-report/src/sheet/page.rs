@@ -10,8 +10,8 @@ use linkage_runtime::derivation::{
     SheetDerivation, Symbol,
 };
 
-use super::html::{self, display, escape, inline, matrix, svg_address};
-use super::{Picture, RatioNumber, RatioProperty, Sheet, Table, Values, lines, numbers};
+use super::html::{display, escape, inline, matrix, svg_address};
+use super::{Picture, RatioNumber, RatioProperty, Sheet, Table, Values, at, lines, numbers};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -493,7 +493,7 @@ impl Lines for Sections<'_, '_> {
 
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
         self.page.matrix(matrix, None);
-        if let Some(numbers) = self.values.and_then(|values| html::numbers(matrix, values)) {
+        if let Some(numbers) = self.values.and_then(|values| at::matrix(matrix, values)) {
             self.page.push(&format!("<div class=\"at\">{numbers}</div>"));
         }
         Ok(())
