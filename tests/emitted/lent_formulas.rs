@@ -57,7 +57,7 @@ macro_rules! with_source {
 }
 
 with_source! {
-    /// A slider-crank with a point beside the rod, whose choice of input is open.
+    /// A slider-crank with a point off the rod, whose choice of input is open.
     pub mechanism Sheets {
         param r = 1, l = 3, e = 0.2, w = 0.5;
         coordinate phi, psi, s;
