@@ -28,9 +28,9 @@ linkage! {
         param a = 1, b = 2;
         input v;
         unknown x, y, z;
-        equation x * y = v + a * z;
-        equation y * z = b + x;
-        equation z * x = v * y;
+        equation x * y = v + a * z * z;
+        equation y * z = b + x * x;
+        equation z * x = v * y * y;
         derive sheet;
     }
 }
