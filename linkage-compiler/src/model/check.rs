@@ -186,9 +186,9 @@ pub(super) fn open_chain(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
 /// Reports a sheet of unknowns that are solved together without formulas: the first group of them.
 pub(super) fn sheet(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     let Some(&span) = mechanism.requests_at.get(&Request::Sheet) else { return };
-    let groups =
+    let mut groups =
         mechanism.drivers.iter().flat_map(|driver| driver.system.groups.iter().map(move |group| (driver, group)));
-    let without = groups.filter(|(_, group)| group.method() == Method::Factorization).next();
+    let without = groups.find(|(_, group)| group.method() == Method::Factorization);
     if let Some((driver, group)) = without {
         let name = |unknown: &UnknownId| format!("`{}`", mechanism.coordinates[driver.unknowns[*unknown]].name.text);
         let names: Vec<String> = group.unknowns.iter().map(name).collect();
