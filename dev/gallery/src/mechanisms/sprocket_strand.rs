@@ -13,6 +13,6 @@ linkage! {
 
         point Leaves = r@phi2;
         output total = c2;
-        derive intervals, lanes;
+        derive lanes, intervals;
     }
 }
