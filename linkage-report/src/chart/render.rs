@@ -111,7 +111,7 @@ impl Chart {
         let mut next = [8.0, 0.0];
         let named = self.curves.iter().filter(|curve| !curve.name.is_empty());
         let placed = named.map(|curve| {
-            let wide = 34.0 + LETTER * curve.name.chars().count() as f64;
+            let wide = 42.0 + LETTER * curve.name.chars().count() as f64;
             if next[0] > 8.0 && next[0] + wide > self.size[0] {
                 next = [8.0, next[1] + 1.0];
             }
@@ -153,6 +153,8 @@ impl Frame<'_> {
         for tick in chart.x.ticks(self.x) {
             let (x, label) = (self.across(tick.at), escape(&tick.label));
             push(format_args!("<path class=\"grid\" d=\"M{x:.1} {TOP}V{bottom}\"/>"));
+            // The label of the last line is not cut.
+            let x = x.min(chart.size[0] - 4.0 - 0.5 * LETTER * tick.label.chars().count() as f64);
             push(format_args!("<text class=\"soft middle\" x=\"{x:.1}\" y=\"{:.1}\">{label}</text>", bottom + 15.0));
         }
         for tick in chart.y.ticks(self.y) {
