@@ -3,18 +3,18 @@
 use std::hint::black_box;
 
 use linkage_double::DoubleDouble;
-use linkage_dynamics::integrate::{Counts, Dop853, Dopri5, Method};
-use linkage_dynamics::simulation::{Simulation, Start, State, simulate};
-use linkage_dynamics::{Coordinates, Inputs, MotionError, Scene, StateColumn, StateParts};
-use linkage_runtime::__shared::to_f64;
+use linkage_dynamics::integrate::{Counts, Dop853};
+use linkage_dynamics::simulation::Start;
+use linkage_dynamics::{Coordinates, Inputs, MotionError, Scene, StateColumn};
 use linkage_runtime::derivation::SceneDerivation;
-use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Column, Dim, InputError, Mechanism};
+use linkage_runtime::{Column, InputError};
 
 use super::PriceError;
 use super::effects::{EffectPrice, effects};
 use super::frontier::{Cost, cheapest, frontier};
+use super::parts::{PartPrice, parts};
 use super::prediction::Machine;
+use super::runs::{Failed, Order, error, run, run_by, run_to_end, simulate_from};
 use super::timing::{Time, Timed, in_turn};
 
 /// The options of a [`ScenePrice`].
@@ -78,16 +78,6 @@ pub struct ScenePrice {
     options: ScenePriceOptions,
 }
 
-/// A method of integration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Order {
-    /// Dormand and Prince, order 8(5,3): `Dop853`.
-    Eight,
-    /// Dormand and Prince, order 5(4): `Dopri5`.
-    Five,
-}
-
 /// A run by one method and tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -114,16 +104,6 @@ pub struct RunOutcome {
     pub time: Option<Time>,
 }
 
-/// The cost of a function of the scene.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct PartPrice {
-    /// The function.
-    pub name: String,
-    /// The time of a call; its ratio is to `derivative`.
-    pub time: Option<Time>,
-}
-
 /// A scene without some of its effects.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -141,26 +121,8 @@ pub struct WithoutPrice {
 /// The start of a scene in `f64`.
 pub type StartOf<S> = Start<f64, Coordinates<S>, Inputs<S>>;
 
-/// The states at the sampled times, and the cost.
-struct Run<S: Scene> {
-    states: Vec<StateColumn<S>>,
-    counts: Counts,
-}
-
-/// A run that ended early, with its time.
-struct Failed {
-    t: f64,
-    error: MotionError,
-}
-
-/// The most steps of a run in double-double.
-const MOST_STEPS: usize = 10_000_000;
-
 /// The tolerance of the runs that are compared with those of other scenes.
 const TYPICAL: f64 = 1e-9;
-
-/// The number of states at which functions are timed.
-const TIMED: usize = 32;
 
 impl ScenePrice {
     /// The price of a scene from its start to a time. `double_double` is `scene.clone().map(DoubleDouble::from)`,
@@ -261,7 +223,7 @@ impl ScenePrice {
             reference: options.reference,
             reference_error,
             reference_evaluations: reference.counts.evaluations,
-            parts: parts(scene, &times, &rough.states, options),
+            parts: parts(scene, &times, &rough.states, (options.rounds, options.span)),
             effects: effects(derivation, &Machine::measured()),
             without: Vec::new(),
             wanted: options.wanted.clone(),
@@ -391,98 +353,6 @@ fn check<S: Scene>(options: &ScenePriceOptions, [start, end]: [f64; 2]) -> Resul
     Ok(())
 }
 
-/// A simulation from a state.
-fn simulate_from<'a, S: Scene>(
-    scene: &'a S,
-    (t, y): (S::Scalar, &StateColumn<S>),
-    end: S::Scalar,
-    tolerance: f64,
-) -> Result<Simulation<'a, S>, MotionError> {
-    let StateParts { q, input_rates } = S::parts(y);
-    simulate(scene, Start { t, q, input_rates }, end, tolerance)
-}
-
-fn run_by<S: Scene<Scalar = f64>>(
-    scene: &S,
-    from: (f64, &StateColumn<S>),
-    times: &[f64],
-    (order, tolerance): (Order, f64),
-) -> Result<Run<S>, Failed> {
-    let mut found = match order {
-        Order::Eight => run::<S, Dop853>(scene, from, times, tolerance),
-        Order::Five => run::<S, Dopri5>(scene, from, times, tolerance),
-    }?;
-    // Outputs within steps cost right-hand sides of their own.
-    let end = times.last().copied().unwrap_or(from.0);
-    let counts = run_to_end(scene, from, end, (order, tolerance));
-    found.counts = counts.map_err(|error| Failed { t: from.0, error })?;
-    Ok(found)
-}
-
-/// The states of a run at these times, the last of which is its end.
-fn run<S: Scene, M: Method>(
-    scene: &S,
-    from: (S::Scalar, &StateColumn<S>),
-    times: &[S::Scalar],
-    tolerance: f64,
-) -> Result<Run<S>, Failed> {
-    let end = times.last().copied().unwrap_or(from.0);
-    let failed = |t: S::Scalar| move |error| Failed { t: to_f64(t), error };
-    let mut motion = simulate_from(scene, from, end, tolerance)
-        .and_then(|motion| Ok(motion.method::<M>()?.most_steps(MOST_STEPS)))
-        .map_err(failed(from.0))?;
-    let mut states = Vec::with_capacity(times.len());
-    let column = |state: &State<S>| {
-        let (_, inputs) = S::Mechanism::rate_parts(&state.rates);
-        S::state(&state.q, &inputs.into())
-    };
-    loop {
-        let next = motion.advance();
-        let t = motion.t();
-        if next.map_err(failed(t))?.is_none() {
-            break;
-        }
-        while let Some(at) = times.get(states.len()).copied().filter(|at| *at < t || *at == t && t != end) {
-            let state = motion.at([at]).next().transpose().map_err(failed(at))?;
-            states.push(column(&state.unwrap_or(*motion.state())));
-        }
-    }
-    states.push(column(motion.state()));
-    states.truncate(times.len());
-    Ok(Run { states, counts: motion.counts() })
-}
-
-/// The cost of a run without outputs.
-fn run_to_end<S: Scene<Scalar = f64>>(
-    scene: &S,
-    from: (f64, &StateColumn<S>),
-    end: f64,
-    (order, tolerance): (Order, f64),
-) -> Result<Counts, MotionError> {
-    fn finished<S: Scene, M: Method>(motion: Simulation<'_, S>) -> Result<Counts, MotionError> {
-        let mut motion = motion.method::<M>()?.most_steps(MOST_STEPS);
-        motion.finish(|_, _| true)?;
-        Ok(motion.counts())
-    }
-    let motion = simulate_from(scene, from, end, tolerance)?;
-    match order {
-        Order::Eight => finished::<S, Dop853>(motion),
-        Order::Five => finished::<S, Dopri5>(motion),
-    }
-}
-
-/// The largest of these differences of coordinates from a state, each divided by its scale; infinite if one is NaN.
-fn error<S: Scene<Scalar = f64>>(scene: &S, difference: &Column<DoubleDouble, S::State>, at: &StateColumn<S>) -> f64 {
-    let (m, q) = (scene.mechanism(), S::parts(at).q);
-    let scales = Scales::of(m, &m.pose_at(&q)).coordinates;
-    let difference = S::parts(&difference.map(DoubleDouble::high)).q;
-    let (unknowns, inputs) = S::Mechanism::parts(&difference);
-    let unknowns = unknowns.component_div(&scales.unknowns).abs();
-    let inputs = inputs.component_div(&scales.inputs).abs();
-    let all = unknowns.iter().chain(inputs.iter());
-    all.fold(0.0, |largest: f64, error| if error.is_nan() { f64::INFINITY } else { largest.max(*error) })
-}
-
 /// The parts of a step along the motion in which a difference is taken: below the resolution of `f64`, and far above it.
 const TINY: f64 = 1.0 / (1_u128 << 70) as f64;
 const SMALL: f64 = 1.0 / (1_u64 << 30) as f64;
@@ -512,77 +382,4 @@ where
     let compared = times.iter().zip(states).filter_map(|(t, y)| slopes(*t, y).ok());
     let (agree, differ): (Vec<bool>, Vec<bool>) = compared.partition(|agree| *agree);
     if differ.len() > agree.len() { Err(PriceError::FewDigitsOfScene { scene: S::NAME }) } else { Ok(()) }
-}
-
-/// A function with its name.
-type Call<'a> = (&'static str, Box<dyn Fn() + 'a>);
-
-/// The functions that a step calls.
-fn parts<S: Scene<Scalar = f64>>(
-    scene: &S,
-    times: &[f64],
-    states: &[StateColumn<S>],
-    options: &ScenePriceOptions,
-) -> Vec<PartPrice> {
-    let every = states.len().div_ceil(TIMED).max(1);
-    let at: Vec<(f64, &StateColumn<S>)> = times.iter().copied().zip(states).step_by(every).collect();
-    let at = &at;
-    // The rates are those of the state, as a simulation has them.
-    let with_rates: Vec<_> = at
-        .iter()
-        .filter_map(|(t, y)| {
-            let derivative = scene.derivative(*t, y).ok()?;
-            Some((*t, S::parts(y).q, S::rate_parts(&derivative).rates))
-        })
-        .collect();
-    let with_rates = &with_rates;
-    let mut works: Vec<Call<'_>> = vec![(
-        "derivative: position, M, Q and accelerations",
-        Box::new(move || {
-            for (t, y) in at {
-                let _ = black_box(scene.derivative(*t, black_box(y)));
-            }
-        }),
-    )];
-    works.push((
-        "pose: sines and cosines",
-        Box::new(move || {
-            for (_, y) in at {
-                black_box(scene.mechanism().pose_at(&S::parts(black_box(y)).q));
-            }
-        }),
-    ));
-    works.push((
-        "project: onto the constraints, once a step",
-        Box::new(move || {
-            for (_, y) in at {
-                let _ = black_box(scene.project(black_box(y)));
-            }
-        }),
-    ));
-    if S::Contacts::COUNT > 0 {
-        works.push((
-            "contacts: laws of frictions and stops",
-            Box::new(move || {
-                for (t, q, rates) in with_rates {
-                    let _ = black_box(scene.contacts(*t, black_box(q), rates));
-                }
-            }),
-        ));
-    }
-    if S::BEARINGS {
-        works.push((
-            "bearings: forces in joints with friction",
-            Box::new(move || {
-                for (t, q, rates) in with_rates {
-                    let _ = black_box(scene.bearings(*t, black_box(q), rates));
-                }
-            }),
-        ));
-    }
-    let evaluations = at.len();
-    let timed = works.iter().map(|(_, pass)| Timed { pass: &**pass, evaluations, base: 0 });
-    let times = in_turn(&timed.collect::<Vec<_>>(), options.rounds, options.span);
-    let parts = works.iter().zip(times).map(|((name, _), time)| PartPrice { name: (*name).to_owned(), time });
-    parts.collect()
 }
