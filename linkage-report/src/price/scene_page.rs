@@ -74,7 +74,7 @@ impl ScenePrice {
         page(&escape(&self.scene), "The price of accuracy", &self.to_html_fragment())
     }
 
-    /// The sections of the page alone, to be part of another, which has the style of sheets and [`style`].
+    /// The sections of the page alone, to be part of another, which has the style of sheets and [`style`](super::style).
     #[must_use]
     pub fn to_html_fragment(&self) -> String {
         let mut body: String = self.about().iter().map(|about| format!("<p>{}</p>\n", escape(about))).collect();
