@@ -40,6 +40,7 @@ mod path;
 mod place;
 mod step;
 mod tangents;
+#[cfg(feature = "std")]
 mod touches;
 
 pub use along::{Along, AlongCoordinates, AlongPose, AlongRates};
@@ -49,4 +50,5 @@ pub use input_path::{InputPath, Line, OneInput};
 pub use options::{AtChangePoint, Direction, Options};
 pub use path::{Path, PathStep};
 pub use tangents::Tangents;
+#[cfg(feature = "std")]
 pub(crate) use touches::{TouchOnPath, Touches};

@@ -46,6 +46,7 @@ impl<M: Mechanism> Place<M> {
     }
 
     /// The place on the way back.
+    #[cfg(feature = "std")]
     pub(super) fn reversed(&self) -> Self {
         Self { tangent: -self.tangent, slopes: -self.slopes, orientation: -self.orientation, ..self.clone() }
     }
