@@ -26,7 +26,7 @@ pub struct Formulation {
 
 /// The fourteen pairs of solver and formulation that SciMLBenchmarks.jl, page `DAE/caraxis`, lists with their outcome, as
 /// printed in 2026 with ModelingToolkit 11.43.1; a later version of the page no longer lists the five of the reduced form.
-/// RADAU5 of E. Hairer and G. Wanner succeeds there, if it is told the index of each variable.
+/// RADAU5 of E. Hairer and G. Wanner succeeds there; it needs the differentiation index of each variable as an input.
 pub const FAILURES: [Formulation; 3] = [
     Formulation {
         name: "mass matrix, index 3",

@@ -170,8 +170,8 @@ fn failures() -> Table {
     let head = ["solver", "formulation", "tolerance", "outcome"].map(str::to_owned).to_vec();
     let remark = "Fourteen pairs of solver and formulation that SciMLBenchmarks.jl lists on its page \"Car Axis DAE Benchmark\", \
                   as printed in 2026 with ModelingToolkit 11.43.1; a later version of the page no longer lists the five of \
-                  the reduced form. RADAU5 of E. Hairer and G. Wanner succeeds there at 1e-12, if it is told the index of each \
-                  variable."
+                  the reduced form. RADAU5 of E. Hairer and G. Wanner succeeds there at 1e-12; it needs the differentiation \
+                  index of each variable as an input."
         .to_owned();
     Table { name: "Solvers that fail elsewhere", head, rows: rows.collect(), remark }
 }

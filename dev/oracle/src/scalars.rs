@@ -11,7 +11,7 @@ static ROUNDED_WITH_ORDERS: LazyLock<Vec<&'static dyn ListedWithOrders<Rounded>>
 static DOUBLED: LazyLock<Vec<&'static dyn Listed<DoubleDouble>>> = LazyLock::new(all_of);
 static DOUBLED_WITH_ORDERS: LazyLock<Vec<&'static dyn ListedWithOrders<DoubleDouble>>> = LazyLock::new(with_orders_of);
 
-/// All mechanisms in `Rounded`: each number comes with the largest rounding error that it can have.
+/// All mechanisms in `Rounded`, a number that carries a bound of its rounding error.
 #[must_use]
 pub fn rounded() -> &'static [&'static dyn Listed<Rounded>] {
     &ROUNDED

@@ -95,7 +95,7 @@ fn a_cell_is_decided_by_its_own_solution() {
         if !slips.is_decided(&cell, fixed, 1.0, &mut roots) {
             continue;
         }
-        // A solution has a rounding error, of less than 1e-9.
+        // Solutions are accurate to 1e-9.
         let is_in = |root: &Column<f64, D<2>>, share: f64| {
             let (scale, t) = on_face(root, fixed);
             let is_near = |[centre, radius]: [f64; 2], value: f64| (value - centre).abs() <= share * radius + 1e-9;
@@ -136,7 +136,7 @@ fn a_force_meets_its_limit_at_the_roots() {
     }
 }
 
-/// True if a root is this y. Where two roots are equal, a rounding error moves them by its square root.
+/// True if a root is this y. Two equal roots are accurate to half of the digits only.
 fn is_root(found: &[Option<f64>], y: f64) -> bool {
     found.iter().flatten().any(|root| (root - y).abs() <= 64.0 * f64::EPSILON.sqrt() * (1.0 + y.abs()))
 }
