@@ -4,11 +4,10 @@ use std::vec::Vec;
 
 use super::MotionEnd;
 use super::driven::{Driven, PositionOf};
-use super::follow::{AtDeadPoint, Follower, Passed, Step};
+use super::follow::{AtDeadPoint, Followed, Passed, Step, followed};
 use super::held::Held;
-use super::options::{RangeOptions, out_of_range, within_parameter_range};
+use super::options::{RangeOptions, out_of_range};
 use crate::continuation::{Direction, Options, Path};
-use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::{PathError, PositionError};
 
@@ -68,11 +67,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
     ) -> Result<Self, PathError> {
-        let options = within_parameter_range(mechanism.get(), options)?;
-        let same = SamePosition::at(mechanism.get(), start);
-        let at_dead_point = AtDeadPoint::GoOn;
-        let follower = Follower { mechanism: mechanism.get(), same: &same, options: &options, at_dead_point };
-        let (steps, ends) = follower.both_ways(start)?;
+        let Followed { options, steps, ends, .. } = followed(mechanism.get(), start, options, AtDeadPoint::GoOn)?;
         Ok(Self { mechanism, options, steps, ends })
     }
 

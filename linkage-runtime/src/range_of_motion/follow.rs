@@ -4,6 +4,7 @@ use core::cmp::Ordering;
 use std::vec::Vec;
 
 use super::driven::{Driven, same_inputs};
+use super::options::within_parameter_range;
 use super::{MotionEnd, RangeOptions};
 use crate::continuation::{AtChangePoint, Direction, Event, Groups, Path};
 use crate::jacobian::Blocks;
@@ -32,8 +33,15 @@ pub(super) enum Passed {
     ChangePoint(Groups),
 }
 
-/// The steps in the order of travel, and the ends.
-pub(super) type Followed<M> = (Vec<Step<M>>, [MotionEnd; 2]);
+/// A motion that was followed.
+pub(super) struct Followed<M: Driven> {
+    /// With the range of the parameter.
+    pub(super) options: RangeOptions<M::Scalar>,
+    pub(super) same: SamePosition<M>,
+    /// In the order of travel.
+    pub(super) steps: Vec<Step<M>>,
+    pub(super) ends: [MotionEnd; 2],
+}
 
 /// The policy of a motion at a dead point.
 #[derive(Clone, Copy, PartialEq)]
@@ -43,16 +51,30 @@ pub(super) enum AtDeadPoint {
 }
 
 /// A motion that is followed from a position.
-pub(super) struct Follower<'a, M: Mechanism> {
-    pub(super) mechanism: &'a M,
-    pub(super) same: &'a SamePosition<M>,
-    pub(super) options: &'a RangeOptions<M::Scalar>,
-    pub(super) at_dead_point: AtDeadPoint,
+struct Follower<'a, M: Mechanism> {
+    mechanism: &'a M,
+    same: &'a SamePosition<M>,
+    options: &'a RangeOptions<M::Scalar>,
+    at_dead_point: AtDeadPoint,
+}
+
+/// Follows the motion through a position to both ends, within the range of the parameter.
+pub(super) fn followed<M: Driven>(
+    mechanism: &M,
+    start: &M::Coordinates,
+    options: RangeOptions<M::Scalar>,
+    at_dead_point: AtDeadPoint,
+) -> Result<Followed<M>, PathError> {
+    let options = within_parameter_range(mechanism, options)?;
+    let same = SamePosition::at(mechanism, start);
+    let follower = Follower { mechanism, same: &same, options: &options, at_dead_point };
+    let (steps, ends) = follower.both_ways(start)?;
+    Ok(Followed { options, same, steps, ends })
 }
 
 impl<M: Driven> Follower<'_, M> {
     /// Follows the motion both ways; first that in which the parameter increases.
-    pub(super) fn both_ways(&self, start: &M::Coordinates) -> Result<Followed<M>, PathError> {
+    fn both_ways(&self, start: &M::Coordinates) -> Result<(Vec<Step<M>>, [MotionEnd; 2]), PathError> {
         let (mut steps, upper) = self.one_way(start, Direction::Increasing)?;
         if matches!(upper, MotionEnd::Closed { .. }) {
             return Ok((steps, [upper; 2]));

@@ -59,9 +59,9 @@ use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
 use crate::{Assembly, Kinematic, Mechanism, PathError, PerInput, PositionError, real};
 use driven::{PositionOf, same_inputs};
-use follow::{AtDeadPoint, Follower, Passed, Step, backwards};
+use follow::{AtDeadPoint, Followed, Passed, Step, backwards, followed};
 use held::Held;
-use options::{out_of_range, within_parameter_range};
+use options::out_of_range;
 
 /// A motion of a mechanism by one parameter, its input or that of [`Along`](crate::continuation::Along), between the ends of
 /// the parameter.
@@ -120,11 +120,7 @@ where
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
     ) -> Result<Self, PathError> {
-        let options = within_parameter_range(mechanism.get(), options)?;
-        let same = SamePosition::at(mechanism.get(), start);
-        let at_dead_point = AtDeadPoint::End;
-        let follower = Follower { mechanism: mechanism.get(), same: &same, options: &options, at_dead_point };
-        let (steps, ends) = follower.both_ways(start)?;
+        let Followed { options, same, steps, ends } = followed(mechanism.get(), start, options, AtDeadPoint::End)?;
         let repeats = options.path.range.is_none() && repeats(mechanism.get(), start);
         Ok(Self { mechanism, options, same, steps, ends, repeats })
     }
