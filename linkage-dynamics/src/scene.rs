@@ -2,7 +2,7 @@
 
 use crate::contact::within;
 use crate::simulation::scales::resolution_by_inputs;
-use crate::{Bearing, Contact, ContactLaw, Equations, MotionError, Unreduced};
+use crate::{Bearing, Contact, ContactLaw, Equations, JointForces, MotionError, Unreduced};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
@@ -52,7 +52,7 @@ pub trait Scene {
     /// The kinematics.
     type Mechanism: Mechanism<Scalar = Self::Scalar, U = Self::U, V = Self::V>;
     /// The forces in the joints that `reaction` statements name, or `()`.
-    type Reactions: Copy + PartialEq + core::fmt::Debug;
+    type Reactions: JointForces<Self::Scalar>;
 
     /// The name of the scene, used in errors.
     const NAME: &'static str;

@@ -221,6 +221,12 @@ impl Tracer<'_> {
 }
 
 impl Skeleton {
+    /// The joint at one of these positions.
+    #[must_use]
+    pub fn joint(&self, places: &[[NodeId; 2]]) -> Option<usize> {
+        self.joints.iter().position(|(_, at)| places.contains(at))
+    }
+
     /// Keeps the joints that a part needs.
     fn compact(self) -> Self {
         let mut used: Vec<usize> = self.parts.iter().flat_map(Part::joints).collect();

@@ -6,18 +6,27 @@ use quote::quote;
 use super::names::{comment, ident};
 use super::rust::literal;
 use super::types::derives;
+use crate::derivation::Skeleton;
 use crate::model::LoadKind;
 use crate::program::{MULTIPLIERS, SceneSignatures};
 
-pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<TokenStream> {
+pub(super) fn types(
+    signatures: &SceneSignatures,
+    skeleton: Option<&Skeleton>,
+    root: &TokenStream,
+) -> Option<TokenStream> {
     if !signatures.has_reactions() {
         return None;
     }
     let SceneSignatures { mechanism, scene, reactions_type, unknowns, .. } = signatures;
     let (visibility, name, derives) = (&mechanism.visibility, ident(reactions_type), derives(mechanism, root));
-    let mut members = Vec::new();
+    let [mut members, mut joints, mut forces] = [const { Vec::new() }; 3];
     for &load in &scene.loads {
         let load = &mechanism.opened.loads[load];
+        let drawn = match skeleton.and_then(|skeleton| skeleton.joint(&load.places)) {
+            Some(joint) => quote!(::core::option::Option::Some(#joint)),
+            None => quote!(::core::option::Option::None),
+        };
         let of_implied = if load.is_determined {
             ""
         } else {
@@ -34,6 +43,9 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
                 ));
                 let field = ident(&load.field);
                 members.push(quote!(#[doc = #doc] pub #field: #root::__rt::Vector2<T>));
+                let (name, at, on) = (&load.field, joint, link);
+                joints.push(quote!(#root::__rt::Joint::Pin { name: #name, at: #at, on: #on, drawn: #drawn }));
+                forces.push(quote!([self.#field.x, self.#field.y]));
             }
             LoadKind::Guide { coordinate, guide, block, end } => {
                 let end = end.as_deref().unwrap_or("the end of the vector of this length");
@@ -43,10 +55,14 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
                 );
                 let moment =
                     format!(" The moment of {guide} on {block} about {end} in the guide of {coordinate}.{of_implied}");
-                for (field, doc) in load.fields().iter().zip([normal, moment]) {
-                    let (field, doc) = (ident(field), comment(&doc));
+                let fields: Vec<_> = load.fields().iter().map(|field| ident(field)).collect();
+                for (field, doc) in fields.iter().zip([normal, moment]) {
+                    let doc = comment(&doc);
                     members.push(quote!(#[doc = #doc] pub #field: T));
                 }
+                let (name, on) = (&load.field, block);
+                joints.push(quote!(#root::__rt::Joint::Guide { name: #name, on: #on, drawn: #drawn }));
+                forces.push(quote!([#(self.#fields),*]));
             }
         }
     }
@@ -63,5 +79,11 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
         #[doc = #title]
         #derives
         #visibility struct #name<T: #root::__rt::Scalar = f64> { #(#members),* }
+        impl<T: #root::__rt::Real> #root::__rt::JointForces<T> for #name<T> {
+            const JOINTS: &'static [#root::__rt::Joint] = &[#(#joints),*];
+            fn each(&self) -> impl ::core::iter::Iterator<Item = [T; 2]> {
+                ::core::iter::IntoIterator::into_iter([#(#forces),*])
+            }
+        }
     })
 }

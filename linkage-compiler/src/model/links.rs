@@ -230,6 +230,11 @@ impl Links {
         self.joints.known(position)
     }
 
+    /// The formulas of the position of a joint.
+    pub(super) fn places(&self, joint: usize) -> Vec<[NodeId; 2]> {
+        self.joints.formulas(self.joints.find(joint)).collect()
+    }
+
     /// The links in which a position is fixed.
     pub(super) fn holding(&mut self, graph: &mut Graph, position: [NodeId; 2]) -> BTreeSet<usize> {
         let joint = self.joints.known(position);

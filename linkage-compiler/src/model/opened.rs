@@ -9,6 +9,8 @@ pub struct Load {
     /// The name of its field; a guide has one for each part of its force.
     pub field: String,
     pub kind: LoadKind,
+    /// The formulas of the point at which it acts: the pin, or the end of the vector of the guide.
+    pub places: Vec<[NodeId; 2]>,
     /// The components of the displacement that opens the joint: along x and y; for a guide, along its normal, and the
     /// angle about its end.
     pub displacement: [SymbolId; 2],

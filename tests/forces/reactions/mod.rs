@@ -23,6 +23,7 @@ mod five_bar;
 mod jansen;
 mod laws;
 mod left_out;
+mod listed;
 mod members;
 mod redundant;
 mod several_ways;

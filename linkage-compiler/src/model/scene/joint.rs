@@ -216,7 +216,11 @@ impl Finder<'_, '_> {
         // No identifier has a blank.
         let displacement = [1, 2].map(|at| graph.symbol(format!("displacement {at} of {field}")));
         let left_out = self.equations_of(site);
-        Load { field, kind, displacement, is_determined: true, left_out }
+        let places = self.links.places(match site {
+            Site::Pin { joint, .. } => joint,
+            Site::Guide { ends: [_, end], .. } => end,
+        });
+        Load { field, kind, places, displacement, is_determined: true, left_out }
     }
 
     /// The equations in the angles of the links of a joint, and in the length of a guide.

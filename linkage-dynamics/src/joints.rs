@@ -1,0 +1,61 @@
+//! The forces in the joints of a scene as a list, for tables and drawings of any scene.
+
+use core::fmt::Debug;
+
+/// A joint whose force a scene shows, with its names as they are declared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Joint {
+    /// A pin. Its force on a link is a vector along x and y of the ground.
+    Pin {
+        /// The field of the force.
+        name: &'static str,
+        /// The point at the pin; the links that meet there if it has no name.
+        at: &'static str,
+        /// The link on which the force acts.
+        on: &'static str,
+        /// The joint among those of the drawing, [`Skeleton::JOINTS`](linkage_runtime::skeleton::Skeleton::JOINTS), of a
+        /// mechanism with `derive drawing;`.
+        drawn: Option<usize>,
+    },
+    /// A guide. Its force on what slides is a normal force and a moment.
+    Guide {
+        /// The coordinate whose vector is the guide; the fields of the force are this name with `_normal` and `_moment`.
+        name: &'static str,
+        /// The link that slides.
+        on: &'static str,
+        /// The end of the vector among the joints of the drawing: the point about which the moment is taken.
+        drawn: Option<usize>,
+    },
+}
+
+/// The forces in the joints that a scene shows, in the order of their declaration.
+///
+/// `linkage!` implements it for the type of the reactions of each scene; `()` is that of a scene that shows none.
+///
+/// ```
+/// use linkage_dynamics::{Joint, JointForces};
+///
+/// /// The largest force in a pin.
+/// fn largest<F: JointForces<f64>>(forces: &F) -> f64 {
+///     let pins = F::JOINTS.iter().zip(forces.each()).filter(|(joint, _)| matches!(joint, Joint::Pin { .. }));
+///     pins.map(|(_, [x, y])| x.hypot(y)).fold(0.0, f64::max)
+/// }
+/// assert_eq!(largest(&()), 0.0);
+/// ```
+pub trait JointForces<T>: Copy + PartialEq + Debug {
+    /// The joints.
+    const JOINTS: &'static [Joint];
+
+    /// The two numbers of each force: x and y of a pin, normal force and moment of a guide.
+    fn each(&self) -> impl Iterator<Item = [T; 2]>;
+}
+
+impl<T> JointForces<T> for () {
+    const JOINTS: &'static [Joint] = &[];
+
+    fn each(&self) -> impl Iterator<Item = [T; 2]> {
+        core::iter::empty()
+    }
+}
