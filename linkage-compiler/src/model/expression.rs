@@ -10,7 +10,7 @@ use super::scope::Value;
 use super::{advice, functions};
 use crate::diagnostics::{Region, suggestion};
 use crate::graph::{External, ExternalId, Function, NodeId, Number};
-use crate::syntax::{Expression, ExpressionId, Operator, Unit, Unread};
+use crate::syntax::{Expression, ExpressionId, Operator, Unread};
 
 impl Resolver<'_> {
     /// Reads an expression and its operands; returns its value.
@@ -88,11 +88,13 @@ impl Resolver<'_> {
         }
         match expression {
             Expression::Number { digits, unit } => match self.number(digits, region) {
-                Some(number) if *unit == Unit::Degrees => {
-                    let pi = self.graph.pi();
-                    Value::Scalar(self.graph.scale(number.multiply(Number::ratio(1, 180)), pi))
-                }
-                Some(number) => Value::Scalar(self.graph.number(number)),
+                Some(number) => Value::Scalar(match unit.share_of_pi() {
+                    Some(share) => {
+                        let pi = self.graph.pi();
+                        self.graph.scale(number.multiply(Number::ratio(1, share)), pi)
+                    }
+                    None => self.graph.number(number),
+                }),
                 None => {
                     self.diagnostics.error(region, "this is not a number");
                     Value::Poison

@@ -45,8 +45,8 @@ impl Resolver<'_> {
 
     /// Reports an angle unit where none may stand; returns true if there is one.
     pub(super) fn has_unit(&mut self, id: ExpressionId, what: &str) -> bool {
-        let Some((digits, _, Unit::Degrees | Unit::Radians)) = self.plain(id) else { return false };
-        let message = format!("{what} has no unit of angles: write `{digits}`");
+        let Some((digits, _, unit)) = self.plain(id).filter(|(_, _, unit)| *unit != Unit::None) else { return false };
+        let message = format!("{what} has no unit of {}: write `{digits}`", unit.of());
         self.diagnostics.error(self.expressions.region(id), message);
         true
     }
@@ -71,8 +71,11 @@ impl Resolver<'_> {
                         "the angle `{name}` is {digits} radians, more than a turn: write `{digits}deg`, or `{digits}rad` to mean it"
                     )
                 }
-                (Kind::Length, Unit::Degrees | Unit::Radians) => {
-                    format!("the length `{name}` has no unit of angles: write `{digits}`")
+                (Kind::Angle, Unit::TurnsPerMinute) => {
+                    format!("the angle `{name}` has no unit of speeds: write `{digits}deg`")
+                }
+                (Kind::Length, Unit::Degrees | Unit::Radians | Unit::TurnsPerMinute) => {
+                    format!("the length `{name}` has no unit of {}: write `{digits}`", unit.of())
                 }
                 _ => continue,
             };

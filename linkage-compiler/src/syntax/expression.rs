@@ -65,11 +65,38 @@ pub enum Unit {
     Degrees,
     /// `rad`: a plain number that is meant as an angle, however large it is.
     Radians,
+    /// `rpm`: turns per minute, in radians per second.
+    TurnsPerMinute,
 }
 
 impl Unit {
     /// The units by name.
-    pub const ALL: [(&str, Self); 2] = [("deg", Self::Degrees), ("rad", Self::Radians)];
+    pub const ALL: [(&str, Self); 3] = [("deg", Self::Degrees), ("rad", Self::Radians), ("rpm", Self::TurnsPerMinute)];
+
+    /// The unit whose name begins a word.
+    #[must_use]
+    pub fn meant(word: &str) -> Option<(&'static str, Self)> {
+        Self::ALL.into_iter().find(|(unit, _)| word.starts_with(unit))
+    }
+
+    /// The quantities that it measures, in messages.
+    #[must_use]
+    pub fn of(self) -> &'static str {
+        match self {
+            Self::TurnsPerMinute => "speeds",
+            Self::None | Self::Degrees | Self::Radians => "angles",
+        }
+    }
+
+    /// pi divided by the unit in radians or radians per second, if that is not 1.
+    #[must_use]
+    pub fn share_of_pi(self) -> Option<i128> {
+        match self {
+            Self::None | Self::Radians => None,
+            Self::Degrees => Some(180),
+            Self::TurnsPerMinute => Some(30),
+        }
+    }
 }
 
 /// A name in an expression with a syntax error.
@@ -255,10 +282,11 @@ pub(crate) fn unknown_unit(suffix: &str, digits: &str) -> String {
     if is_type.contains(&suffix) {
         return format!("a number has no type: write `{digits}`");
     }
-    match Unit::ALL.iter().find(|(unit, _)| suffix.starts_with(unit)) {
+    match Unit::meant(suffix) {
         Some((unit, _)) => format!("unknown unit `{suffix}`: write `{digits}{unit}`"),
         None => format!(
-            "unknown unit `{suffix}`: write `{digits}`, with all numbers in one system of units; an angle may have `deg`"
+            "unknown unit `{suffix}`: write `{digits}`, with all numbers in one system of units; an angle may have `deg`, a \
+             speed of rotation `rpm`"
         ),
     }
 }

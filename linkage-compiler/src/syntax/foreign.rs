@@ -186,16 +186,13 @@ pub(super) fn postfix(
 /// A value followed by a unit.
 fn apart(word: &Ident, digits: Option<&str>, value: ExpressionId, arena: &mut Expressions) -> ExpressionId {
     let text = word.to_string();
-    let is_angle = ["deg", "rad"].iter().any(|unit| text.starts_with(unit));
     let Some(digits) = digits else {
         let message = format!("a unit follows a number, as in `20deg`: remove `{text}`; angles are in radians");
         arena.slip(word.span(), message);
         return value;
     };
-    if is_angle {
-        let unit = if text.starts_with("deg") { "deg" } else { "rad" };
-        arena.slip(word.span(), format!("write `{digits}{unit}`, without a space"));
-        let unit = if unit == "deg" { Unit::Degrees } else { Unit::Radians };
+    if let Some((name, unit)) = Unit::meant(&text) {
+        arena.slip(word.span(), format!("write `{digits}{name}`, without a space"));
         return arena.push(Expression::Number { digits: digits.to_owned(), unit }, arena.region(value));
     }
     arena.unit(&text, word.span().into(), digits);
