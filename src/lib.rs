@@ -66,7 +66,7 @@ pub use linkage_runtime::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Dim, Elbow, Formulas, Group,
     InputError, Kinematic, Limits, Matrix, Mechanism, Number, OutputMotion, PathError, PerInput, PerUnknown,
     PointMotion, PositionError, RangeEnd, Ranged, Real, Slider, Slope, Solution, accuracy, analysis, continuation,
-    derivation, extremes, kinematic, lanes, limits, nalgebra, position, real, singularity, skeleton,
+    derivation, extremes, held, kinematic, lanes, limits, nalgebra, position, real, singularity, skeleton,
 };
 #[cfg(feature = "std")]
 pub use linkage_runtime::{circuits, range_of_motion};

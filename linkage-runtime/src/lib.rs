@@ -39,6 +39,7 @@ mod dim;
 mod error;
 pub mod extremes;
 mod formulas;
+pub mod held;
 mod hypotenuse;
 mod implied;
 #[doc(hidden)]

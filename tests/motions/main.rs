@@ -5,6 +5,7 @@ mod circuits;
 mod continuation;
 mod crossings;
 mod hard_cases;
+mod held;
 mod joint_ranges;
 mod parameters;
 mod range_of_motion;

@@ -139,7 +139,7 @@ fn rates_by_a_function_where_motions_cross() {
 fn a_motion_ends_at_its_dead_points() {
     let m = Tilted { a: 3.0, b: 2.0, c: 4.0, d: 2.5, tilt: 0.0 };
     let start = m.assemble(0.5, branch()).unwrap().coordinates();
-    let range = RangeOfMotion::of_owned(m, &start, RangeOptions::default()).unwrap();
+    let range = RangeOfMotion::of(m, &start, RangeOptions::default()).unwrap();
     let limit: f64 = ((9.0 + 16.0 - 4.5_f64.powi(2)) / 24.0).acos();
     for (end, input) in range.ends().into_iter().zip::<[f64; 2]>(range.inputs()) {
         assert_eq!(end, MotionEnd::DeadPoint { group: "phi, psi" });

@@ -30,7 +30,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 return self.scene.derivative(t, y);
             }
             Parametrisation::Inputs => {
-                return self.rate_of(t, &ReducedEquations::with_rates(self.scene, t, y)?);
+                return self.rate_of(t, &ReducedEquations::with_rates(&*self.scene, t, y)?);
             }
             Parametrisation::Others(independent) => {
                 let factors = self.factors(independent, &q);

@@ -10,6 +10,7 @@ use crate::scene::coordinate_name;
 use crate::{Coordinates, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{smallest, to_f64};
+use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Blocks, EliminationOf as Elimination, Scales};
 use linkage_runtime::{Column, Dim, Mechanism, PositionError, real};
@@ -134,11 +135,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 }
 
-/// The change-point error for a start at one, else this error.
+/// The change-point error for a start at one that is singular, else this error.
 pub(super) fn start_error<S: Scene>(scene: &S, q: &Coordinates<S>, error: MotionError) -> MotionError {
+    if !matches!(error, MotionError::Position(PositionError::Singular { .. })) {
+        return error;
+    }
     let mechanism = scene.mechanism();
     let pose = mechanism.pose_at(q);
-    let motion = Motion::new(scene, Scales::of(mechanism, &pose), [S::Scalar::zero(); 2]);
+    let motion = Motion::new(Held::Borrowed(scene), Scales::of(mechanism, &pose), [S::Scalar::zero(); 2]);
     let freely = Independent::choose(mechanism, &pose, &motion.scales, &Column::repeat(false));
     if freely.regularity() <= nearly_zero() { motion.change_point_error(q) } else { error }
 }

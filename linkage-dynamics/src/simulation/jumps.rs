@@ -126,7 +126,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     ) -> Result<PerInput<S::Mechanism>, MotionError> {
         let (q, rates) = Self::unpack(y);
         let mut equations = match self.frame(&q, &rates)? {
-            None => ReducedEquations::unprescribed(self.scene, t, y)?.0,
+            None => ReducedEquations::unprescribed(&*self.scene, t, y)?.0,
             Some((independent, frame)) => self.unprescribed_by(independent, &frame, (t, y))?.0,
         };
         equations.forces = Column::zeros();

@@ -60,12 +60,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Returns t, or at a kink of time a time next to it within the step.
     pub(super) fn beside(&self, t: S::Scalar) -> S::Scalar {
-        if has_timed::<S>() { beside(self.scene, t, self.is_after(t)) } else { t }
+        if has_timed::<S>() { beside(&*self.scene, t, self.is_after(t)) } else { t }
     }
 
     /// The prescribed motion of each input.
     pub(super) fn prescribed(&self, t: S::Scalar) -> Column<Option<Prescribed<S::Scalar>>, S::V> {
-        if has_timed::<S>() { one_sided(self.scene, t, self.is_after(t)) } else { self.scene.prescribed(t) }
+        if has_timed::<S>() { one_sided(&*self.scene, t, self.is_after(t)) } else { self.scene.prescribed(t) }
     }
 
     /// Returns y a little later if an expression of the state is zero there and moves away from it: the law is then that
@@ -146,10 +146,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let little = self.resolution_of_time(t, end);
             let beyond = if is_forward { end + little } else { end - little };
             let most = if is_ahead(beyond, self.corners.end) { beyond } else { self.corners.end };
-            let sign = |t: S::Scalar| sign_at(self.scene, place, t);
+            let sign = |t: S::Scalar| sign_at(&*self.scene, place, t);
             let (mut last, mut own) = (t, sign(t));
             if own == 0 {
-                own = sign(beside(self.scene, t, is_forward));
+                own = sign(beside(&*self.scene, t, is_forward));
             }
             for part in 1..=PARTS_OF_TIME + 1 {
                 let fraction: S::Scalar = real(part as f64 / PARTS_OF_TIME as f64);

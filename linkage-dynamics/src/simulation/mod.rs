@@ -34,6 +34,7 @@ mod data;
 mod equations;
 mod failure;
 mod frame;
+mod held;
 mod independent;
 mod jumps;
 mod kinks;
@@ -52,6 +53,7 @@ mod watch;
 
 pub use crate::scene::Loads;
 pub use data::{AtSingularity, Passages, Simulation};
+pub use held::IntoHeldScene;
 pub use motion::Motion;
 pub use outputs::States;
 pub use real_time::RealTime;

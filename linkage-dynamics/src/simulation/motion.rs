@@ -12,6 +12,7 @@ use crate::integrate::Interpolant;
 use crate::{Coordinates, MotionError, Scene, StateColumn, StateParts};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, smallest};
+use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Elimination, Iteration, Jacobian, ScalesOf, contract, correction};
 use linkage_runtime::{Column, D, Dim, Matrix, Mechanism, PerInput, Real, newton, real};
@@ -58,7 +59,7 @@ const LAST_CORRECTION_SQRT_EPSILONS: f64 = 1e-3;
 /// A scene as a [`System`](crate::integrate::System) for an integrator.
 #[derive(Debug, Clone)]
 pub struct Motion<'a, S: Scene, W> {
-    pub(super) scene: &'a S,
+    pub(super) scene: Held<'a, S>,
     pub(super) watch: W,
     pub(super) scales: ScalesOf<S::Mechanism>,
     pub(super) parametrisation: ParametrisationOf<S>,
@@ -71,7 +72,7 @@ pub struct Motion<'a, S: Scene, W> {
 
 impl<'a, S: Scene> Motion<'a, S, Unwatched> {
     /// Starts in the inputs, with all contacts open. The motion is from the first to the second time.
-    pub(super) fn new(scene: &'a S, scales: ScalesOf<S::Mechanism>, [start, end]: [S::Scalar; 2]) -> Self {
+    pub(super) fn new(scene: Held<'a, S>, scales: ScalesOf<S::Mechanism>, [start, end]: [S::Scalar; 2]) -> Self {
         let (contacts, names) = (Contacts::open(), Column::repeat(""));
         let (parametrisation, uncertainty, corners) = (Parametrisation::Inputs, None, Corners::new(start, end));
         Self { scene, watch: Unwatched, scales, parametrisation, contacts, names, uncertainty, corners }

@@ -1,5 +1,6 @@
 //! Simulation with steps of fixed length and cost.
 
+use super::held::IntoHeldScene;
 use super::motion::Motion;
 use super::start::Start;
 use super::state::State;
@@ -41,17 +42,17 @@ impl<S: Scene<Contacts = D<0>>> System for Projected<'_, S> {
 }
 
 impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
-    /// Starts with steps of this length.
+    /// Starts with steps of this length. The scene is `&scene`, `scene` or an `Arc` of it.
     ///
     /// # Errors
     /// Those of [`Scene::start`], and [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length
     /// is zero or not finite.
-    pub fn new(
-        scene: &'a S,
+    pub fn new<By>(
+        scene: impl IntoHeldScene<'a, By, Of = S>,
         start: Start<S::Scalar, Coordinates<S>, impl Into<Inputs<S>>>,
         length: S::Scalar,
     ) -> Result<Self, MotionError> {
-        let Start { t, q, input_rates } = start;
+        let (scene, Start { t, q, input_rates }) = (scene.into_held_scene(), start);
         let y = scene.start(t, &q, &input_rates.into())?;
         let scales = Scales::of(scene.mechanism(), &scene.mechanism().pose_at(&q));
         let motion = Motion::new(scene, scales, [t, t + length]);

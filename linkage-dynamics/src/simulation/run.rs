@@ -2,6 +2,7 @@
 
 use super::data::{AtSingularity, Passages, Simulation};
 use super::failure::start_error;
+use super::held::IntoHeldScene;
 use super::motion::Motion;
 use super::outputs::States;
 use super::parametrisation::scale_of;
@@ -10,11 +11,11 @@ use super::state::State;
 use super::watch::{EventFunctions, Then, Unwatched, Watch};
 use crate::integrate::{Counts, Crossing, Integration, Method, Tolerance};
 use crate::scene::Loads;
-use crate::{Coordinates, Inputs, MotionError, Scene};
+use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Dim, InputError, Mechanism, PositionError, real};
+use linkage_runtime::{Dim, InputError, Mechanism, real};
 
 /// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
 /// every third step is rejected.
@@ -24,56 +25,32 @@ const SAFETY_IN_TURNS: f64 = 0.8;
 /// relative error of a step, such as 1e-9: relative to the magnitude of each coordinate and rate plus its scale, which
 /// is 1 rad or the lengths of the loops, and for rates that times the angular frequency of the motion at the start.
 ///
-/// The position may be approximate: it is projected onto the constraints with its inputs fixed.
+/// The position may be approximate: it is projected onto the constraints with its inputs fixed. The scene is `&scene`, or
+/// `scene` or an `Arc` of it, for a simulation that outlives the function that starts it.
 ///
 /// # Errors
 /// Those of [`Scene::start`]: [`InputError::OutOfRange`], [`InputError::Inconsistent`],
-/// [`PositionError::NotConverged`]; those of the equations of motion at the start,
-/// [`PositionError::Singular`] at a dead point and [`MotionError::ChangePoint`] at a change point, which of whose motions
-/// is to follow the rates of the inputs do not tell; [`MotionError::Irreversible`] if `end` is before the start and the scene has frictions or stops;
+/// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged); those of the equations of motion at the
+/// start, [`PositionError::Singular`](linkage_runtime::PositionError::Singular) at a dead point and
+/// [`MotionError::ChangePoint`] at a change point, which of whose motions is to follow the rates of the inputs do not tell;
+/// [`MotionError::Irreversible`] if `end` is before the start and the scene has frictions or stops;
 /// [`InputError::OutOfRange`] for a tolerance below ten ulps or above 1 and for times that are not finite.
-pub fn simulate<S: Scene>(
-    scene: &S,
+pub fn simulate<'a, S: Scene, By>(
+    scene: impl IntoHeldScene<'a, By, Of = S>,
     start: Start<S::Scalar, Coordinates<S>, impl Into<Inputs<S>>>,
     end: S::Scalar,
     tolerance: f64,
-) -> Result<Simulation<'_, S>, MotionError> {
-    let Start { t, q, input_rates } = start;
-    started(scene, (t, &q, &input_rates.into()), end, tolerance).map_err(|error| match error {
-        MotionError::Position(PositionError::Singular { .. }) => start_error(scene, &q, error),
-        error => error,
-    })
-}
-
-fn started<'a, S: Scene>(
-    scene: &'a S,
-    (t, q, input_rates): (S::Scalar, &Coordinates<S>, &Inputs<S>),
-    end: S::Scalar,
-    tolerance: f64,
 ) -> Result<Simulation<'a, S>, MotionError> {
-    let mechanism = scene.mechanism();
-    let y = scene.start(t, q, input_rates)?;
+    let (scene, Start { t, q: given, input_rates }) = (scene.into_held_scene(), start);
+    let y = scene.start(t, &given, &input_rates.into()).map_err(|error| start_error(&*scene, &given, error))?;
     let q = S::parts(&y).q;
-    let scales = Scales::of(mechanism, &mechanism.pose_at(&q));
+    let mechanism = scene.mechanism();
+    let pose = mechanism.pose_at(&q);
+    let (scales, signs) = (Scales::of(mechanism, &pose), mechanism.block_determinants(&pose));
     let mut motion = Motion::new(scene, scales, [t, end]);
-    let y = motion.off_kinks(t, &y).filter(|_| scene.derivative(motion.beside(t), &y).is_err()).unwrap_or(y);
-    if S::Contacts::COUNT > 0 && end < t {
-        let contacts = motion.contacts_alone(t, &y)?.contacts;
-        let contact = contacts.iter().next().map(|contact| contact.name).unwrap_or_default();
-        return Err(MotionError::Irreversible { scene: S::NAME, contact });
-    }
-    let y = if S::Contacts::COUNT > 0 { motion.begin(t, &y)? } else { y };
-    let contacts = motion.contacts;
-    let velocity = motion.velocity(&y)?;
-    let (_, accelerations) = Motion::<S, Unwatched>::unpack(&scene.derivative(motion.beside(t), &y)?);
-    let speed = motion.scaled_norm(&velocity);
-    let urge = accelerations.component_div(&scales.coordinates.inputs).largest().sqrt();
-    let span = to_f64(end - t).abs();
-    let frequency = speed.max(urge);
-    let slow = if span > 0.0 { real(span.recip()) } else { S::Scalar::one() };
-    let frequency = if frequency > S::Scalar::zero() { frequency } else { slow };
-    let state = motion.state(t, &y)?;
-    let scale = scale_of(&motion, frequency);
+    let begun = begin(&mut motion, (t, y), end);
+    let Begun { y, frequency, state } = begun.map_err(|error| start_error(&*motion.scene, &given, error))?;
+    let (contacts, scale) = (motion.contacts, scale_of(&motion, frequency));
     let mut integration = Integration::new(motion, (t, y), end, Tolerance::new(tolerance, scale)?)?;
     integration.set_safety(SAFETY_IN_TURNS);
     Ok(Simulation {
@@ -85,7 +62,7 @@ fn started<'a, S: Scene>(
         contacts,
         output: None,
         from: (t, y),
-        signs: mechanism.block_determinants(&mechanism.pose_at(&q)),
+        signs,
         passages: Passages::default(),
         is_beyond: false,
         steps_before_return: 0,
@@ -93,6 +70,37 @@ fn started<'a, S: Scene>(
         failure: None,
         is_prepared: false,
     })
+}
+
+/// The start of a motion.
+struct Begun<S: Scene> {
+    y: StateColumn<S>,
+    frequency: S::Scalar,
+    state: State<S>,
+}
+
+/// Begins a motion, with its contacts, at a state that is projected onto the constraints.
+fn begin<S: Scene>(
+    motion: &mut Motion<'_, S, Unwatched>,
+    (t, y): (S::Scalar, StateColumn<S>),
+    end: S::Scalar,
+) -> Result<Begun<S>, MotionError> {
+    let y = motion.off_kinks(t, &y).filter(|_| motion.scene.derivative(motion.beside(t), &y).is_err()).unwrap_or(y);
+    if S::Contacts::COUNT > 0 && end < t {
+        let contacts = motion.contacts_alone(t, &y)?.contacts;
+        let contact = contacts.iter().next().map(|contact| contact.name).unwrap_or_default();
+        return Err(MotionError::Irreversible { scene: S::NAME, contact });
+    }
+    let y = if S::Contacts::COUNT > 0 { motion.begin(t, &y)? } else { y };
+    let velocity = motion.velocity(&y)?;
+    let (_, accelerations) = Motion::<S, Unwatched>::unpack(&motion.scene.derivative(motion.beside(t), &y)?);
+    let speed = motion.scaled_norm(&velocity);
+    let urge = accelerations.component_div(&motion.scales.coordinates.inputs).largest().sqrt();
+    let span = to_f64(end - t).abs();
+    let frequency = speed.max(urge);
+    let slow = if span > 0.0 { real(span.recip()) } else { S::Scalar::one() };
+    let frequency = if frequency > S::Scalar::zero() { frequency } else { slow };
+    Ok(Begun { y, frequency, state: motion.state(t, &y)? })
 }
 
 impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
@@ -247,7 +255,8 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// Advances to the next event or to the end of the step; returns None at the end.
     ///
     /// # Errors
-    /// Those of the scene, if no shorter step avoids them, [`PositionError::Singular`] and
+    /// Those of the scene, if no shorter step avoids them,
+    /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) and
     /// [`MotionError::ChangePoint`] where the motion cannot be followed, and those of [`Integration::advance`]. After
     /// an error the simulation has ended.
     pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {

@@ -35,7 +35,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         match self.frame(&q, &rates)? {
-            None => ReducedEquations::of(self.scene, t, y),
+            None => ReducedEquations::of(&*self.scene, t, y),
             Some((independent, frame)) => Ok(self.equations_by(independent, &frame, (t, y))?.0),
         }
     }
@@ -194,7 +194,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         let (free, places) = match self.frame(&q, &rates)? {
-            None => (ReducedEquations::unprescribed(self.scene, t, y)?.0, Column::from_fn(Some)),
+            None => (ReducedEquations::unprescribed(&*self.scene, t, y)?.0, Column::from_fn(Some)),
             Some((independent, frame)) => {
                 let place = |input: usize| independent.free.iter().position(|&free| free == S::U::COUNT + input);
                 (self.unprescribed_by(independent, &frame, (t, y))?.0, Column::from_fn(place))

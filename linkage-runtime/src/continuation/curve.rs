@@ -1,6 +1,7 @@
 //! The curve Psi(q) = 0 in nondimensional coordinates: angles in radians, other coordinates and the residuals divided
 //! by their scales.
 
+use crate::held::Held;
 use crate::jacobian::ulp::{EQUAL_ULPS, ZERO_ULPS};
 use crate::jacobian::{
     EliminationOf as Elimination, Iteration, JacobianOf as Jacobian, ScalesOf as Scales, VectorOf as Vector, contract,
@@ -14,17 +15,9 @@ const MOST_CORRECTIONS: usize = 12;
 
 /// A mechanism with the scales of its coordinates and residuals.
 pub(super) struct Curve<'a, M: Mechanism> {
-    pub(super) mechanism: &'a M,
+    pub(super) mechanism: Held<'a, M>,
     scales: Scales<M>,
 }
-
-impl<M: Mechanism> Clone for Curve<'_, M> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<M: Mechanism> Copy for Curve<'_, M> {}
 
 /// Psi and [J A] at a position.
 pub(super) struct Linear<M: Mechanism> {
@@ -45,8 +38,9 @@ pub(super) struct Rejection {
 pub(super) type Tried<X> = Result<Result<X, Rejection>, PathError>;
 
 impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
-    pub(super) fn new(mechanism: &'a M, q: &M::Coordinates) -> Self {
-        Self { mechanism, scales: Scales::<M>::of(mechanism, &mechanism.pose_at(q)) }
+    pub(super) fn new(mechanism: Held<'a, M>, q: &M::Coordinates) -> Self {
+        let scales = Scales::<M>::of(&*mechanism, &mechanism.pose_at(q));
+        Self { mechanism, scales }
     }
 
     /// q + `by`, where `by` is nondimensional.
@@ -99,7 +93,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
     /// # Errors
     /// [`PositionError::NotFinite`] if a number is not finite.
     pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<M>, PositionError> {
-        let (mechanism, scales) = (self.mechanism, &self.scales.residuals);
+        let (mechanism, scales) = (&*self.mechanism, &self.scales.residuals);
         let pose = mechanism.pose_at(q);
         let here = coordinates::<M>(q).relative_to(&self.scales.coordinates);
         let jacobian = self.scales.jacobian(mechanism, &pose);

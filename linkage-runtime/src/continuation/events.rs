@@ -148,7 +148,7 @@ where
             }
         }
         if options.joint_ranges {
-            for joint in JointEnd::all::<M>(self.mechanism, &from.q) {
+            for joint in JointEnd::all::<M>(&self.mechanism, &from.q) {
                 if ![from, &arrived].iter().all(|place| self.room_along(place, &joint)[0].is_finite()) {
                     let quantity = "the value of a range";
                     return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());

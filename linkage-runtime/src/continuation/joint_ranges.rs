@@ -56,7 +56,7 @@ where
         let is_ahead = |joint: &JointEnd<M::Scalar>| {
             !self.has_room(place, joint) && self.room_along(place, joint)[1] < M::Scalar::zero()
         };
-        JointEnd::all(self.mechanism, &place.q).find(is_ahead)
+        JointEnd::all(&*self.mechanism, &place.q).find(is_ahead)
     }
 
     /// Gives a place at an end of a range exactly this value, if a coordinate has the range.

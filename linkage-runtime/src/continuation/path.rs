@@ -6,12 +6,13 @@ use super::groups::Groups;
 use super::joint_ranges::JointEnd;
 use super::options::{Direction, Options};
 use super::place::Place;
+use crate::held::IntoHeld;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{D, InputError, Mechanism, PathError, PositionError, position, real};
+use crate::{D, InputError, Mechanism, PathError, PositionError, Solution, position, real};
 
 /// The end of a step of a path.
 #[cfg_attr(
@@ -38,7 +39,35 @@ crate::__by_fields!([M: Mechanism] PathStep<M> { position, rates, length, event 
 
 /// A mechanism with one input, followed along its motion.
 ///
-/// As an iterator it returns the steps one by one, each a `Result`, and ends after a limit or an error.
+/// As an iterator it returns the steps one by one, each a `Result`, and ends after a limit or an error. It borrows the mechanism,
+/// owns it or shares it ([`Held`](crate::held::Held)):
+///
+/// ```
+/// linkage::linkage! {
+///     pub mechanism Lever {
+///         param a = 1, b = 2;
+///         input theta;
+///         unknown s, phi;
+///         loop a@theta + b@phi = s@0;
+///     }
+/// }
+/// use linkage::PathError;
+/// use linkage::continuation::{Direction, Path};
+///
+/// /// A struct that owns its path.
+/// struct Walk {
+///     path: Path<'static, Lever>,
+/// }
+///
+/// fn started(m: Lever) -> Result<Walk, PathError> {
+///     let start = LeverCoordinates { theta: 0.0, s: 3.0, phi: 0.0 };
+///     Ok(Walk { path: Path::new(m, &start, Direction::Increasing)? })
+/// }
+///
+/// let mut walk = started(Lever::default())?;
+/// assert!((walk.path.advance_to(1.0)?.position.s - 2.354).abs() < 1e-3);
+/// # Ok::<(), linkage::Error>(())
+/// ```
 pub struct Path<'a, M: Mechanism> {
     pub(super) curve: Curve<'a, M>,
     pub(super) place: Place<M>,
@@ -64,7 +93,11 @@ where
     ///
     /// # Errors
     /// Those of [`with`](Self::with).
-    pub fn new(mechanism: &'a M, guess: &M::Coordinates, direction: Direction<M::Rates>) -> Result<Self, PathError> {
+    pub fn new<By>(
+        mechanism: impl IntoHeld<'a, By, Of = M>,
+        guess: &M::Coordinates,
+        direction: Direction<M::Rates>,
+    ) -> Result<Self, PathError> {
         Self::with(mechanism, guess, direction, Options::default())
     }
 
@@ -75,54 +108,23 @@ where
     /// ambiguous, as where motions touch; [`PathError::Lost`] if the path has no tangent; [`InputError::OutOfRange`] for
     /// invalid options, and with [`joint_ranges`](Options::joint_ranges) for a start outside of a range;
     /// [`InputError::EmptyJointRange`] for a range without room.
-    pub fn with(
-        mechanism: &'a M,
+    pub fn with<By>(
+        mechanism: impl IntoHeld<'a, By, Of = M>,
         guess: &M::Coordinates,
         direction: Direction<M::Rates>,
         options: Options<M::Scalar>,
     ) -> Result<Self, PathError> {
         const { assert!(M::GROUPS.len() <= Groups::MOST, "a mechanism of more than 512 groups cannot be followed") };
+        let mechanism = mechanism.into_held();
         options.check(M::NAME, Curve::<'_, M>::input(guess))?;
-        let solution = position::newton(mechanism, guess)?;
-        let q = solution.coordinates;
+        let solution = position::newton(&*mechanism, guess)?;
         if options.joint_ranges {
-            check_ranges(mechanism, &q)?;
+            check_ranges(&*mechanism, &solution.coordinates)?;
         }
-        let curve = Curve::new(mechanism, &q);
-        let at = curve.linear(&q)?;
-        let elimination = Elimination::<M>::new(at.jacobian);
+        let curve = Curve::new(mechanism, &solution.coordinates);
+        let (place, passed, resume) = curve.start(&solution, direction)?;
         let (step, length) = (options.longest_step * real(0.25), M::Scalar::zero());
-        let path =
-            |place, passed, resume| Self { curve, place, options, step, length, passed, resume, is_ended: false };
-        if elimination.regularity() < nearly_zero() {
-            let rates = match direction {
-                Direction::Along(rates) => Some(rates),
-                Direction::Increasing | Direction::Decreasing => None,
-            };
-            let along = rates.map_or(Vector::<M>::zero(), |rates| curve.direction(&rates));
-            if let Some(crossing) = curve.crossing(&q, nearly_zero(), &along)? {
-                let group = crossing.groups.first();
-                let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: M::NAME, group }) };
-                let tangent = curve.choose(crossing.tangents(), &rates)?;
-                let place = curve.at_crossing(&crossing, tangent, M::Scalar::zero());
-                return Ok(path(place, Some(crossing.q), Resume::AtChangePoint));
-            }
-            if elimination.regularity() < M::Scalar::default_epsilon().sqrt() {
-                if let Some(touch) = curve.touch(&q, nearly_zero(), &along)? {
-                    return Err(PathError::ChangePoint { mechanism: M::NAME, group: touch.groups.first() });
-                }
-                let rejection = Rejection { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
-                return Err(curve.lost(&q, 0, rejection));
-            }
-        }
-        let tangent = elimination.tangent();
-        let forward = match direction {
-            Direction::Along(rates) => curve.choose(&[tangent], &rates)?,
-            _ if tangent.inputs[0].abs() < nearly_zero() => return Err(PathError::NoDirection { mechanism: M::NAME }),
-            _ if (tangent.inputs[0] > M::Scalar::zero()) == matches!(direction, Direction::Increasing) => tangent,
-            _ => -tangent,
-        };
-        Ok(path(curve.place(q, &elimination, &forward), None, Resume::OnTheWay))
+        Ok(Self { curve, place, options, step, length, passed, resume, is_ended: false })
     }
 
     /// The current position.
@@ -401,6 +403,50 @@ where
             || matches!(resume, Resume::Undecided(..));
         self.place = end.place;
         (self.here(end.event), end.is_target)
+    }
+}
+
+/// The place from which a path starts, the change point at which it does, and the way on from there.
+type Start<M> = (Place<M>, Option<<M as Mechanism>::Coordinates>, Resume<M>);
+
+impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
+    /// Starts at a position, in a direction.
+    fn start(
+        &self,
+        solution: &Solution<M::Coordinates>,
+        direction: Direction<M::Rates>,
+    ) -> Result<Start<M>, PathError> {
+        let q = solution.coordinates;
+        let elimination = Elimination::<M>::new(self.linear(&q)?.jacobian);
+        if elimination.regularity() < nearly_zero() {
+            let rates = match direction {
+                Direction::Along(rates) => Some(rates),
+                Direction::Increasing | Direction::Decreasing => None,
+            };
+            let along = rates.map_or(Vector::<M>::zero(), |rates| self.direction(&rates));
+            if let Some(crossing) = self.crossing(&q, nearly_zero(), &along)? {
+                let group = crossing.groups.first();
+                let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: M::NAME, group }) };
+                let tangent = self.choose(crossing.tangents(), &rates)?;
+                let place = self.at_crossing(&crossing, tangent, M::Scalar::zero());
+                return Ok((place, Some(crossing.q), Resume::AtChangePoint));
+            }
+            if elimination.regularity() < M::Scalar::default_epsilon().sqrt() {
+                if let Some(touch) = self.touch(&q, nearly_zero(), &along)? {
+                    return Err(PathError::ChangePoint { mechanism: M::NAME, group: touch.groups.first() });
+                }
+                let rejection = Rejection { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
+                return Err(self.lost(&q, 0, rejection));
+            }
+        }
+        let tangent = elimination.tangent();
+        let forward = match direction {
+            Direction::Along(rates) => self.choose(&[tangent], &rates)?,
+            _ if tangent.inputs[0].abs() < nearly_zero() => return Err(PathError::NoDirection { mechanism: M::NAME }),
+            _ if (tangent.inputs[0] > M::Scalar::zero()) == matches!(direction, Direction::Increasing) => tangent,
+            _ => -tangent,
+        };
+        Ok((self.place(q, &elimination, &forward), None, Resume::OnTheWay))
     }
 }
 

@@ -146,7 +146,7 @@ where
     /// coordinates divided by the regularity of [J A].
     pub(super) fn is_resolved(&self, place: &Place<M>, group: usize) -> bool {
         let error = self.rounding_error(&place.q) * real(EQUAL_ULPS);
-        Blocks::of(self.mechanism, &self.mechanism.pose_at(&place.q)).regularity(group) * place.regularity > error
+        Blocks::of(&*self.mechanism, &self.mechanism.pose_at(&place.q)).regularity(group) * place.regularity > error
     }
 
     /// Gives each determinant whose sign is not resolved the sign that it had at the place before.
@@ -185,7 +185,7 @@ where
     /// errors of Psi move the change point, a double root, by their square root.
     pub(super) fn singular_groups(&self, q: &M::Coordinates) -> Groups {
         let mut groups = Groups::none(M::GROUPS);
-        let blocks = Blocks::of(self.mechanism, &self.mechanism.pose_at(q));
+        let blocks = Blocks::of(&*self.mechanism, &self.mechanism.pose_at(q));
         for place in 0..M::GROUPS.len() {
             if blocks.regularity(place) <= nearly_zero() {
                 groups.insert(place);
@@ -252,6 +252,6 @@ where
 
     /// The regularity and the name of the group that is nearest to singular.
     pub(super) fn least_regular_group(&self, q: &M::Coordinates) -> (M::Scalar, &'static str) {
-        Blocks::of(self.mechanism, &self.mechanism.pose_at(q)).least_regular()
+        Blocks::of(&*self.mechanism, &self.mechanism.pose_at(q)).least_regular()
     }
 }

@@ -5,9 +5,9 @@ use std::vec::Vec;
 use super::MotionEnd;
 use super::driven::{Driven, PositionOf};
 use super::follow::{AtDeadPoint, Followed, Passed, Step, followed};
-use super::held::Held;
 use super::options::{RangeOptions, out_of_range};
 use crate::continuation::{Direction, Options, Path};
+use crate::held::{Held, IntoHeld};
 use crate::scalar::arithmetic::*;
 use crate::{PathError, PositionError};
 
@@ -58,23 +58,20 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
     ///
     /// # Errors
     /// Those of [`RangeOfMotion::of`](super::RangeOfMotion::of).
-    pub fn of(mechanism: &'a M, start: &M::Coordinates, options: RangeOptions<M::Scalar>) -> Result<Self, PathError> {
-        Self::held(Held::Borrowed(mechanism), start, options)
-    }
-
-    fn held(
-        mechanism: Held<'a, M>,
+    pub fn of<By>(
+        mechanism: impl IntoHeld<'a, By, Of = M>,
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
     ) -> Result<Self, PathError> {
-        let Followed { options, steps, ends, .. } = followed(mechanism.get(), start, options, AtDeadPoint::GoOn)?;
+        let mechanism = mechanism.into_held();
+        let Followed { options, steps, ends, .. } = followed(&*mechanism, start, options, AtDeadPoint::GoOn)?;
         Ok(Self { mechanism, options, steps, ends })
     }
 
     /// The mechanism that moves.
     #[must_use]
     pub fn driven(&self) -> &M::Of {
-        self.mechanism.get().driven()
+        self.mechanism.driven()
     }
 
     /// The whole arc length.
@@ -99,7 +96,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
     pub fn dead_points(&self) -> impl Iterator<Item = DeadPoint<PositionOf<M>, M::Scalar>> {
         self.steps.iter().filter_map(|step| match step.passed {
             Some(Passed::DeadPoint(group)) => {
-                let position = self.mechanism.get().position_of(&step.position);
+                let position = self.mechanism.position_of(&step.position);
                 Some(DeadPoint { length: step.length - self.first_length(), position, group })
             }
             Some(Passed::ChangePoint(_)) | None => None,
@@ -127,7 +124,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
             return Err(out_of_range::<M>("the arc length", length, [M::Scalar::zero(), whole]));
         }
         let at = within + self.first_length();
-        let mechanism = self.mechanism.get();
+        let mechanism = &*self.mechanism;
         let place = self.steps.partition_point(|step| step.length <= at).saturating_sub(1);
         let (Some(step), Some(last)) = (self.steps.get(place), self.steps.last()) else {
             return Err(PathError::NoDirection { mechanism: M::NAME });
@@ -147,15 +144,5 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
 
     fn first_length(&self) -> M::Scalar {
         self.steps.first().map_or_else(M::Scalar::zero, |step| step.length)
-    }
-}
-
-impl<M: Driven> MotionByLength<'static, M> {
-    /// The motion of a mechanism that it takes; see [`of`](Self::of).
-    ///
-    /// # Errors
-    /// Those of [`of`](Self::of).
-    pub fn of_owned(mechanism: M, start: &M::Coordinates, options: RangeOptions<M::Scalar>) -> Result<Self, PathError> {
-        Self::held(Held::Owned(mechanism), start, options)
     }
 }

@@ -40,7 +40,6 @@ mod crossed;
 mod driven;
 mod end;
 mod follow;
-mod held;
 mod motion;
 mod options;
 
@@ -52,6 +51,7 @@ pub use end::MotionEnd;
 pub use options::RangeOptions;
 
 use crate::continuation::{Direction, Groups, Options, Path};
+use crate::held::{Held, IntoHeld};
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::position::newton;
 use crate::same_position::SamePosition;
@@ -60,7 +60,6 @@ use crate::scalar::{larger, to_f64};
 use crate::{Assembly, Kinematic, Mechanism, PathError, PerInput, PositionError, real};
 use driven::{PositionOf, same_inputs};
 use follow::{AtDeadPoint, Followed, Passed, Step, backwards, followed};
-use held::Held;
 use options::out_of_range;
 
 /// A motion of a mechanism by one parameter, its input or that of [`Along`](crate::continuation::Along), between the ends of
@@ -111,18 +110,20 @@ where
     /// # Errors
     /// [`PathError::NoDirection`] or [`PathError::ChangePoint`] if the start is a dead point or a change point,
     /// [`PathError::TooManySteps`], and other errors of [`Path::with`] and [`Path::advance`].
-    pub fn of(mechanism: &'a M, start: &M::Coordinates, options: RangeOptions<M::Scalar>) -> Result<Self, PathError> {
-        Self::held(Held::Borrowed(mechanism), start, options)
-    }
-
-    fn held(
-        mechanism: Held<'a, M>,
+    pub fn of<By>(
+        mechanism: impl IntoHeld<'a, By, Of = M>,
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
     ) -> Result<Self, PathError> {
-        let Followed { options, same, steps, ends } = followed(mechanism.get(), start, options, AtDeadPoint::End)?;
-        let repeats = options.path.range.is_none() && repeats(mechanism.get(), start);
-        Ok(Self { mechanism, options, same, steps, ends, repeats })
+        let mechanism = mechanism.into_held();
+        let followed = followed(&*mechanism, start, options, AtDeadPoint::End)?;
+        Ok(Self::followed(mechanism, start, followed))
+    }
+
+    fn followed(mechanism: Held<'a, M>, start: &M::Coordinates, followed: Followed<M>) -> Self {
+        let Followed { options, same, steps, ends } = followed;
+        let repeats = options.path.range.is_none() && repeats(&*mechanism, start);
+        Self { mechanism, options, same, steps, ends, repeats }
     }
 
     /// The mechanism that moves.
@@ -134,7 +135,7 @@ where
     /// The mechanism with the parameter as its input.
     #[must_use]
     pub fn mechanism(&self) -> &M {
-        self.mechanism.get()
+        &self.mechanism
     }
 
     /// The least and the largest input of the steps; a closed motion goes on beyond.
@@ -301,16 +302,6 @@ where
     }
 }
 
-impl<M: Driven> RangeOfMotion<'static, M> {
-    /// The range of a mechanism that it takes; see [`of`](Self::of).
-    ///
-    /// # Errors
-    /// Those of [`of`](Self::of).
-    pub fn of_owned(mechanism: M, start: &M::Coordinates, options: RangeOptions<M::Scalar>) -> Result<Self, PathError> {
-        Self::held(Held::Owned(mechanism), start, options)
-    }
-}
-
 impl<'a, M> RangeOfMotion<'a, M>
 where
     M: Driven<Of: Assembly>,
@@ -320,25 +311,23 @@ where
     /// # Errors
     /// If there is none, why the motion cannot be followed from the last of them; [`PathError::NoDirection`] without
     /// inputs.
-    pub fn on_branch(
-        mechanism: &'a M,
+    pub fn on_branch<By>(
+        mechanism: impl IntoHeld<'a, By, Of = M>,
         branch: M::Branch,
         inputs: impl IntoIterator<Item = M::Scalar>,
         options: RangeOptions<M::Scalar>,
     ) -> Result<Self, PathError> {
-        let mut last = PathError::NoDirection { mechanism: M::NAME };
-        for input in inputs {
+        let (mechanism, mut last) = (mechanism.into_held(), PathError::NoDirection { mechanism: M::NAME });
+        let from = |input: M::Scalar| -> Result<_, PathError> {
             let [given, ..] = mechanism.inputs_at(input);
-            let found = match mechanism.driven().assemble(given.into(), branch) {
-                Ok(pose) => {
-                    let unknowns = M::Of::unknowns(&M::Of::coordinates_of(&pose));
-                    Self::of(mechanism, &M::coordinates(unknowns, [input].into()), options)
-                }
-                Err(error) => Err(error.into()),
-            };
-            match found {
+            let pose = mechanism.driven().assemble(given.into(), branch)?;
+            let start = M::coordinates(M::Of::unknowns(&M::Of::coordinates_of(&pose)), [input].into());
+            Ok((start, followed(&*mechanism, &start, options, AtDeadPoint::End)?))
+        };
+        for input in inputs {
+            match from(input) {
+                Ok((start, followed)) => return Ok(Self::followed(mechanism, &start, followed)),
                 Err(error) => last = error,
-                found => return found,
             }
         }
         Err(last)
