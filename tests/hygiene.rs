@@ -217,7 +217,7 @@ fn functions_of_the_user() {
     assert_eq!(motion.rates.pose, 2.0 * (2.0 * 1.0 + 4.0));
     assert_eq!(motion.outputs.slope.value, 0.5_f64.cos());
     assert_eq!(motion.outputs.slope.acceleration, -4.0 * 0.5_f64.cos());
-    assert_eq!(motion.outputs.still.velocity, 0.0);
+    assert_eq!(motion.outputs.still.rate, 0.0);
     assert_eq!(motion.outputs.still.value, 2.0 * 3.0_f64.cos());
 }
 

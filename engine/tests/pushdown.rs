@@ -150,7 +150,7 @@ async fn found_numbers_of_rejected_rows_are_null() {
     let all = table("sweep", &request());
     let rejected = number(&context, &format!("SELECT count(*) FROM {all} WHERE NOT accepted")).await;
     assert!(rejected > 100);
-    for column in ["mu", "theta3", "p_x_rate"] {
+    for column in ["mu", "theta3", "p_velocity_x"] {
         let nulls = format!("SELECT count(*) FROM {all} WHERE {column} IS NULL AND NOT accepted");
         assert_eq!(number(&context, &nulls).await, rejected);
         let numbers = format!("SELECT count(*) FROM {all} WHERE {column} IS NOT NULL AND NOT isnan({column})");

@@ -149,9 +149,9 @@ impl Table {
 fn names<M: Driven>() -> Vec<String> {
     let moving = |name: &str| ["", "_rate", "_acceleration"].map(|end| format!("{name}{end}"));
     let points = M::Of::POINTS.iter().flat_map(|point| {
-        ["", "_rate", "_acceleration"]
+        ["", "_velocity", "_acceleration"]
             .into_iter()
-            .flat_map(move |end| ["x", "y"].map(|axis| format!("{point}_{axis}{end}")))
+            .flat_map(move |vector| ["x", "y"].map(|axis| format!("{point}{vector}_{axis}")))
     });
     let inputs = if is_the_input::<M>() { &[] } else { M::Of::INPUTS };
     let coordinates = inputs.iter().chain(M::UNKNOWNS).flat_map(|name| moving(name));
@@ -181,7 +181,7 @@ fn row<M: Driven<Scalar = f64>>(parameter: f64, motion: &MotionOf<M::Of>) -> Vec
         row.extend(vectors.iter().flat_map(|vector| [vector.x, vector.y]));
     }
     for output in M::Of::each_output(motion.outputs) {
-        row.extend([output.value, output.velocity, output.acceleration]);
+        row.extend([output.value, output.rate, output.acceleration]);
     }
     row
 }

@@ -204,7 +204,7 @@ pub trait Kinematic:
         let zero = Self::Scalar::zero();
         let point =
             PointMotion { position: Point2::origin(), velocity: Vector2::zeros(), acceleration: Vector2::zeros() };
-        let output = OutputMotion { value: zero, velocity: zero, acceleration: zero };
+        let output = OutputMotion { value: zero, rate: zero, acceleration: zero };
         let (points, outputs) = (none::<Self::P, _, _>(point), none::<Self::O, _, _>(output));
         Ok(FullKinematics { pose, rates, accelerations, points, outputs })
     }
@@ -264,7 +264,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
-    fn output_velocities(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionError> {
+    fn output_rates(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionError> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// The second derivatives of the outputs at the rates q' and the accelerations q''.

@@ -24,7 +24,7 @@ pub struct OutputMotion<T = f64> {
     /// The value.
     pub value: T,
     /// The rate.
-    pub velocity: T,
+    pub rate: T,
     /// The second derivative.
     pub acceleration: T,
 }
@@ -114,7 +114,7 @@ pub fn output_motions<T: Real, G: From<[OutputMotion<T>; N]>, const N: usize>(
     outputs: [[T; 3]; N],
 ) -> Result<G, PositionError> {
     all_finite(mechanism, "motion", outputs.as_flattened().iter())?;
-    Ok(G::from(outputs.map(|[value, velocity, acceleration]| OutputMotion { value, velocity, acceleration })))
+    Ok(G::from(outputs.map(|[value, rate, acceleration]| OutputMotion { value, rate, acceleration })))
 }
 
 /// Converts matrices by name to matrices with their dimensions as types.

@@ -111,11 +111,11 @@ impl<T: Real> Rounded<PointMotion<T>> for PointMotion<Wide> {
 
 impl<T: Real> Rounded<OutputMotion<T>> for OutputMotion<Wide> {
     fn rounded(self, rough: OutputMotion<T>, is_finite: &mut bool) -> OutputMotion<T> {
-        let OutputMotion { value, velocity, acceleration } = rough;
-        let rough = [value, velocity, acceleration];
-        let Self { value, velocity, acceleration } = self;
-        let [value, velocity, acceleration] = [value, velocity, acceleration].rounded(rough, is_finite);
-        OutputMotion { value, velocity, acceleration }
+        let OutputMotion { value, rate, acceleration } = rough;
+        let rough = [value, rate, acceleration];
+        let Self { value, rate, acceleration } = self;
+        let [value, rate, acceleration] = [value, rate, acceleration].rounded(rough, is_finite);
+        OutputMotion { value, rate, acceleration }
     }
 }
 

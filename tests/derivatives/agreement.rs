@@ -86,7 +86,7 @@ fn emitted_is_interpreted_of(of: &dyn Listed<f64>) {
         same("point accelerations", &pose.point_accelerations(rates, accelerations).unwrap(), &acceleration, 0.0);
         let found = [
             pose.outputs().unwrap(),
-            pose.output_velocities(rates).unwrap(),
+            pose.output_rates(rates).unwrap(),
             pose.output_accelerations(rates, accelerations).unwrap(),
         ];
         for (found, nodes) in found.iter().zip(orders(&d.outputs)) {
@@ -144,7 +144,7 @@ fn solutions_have_no_residual_of(of: &dyn Listed<f64>) {
         all_close("W of points", &found, &pose.point_velocities(&velocity).unwrap(), scale, TOLERANCE);
         let ratios = pose.output_ratios().unwrap();
         let norms: Vec<f64> = ratios.iter().map(|ratio| ratio.norm()).collect();
-        let expected = pose.output_velocities(&velocity).unwrap();
+        let expected = pose.output_rates(&velocity).unwrap();
         let scale = |index: usize| expected[index].abs() + norms[index] * 10.0 + w.norm();
         each_close("W of outputs", &times_v1(ratios), &expected, scale);
         true
@@ -189,8 +189,8 @@ fn motion_is_its_parts_of(of: &dyn Listed<f64>) {
         let expected = pose.outputs().unwrap();
         each_close("outputs", &outputs[0], &expected, |index| expected[index].abs());
         let terms = scale + first.iter().map(|rate| rate * rate).sum::<f64>();
-        let expected = pose.output_velocities(first).unwrap();
-        each_close("output velocities", &outputs[1], &expected, |index| largest(first) * full + expected[index].abs());
+        let expected = pose.output_rates(first).unwrap();
+        each_close("output rates", &outputs[1], &expected, |index| largest(first) * full + expected[index].abs());
         let expected = pose.output_accelerations(first, second).unwrap();
         // Both add the same terms in different orders: the last bits of the terms or of the sum may differ.
         let last_bits = |index: usize| 4.0 * f64::EPSILON / TOLERANCE * expected[index].abs();
@@ -269,8 +269,8 @@ fn derivatives_are_dual_numbers_of(of: &dyn Listed<f64>, one: &dyn Values<Dual64
         all_close("accelerations", &found, &second, 0.0, TOLERANCE);
         let outputs = two.outputs(&constants, &moving).unwrap();
         let [first, second] = derivatives(&outputs);
-        let found = pose.output_velocities(rates).unwrap();
-        each_close("output velocities", &found, &first, |index| first[index].abs().max(0.01));
+        let found = pose.output_rates(rates).unwrap();
+        each_close("output rates", &found, &first, |index| first[index].abs().max(0.01));
         let found = pose.output_accelerations(rates, accelerations).unwrap();
         each_close("output accelerations", &found, &second, |index| {
             second[index].abs().max(first[index].powi(2)).max(0.01)

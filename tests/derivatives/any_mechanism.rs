@@ -60,7 +60,7 @@ fn report<M: Kinematic<Scalar = f64>>(
     let rates = m.velocity(&pose, input_rates)?;
     let velocities = M::each_point(m.point_velocities(&pose, &rates)?);
     let outputs =
-        M::each_output(m.outputs(&pose)?).into_iter().zip(M::each_output(m.output_velocities(&pose, &rates)?));
+        M::each_output(m.outputs(&pose)?).into_iter().zip(M::each_output(m.output_rates(&pose, &rates)?));
     let points = M::POINTS.iter().zip(velocities).map(|(name, v)| format!("{name} {:.6} {:.6}", v.x, v.y));
     let outputs = M::OUTPUTS.iter().zip(outputs).map(|(name, (value, rate))| format!("{name} {value:.6} {rate:.6}"));
     Ok(points.chain(outputs).collect())

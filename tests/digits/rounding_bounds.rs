@@ -72,7 +72,7 @@ const FUNCTIONS: [&str; 7] = [
     "point_velocities",
     "point_accelerations",
     "outputs",
-    "output_velocities",
+    "output_rates",
     "output_accelerations",
 ];
 
@@ -99,7 +99,7 @@ fn results<T: linkage::Real>(
         ("point_accelerations", pose.point_accelerations(&rates, &bent).ok()),
         ("point_ratios", pose.point_ratios().ok().map(flat)),
         ("outputs", pose.outputs().ok()),
-        ("output_velocities", pose.output_velocities(&rates).ok()),
+        ("output_rates", pose.output_rates(&rates).ok()),
         ("output_accelerations", pose.output_accelerations(&rates, &bent).ok()),
         ("output_ratios", pose.output_ratios().ok().map(flat)),
     ];

@@ -88,7 +88,7 @@ snapshots! {
     point_velocities: "four_bar" "FourBar" ["point_velocities"];
     point_ratios: "four_bar" "FourBar" ["point_ratios"];
     output_ratios: "four_bar" "FourBar" ["output_ratios"];
-    outputs_with_a_user_function: "cam_follower" "CamFollower" ["outputs", "output_velocities"];
+    outputs_with_a_user_function: "cam_follower" "CamFollower" ["outputs", "output_rates"];
 }
 
 // Higher orders.

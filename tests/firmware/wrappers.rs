@@ -77,7 +77,7 @@ mod provided {
         black_box((M::with_unknowns(q, unknowns), M::with_inputs(q, M::inputs(q))));
         black_box((m.full_kinematics(q, branch, inputs, inputs), m.velocity_ratios(pose)));
         black_box((m.point_velocities(pose, rates), m.point_accelerations(pose, rates, accelerations)));
-        black_box((m.output_velocities(pose, rates), m.output_accelerations(pose, rates, accelerations)));
+        black_box((m.output_rates(pose, rates), m.output_accelerations(pose, rates, accelerations)));
         black_box((m.output_ratios(pose), M::acceleration_parts(accelerations)));
         if let (Ok(points), Ok(ratios)) = (m.points(pose), m.point_ratios(pose)) {
             black_box((M::each_point(points), M::each_point(ratios)));

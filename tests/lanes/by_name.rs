@@ -40,7 +40,7 @@ where
     let of_point = |point: PointMotion<S<M>>| {
         [point.position.coords, point.velocity, point.acceleration].into_iter().flat_map(|xy| [xy.x, xy.y])
     };
-    let of_output = |output: OutputMotion<S<M>>| [output.value, output.velocity, output.acceleration];
+    let of_output = |output: OutputMotion<S<M>>| [output.value, output.rate, output.acceleration];
     let of_points = M::each_point(points).into_iter().flat_map(of_point);
     let expected: Vec<S<M>> = of_points.chain(M::each_output(outputs).into_iter().flat_map(of_output)).collect();
     let found = &in_lane[in_lane.len() - expected.len()..];

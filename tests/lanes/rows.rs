@@ -166,9 +166,9 @@ fn outputs_of_limited_domain_reject_no_lane() {
         "root" => th.cos() >= 0.0,
         "root_rate" | "root_acceleration" => th.cos() > 0.0,
         "p_x" | "p_y" => th.sin() >= 0.0,
-        "p_x_rate" | "p_y_rate" => th.sin() > 0.0,
+        "p_velocity_x" | "p_velocity_y" => th.sin() > 0.0,
         // sin(th)^(-3/2) is finite down to 1e-205.
-        "p_x_acceleration" | "p_y_acceleration" => th.sin() > 1e-200,
+        "p_acceleration_x" | "p_acceleration_y" => th.sin() > 1e-200,
         "steep" => (1.0 / th).is_finite(),
         "steep_rate" => (1.0 / (th * th)).is_finite(),
         "steep_acceleration" => (1.0 / (th * th * th)).is_finite(),
@@ -215,7 +215,7 @@ fn a_mechanism_without_closed_form() {
 fn an_open_chain_has_all_lanes() {
     let exists = |name: &str, th: f64| match name {
         "p_x" => th.cos() >= 0.0,
-        "p_x_rate" | "p_x_acceleration" => th.cos() > 0.0,
+        "p_velocity_x" | "p_acceleration_x" => th.cos() > 0.0,
         _ => true,
     };
     assert_eq!(check(&Pendulum::default(), PendulumBranch::new(), exists), angles::<f64>().len());
@@ -268,7 +268,7 @@ fn a_difference_that_vanishes_has_the_sign_of_the_scalar_function() {
         assert_eq!(batch.run(&mut columns, &mut [false; 4]), Ok(0));
         for (lane, th) in angles.into_iter().enumerate() {
             let BarOutputs { mu, z } = bar.full_kinematics(th, branch, rate, acceleration).unwrap().outputs;
-            let numbers = [mu, z].into_iter().flat_map(|of| [of.value, of.velocity, of.acceleration]);
+            let numbers = [mu, z].into_iter().flat_map(|of| [of.value, of.rate, of.acceleration]);
             let expected: Vec<f64> = numbers.collect();
             let in_lane: Vec<f64> = found.iter().map(|column| column[lane]).collect();
             assert!(same_bits(&in_lane, &expected), "at {th}, {rate}, {acceleration}: {in_lane:?}, {expected:?}");

@@ -97,7 +97,7 @@ fn no_value_is_an_error() {
     not_finite(cam.motion(&q, 1.0, 0.0).unwrap_err());
     not_finite(cam.assemble(11.0, CamBranch {}).unwrap_err());
     not_finite(cam.outputs(&pose).unwrap_err());
-    not_finite(cam.output_velocities(&pose, &rates).unwrap_err());
+    not_finite(cam.output_rates(&pose, &rates).unwrap_err());
     not_finite(cam.output_accelerations(&pose, &rates, &accelerations).unwrap_err());
     not_finite(cam.output_ratios(&pose).unwrap_err());
     // J has the derivative of an unknown's function off the diagonal.

@@ -71,7 +71,7 @@ fn two_extremes_within_a_step() {
     let (c, a) = (0.501_3_f64, 4e-4);
     let cubic = |x: f64| {
         let u = x - c;
-        Ok(OutputMotion { value: (u * u - 3.0 * a * a) * u, velocity: 3.0 * (u * u - a * a), acceleration: 6.0 * u })
+        Ok(OutputMotion { value: (u * u - 3.0 * a * a) * u, rate: 3.0 * (u * u - a * a), acceleration: 6.0 * u })
     };
     let found = over_range([c - 1.9 * a, c + 1.9 * a], cubic).unwrap();
     assert_relative_eq!(found.largest.value, 2.0 * a * a * a, max_relative = 1e-12);
@@ -83,7 +83,7 @@ fn two_extremes_within_a_step() {
         let u = (x - c) / a;
         let bell = 1.0 / (1.0 + u * u);
         let (first, second) = (-2.0 * u * bell * bell, (6.0 * u * u - 2.0) * bell * bell * bell);
-        Ok(OutputMotion { value: bell, velocity: first / a, acceleration: second / (a * a) })
+        Ok(OutputMotion { value: bell, rate: first / a, acceleration: second / (a * a) })
     };
     let found = over_range([0.0, 1.0], bump).unwrap();
     assert_eq!((found.largest.input, found.largest.value), (c, 1.0));
@@ -98,7 +98,7 @@ fn extremes_next_to_a_zero_at_a_sample() {
             let well = |x: f64| {
                 let u = (x - centre) / w;
                 let [value, first, second] = [u * u * (u * u - 2.0), 4.0 * u * (u * u - 1.0), 12.0 * u * u - 4.0];
-                Ok(OutputMotion { value, velocity: first / w, acceleration: second / (w * w) })
+                Ok(OutputMotion { value, rate: first / w, acceleration: second / (w * w) })
             };
             let found = over_range([0.0, 1.0], well).unwrap();
             assert_relative_eq!(found.least.value, -1.0, max_relative = 1e-9);
@@ -116,9 +116,9 @@ fn several_extremes_within_a_step() {
         let u: f64 = (x - c) / a;
         let square = u * u;
         let value = ((32.0 * square - 48.0) * square + 18.0) * square - 1.0;
-        let velocity = ((192.0 * square - 192.0) * square + 36.0) * u / a;
+        let rate = ((192.0 * square - 192.0) * square + 36.0) * u / a;
         let acceleration = ((960.0 * square - 576.0) * square + 36.0) / (a * a);
-        Ok(OutputMotion { value, velocity, acceleration })
+        Ok(OutputMotion { value, rate, acceleration })
     };
     let found = over_range([c - 1.001 * a, c + 0.999 * a], wave).unwrap();
     assert_relative_eq!(found.least.value, -1.0, max_relative = 1e-12);

@@ -164,15 +164,15 @@ fn turning_points_in_order() {
     let range = RangeOfMotion::on_branch(&m, FourBarBranch::new(Elbow::Left), [1.0], options()).unwrap();
     let wave = |input: f64, speed: f64| {
         let (sine, cosine) = (speed * input).sin_cos();
-        OutputMotion { value: sine, velocity: speed * cosine, acceleration: -speed * speed * sine }
+        OutputMotion { value: sine, rate: speed * cosine, acceleration: -speed * speed * sine }
     };
     let still =
-        |input: f64| OutputMotion { value: 1.0 + 1e-16 * (1e5 * input).sin(), velocity: 1e-17, acceleration: 0.0 };
+        |input: f64| OutputMotion { value: 1.0 + 1e-16 * (1e5 * input).sin(), rate: 1e-17, acceleration: 0.0 };
     let all = courses(&range, |motion| {
         let input = motion.position.theta;
         // The derivatives of a motion by arc length are those by the input times the rate of the input.
         let rate = motion.rates.theta;
-        [wave(input, 3.0), still(input)].map(|one| OutputMotion { velocity: one.velocity * rate, ..one })
+        [wave(input, 3.0), still(input)].map(|one| OutputMotion { rate: one.rate * rate, ..one })
     });
     let all = all.unwrap();
     let places: Vec<f64> = all[0].turning_points.iter().map(|at| at.input).collect();
@@ -196,7 +196,7 @@ fn a_turning_point_at_the_start() {
         // A derivative that is zero at the start itself, and less than its rounding error at the end.
         let all = courses(&range, |motion| {
             let (sine, cosine) = (motion.position.theta - range.inputs()[0]).sin_cos();
-            [OutputMotion { value: cosine, velocity: -sine * motion.rates.theta, acceleration: -cosine }]
+            [OutputMotion { value: cosine, rate: -sine * motion.rates.theta, acceleration: -cosine }]
         });
         assert_eq!(all.unwrap()[0].turning_points.len(), 2);
     }

@@ -128,7 +128,7 @@ pub trait Posed<T: Real> {
     /// For each point the matrix of its velocity by the inputs' rates.
     fn point_ratios(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
     fn outputs(&self) -> Result<Vec<T>, PositionError>;
-    fn output_velocities(&self, rates: &[T]) -> Result<Vec<T>, PositionError>;
+    fn output_rates(&self, rates: &[T]) -> Result<Vec<T>, PositionError>;
     fn output_accelerations(&self, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError>;
     /// For each output the row of its rate by the inputs' rates.
     fn output_ratios(&self) -> Result<Vec<DMatrix<T>>, PositionError>;
@@ -432,8 +432,8 @@ impl<T: Real, M: Fixture<Scalar = T>> Posed<T> for At<M> {
     fn outputs(&self) -> Result<Vec<T>, PositionError> {
         Ok(M::each_output(self.mechanism.outputs(&self.pose)?).as_slice().to_vec())
     }
-    fn output_velocities(&self, rates: &[T]) -> Result<Vec<T>, PositionError> {
-        Ok(M::each_output(self.mechanism.output_velocities(&self.pose, &named::<M, _>(rates))?).as_slice().to_vec())
+    fn output_rates(&self, rates: &[T]) -> Result<Vec<T>, PositionError> {
+        Ok(M::each_output(self.mechanism.output_rates(&self.pose, &named::<M, _>(rates))?).as_slice().to_vec())
     }
     fn output_accelerations(&self, rates: &[T], bent: &[T]) -> Result<Vec<T>, PositionError> {
         let (rates, bent) = (named::<M, _>(rates), named::<M, _>(bent));
@@ -473,7 +473,7 @@ fn of_points<T: Real, N: Dim>(points: Column<PointMotion<T>, N>) -> [Vec<T>; 3] 
 fn of_outputs<T: Real, N: Dim>(outputs: Column<OutputMotion<T>, N>) -> [Vec<T>; 3] {
     [
         outputs.map(|output| output.value).as_slice().to_vec(),
-        outputs.map(|output| output.velocity).as_slice().to_vec(),
+        outputs.map(|output| output.rate).as_slice().to_vec(),
         outputs.map(|output| output.acceleration).as_slice().to_vec(),
     ]
 }

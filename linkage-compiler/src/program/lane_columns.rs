@@ -11,8 +11,11 @@ use super::pose_fields::Held;
 use super::signatures::Signatures;
 use crate::model::{Coordinate, Kind, Name};
 
-/// Endings of the names of a quantity and of its derivatives, with the fields of its motion.
-const MOTION: [(&str, &str); 3] = [("", "position"), ("_rate", "velocity"), ("_acceleration", "acceleration")];
+/// Parts of the names of a point and of its derivatives, with the fields of its motion.
+const VECTORS: [(&str, &str); 3] = [("", "position"), ("_velocity", "velocity"), ("_acceleration", "acceleration")];
+
+/// Endings of the names of an output and of its derivatives, with their words.
+const SCALARS: [(&str, &str); 3] = [("", "value"), ("_rate", "rate"), ("_acceleration", "acceleration")];
 
 /// A column to find.
 #[derive(Debug, Clone)]
@@ -132,17 +135,17 @@ impl Naming<'_> {
     fn quantities(&mut self, signatures: &Signatures) {
         let mechanism = signatures.mechanism;
         for Name { text, field, .. } in mechanism.points.iter().map(|point| &point.name) {
-            for (ending, member) in MOTION {
+            for (vector, member) in VECTORS {
                 for axis in ["x", "y"] {
-                    self.add(&format!("{field}_{axis}{ending}"), format!("{axis} of the {member} of `{text}`."));
+                    self.add(&format!("{field}{vector}_{axis}"), format!("{axis} of the {member} of `{text}`."));
                 }
             }
         }
         for Name { text, field, .. } in mechanism.outputs.iter().map(|output| &output.name) {
-            for (ending, _) in MOTION {
+            for (ending, word) in SCALARS {
                 let doc = match ending {
                     "" => format!("`{text}`."),
-                    ending => format!("The {} of `{text}`.", ending.trim_start_matches('_')),
+                    _ => format!("The {word} of `{text}`."),
                 };
                 self.add(&format!("{field}{ending}"), doc);
             }

@@ -6,7 +6,7 @@ use super::function::{Body, Output, results};
 use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{ENDINGS, Plan, unnamed};
-use super::signatures::{Family, ORDERS};
+use super::signatures::Family;
 use crate::derivation::{Quantity, QuantityFormulas};
 use crate::graph::{NodeId, SymbolId};
 
@@ -47,7 +47,8 @@ impl Plan<'_, '_> {
         let meaning = match order {
             0 if family == Family::Points => "The positions of the points.".to_owned(),
             0 => "The values of the outputs.".to_owned(),
-            1 => format!("The velocities of the {word}s at the rates q'."),
+            1 if family == Family::Points => "The velocities of the points at the rates q'.".to_owned(),
+            1 => "The rates of the outputs at the rates q'.".to_owned(),
             2 => format!("The accelerations of the {word}s at the rates q' and the accelerations q''."),
             _ => format!("The jerks of the {word}s at the rates q', the accelerations q'' and the jerks q'''."),
         };
@@ -81,7 +82,7 @@ impl Plan<'_, '_> {
             (Family::Outputs, _) => (Intrinsic::FiniteOutputs, &[]),
         };
         let values = Expression::List(Expression::nested(results(0..count), sizes));
-        let name = Expression::text(format!("{word}{}", ORDERS[order]));
+        let name = Expression::text(family.function(order));
         let value = Expression::call(finite, [Expression::mechanism(), name, values]);
         let body = Body { kernel: Some(kernel), ..Body::result(value) };
         self.add(self.signatures.quantities(family, order), doc, body);

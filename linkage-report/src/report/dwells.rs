@@ -20,12 +20,12 @@ pub struct Dwell {
     pub values: [f64; 2],
 }
 
-/// The dwells of a course. `velocity` is the derivative by the input.
+/// The dwells of a course. `rate_at` is the derivative by the input.
 pub(super) fn dwells(
     course: &Course,
     is_closed: bool,
     options: DwellOptions,
-    mut velocity: impl FnMut(f64) -> Result<f64, PathError>,
+    mut rate_at: impl FnMut(f64) -> Result<f64, PathError>,
 ) -> Result<Vec<Dwell>, PathError> {
     let [first, last] = course.ends.map(|end| end.input);
     let length = last - first;
@@ -42,7 +42,7 @@ pub(super) fn dwells(
     // It rests where it turns, however short that is.
     let turned = course.turning_points.iter().map(|place| (place.input, 0.0));
     let mut rates: Vec<(f64, f64)> =
-        course.samples.iter().map(|(input, motion)| (*input, motion.velocity)).chain(turned).collect();
+        course.samples.iter().map(|(input, motion)| (*input, motion.rate)).chain(turned).collect();
     rates.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     for (input, rate) in &rates {
         let here = speed_left(*rate);
@@ -50,7 +50,7 @@ pub(super) fn dwells(
         let edge = match before {
             Some((at, left)) if (left >= 0.0) != is_slow => {
                 let enough = at.abs().max(input.abs()) * f64::EPSILON;
-                root([at, *input], [left, here], enough, |at| velocity(at).map(|rate| Some(speed_left(rate))))?
+                root([at, *input], [left, here], enough, |at| rate_at(at).map(|rate| Some(speed_left(rate))))?
             }
             _ => None,
         };

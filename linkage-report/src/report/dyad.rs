@@ -139,8 +139,8 @@ impl Dyad {
         let acceleration = f64::NAN;
         // Of a normals' angle the links have the supplement where they meet: one ends there, the other begins.
         match self.has_sides() {
-            true => OutputMotion { value: std::f64::consts::PI - angle, velocity: -rate, acceleration },
-            false => OutputMotion { value: angle, velocity: rate, acceleration },
+            true => OutputMotion { value: std::f64::consts::PI - angle, rate: -rate, acceleration },
+            false => OutputMotion { value: angle, rate, acceleration },
         }
     }
 }

@@ -153,9 +153,9 @@ fn quantities<M: Kinematic<Scalar = f64>>(motion: &MotionOf<M>) -> Vec<OutputMot
     let rates = M::rate_parts(&motion.rates).0;
     let accelerations = M::acceleration_parts(&motion.accelerations).0;
     let derivatives = rates.iter().zip(&accelerations);
-    let unknowns = unknowns.iter().zip(derivatives).map(|(&value, (&velocity, &acceleration))| OutputMotion {
+    let unknowns = unknowns.iter().zip(derivatives).map(|(&value, (&rate, &acceleration))| OutputMotion {
         value,
-        velocity,
+        rate,
         acceleration,
     });
     M::each_output(motion.outputs).iter().copied().chain(unknowns).collect()
@@ -178,11 +178,11 @@ where
         Some(unknown) => (M::UNKNOWNS[unknown], M::UNKNOWN_ANGLES[unknown]),
     };
     let is_closed = range.is_closed();
-    let velocity = |input| {
+    let rate = |input| {
         let all = quantities::<M>(&range.motion(input, 1.0, 0.0)?);
-        Ok(all.get(place).map_or(f64::NAN, |quantity| quantity.velocity))
+        Ok(all.get(place).map_or(f64::NAN, |quantity| quantity.rate))
     };
-    let dwells = dwells(course, is_closed, options.dwell, velocity)?;
+    let dwells = dwells(course, is_closed, options.dwell, rate)?;
     let strokes = strokes(course, is_closed);
     let sampled = course.samples.iter().map(|(input, motion)| [*input, motion.value]);
     let turned = course.turning_points.iter().chain(&course.ends).map(|at| [at.input, at.value]);

@@ -106,15 +106,15 @@ pub fn ratio_properties<M: Kinematic<Scalar = f64>>(
             transmission.push((name, by_inputs.part(axis, 0), velocity[axis]));
         }
     }
-    let velocities = M::each_output(mechanism.output_velocities(&pose, &all_rates)?);
+    let rates = M::each_output(mechanism.output_rates(&pose, &all_rates)?);
     let by_outputs = M::each_output(mechanism.output_ratios(&pose)?);
-    for (output, (by_inputs, velocity)) in derivation.outputs.iter().zip(by_outputs.iter().zip(&velocities)) {
+    for (output, (by_inputs, rate)) in derivation.outputs.iter().zip(by_outputs.iter().zip(&rates)) {
         quantities.push(RatioNumber {
             name: format!("{}_rate", output.name),
             by_ratios: (*by_inputs * input_rates).part(0),
-            otherwise: *velocity,
+            otherwise: *rate,
         });
-        transmission.push((output.name.to_owned(), by_inputs.part(0, 0), *velocity));
+        transmission.push((output.name.to_owned(), by_inputs.part(0, 0), *rate));
     }
     let transmission = match (derivation.inputs, input_rates.as_slice()) {
         ([input], &[rate]) if rate != 0.0 => {

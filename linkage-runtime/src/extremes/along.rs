@@ -128,9 +128,9 @@ where
             }
             for (at, inside) in [samples.first(), samples.last()].into_iter().enumerate() {
                 let ((end, at_end), Some((s, all))) = (&ends[at], inside) else { continue };
-                let velocities = [at_end[place].velocity, all[place].velocity];
-                let turning = search.next_to_end(place, [*end, piece.input(*s)], velocities)?;
-                next_to[at] = if turning.is_some() { -velocities[1] } else { velocities[1] };
+                let rates = [at_end[place].rate, all[place].rate];
+                let turning = search.next_to_end(place, [*end, piece.input(*s)], rates)?;
+                next_to[at] = if turning.is_some() { -rates[1] } else { rates[1] };
                 course.turning_points.extend(turning);
             }
             for pair in samples.windows(2) {
@@ -226,13 +226,13 @@ impl<T: Real> Piece<T> {
         below.arctangent2(above) / T::frac_pi_2()
     }
 
-    /// The derivative by s of a quantity with its own: its velocity and acceleration are by the input.
+    /// The derivative by s of a quantity with its own: its rate and acceleration are by the input.
     fn slope_at(&self, s: T, motion: &OutputMotion<T>) -> Sample<T> {
         let (sine, cosine) = (T::pi() * s).sine_cosine();
         let half = (self.high - self.low) * real(0.5);
         let (first, second) = (half * T::pi() * sine, half * T::pi() * T::pi() * cosine);
-        let slope = motion.acceleration * first * first + motion.velocity * second;
-        Sample { at: s, value: motion.velocity * first, slope }
+        let slope = motion.acceleration * first * first + motion.rate * second;
+        Sample { at: s, value: motion.rate * first, slope }
     }
 }
 
@@ -254,11 +254,11 @@ where
             Ok(motion) => Ok((self.quantities)(&motion).as_ref().to_vec()),
             // Where motions touch the tangent is known still.
             Err(PathError::Position(PositionError::Singular { .. })) => {
-                let (motion, rate) = along_tangent(self.range, input)?;
+                let (motion, input_rate) = along_tangent(self.range, input)?;
                 let all = (self.quantities)(&motion);
                 let unknown = M::Scalar::zero() / M::Scalar::zero();
                 let by_input = |all: &OutputMotion<M::Scalar>| OutputMotion {
-                    velocity: all.velocity / rate,
+                    rate: all.rate / input_rate,
                     acceleration: unknown,
                     ..*all
                 };
@@ -288,9 +288,9 @@ where
             })?;
             let Some(around) = around else { break };
             let inputs = around.map(|sample| piece.input(sample.at));
-            let velocities = [self.by_input(inputs[0])?[place].velocity, self.by_input(inputs[1])?[place].velocity];
-            let velocity = |input| self.by_input(input).map(|all| Some(all[place].velocity));
-            let zero = root(inputs, velocities, ulp(inputs[0], inputs[1]), velocity)?;
+            let rates = [self.by_input(inputs[0])?[place].rate, self.by_input(inputs[1])?[place].rate];
+            let rate = |input| self.by_input(input).map(|all| Some(all[place].rate));
+            let zero = root(inputs, rates, ulp(inputs[0], inputs[1]), rate)?;
             let input = zero.unwrap_or(inputs[1]);
             let there = self.by_input(input)?[place];
             turning_points.push(Extreme { input, value: there.value });
@@ -309,11 +309,11 @@ where
         if at_end * at_inside >= M::Scalar::zero() {
             return Ok(None);
         }
-        let at_inside = self.by_length(inside)?[place].velocity;
-        let (inputs, velocities) =
+        let at_inside = self.by_length(inside)?[place].rate;
+        let (inputs, rates) =
             if end < inside { ([end, inside], [at_end, at_inside]) } else { ([inside, end], [at_inside, at_end]) };
-        let velocity = |input| self.by_length(input).map(|all| Some(all[place].velocity));
-        let Some(input) = root(inputs, velocities, ulp(end, inside), velocity)? else { return Ok(None) };
+        let rate = |input| self.by_length(input).map(|all| Some(all[place].rate));
+        let Some(input) = root(inputs, rates, ulp(end, inside), rate)? else { return Ok(None) };
         let value = self.by_length(input)?[place].value;
         Ok(Some(Extreme { input, value }))
     }
@@ -339,11 +339,11 @@ fn along_tangent<M: Driven>(
         acceleration: centripetal[at],
     });
     let values = M::Of::each_output(m.outputs(&pose)?);
-    let speeds = M::Of::each_output(m.output_velocities(&pose, &rates)?);
+    let output_rates = M::Of::each_output(m.output_rates(&pose, &rates)?);
     let bends = M::Of::each_output(m.output_accelerations(&pose, &rates, &accelerations)?);
     let outputs = <M::Of as Kinematic>::O::array(|at| OutputMotion {
         value: values[at],
-        velocity: speeds[at],
+        rate: output_rates[at],
         acceleration: bends[at],
     });
     let (points, outputs) = (points.into(), outputs.into());

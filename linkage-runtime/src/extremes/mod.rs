@@ -97,7 +97,7 @@ pub fn over_range<T: Real>(
             let around = first_zero([last, end], enough, |at| quantity(at).map(|motion| slope_at(at, &motion)))?;
             let Some([low, high]) = around else { break };
             let (ends, values) = ([low.at, high.at], [low.value, high.value]);
-            let zero = root(ends, values, enough, |at| quantity(at).map(|motion| Some(motion.velocity)))?;
+            let zero = root(ends, values, enough, |at| quantity(at).map(|motion| Some(motion.rate)))?;
             let at = zero.unwrap_or(high.at);
             let there = quantity(at)?;
             found.include(at, there.value);
@@ -110,7 +110,7 @@ pub fn over_range<T: Real>(
 
 /// The derivative of a quantity with its own.
 fn slope_at<T: Real>(at: T, motion: &OutputMotion<T>) -> Sample<T> {
-    Sample { at, value: motion.velocity, slope: motion.acceleration }
+    Sample { at, value: motion.rate, slope: motion.acceleration }
 }
 
 /// An ulp of the larger of two numbers.

@@ -88,7 +88,7 @@ pub(super) fn motion_at<M: Kinematic>(
     let (points, outputs) = (M::each_point(m.points(&pose)?), M::each_output(m.outputs(&pose)?));
     let velocities = M::each_point(m.point_velocities(&pose, &rates)?);
     let point_accelerations = M::each_point(m.point_accelerations(&pose, &rates, &accelerations)?);
-    let output_rates = M::each_output(m.output_velocities(&pose, &rates)?);
+    let output_rates = M::each_output(m.output_rates(&pose, &rates)?);
     let output_accelerations = M::each_output(m.output_accelerations(&pose, &rates, &accelerations)?);
     let point = |place: usize| PointMotion {
         position: points[place],
@@ -97,7 +97,7 @@ pub(super) fn motion_at<M: Kinematic>(
     };
     let output = |place: usize| OutputMotion {
         value: outputs[place],
-        velocity: output_rates[place],
+        rate: output_rates[place],
         acceleration: output_accelerations[place],
     };
     let (points, outputs) = (<M::P as Dim>::array(point).into(), <M::O as Dim>::array(output).into());

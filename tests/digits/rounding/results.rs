@@ -62,7 +62,7 @@ fn at_pose<T: Real>(of: &dyn Listed<T>, pose: &dyn Posed<T>, arguments: &Argumen
         ("point accelerations", listed(pose.point_accelerations(&rates, &bent))),
         ("point ratios", all_entries(pose.point_ratios())),
         ("outputs", listed(pose.outputs())),
-        ("output velocities", listed(pose.output_velocities(&rates))),
+        ("output rates", listed(pose.output_rates(&rates))),
         ("output accelerations", listed(pose.output_accelerations(&rates, &bent))),
         ("output ratios", all_entries(pose.output_ratios())),
     ]

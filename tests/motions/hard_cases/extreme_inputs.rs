@@ -120,7 +120,7 @@ impl Trial {
                         pose.point_velocities(rates),
                         pose.point_accelerations(rates, accelerations),
                         pose.outputs(),
-                        pose.output_velocities(rates),
+                        pose.output_rates(rates),
                         pose.output_accelerations(rates, accelerations),
                     ];
                     assert!(separate.iter().any(Result::is_err), "points and outputs are finite");

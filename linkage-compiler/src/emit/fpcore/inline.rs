@@ -407,7 +407,7 @@ fn named(mechanism: &Mechanism, entry: Entry, arguments: &[Value]) -> Value {
         (Entry::Columns, Value::List(columns)) => Value::Columns(columns.clone()),
         (Entry::Columns, _) => Value::Unknown,
         (Entry::PointMotion, motion) => parts(["position", "velocity", "acceleration"], motion, &components),
-        (Entry::OutputMotion, motion) => parts(["value", "velocity", "acceleration"], motion, &Value::clone),
+        (Entry::OutputMotion, motion) => parts(["value", "rate", "acceleration"], motion, &Value::clone),
     };
     Value::members(family.names(mechanism).into_iter().zip(values.iter().map(change)))
 }

@@ -35,6 +35,15 @@ impl Family {
         }
     }
 
+    /// The function of the values or of a derivative with respect to time: points have velocities, outputs rates.
+    pub fn function(self, order: usize) -> String {
+        let first = match self {
+            Self::Points => "_velocities",
+            Self::Outputs => "_rates",
+        };
+        format!("{}{}", self.word(), ["s", first, "_accelerations", "_jerks"][order])
+    }
+
     /// The names of all points or outputs as the user wrote them.
     pub fn names_as_written(self, mechanism: &Mechanism) -> Vec<String> {
         match self {
@@ -51,9 +60,6 @@ impl Family {
         }
     }
 }
-
-/// The endings of function names, by the order of the derivative with respect to time.
-pub const ORDERS: [&str; 4] = ["s", "_velocities", "_accelerations", "_jerks"];
 
 impl Signatures<'_> {
     /// True if points, or outputs, are declared.
@@ -83,7 +89,7 @@ impl Signatures<'_> {
             (Family::Points, _) => Type::Plane,
             (Family::Outputs, _) => Type::Scalar,
         };
-        fallible(format!("{}{}", family.word(), ORDERS[order]), arguments, self.each(family, item))
+        fallible(family.function(order), arguments, self.each(family, item))
     }
 
     pub fn quantity_ratios(&self, family: Family) -> Function<Body> {

@@ -11,7 +11,7 @@ use super::expression::Type;
 use super::function::{Argument, Body, Function, Passed};
 use super::names::{Arguments, Order, TypeNames};
 use crate::model::{Driver, Mechanism, Request};
-pub use family::{Family, ORDERS};
+pub use family::Family;
 pub use form::{fallible, total};
 
 /// The functions of one driver of a mechanism, without bodies.

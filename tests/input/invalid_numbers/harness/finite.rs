@@ -133,7 +133,7 @@ parts! {
     }
     [Q: Finite, P: Finite] Reached<Q, P> { Reached { coordinates, pose } => coordinates pose }
     [] PointMotion<f64> { PointMotion { position, velocity, acceleration } => position velocity acceleration }
-    [] OutputMotion<f64> { OutputMotion { value, velocity, acceleration } => value velocity acceleration }
+    [] OutputMotion<f64> { OutputMotion { value, rate, acceleration } => value rate acceleration }
     [] Energy<f64> { Energy { kinetic, potential } => kinetic potential }
     [R: Finite, V: Finite] StateRates<R, V> {
         StateRates { rates, input_accelerations } => rates input_accelerations
