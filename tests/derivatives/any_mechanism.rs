@@ -106,7 +106,7 @@ fn agrees<M: Kinematic<Scalar = f64>>(m: &M, guess: &M::Coordinates, input_rates
         values.iter().zip(M::each_output(m.output_ratios(&pose).unwrap())).zip(M::each_output(outputs))
     {
         assert!((value - moving.value).abs() <= 1e-12 * value.abs().max(1.0));
-        assert!(((ratio * of_inputs)[0] - moving.velocity).abs() <= 1e-12 * moving.velocity.abs().max(1.0));
+        assert!(((ratio * of_inputs)[0] - moving.rate).abs() <= 1e-12 * moving.rate.abs().max(1.0));
     }
 
     let Motion { position, rates: again, .. } = m.motion(&q, input_rates, given).unwrap();

@@ -9,12 +9,13 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 /// The functions of a file of `src/emit` whose bodies it writes, and the reason. A name with `#` is one that the file
 /// fills in.
-const BY_HAND: [(&str, &[&str], &str); 13] = [
+const BY_HAND: [(&str, &[&str], &str); 14] = [
     ("conversions", &["#function", "mechanism", "state", "parts"], "columns of numbers from and to structs"),
     ("any_number", &["with_parameters", "parameters"], "a column of parameters from and to a mechanism"),
     ("lanes", &["write_parameters", "design"], "given columns from and to the parameters of a mechanism"),
     ("lanes", &["batch", "list"], "structs of columns to lists of columns"),
     ("external", &["#name"], "a call of a user function, at the place where its path resolves"),
+    ("reactions", &["each"], "numbers from a struct of forces to a list"),
     ("scene", &["new", "from", "map", "default"], "numbers from and to a scene"),
     ("types/parameters", &["new", "from", "map", "default"], "numbers from and to a mechanism"),
     ("types/by_name", &["from"], "columns of numbers from and to structs"),
