@@ -164,6 +164,23 @@ pub trait Scene {
     {
         crate::reactions::loads(self, t, q, input_rates.into())
     }
+    /// The [`loads`](Self::loads) in a motion with these rates v' and accelerations v'' of the inputs, as if each input
+    /// had a drive that makes this motion: the forces of the drives are those that motors must apply.
+    ///
+    /// # Errors
+    /// Those of [`loads`](Self::loads).
+    fn driven_loads(
+        &self,
+        t: Self::Scalar,
+        q: &Coordinates<Self>,
+        input_rates: impl Into<Inputs<Self>>,
+        input_accelerations: impl Into<Inputs<Self>>,
+    ) -> Result<Loads<Self>, MotionError>
+    where
+        Self: Sized,
+    {
+        crate::reactions::driven_loads(self, t, q, (input_rates.into(), input_accelerations.into()))
+    }
     /// The prescribed motion of each input, or None.
     fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;
 
@@ -370,20 +387,24 @@ pub struct Loads<S: Scene> {
     pub drive_power: S::Scalar,
     /// The forces in the joints that `reaction` statements of the scene name.
     pub joints: S::Reactions,
+    /// The accelerations (u'', v'') in the motion with these forces.
+    pub accelerations: Accelerations<S>,
 }
 
 impl<S: Scene> Loads<S> {
     /// Checks that all forces are finite; those in the joints are already checked.
     pub(crate) fn finite(self, t: S::Scalar) -> Result<Self, MotionError> {
         let drives: PerInput<S::Mechanism> = self.drives.into();
-        if !self.contacts.iter().chain(drives.iter()).chain([&self.drive_power]).all(S::Scalar::is_finite) {
+        let Vector { unknowns, inputs } = &self.accelerations;
+        let forces = self.contacts.iter().chain(drives.iter()).chain([&self.drive_power]);
+        if !forces.chain(unknowns.iter()).chain(inputs.iter()).all(S::Scalar::is_finite) {
             return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
         }
         Ok(self)
     }
 }
 
-linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, are_unique, drives, drive_power, joints });
+linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, are_unique, drives, drive_power, joints, accelerations });
 
 /// Checks that the numbers are finite and not negative.
 ///

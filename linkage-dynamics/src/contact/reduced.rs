@@ -91,12 +91,17 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
         S: Scene<Scalar = T, V = V, Contacts = C>,
     {
         let (mut reduced, rates) = Self::unprescribed(scene, t, state)?;
-        for (at, law) in scene.prescribed(t).into_iter().enumerate() {
-            if let Some(law) = law {
-                reduced.prescribe(at, law.acceleration);
+        reduced.prescribe_all(&scene.prescribed(t).map(|law| law.map(|law| law.acceleration)));
+        Ok((reduced, rates))
+    }
+
+    /// Prescribes the accelerations that are known.
+    pub(crate) fn prescribe_all(&mut self, accelerations: &Column<Option<T>, V>) {
+        for (at, acceleration) in accelerations.iter().enumerate() {
+            if let Some(acceleration) = *acceleration {
+                self.prescribe(at, acceleration);
             }
         }
-        Ok((reduced, rates))
     }
 
     /// Builds the equations in the inputs before the prescribed motions are applied, and q'.

@@ -221,6 +221,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             drives: drives.into(),
             drive_power: drives.dot(&velocity.inputs),
             joints,
+            accelerations,
         }
         .finite(t)
     }

@@ -8,6 +8,11 @@ use crate::{Column, Dim, Real};
 
 /// A vector in the space of q, with its components along the unknowns and along the inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
 pub struct Vector<T: Real, U: Dim, V: Dim> {
     /// The components along the unknowns.
     pub unknowns: Column<T, U>,

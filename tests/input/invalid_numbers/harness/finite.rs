@@ -164,7 +164,8 @@ parts! {
         State { t, q, rates, event, kink: _, contacts } => t q rates event contacts
     }
     [S: Scene<Scalar = f64, Mechanism: Mechanism<Inputs: Finite>, Reactions: Finite>] Loads<S> {
-        Loads { contacts, are_unique: _, drives, drive_power, joints } => contacts drives drive_power joints
+        Loads { contacts, are_unique: _, drives, drive_power, joints, accelerations } =>
+            contacts drives drive_power joints accelerations
     }
     [] GroupMeasure<f64> {
         GroupMeasure { name: _, determinant, regularity, sigma_min, is_regular: _ } => determinant regularity sigma_min
