@@ -29,7 +29,7 @@ pub use linkage_report::drawing;
 #[cfg(all(feature = "sheet", feature = "double-double"))]
 pub use linkage_report::price;
 #[cfg(feature = "sheet")]
-pub use linkage_report::{Document, FpCore, Notation, Table, chart, report, sheet};
+pub use linkage_report::{Document, FpCore, Notation, Table, chart, report, sheet, table};
 /// A four-bar near a dead point, where coupler and rocker are parallel to within 1e-6 rad: the velocity at stored angles
 /// keeps its digits, but not if the angles themselves are measured, to 1e-9 rad.
 ///

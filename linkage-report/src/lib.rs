@@ -7,7 +7,7 @@
 //! - [`drawing`]: a linkage as SVG;
 //! - [`chart`]: curves over axes as SVG;
 //! - `price`: errors and times of a mechanism and of a scene, with the feature `double-double`;
-//! - [`Table`]: a motion as columns and as CSV.
+//! - [`table`]: motions, loads and simulations as columns, as CSV and JSON.
 
 #![warn(missing_docs)]
 
@@ -21,7 +21,7 @@ mod notation;
 pub mod price;
 pub mod report;
 pub mod sheet;
-mod table;
+pub mod table;
 
 pub use document::Document;
 pub use fpcore::FpCore;

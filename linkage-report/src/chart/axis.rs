@@ -171,7 +171,7 @@ impl Axis {
 }
 
 /// The first of 1, 2, 5 times a power of ten that is not smaller.
-fn nice(rough: f64) -> f64 {
+pub(super) fn nice(rough: f64) -> f64 {
     let power = 10_f64.powf(rough.log10().floor());
     let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * power);
     steps.into_iter().find(|step| *step >= rough).unwrap_or(steps[3])

@@ -1,4 +1,5 @@
-//! Charts as SVG: curves over linear and logarithmic axes, without script, for light and dark mode.
+//! Charts as SVG: curves over linear and logarithmic axes, and vectors from one origin, without script, for light and
+//! dark mode. [`Chart::of`] and [`Polar::of`] draw columns of a [`Table`](crate::Table).
 //!
 //! ```
 //! use linkage::chart::{Axis, Chart, Curve, Look, Unit};
@@ -10,9 +11,12 @@
 //! ```
 
 mod axis;
+mod of_table;
+mod polar;
 mod render;
 
 pub use axis::{Axis, Scale, Unit};
+pub use polar::Polar;
 
 /// The style of charts, for pages that hold fragments of them.
 pub const STYLE: &str = include_str!("style.css");
@@ -28,7 +32,7 @@ pub struct Chart {
     pub y: Axis,
     /// The curves, the first ones below the others.
     pub curves: Vec<Curve>,
-    /// Dashed lines upwards.
+    /// Dashed lines upwards, with their names at the top.
     pub lines: Vec<Line>,
     /// Shaded parts of the axis x.
     pub spans: Vec<Span>,

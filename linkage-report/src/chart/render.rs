@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{COLOURS, Chart, Curve, Look, Unit};
+use super::{COLOURS, Chart, Curve, Line, Look, Unit};
 use crate::sheet::escape;
 
 /// The margins, in pixels.
@@ -12,11 +12,17 @@ const BOTTOM: f64 = 42.0;
 const RIGHT: f64 = 16.0;
 
 /// The width of a letter, and the height of a row of the legend.
-const LETTER: f64 = 6.3;
-const ROW: f64 = 18.0;
+pub(super) const LETTER: f64 = 6.3;
+pub(super) const ROW: f64 = 18.0;
 
 /// The least distance of two labels at the right ends of curves.
 const APART: f64 = 11.0;
+
+/// The rows of the names of lines, at the top; a name without place in them is shown when the pointer rests on its line.
+const ROWS_OF_NAMES: usize = 4;
+
+/// The width of a letter of these names.
+const SMALL_LETTER: f64 = 5.2;
 
 /// Points nearer than this are drawn as one.
 const NEAR: f64 = 0.5;
@@ -72,7 +78,7 @@ impl<'a> Frame<'a> {
 impl Chart {
     pub(super) fn svg(&self, style: &str) -> String {
         let frame = Frame::of(self);
-        let legend = if self.has_legend { self.legend() } else { Vec::new() };
+        let legend = if self.has_legend { legend(&self.curves, self.size[0]) } else { Vec::new() };
         let rows = legend.last().map_or(0.0, |(_, [_, row])| row + 1.0);
         let [width, height] = [self.size[0], self.size[1] + ROW * rows];
         let title = escape(&self.title);
@@ -91,36 +97,42 @@ impl Chart {
             push(format_args!("{}", frame.curve(curve)));
         }
         push(format_args!("{}", frame.labels()));
-        for (curve, [x, row]) in legend {
-            let y = self.size[1] + ROW * row;
-            push(format_args!(
-                "<g class=\"k{}\">{}<text class=\"soft\" x=\"{:.0}\" y=\"{:.0}\">{}</text></g>",
-                curve.colour % COLOURS,
-                swatch(curve, x, y + 5.0),
-                x + 21.0,
-                y + 9.0,
-                escape(&curve.name)
-            ));
-        }
+        svg.push_str(&legend_at(&legend, self.size[1]));
         svg.push_str("</svg>");
         svg
     }
+}
 
-    /// The curves with names, each with its x and its row.
-    fn legend(&self) -> Vec<(&Curve, [f64; 2])> {
-        let mut next = [8.0, 0.0];
-        let named = self.curves.iter().filter(|curve| !curve.name.is_empty());
-        let placed = named.map(|curve| {
-            let wide = 42.0 + LETTER * curve.name.chars().count() as f64;
-            if next[0] > 8.0 && next[0] + wide > self.size[0] {
-                next = [8.0, next[1] + 1.0];
-            }
-            let at = next;
-            next[0] += wide;
-            (curve, at)
-        });
-        placed.collect()
-    }
+/// The curves with names, each with its x and its row, in a legend of this width.
+pub(super) fn legend(curves: &[Curve], width: f64) -> Vec<(&Curve, [f64; 2])> {
+    let mut next = [8.0, 0.0];
+    let named = curves.iter().filter(|curve| !curve.name.is_empty());
+    let placed = named.map(|curve| {
+        let wide = 42.0 + LETTER * curve.name.chars().count() as f64;
+        if next[0] > 8.0 && next[0] + wide > width {
+            next = [8.0, next[1] + 1.0];
+        }
+        let at = next;
+        next[0] += wide;
+        (curve, at)
+    });
+    placed.collect()
+}
+
+/// A legend below this height.
+pub(super) fn legend_at(legend: &[(&Curve, [f64; 2])], height: f64) -> String {
+    let entries = legend.iter().map(|(curve, [x, row])| {
+        let y = height + ROW * row;
+        format!(
+            "<g class=\"k{}\">{}<text class=\"soft\" x=\"{:.0}\" y=\"{:.0}\">{}</text></g>",
+            curve.colour % COLOURS,
+            swatch(curve, *x, y + 5.0),
+            x + 21.0,
+            y + 9.0,
+            escape(&curve.name)
+        )
+    });
+    entries.collect()
 }
 
 /// The sign of a curve in the legend.
@@ -186,26 +198,37 @@ impl Frame<'_> {
     }
 
     fn lines(&self) -> String {
-        let lines = self.chart.lines.iter().map(|line| {
+        let mut lines: Vec<&Line> = self.chart.lines.iter().filter(|line| self.chart.x.has(line.at)).collect();
+        lines.sort_by(|one, other| one.at.total_cmp(&other.at));
+        // The right end of the last label in each row.
+        let mut ends = [f64::NEG_INFINITY; ROWS_OF_NAMES];
+        let drawn = lines.into_iter().map(|line| {
             let x = self.across(self.chart.x.measure(line.at));
             let (name, bottom) = (escape(&line.name), self.bottom);
-            format!("<path class=\"line\" d=\"M{x:.1} {TOP}V{bottom:.1}\"><title>{name}</title></path>")
+            let wide = SMALL_LETTER * line.name.chars().count() as f64;
+            let from = (x + 3.0).min(self.right - wide);
+            let fits = !name.is_empty() && wide < (self.right - self.left) / 2.0;
+            let row = ends.iter().position(|end| fits && *end < from);
+            let label = row.map(|row| {
+                ends[row] = from + wide + 4.0;
+                let y = TOP + 10.0 + APART * row as f64;
+                format!("<text class=\"soft mark\" x=\"{from:.1}\" y=\"{y:.1}\">{name}</text>")
+            });
+            let label = label.unwrap_or_default();
+            format!("<path class=\"line\" d=\"M{x:.1} {TOP}V{bottom:.1}\"><title>{name}</title></path>{label}")
         });
-        lines.collect()
+        drawn.collect()
     }
 
     fn curve(&self, curve: &Curve) -> String {
         let places = || curve.points.iter().map(|point| point.and_then(|point| self.at(point)));
         let colour = curve.colour % COLOURS;
         let name = escape(&curve.name);
-        let each = |sign: &dyn Fn([f64; 2]) -> String| places().flatten().map(sign).collect::<String>();
         let drawn = match curve.look {
             Look::Line => format!("<path class=\"curve\" d=\"{}\"/>", path(places(), false)),
             Look::Dashed => format!("<path class=\"curve dashed\" d=\"{}\"/>", path(places(), false)),
             Look::Steps => format!("<path class=\"curve\" d=\"{}\"/>", path(places(), true)),
-            Look::Dots => each(&|[x, y]| format!("<circle class=\"dot\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>")),
-            Look::Rings => each(&|[x, y]| format!("<circle class=\"ring\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>")),
-            Look::Discs => each(&|at| disc(at, &curve.label)),
+            Look::Dots | Look::Rings | Look::Discs => signs(curve, places()),
         };
         format!("<g class=\"k{colour}\"><title>{name}</title>{drawn}</g>")
     }
@@ -235,8 +258,18 @@ impl Frame<'_> {
     }
 }
 
+/// The sign of a curve at each place.
+pub(super) fn signs(curve: &Curve, places: impl Iterator<Item = Option<[f64; 2]>>) -> String {
+    let each = places.flatten().map(|[x, y]| match curve.look {
+        Look::Rings => format!("<circle class=\"ring\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\"/>"),
+        Look::Discs => disc([x, y], &curve.label),
+        _ => format!("<circle class=\"dot\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>"),
+    });
+    each.collect()
+}
+
 /// The path through places; a gap begins a new part.
-fn path(places: impl Iterator<Item = Option<[f64; 2]>>, in_steps: bool) -> String {
+pub(super) fn path(places: impl Iterator<Item = Option<[f64; 2]>>, in_steps: bool) -> String {
     let mut path = String::new();
     let mut last: Option<[f64; 2]> = None;
     let mut places = places.peekable();

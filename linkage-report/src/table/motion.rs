@@ -1,0 +1,200 @@
+//! Tables of motions.
+
+use std::f64::consts::TAU;
+
+use linkage_runtime::kinematic::MotionOf;
+use linkage_runtime::range_of_motion::{Driven, MotionEnd, RangeOfMotion, RangeOptions};
+use linkage_runtime::{Assembly, Kinematic, Mechanism, PathError};
+
+use super::{Cause, Mark, Quantity, Table};
+
+impl Table {
+    /// One motion over a turn of the input, in equal steps from 0 to 2 pi, both included, at a constant input rate. It
+    /// passes change points smoothly. Each row is a position of the motion that begins on this branch at the first input
+    /// that has one; inputs that this motion does not reach have a row without a position. See [`Table::over`].
+    ///
+    /// # Errors
+    /// [`PathError::Position`] if no input has a position on the branch, and those of [`RangeOfMotion::of`];
+    /// [`PathError::NoDirection`] without steps.
+    pub fn turn<M>(mechanism: &M, branch: M::Branch, steps: u32, rate: f64) -> Result<Self, PathError>
+    where
+        M: Driven<Scalar = f64, Of: Assembly>,
+    {
+        Self::at(mechanism, branch, &turn(steps), rate)
+    }
+
+    /// One motion at these inputs; see [`Table::turn`].
+    ///
+    /// # Errors
+    /// Those of [`Table::turn`].
+    pub fn at<M>(mechanism: &M, branch: M::Branch, inputs: &[f64], rate: f64) -> Result<Self, PathError>
+    where
+        M: Driven<Scalar = f64, Of: Assembly>,
+    {
+        Ok(Self::over(&on_branch(mechanism, branch, inputs)?, inputs.iter().copied(), rate))
+    }
+
+    /// One motion at these inputs, in any order, at a constant input rate: the input, the time since the first input if the
+    /// rate is not zero, then of each unknown the value, rate and acceleration, of each point x, y, its velocity and its
+    /// acceleration, and of each output the value, rate and acceleration. Inputs that the motion does not reach, and ends
+    /// at which a rate does not exist, have no more than the input and the time. Change points and the ends of the motion
+    /// between the inputs are [`marks`](Self::marks).
+    #[must_use]
+    pub fn over<M>(range: &RangeOfMotion<'_, M>, inputs: impl IntoIterator<Item = f64>, rate: f64) -> Self
+    where
+        M: Driven<Scalar = f64>,
+    {
+        let mut table = Self::of_columns(columns::<M>(rate));
+        let mut clock = Clock::new(rate);
+        for input in inputs {
+            let (row, motion) = row(range, input, &mut clock);
+            table.push_partial(&row, motion.err().map(Cause::Path));
+        }
+        table.mark_motion(range);
+        table
+    }
+
+    /// Marks the change points and the ends of a motion between the inputs of the table.
+    pub(super) fn mark_motion<M: Driven<Scalar = f64>>(&mut self, range: &RangeOfMotion<'_, M>) {
+        let Some(inputs) = self.columns.first() else { return };
+        let wide = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
+        let [least, most] = inputs.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], wide);
+        let ends = range.ends().into_iter().zip(range.inputs()).filter_map(|(end, at)| Some((name_of(end)?, at)));
+        let crossings = range.crossings().map(|crossing| ("change point".to_owned(), crossing.input));
+        let turn = if M::INPUT_ANGLES[0] { TAU } else { 0.0 };
+        let column = inputs.name.clone();
+        for (name, at) in crossings.chain(ends) {
+            let again = [at, at + turn, at - turn].into_iter().find(|at| (least..=most).contains(at));
+            let mark = again.map(|at| Mark { column: column.clone(), at, name });
+            self.marks.extend(mark.filter(|mark| !self.marks.contains(mark)));
+        }
+    }
+}
+
+/// The inputs of a turn, in equal steps.
+pub(super) fn turn(steps: u32) -> Vec<f64> {
+    let ends = if steps == 0 { 1..=0 } else { 0..=steps };
+    ends.map(|step| TAU * f64::from(step) / f64::from(steps)).collect()
+}
+
+/// The motion through change points that begins on a branch.
+pub(super) fn on_branch<'a, M>(
+    mechanism: &'a M,
+    branch: M::Branch,
+    inputs: &[f64],
+) -> Result<RangeOfMotion<'a, M>, PathError>
+where
+    M: Driven<Scalar = f64, Of: Assembly>,
+{
+    RangeOfMotion::on_branch(mechanism, branch, inputs.iter().copied(), RangeOptions::through_change_points())
+}
+
+/// The time at each input of a motion with a constant rate.
+pub(super) struct Clock {
+    rate: f64,
+    first: Option<f64>,
+}
+
+impl Clock {
+    pub(super) fn new(rate: f64) -> Self {
+        Self { rate, first: None }
+    }
+
+    /// The time since the first input; none at rest.
+    pub(super) fn at(&mut self, input: f64) -> Option<f64> {
+        let first = *self.first.get_or_insert(input);
+        (self.rate != 0.0).then(|| (input - first) / self.rate)
+    }
+}
+
+/// The cells of a row as far as they exist, and the motion.
+pub(super) fn row<M: Driven<Scalar = f64>>(
+    range: &RangeOfMotion<'_, M>,
+    input: f64,
+    clock: &mut Clock,
+) -> (Vec<f64>, Result<MotionOf<M::Of>, PathError>) {
+    let mut row: Vec<f64> = [input].into_iter().chain(clock.at(input)).collect();
+    let motion = range.motion(input, clock.rate, 0.0);
+    if let Ok(motion) = &motion {
+        row.extend(numbers::<M>(motion));
+    }
+    (row, motion)
+}
+
+/// The reason of an end as the name of a mark.
+fn name_of(end: MotionEnd) -> Option<String> {
+    match end {
+        MotionEnd::DeadPoint { .. } => Some("dead point".to_owned()),
+        MotionEnd::ChangePoint { .. } => Some("change point".to_owned()),
+        MotionEnd::JointRange { of, .. } => Some(format!("end of {of}")),
+        MotionEnd::Range | MotionEnd::Closed { .. } | MotionEnd::Open => None,
+    }
+}
+
+/// The columns of a motion.
+pub(super) fn columns<M: Driven>(rate: f64) -> Vec<(String, Quantity)> {
+    let is_own = is_the_input::<M>();
+    let parameter = match (is_own, M::INPUT_ANGLES.first()) {
+        (true, Some(&is_angle)) => of_coordinate(is_angle, 0),
+        _ => Quantity::Plain,
+    };
+    let parameter = M::INPUTS.iter().map(|&name| (name.to_owned(), parameter));
+    let time = (rate != 0.0).then(|| ("time".to_owned(), Quantity::Time));
+    let inputs = if is_own { Vec::new() } else { coordinates(M::Of::INPUTS, M::Of::INPUT_ANGLES) };
+    let unknowns = coordinates(M::UNKNOWNS, M::UNKNOWN_ANGLES);
+    parameter.chain(time).chain(inputs).chain(unknowns).chain(points_and_outputs::<M::Of>()).collect()
+}
+
+fn of_coordinate(is_angle: bool, order: u8) -> Quantity {
+    if is_angle { Quantity::Angle(order) } else { Quantity::Length(order) }
+}
+
+/// The columns of coordinates: value, rate and acceleration of each.
+pub(super) fn coordinates(names: &[&str], are_angles: &[bool]) -> Vec<(String, Quantity)> {
+    let each = names.iter().zip(are_angles).flat_map(|(name, &is_angle)| {
+        let ends = [(0, ""), (1, "_rate"), (2, "_acceleration")];
+        ends.map(|(order, end)| (format!("{name}{end}"), of_coordinate(is_angle, order)))
+    });
+    each.collect()
+}
+
+/// The columns of points and outputs.
+pub(super) fn points_and_outputs<M: Kinematic>() -> impl Iterator<Item = (String, Quantity)> {
+    let points = M::POINTS.iter().flat_map(|point| {
+        let vectors = [(0, ""), (1, "velocity_"), (2, "acceleration_")];
+        let each =
+            vectors.map(|(order, of)| ["x", "y"].map(|axis| (format!("{point}_{of}{axis}"), Quantity::Length(order))));
+        each.into_iter().flatten()
+    });
+    let outputs = M::OUTPUTS
+        .iter()
+        .flat_map(|output| ["", "_rate", "_acceleration"].map(|end| (format!("{output}{end}"), Quantity::Plain)));
+    points.chain(outputs)
+}
+
+/// True if the parameter is the input of the mechanism itself.
+fn is_the_input<M: Driven>() -> bool {
+    M::INPUTS == M::Of::INPUTS
+}
+
+/// The numbers of a motion in the order of their columns.
+fn numbers<M: Driven<Scalar = f64>>(motion: &MotionOf<M::Of>) -> Vec<f64> {
+    let (of_unknowns, of_inputs) = M::Of::parts(&motion.position);
+    let (unknown_rates, input_rates) = M::Of::rate_parts(&motion.rates);
+    let (unknown_accelerations, input_accelerations) = M::Of::acceleration_parts(&motion.accelerations);
+    let mut row = Vec::new();
+    if !is_the_input::<M>() {
+        let moving = of_inputs.iter().zip(&input_rates).zip(&input_accelerations);
+        row.extend(moving.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
+    }
+    let moving = of_unknowns.iter().zip(&unknown_rates).zip(&unknown_accelerations);
+    row.extend(moving.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
+    for point in M::Of::each_point(motion.points) {
+        let vectors = [point.position.coords, point.velocity, point.acceleration];
+        row.extend(vectors.iter().flat_map(|vector| [vector.x, vector.y]));
+    }
+    for output in M::Of::each_output(motion.outputs) {
+        row.extend([output.value, output.velocity, output.acceleration]);
+    }
+    row
+}
