@@ -66,7 +66,7 @@ fn one_of_two_inputs() {
         assert_eq!((found.rates, found.points), (on_branch.rates, on_branch.points));
         // Angles count turns along the motion.
         let [found, on_branch] = [found.outputs.turn, on_branch.outputs.turn];
-        assert_eq!((found.velocity, found.acceleration), (on_branch.velocity, on_branch.acceleration));
+        assert_eq!((found.rate, found.acceleration), (on_branch.rate, on_branch.acceleration));
         let turns = (found.value - on_branch.value) / TAU;
         assert!((turns - turns.round()).abs() < 1e-15, "{turns}");
     }
@@ -103,7 +103,7 @@ fn a_line_between_two_inputs() {
     let ends = [0.0, 1.0].map(|part| FiveBar::inputs(&range.at(part).unwrap()));
     assert_eq!(ends.map(|inputs| [inputs[0], inputs[1]]), [[2.0, 1.2], [1.1, 0.1]]);
     let table = Table::over(&range, (0..=8).map(|step| f64::from(step) / 8.0), 0.5);
-    assert_eq!(&table.names()[..4], ["the part of the way", "left", "left_rate", "left_acceleration"]);
+    assert_eq!(&table.names()[..5], ["the part of the way", "time", "left", "left_rate", "left_acceleration"]);
     let columns = ["left", "left_rate", "right_rate", "right_acceleration", "P_x", "P_velocity_x", "turn", "turn_rate"];
     let [left, left_rate, right_rate, right_acceleration, x, x_rate, turn, turn_rate] =
         columns.map(|name| table.column(name).unwrap());
@@ -115,7 +115,7 @@ fn a_line_between_two_inputs() {
             m.mechanism.full_kinematics(inputs, BRANCH, rates, FiveBarInputs { left: 0.0, right: 0.0 }).unwrap();
         let found = [left, left_rate, right_rate, right_acceleration, x, x_rate, turn, turn_rate].map(|c| c[step]);
         let (p, o) = (expected.points.p, expected.outputs.turn);
-        let known = [inputs.left, rates.left, rates.right, 0.0, p.position.x, p.velocity.x, o.value, o.rate];
+        let known = [inputs.left, rates.left, rates.right, 0.0, p.position.x, p.velocity.x, o.value, o.velocity];
         assert_eq!(found, known);
     }
     assert!(matches!(range.at(1.5), Err(PathError::Input(InputError::OutOfRange { .. }))));
@@ -140,8 +140,8 @@ fn a_function_of_the_parameter() {
         let (little, here) = (1e-5, rate(s));
         let [after, before] = [little, -little].map(|off| rate(s + off));
         let slopes = [
-            (after.outputs.turn.value - before.outputs.turn.value, here.outputs.turn.rate),
-            (after.outputs.turn.rate - before.outputs.turn.rate, here.outputs.turn.acceleration),
+            (after.outputs.turn.value - before.outputs.turn.value, here.outputs.turn.velocity),
+            (after.outputs.turn.velocity - before.outputs.turn.velocity, here.outputs.turn.acceleration),
             (after.points.p.velocity.y - before.points.p.velocity.y, here.points.p.acceleration.y),
         ];
         for (difference, derivative) in slopes {

@@ -37,7 +37,7 @@ fn a_parallelogram_stays_one() {
     let inputs: Vec<f64> = (1..=72).map(|step| f64::from(5 * step).to_radians() + m.tilt).collect();
     let table = Table::at(&m, branch(), &inputs, 1.0).unwrap();
     let [theta, psi, rate] = ["theta", "psi", "psi_rate"].map(|name| table.column(name).unwrap());
-    assert_eq!((theta.len(), table.rejected().len()), (72, 0), "{:?}", table.rejected());
+    assert_eq!((theta.len(), table.missing().len()), (72, 0), "{:?}", table.missing());
     for ((theta, psi), rate) in theta.iter().zip(psi).zip(rate) {
         // At a change point itself the rate is extrapolated.
         let error = if (theta - m.tilt).sin().abs() < 1e-3 { 1e-9 } else { 1e-13 };
@@ -51,7 +51,7 @@ fn an_antiparallelogram_stays_one() {
     let m = Tilted::default();
     let table = Table::turn(&m, branch(), 72, 1.0).unwrap();
     let [theta, psi] = ["theta", "psi"].map(|name| table.column(name).unwrap());
-    assert_eq!((theta.len(), table.rejected().len()), (72, 0));
+    assert_eq!((theta.len(), table.missing().len()), (73, 0));
     for (theta, psi) in theta.iter().zip(psi) {
         // The position at a change point is that of both motions.
         let is_crossing = (theta - m.tilt).sin().abs() < 1e-3;
@@ -106,7 +106,7 @@ fn rates_where_motions_cross() {
     let start = TiltedCoordinates { theta: 0.5, phi: m.tilt, psi: 0.5 };
     let range = RangeOfMotion::of(&m, &start, through()).unwrap();
     let table = Table::over(&range, (0..72).map(|step| f64::from(5 * step).to_radians()), 10.0);
-    assert_eq!((table.rejected().len(), table.column("theta").unwrap().len()), (0, 72));
+    assert_eq!((table.missing().len(), table.column("theta").unwrap().len()), (0, 72));
     assert!(table.column("psi_rate").unwrap().iter().all(|rate| (rate - 10.0).abs() < 1e-9));
     assert!(table.column("psi_acceleration").unwrap().iter().all(|rate| rate.abs() < 1e-7));
     // At an end there is one side only.

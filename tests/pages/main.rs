@@ -8,3 +8,4 @@ mod manual;
 mod report;
 mod sheet;
 mod skeleton;
+mod tables;

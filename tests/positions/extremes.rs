@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use approx::assert_relative_eq;
 use linkage::extremes::{over_range, over_turn};
+use linkage::table::{Cause, Missing};
 use linkage::{Elbow, OutputMotion, PathError, PositionError, Slider, Table, linkage};
 
 linkage! {
@@ -159,22 +160,33 @@ fn a_turn_as_a_table() {
         }
         assert_eq!(table.column("s").unwrap()[step].to_bits(), motion.pose.s.to_bits());
     }
-    assert_eq!((table.column("phi").unwrap().len(), table.rejected().len(), table.column("none")), (24, 0, None));
+    assert_eq!((table.len(), table.missing().len(), table.column("none")), (25, 0, None));
 }
 
 #[test]
-fn inputs_without_a_position_have_no_row() {
+fn inputs_without_a_position_have_empty_cells() {
     let m = SliderCrank { l: 10.0, e: 0.0, ..SliderCrank::default() };
     let table = Table::turn(&m, SliderCrankBranch { psi_s: Slider::Far }, 360, 1.0).unwrap();
-    let rows = table.column("phi").unwrap();
+    let [inputs, places] = ["phi", "s"].map(|name| table.column(name).unwrap());
+    let reached: Vec<f64> = inputs.iter().zip(places).filter(|(_, s)| s.is_finite()).map(|(phi, _)| *phi).collect();
     // |sin phi| <= 1/2 in one motion about 0, and in another about 180 degrees; at the limits the velocity is infinite.
-    // A limit of these inputs is inside by an ulp.
-    assert!(rows.iter().all(|phi| phi.sin().abs() < 0.5 && phi.cos() > 0.0));
-    assert_eq!((rows.len(), table.rejected().len()), (60, 300));
-    let is_at_or_beyond_the_end = |error: &PathError| {
-        matches!(error, PathError::DeadPoint { .. } | PathError::Position(PositionError::Singular { .. }))
-    };
-    assert!(table.rejected().iter().all(|rejected| is_at_or_beyond_the_end(&rejected.error)));
-    assert_eq!(table.to_csv().lines().count(), rows.len() + 1);
+    // A limit of these inputs is inside by an ulp. 0 and 360 degrees are two rows.
+    assert!(reached.iter().all(|phi| phi.sin().abs() < 0.5 && phi.cos() > 0.0));
+    assert_eq!((inputs.len(), reached.len(), table.missing().len()), (361, 61, 300));
+    for Missing { row, cause } in table.missing() {
+        assert!(places[*row].is_nan());
+        let is_at_or_beyond_the_end = matches!(
+            cause,
+            Cause::Path(PathError::DeadPoint { .. } | PathError::Position(PositionError::Singular { .. }))
+        );
+        assert!(is_at_or_beyond_the_end, "{cause}");
+    }
+    let csv = table.select(["phi", "s", "s_rate"]).unwrap().to_csv();
+    assert_eq!(csv.lines().filter(|line| line.ends_with(",,")).count(), 300);
+    assert_eq!(csv.lines().count(), 362);
     assert!(!table.to_csv().contains("NaN"));
+    // The ends of the motion are marks, in degrees as its input.
+    let table = table.degrees();
+    let ends = table.marks().iter().map(|mark| (mark.name.as_str(), mark.at.round()));
+    assert_eq!(ends.collect::<Vec<_>>(), [("dead point", 330.0), ("dead point", 30.0)]);
 }

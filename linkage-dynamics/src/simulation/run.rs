@@ -185,6 +185,12 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         self
     }
 
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &S {
+        self.integration.system().scene
+    }
+
     /// The time reached.
     #[must_use]
     pub fn t(&self) -> S::Scalar {

@@ -124,8 +124,7 @@ impl Disc {
             .collect();
         let room = |angle: f64| {
             let labels = (1..=self.circles()).map(|circle| self.around(angle, self.radius * self.part(circle)));
-            let gaps =
-                labels.flat_map(|[x, y]| points.iter().map(move |point| (point[0] - x + 8.0).hypot(point[1] - y)));
+            let gaps = labels.flat_map(|[x, y]| points.iter().map(move |point| (point[0] - x).hypot(point[1] - y)));
             gaps.fold(f64::INFINITY, f64::min)
         };
         let angles = (0..RAYS).map(|ray| TAU * (f64::from(ray) + 0.5) / f64::from(RAYS));
@@ -183,9 +182,8 @@ impl Disc {
             ));
             let [at_x, at_y] = self.around(self.labels, distance);
             push(format_args!(
-                "<text class=\"soft end\" x=\"{:.1}\" y=\"{:.1}\">{value:.digits$}</text>",
-                at_x - 2.0,
-                at_y + 4.0
+                "<text class=\"soft middle mark\" x=\"{at_x:.1}\" y=\"{:.1}\">{value:.digits$}</text>",
+                at_y + 3.5
             ));
         }
         let wide = LETTER * name.chars().count() as f64;

@@ -96,6 +96,9 @@ pub enum Cause {
     /// An event has ended the simulation before.
     #[cfg(feature = "dynamics")]
     Ended,
+    /// The rates may jump there: points and outputs have no acceleration.
+    #[cfg(feature = "dynamics")]
+    Jump,
 }
 
 /// A place on an axis: an event of a simulation, a change point or an end of a motion.
@@ -299,6 +302,8 @@ impl fmt::Display for Cause {
             Self::Motion(error) => error.fmt(f),
             #[cfg(feature = "dynamics")]
             Self::Ended => f.write_str("an event has ended the simulation before"),
+            #[cfg(feature = "dynamics")]
+            Self::Jump => f.write_str("the rates may jump: points and outputs have no acceleration"),
         }
     }
 }

@@ -1,1 +1,241 @@
 //! Tables of simulations.
+
+use linkage_dynamics::contact::Change;
+use linkage_dynamics::integrate::Method;
+use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
+use linkage_dynamics::{MotionError, Scene};
+use linkage_runtime::{Column, Dim, Kinematic, Mechanism};
+
+use super::motion::{coordinates, points_and_outputs};
+use super::scene::{contact_names, load_columns, numbers};
+use super::{Cause, Mark, Missing, Quantity, Table};
+
+impl Table {
+    /// The rest of a simulation, a row for its state and for each step and each event until its end: the time, of each
+    /// coordinate and each output the value, rate and acceleration, of each point x, y, its velocity and its acceleration,
+    /// and the loads as in [`Table::over_with_loads`], with the forces of the inputs that the scene drives.
+    ///
+    /// Events, kinks and changes of frictions and stops are [`marks`](Self::marks) of the column `time`. At an event the
+    /// rates are those before it, and accelerations and loads those after it; where the rates jump, points and outputs have
+    /// no acceleration. If the simulation ends with an error, the rows before it remain, and the last of
+    /// [`missing`](Self::missing) has the error.
+    ///
+    /// ```
+    /// linkage::linkage! {
+    ///     /// A pendulum that hits a wall.
+    ///     pub mechanism Pendulum {
+    ///         param l = 1, m = 2, g = 9.81;
+    ///         input phi;
+    ///         point Tip = l@phi;
+    ///         body bob { mass m; center Tip; }
+    ///         scene Swing {
+    ///             inertia;
+    ///             gravity (0, -g);
+    ///             stop phi in -2..4, restitution 0.5;
+    ///             reaction at (0, 0);
+    ///         }
+    ///     }
+    /// }
+    /// use linkage::Table;
+    /// use linkage::chart::Chart;
+    /// use linkage::simulation::{Start, simulate};
+    ///
+    /// let scene = Swing::default();
+    /// let start = Start { t: 0.0, q: PendulumCoordinates { phi: 0.0 }, input_rates: 0.0 };
+    /// let times = (0..=200).map(|step| f64::from(step) / 100.0);
+    /// let table = Table::simulated_at(&mut simulate(&scene, start, 2.0, 1e-9)?, times);
+    /// assert_eq!((table.len(), table.marks()[0].name.as_str()), (201, "stop on phi is hit"));
+    /// // The events are dashed lines.
+    /// let svg = Chart::of(&table, "time", ["phi"])?.to_svg();
+    /// assert!(svg.contains("stop on phi is hit"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn simulated<S, M, W>(simulation: &mut Simulation<'_, S, M, W>) -> Self
+    where
+        S: Scene<Scalar = f64, Mechanism: Kinematic>,
+        M: Method,
+        W: Watch<S>,
+    {
+        let mut rows = Rows::of(simulation);
+        rows.push(simulation.scene(), simulation.state(), simulation.loads());
+        loop {
+            match simulation.advance() {
+                Ok(Some(state)) => {
+                    rows.mark(&state);
+                    rows.push(simulation.scene(), &state, simulation.loads());
+                }
+                Ok(None) => break,
+                Err(error) => {
+                    let (row, cause) = (rows.table.len(), Cause::Motion(error));
+                    rows.table.missing.push(Missing { row, cause });
+                    break;
+                }
+            }
+        }
+        rows.table
+    }
+
+    /// A simulation at these times, in its direction: as [`Table::simulated`], with the events between them as marks. Times
+    /// that it does not reach have a row without numbers.
+    pub fn simulated_at<S, M, W>(simulation: &mut Simulation<'_, S, M, W>, times: impl IntoIterator<Item = f64>) -> Self
+    where
+        S: Scene<Scalar = f64, Mechanism: Kinematic>,
+        M: Method,
+        W: Watch<S>,
+    {
+        let mut rows = Rows::of(simulation);
+        let start = simulation.t();
+        let mut is_over = false;
+        for t in times {
+            let is_ahead = |reached: f64| if t >= start { reached < t } else { reached > t };
+            while !is_over && is_ahead(simulation.t()) {
+                match simulation.advance() {
+                    Ok(Some(state)) => rows.mark(&state),
+                    Ok(None) => is_over = true,
+                    Err(error) => {
+                        is_over = true;
+                        rows.error = Some(error);
+                    }
+                }
+            }
+            let state = simulation.at([t]).next();
+            match state {
+                Some(Ok(state)) => rows.push(simulation.scene(), &state, simulation.loads()),
+                Some(Err(error)) => rows.push_missing(t, Cause::Motion(rows.error.unwrap_or(error))),
+                None => rows.push_missing(t, rows.error.map_or(Cause::Ended, Cause::Motion)),
+            }
+        }
+        rows.table
+    }
+}
+
+/// The rows of a simulation.
+struct Rows<S: Scene> {
+    table: Table,
+    /// True for each input that the scene drives.
+    is_driven: Column<bool, S::V>,
+    /// The error with which the simulation has ended.
+    error: Option<MotionError>,
+}
+
+impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
+    fn of<M: Method, W: Watch<S>>(simulation: &Simulation<'_, S, M, W>) -> Self {
+        let (scene, state) = (simulation.scene(), simulation.state());
+        let is_driven = scene.prescribed(state.t).map(|law| law.is_some());
+        let contacts = contact_names(scene, state.t, &state.q, &state.rates);
+        let time = [("time".to_owned(), Quantity::Time)].into_iter();
+        let inputs = coordinates(S::Mechanism::INPUTS, S::Mechanism::INPUT_ANGLES);
+        let unknowns = coordinates(S::Mechanism::UNKNOWNS, S::Mechanism::UNKNOWN_ANGLES);
+        let loads = load_columns::<S>(contacts.as_deref(), |input| is_driven[input]);
+        let motion = time.chain(inputs).chain(unknowns).chain(points_and_outputs::<S::Mechanism>());
+        Self { table: Table::of_columns(motion.chain(loads)), is_driven, error: None }
+    }
+
+    fn push(&mut self, scene: &S, state: &State<S>, loads: Result<Loads<S>, MotionError>) {
+        let accelerations = loads.as_ref().ok().map(|loads| loads.accelerations);
+        let (mut row, error) = moving(scene, state, accelerations.map(|all| (all.unknowns, all.inputs)));
+        let cause = match loads {
+            Ok(loads) => {
+                row.extend(numbers(&loads, |input| self.is_driven[input]));
+                error
+            }
+            Err(error) => Some(Cause::Motion(error)),
+        };
+        self.table.push_partial(&row, cause);
+    }
+
+    fn push_missing(&mut self, t: f64, cause: Cause) {
+        self.table.push_partial(&[t], Some(cause));
+    }
+
+    /// Marks the events at a state.
+    fn mark(&mut self, state: &State<S>) {
+        let own = state.event.map(|event| format!("event {event}"));
+        let kink = state.kink.map(|effect| format!("kink of {effect}"));
+        let changes = state.changes().map(|(contact, change)| format!("{contact} {}", in_words(change)));
+        let marks = own.into_iter().chain(kink).chain(changes);
+        self.table.marks.extend(marks.map(|name| Mark { column: "time".to_owned(), at: state.t, name }));
+    }
+}
+
+fn in_words(change: Change) -> &'static str {
+    match change {
+        Change::Sticks => "sticks",
+        Change::Slips => "slips",
+        Change::Impact => "is hit",
+        Change::Rests => "holds",
+        Change::LetsGo => "lets go",
+    }
+}
+
+/// The accelerations u'' and v''.
+type Accelerations<S> =
+    (Column<f64, <<S as Scene>::Mechanism as Mechanism>::U>, Column<f64, <<S as Scene>::Mechanism as Mechanism>::V>);
+
+/// The numbers of a state before its loads, NaN for those that do not exist, and why.
+fn moving<S>(scene: &S, state: &State<S>, accelerations: Option<Accelerations<S>>) -> (Vec<f64>, Option<Cause>)
+where
+    S: Scene<Scalar = f64, Mechanism: Kinematic>,
+{
+    let (mechanism, State { q, rates, .. }) = (scene.mechanism(), state);
+    let (unknowns, inputs) = S::Mechanism::parts(q);
+    let (unknown_rates, input_rates) = S::Mechanism::rate_parts(rates);
+    let (of_unknowns, of_inputs) =
+        accelerations.unwrap_or_else(|| (Column::repeat(f64::NAN), Column::repeat(f64::NAN)));
+    let mut row = vec![state.t];
+    let each = inputs.iter().zip(&input_rates).zip(&of_inputs);
+    row.extend(each.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
+    let each = unknowns.iter().zip(&unknown_rates).zip(&of_unknowns);
+    row.extend(each.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
+
+    let pose = mechanism.pose_at(q);
+    let jumps = jumps(state);
+    let accelerations =
+        accelerations.filter(|_| !jumps).map(|(unknowns, inputs)| S::Mechanism::accelerations(unknowns, inputs));
+    let mut error = None;
+    let mut found = |numbers: Result<Vec<f64>, linkage_runtime::PositionError>, count: usize| {
+        numbers.unwrap_or_else(|of| {
+            error = Some(Cause::Motion(of.into()));
+            vec![f64::NAN; count]
+        })
+    };
+    type Of<S> = <S as Scene>::Mechanism;
+    let points =
+        mechanism.points(&pose).map(|all| Of::<S>::each_point(all).iter().flat_map(|at| [at.x, at.y]).collect());
+    let velocities = mechanism
+        .point_velocities(&pose, rates)
+        .map(|all| Of::<S>::each_point(all).iter().flat_map(|vector| [vector.x, vector.y]).collect());
+    let second = accelerations.map(|accelerations| {
+        let points = mechanism
+            .point_accelerations(&pose, rates, &accelerations)
+            .map(|all| Of::<S>::each_point(all).iter().flat_map(|vector| [vector.x, vector.y]).collect());
+        let outputs = mechanism
+            .output_accelerations(&pose, rates, &accelerations)
+            .map(|all| Of::<S>::each_output(all).iter().copied().collect());
+        (points, outputs)
+    });
+    let (p, o) = (<Of<S> as Kinematic>::P::COUNT, <Of<S> as Kinematic>::O::COUNT);
+    let (second_of_points, second_of_outputs) =
+        second.unwrap_or_else(|| (Ok(vec![f64::NAN; 2 * p]), Ok(vec![f64::NAN; o])));
+    let of_points = [points, velocities, second_of_points].map(|numbers| found(numbers, 2 * p));
+    for point in 0..p {
+        row.extend(of_points.iter().flat_map(|numbers| &numbers[2 * point..2 * point + 2]));
+    }
+    let values = mechanism.outputs(&pose).map(|all| Of::<S>::each_output(all).iter().copied().collect());
+    let rates =
+        mechanism.output_velocities(&pose, rates).map(|all| Of::<S>::each_output(all).iter().copied().collect());
+    let of_outputs = [values, rates, second_of_outputs].map(|numbers| found(numbers, o));
+    for output in 0..o {
+        row.extend(of_outputs.iter().map(|numbers| numbers[output]));
+    }
+    let has_seconds = p + o > 0;
+    (row, error.or((jumps && has_seconds).then_some(Cause::Jump)))
+}
+
+/// True if the rates may jump at this state.
+fn jumps<S: Scene>(state: &State<S>) -> bool {
+    let mut changes = state.changes();
+    state.event.is_some()
+        || state.kink.is_some()
+        || changes.any(|(_, change)| matches!(change, Change::Impact | Change::Rests))
+}

@@ -67,8 +67,8 @@ impl Table {
             None => value,
         };
         let is_plain = rounded == 0.0 || PLAIN.contains(&rounded.abs());
-        // -0 is written as 0.
-        let rounded = rounded + 0.0;
+        // Rounded, -0 is 0.
+        let rounded = if self.digits.is_some() { rounded + 0.0 } else { rounded };
         value.is_finite().then(|| if is_plain { format!("{rounded}") } else { format!("{rounded:e}") })
     }
 }
