@@ -4,7 +4,6 @@ use core::fmt::Debug;
 
 /// A joint whose force a scene shows, with its names as they are declared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Joint {
     /// A pin. Its force on a link is a vector along x and y of the ground.

@@ -115,7 +115,7 @@ fn a_line_between_two_inputs() {
             m.mechanism.full_kinematics(inputs, BRANCH, rates, FiveBarInputs { left: 0.0, right: 0.0 }).unwrap();
         let found = [left, left_rate, right_rate, right_acceleration, x, x_rate, turn, turn_rate].map(|c| c[step]);
         let (p, o) = (expected.points.p, expected.outputs.turn);
-        let known = [inputs.left, rates.left, rates.right, 0.0, p.position.x, p.velocity.x, o.value, o.velocity];
+        let known = [inputs.left, rates.left, rates.right, 0.0, p.position.x, p.velocity.x, o.value, o.rate];
         assert_eq!(found, known);
     }
     assert!(matches!(range.at(1.5), Err(PathError::Input(InputError::OutOfRange { .. }))));
@@ -140,8 +140,8 @@ fn a_function_of_the_parameter() {
         let (little, here) = (1e-5, rate(s));
         let [after, before] = [little, -little].map(|off| rate(s + off));
         let slopes = [
-            (after.outputs.turn.value - before.outputs.turn.value, here.outputs.turn.velocity),
-            (after.outputs.turn.velocity - before.outputs.turn.velocity, here.outputs.turn.acceleration),
+            (after.outputs.turn.value - before.outputs.turn.value, here.outputs.turn.rate),
+            (after.outputs.turn.rate - before.outputs.turn.rate, here.outputs.turn.acceleration),
             (after.points.p.velocity.y - before.points.p.velocity.y, here.points.p.acceleration.y),
         ];
         for (difference, derivative) in slopes {

@@ -188,7 +188,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// The scene.
     #[must_use]
     pub fn scene(&self) -> &S {
-        self.integration.system().scene
+        &self.integration.system().scene
     }
 
     /// The time reached.

@@ -194,7 +194,7 @@ fn numbers<M: Driven<Scalar = f64>>(motion: &MotionOf<M::Of>) -> Vec<f64> {
         row.extend(vectors.iter().flat_map(|vector| [vector.x, vector.y]));
     }
     for output in M::Of::each_output(motion.outputs) {
-        row.extend([output.value, output.velocity, output.acceleration]);
+        row.extend([output.value, output.rate, output.acceleration]);
     }
     row
 }

@@ -166,9 +166,12 @@ pub(super) fn load_columns<S: Scene>(
     }
     for joint in S::Reactions::JOINTS {
         match joint {
-            Joint::Pin(name) => all.extend(["_x", "_y", ""].map(|end| (format!("{name}{end}"), Quantity::Force))),
-            Joint::Guide([normal, moment]) => {
-                all.extend([((*normal).to_owned(), Quantity::Force), ((*moment).to_owned(), Quantity::Torque)]);
+            Joint::Pin { name, .. } => {
+                all.extend(["_x", "_y", ""].map(|end| (format!("{name}{end}"), Quantity::Force)));
+            }
+            Joint::Guide { name, .. } => {
+                all.push((format!("{name}_normal"), Quantity::Force));
+                all.push((format!("{name}_moment"), Quantity::Torque));
             }
         }
     }
@@ -186,7 +189,7 @@ pub(super) fn numbers<S: Scene<Scalar = f64>>(loads: &Loads<S>, is_driven: impl 
     all.extend(loads.contacts.iter());
     for (joint, [first, second]) in S::Reactions::JOINTS.iter().zip(loads.joints.each()) {
         all.extend([first, second]);
-        all.extend(matches!(joint, Joint::Pin(_)).then(|| first.hypot(second)));
+        all.extend(matches!(joint, Joint::Pin { .. }).then(|| first.hypot(second)));
     }
     all
 }

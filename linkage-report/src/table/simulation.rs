@@ -223,7 +223,7 @@ where
     }
     let values = mechanism.outputs(&pose).map(|all| Of::<S>::each_output(all).iter().copied().collect());
     let rates =
-        mechanism.output_velocities(&pose, rates).map(|all| Of::<S>::each_output(all).iter().copied().collect());
+        mechanism.output_rates(&pose, rates).map(|all| Of::<S>::each_output(all).iter().copied().collect());
     let of_outputs = [values, rates, second_of_outputs].map(|numbers| found(numbers, o));
     for output in 0..o {
         row.extend(of_outputs.iter().map(|numbers| numbers[output]));

@@ -22,7 +22,7 @@ fn contacts_and_equations_as_the_mechanism_says() {
         let joint = motion.outputs.joint;
         let expected = [
             ("friction on phi", phi, rate, acceleration, 0.2 * 0.01 * 90.0),
-            ("friction on joint", joint.value, joint.velocity, joint.acceleration, 0.2 * 0.012 * 90.0),
+            ("friction on joint", joint.value, joint.rate, joint.acceleration, 0.2 * 0.012 * 90.0),
             ("friction on psi", q.psi, rates.psi, second.psi, 0.2 * 0.008 * 90.0),
             ("friction on z", q.z, rates.z, second.z, 0.2 * 40.0),
         ];
