@@ -8,6 +8,7 @@
 //! | [`the_sheet`] | the sheet, line by line: two courses, and where each of their formulas is |
 //! | [`first_report`] | mobility, limits, transmission angles, strokes and dwells in one call |
 //! | [`first_simulation`] | bodies, forces and a motion in time |
+//! | [`torque`] | torque and forces over a turn: tables, CSV, charts |
 //! | [`linkage!`](crate::linkage!) | the language |
 //! | [`emitted`] | the types and functions of a mechanism |
 //! | [`velocity_ratios`] | the matrix W, its properties, and transmission ratios |
@@ -56,6 +57,11 @@ pub mod first_report {}
 ///
 #[doc = include_str!("first_simulation.md")]
 pub mod first_simulation {}
+
+/// Torque and forces over a turn, as a table, as CSV and as charts.
+///
+#[doc = include_str!("torque.md")]
+pub mod torque {}
 
 /// The types and functions that `mechanism FourBar { .. }` becomes.
 ///
