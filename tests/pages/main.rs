@@ -1,6 +1,7 @@
 //! Pictures and pages.
 
 mod animation;
+mod charts;
 mod door_closer;
 mod engine;
 mod example_files;

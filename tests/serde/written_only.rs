@@ -79,6 +79,16 @@ fn singular_positions() {
     assert_eq!(written["unknowns"], to_value(accuracy.unknowns()).unwrap());
 }
 
+/// A value whose numbers are doubles: 1 is 1.0.
+fn in_doubles(value: Value) -> Value {
+    match value {
+        Value::Number(number) => number.as_f64().into(),
+        Value::Array(all) => all.into_iter().map(in_doubles).collect(),
+        Value::Object(all) => all.into_iter().map(|(name, value)| (name, in_doubles(value))).collect(),
+        other => other,
+    }
+}
+
 #[test]
 fn names_limits_tables_and_errors() {
     let m = Parallelogram::default();
@@ -97,7 +107,7 @@ fn names_limits_tables_and_errors() {
         (&written["columns"][0]["name"], written["columns"][0]["values"].as_array().unwrap().len()),
         (&"theta".into(), 13)
     );
-    assert_eq!(written, serde_json::from_str::<Value>(&table.to_json()).unwrap());
+    assert_eq!(in_doubles(written), in_doubles(serde_json::from_str(&table.to_json()).unwrap()));
 
     let start = ParallelogramCoordinates { theta: 0.6, phi: 0.0, psi: 0.6 };
     let report = Report::of(&m, Parallelogram::DERIVATION, &start, &ReportOptions::default()).unwrap();

@@ -68,7 +68,9 @@ impl std::error::Error for TableError {}
 
 impl TableError {
     pub(super) fn unknown(name: &str, names: &[&str]) -> Self {
-        let nearest = names.iter().min_by_key(|other| edits(name, other)).map(|&nearest| nearest.to_owned());
+        // A capital letter is a smaller slip than another letter.
+        let by_case = |other: &str| (edits(&name.to_lowercase(), &other.to_lowercase()), edits(name, other));
+        let nearest = names.iter().min_by_key(|other| by_case(other)).map(|&nearest| nearest.to_owned());
         Self::UnknownColumn { name: name.to_owned(), nearest }
     }
 }

@@ -64,9 +64,12 @@ impl Table {
         let turn = if M::INPUT_ANGLES[0] { TAU } else { 0.0 };
         let column = inputs.name.clone();
         for (name, at) in crossings.chain(ends) {
-            let again = [at, at + turn, at - turn].into_iter().find(|at| (least..=most).contains(at));
-            let mark = again.map(|at| Mark { column: column.clone(), at, name });
-            self.marks.extend(mark.filter(|mark| !self.marks.contains(mark)));
+            for at in [at - turn, at, at + turn].into_iter().filter(|at| (least..=most).contains(at)) {
+                let mark = Mark { column: column.clone(), at, name: name.clone() };
+                if !self.marks.contains(&mark) {
+                    self.marks.push(mark);
+                }
+            }
         }
     }
 }
