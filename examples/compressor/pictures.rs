@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use linkage::PositionError;
+use linkage::chart::Polar;
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2, point};
 
@@ -70,11 +71,14 @@ pub fn page(
     let crank = "crank angle, degrees";
     let mut main = Plot::new("Main bearing", crank, "kN").every(90.0);
     let mut shaking = Plot::new("Shaking force", crank, "N").every(90.0);
-    let mut loci = Plot::new("Shaking force", "N across", "N along the cylinder");
+    // The cylinder is upwards.
+    let mut loci = Polar::new("Shaking force", "N");
+    let crank_pin = bare.iter().map(|loads| loads.joints.crank_pin_on_rod / 1e3).map(|force| [-force.y, force.x]);
+    let crank_pin = Polar::new("Crank pin", "kN").curve("", crank_pin);
     for Balanced { name, loads, .. } in machines {
         main = main.curve(name, over_angle(loads, &|loads| loads.joints.bearing_on_crank.norm() / 1e3));
         shaking = shaking.curve(name, over_angle(loads, &|loads| loads.shaking.norm()));
-        loci = loci.curve(name, loads.iter().map(|loads| [-loads.shaking.y, loads.shaking.x]));
+        loci = loci.curve(*name, loads.iter().map(|loads| [-loads.shaking.y, loads.shaking.x]));
     }
     let plots = [
         (
@@ -91,13 +95,6 @@ pub fn page(
             "The forces on the rod at both ends.",
         ),
         (
-            Plot::new("Crank pin", "kN across", "kN along the cylinder").curve(
-                "",
-                bare.iter().map(|loads| loads.joints.crank_pin_on_rod / 1e3).map(|force| [-force.y, force.x]),
-            ),
-            "The force of the crank pin on the rod over a turn; the axes have different scales.",
-        ),
-        (
             Plot::new("Guide", crank, "kN")
                 .every(90.0)
                 .curve("", over_angle(bare, &|loads| loads.joints.z_normal / 1e3)),
@@ -109,9 +106,14 @@ pub fn page(
         ),
         (main, "The main bearing carries the counterweight as well as what it balances."),
         (shaking, "The force on the foundation, which does not know the pressure: only masses count."),
-        (loci, "With both masses the second order is left, along the cylinder."),
     ];
-    let plots = plots.iter().map(|(plot, words)| (plot.svg(), (*words).to_owned())).collect();
+    let polars = [
+        (loci, "With both masses the second order is left, along the cylinder, at 90 degrees."),
+        (crank_pin, "The force of the crank pin on the rod over a turn, with the cylinder at 90 degrees."),
+    ];
+    let plots = plots.iter().map(|(plot, words)| (plot.svg(), (*words).to_owned()));
+    let plots =
+        plots.chain(polars.iter().map(|(polar, words)| (polar.to_svg_fragment(), (*words).to_owned()))).collect();
     let moving = vec![(animation(scene)?, "One turn; the balance shaft turns against the crank.".to_owned())];
     let about = "A slider-crank that compresses air to eight bar at constant speed: the force in every joint over a \
                  turn, and the balancing masses that leave the least shaking force.";

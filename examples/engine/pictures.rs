@@ -1,5 +1,6 @@
 //! Draws the page.
 
+use linkage::chart::Polar;
 use linkage::drawing::Animation;
 use linkage::nalgebra::{Point2, Vector2, point, vector};
 use linkage::simulation::{Start, simulate};
@@ -127,11 +128,6 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
             "Both change sign at the dead centres; inertia makes the side force change sign in between, too.",
         ),
         (
-            Plot::new("Main bearing", "kN across", "kN along the cylinder")
-                .curve("", loads.iter().map(|loads| [-loads.bearing.y / 1e3, loads.bearing.x / 1e3])),
-            "The force of the bearing on the crank, over one cycle; the axes have different scales.",
-        ),
-        (
             Plot::new("Energy", "s", "kJ")
                 .curve("work of gas", run.accounts.iter().map(|account| [account.t, account.applied / 1e3]))
                 .curve("heat", run.accounts.iter().map(|account| [account.t, account.dissipated / 1e3]))
@@ -151,7 +147,11 @@ pub fn page(run: &Run, rows: &[[String; 2]]) -> Result<String, Box<dyn std::erro
         .collect::<Result<Vec<_>, Box<dyn std::error::Error>>>()?;
     let mut moving = vec![(animation(run)?, "One four-stroke cycle, in slow motion.".to_owned())];
     moving.extend(stations);
-    let plots = plots.iter().map(|(plot, words)| (plot.svg(), (*words).to_owned())).collect();
+    let bearing = Polar::new("Main bearing", "kN")
+        .curve("", loads.iter().map(|loads| [-loads.bearing.y / 1e3, loads.bearing.x / 1e3]));
+    let words = "The force of the bearing on the crank, over one cycle; 90 degrees are along the cylinder.";
+    let plots = plots.iter().map(|(plot, words)| (plot.svg(), (*words).to_owned()));
+    let plots = plots.chain([(bearing.to_svg_fragment(), words.to_owned())]).collect();
     let about = "A four-stroke cylinder of half a litre, driven by gas pressure, with inertia of \
                  crank, rod, piston and flywheel, weight, dry friction of the rings, an eddy current brake.";
     let sections = [("In motion", moving), ("Over the cycle", plots)];

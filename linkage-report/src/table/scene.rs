@@ -59,6 +59,20 @@ impl Table {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
+    /// A scene without `inertia;` has no loads in motion, and does not compile here:
+    ///
+    /// ```compile_fail,E0277
+    /// # linkage::linkage! {
+    /// #     mechanism Lever {
+    /// #         param r = 0.1, k = 40;
+    /// #         input phi;
+    /// #         point P = r@phi;
+    /// #         scene Static { spring k, 0 on phi; reaction at (0, 0); }
+    /// #     }
+    /// # }
+    /// linkage::Table::turn_with_loads(&Static::default(), LeverBranch::default(), 360, 1.0);
+    /// ```
+    ///
     /// # Errors
     /// Those of [`Table::turn`].
     pub fn turn_with_loads<S>(
