@@ -16,7 +16,7 @@ pub struct Kinematics<P, R, A> {
     pub pose: P,
     /// The rates q'.
     pub rates: R,
-    /// The accelerations q''.
+    /// The accelerations `q''`.
     pub accelerations: A,
 }
 
@@ -28,7 +28,7 @@ pub struct FullKinematics<P, R, A, Q, O> {
     pub pose: P,
     /// The rates q'.
     pub rates: R,
-    /// The accelerations q''.
+    /// The accelerations `q''`.
     pub accelerations: A,
     /// Positions, velocities and accelerations of the points; an empty list if there are none.
     pub points: Q,
@@ -45,7 +45,7 @@ pub struct Motion<C, R, A, Q, O> {
     pub position: C,
     /// The rates q'.
     pub rates: R,
-    /// The accelerations q''.
+    /// The accelerations `q''`.
     pub accelerations: A,
     /// Positions, velocities and accelerations of the points; an empty list if there are none.
     pub points: Q,
@@ -124,7 +124,7 @@ pub trait Kinematic:
     type P: Dim;
     /// The number of outputs.
     type O: Dim;
-    /// The accelerations q'' by name.
+    /// The accelerations `q''` by name.
     type Accelerations: Copy + Debug + PartialEq + From<PerCoordinate<Self>> + Into<PerCoordinate<Self>>;
     /// A quantity for each point by name; without points an empty list.
     type Points<Q: Quantity>: Copy
@@ -151,7 +151,7 @@ pub trait Kinematic:
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a rate is not finite.
     fn velocity(&self, pose: &Self::Pose, input_rates: Self::Inputs) -> Result<Self::Rates, PositionError>;
-    /// The accelerations q'' at the rates q' and the accelerations v'' of the inputs.
+    /// The accelerations `q''` at the rates `q'` and the accelerations `v''` of the inputs.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if an acceleration is not finite.
@@ -216,6 +216,15 @@ pub trait Kinematic:
         const { no_unknowns::<Self>() };
         Ok(Matrix::zeros())
     }
+    /// The velocity ratios by name: for each input, in the order of [`INPUTS`](Mechanism::INPUTS), the rates of all
+    /// coordinates while this input alone moves, at the rate 1.
+    ///
+    /// # Errors
+    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
+    fn ratios_by_input(&self, pose: &Self::Pose) -> Result<Column<Self::Rates, Self::V>, PositionError> {
+        let ratios = self.velocity_ratios(pose)?;
+        Ok(Column::from_fn(|input| Self::rates(ratios.column(input), Column::unit(input))))
+    }
     /// The points. A mechanism without points needs no body of this and of the next three functions.
     ///
     /// # Errors
@@ -234,7 +243,7 @@ pub trait Kinematic:
     ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionError> {
         Ok(none::<Self::P, _, _>(Vector2::zeros()))
     }
-    /// The accelerations of the points at the rates q' and the accelerations q''.
+    /// The accelerations of the points at the rates `q'` and the accelerations `q''`.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
@@ -267,7 +276,7 @@ pub trait Kinematic:
     fn output_rates(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionError> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
-    /// The second derivatives of the outputs at the rates q' and the accelerations q''.
+    /// The second derivatives of the outputs at the rates `q'` and the accelerations `q''`.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
@@ -287,13 +296,13 @@ pub trait Kinematic:
         Ok(none::<Self::O, _, _>(Matrix::zeros()))
     }
 
-    /// Combines u'' and v'' into q''.
+    /// Combines `u''` and `v''` into `q''`.
     #[inline]
     fn accelerations(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Accelerations {
         let listed: PerCoordinate<Self> = Self::rates(unknowns, inputs).into();
         Self::Accelerations::from(listed)
     }
-    /// Splits q'' into u'' and v''.
+    /// Splits `q''` into `u''` and `v''`.
     #[inline]
     fn acceleration_parts(accelerations: &Self::Accelerations) -> (PerUnknown<Self>, PerInput<Self>) {
         let listed: PerCoordinate<Self> = (*accelerations).into();

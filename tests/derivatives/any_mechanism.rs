@@ -59,8 +59,7 @@ fn report<M: Kinematic<Scalar = f64>>(
     let pose = m.pose_at(q);
     let rates = m.velocity(&pose, input_rates)?;
     let velocities = M::each_point(m.point_velocities(&pose, &rates)?);
-    let outputs =
-        M::each_output(m.outputs(&pose)?).into_iter().zip(M::each_output(m.output_rates(&pose, &rates)?));
+    let outputs = M::each_output(m.outputs(&pose)?).into_iter().zip(M::each_output(m.output_rates(&pose, &rates)?));
     let points = M::POINTS.iter().zip(velocities).map(|(name, v)| format!("{name} {:.6} {:.6}", v.x, v.y));
     let outputs = M::OUTPUTS.iter().zip(outputs).map(|(name, (value, rate))| format!("{name} {value:.6} {rate:.6}"));
     Ok(points.chain(outputs).collect())
@@ -86,6 +85,12 @@ fn agrees<M: Kinematic<Scalar = f64>>(m: &M, guess: &M::Coordinates, input_rates
     let expected = m.velocity_ratios(&pose).unwrap() * of_inputs;
     assert!((of_unknowns - expected).largest() <= 1e-12 * of_unknowns.norm().max(1.0));
     assert_eq!(bits(of_inputs), bits(input_rates.into()));
+    // The columns of W, and rates of the inputs of which one is 1.
+    let ratios = m.velocity_ratios(&pose).unwrap();
+    for (input, by_name) in m.ratios_by_input(&pose).unwrap().iter().enumerate() {
+        let (column, unit) = M::rate_parts(by_name);
+        assert_eq!((bits(column), bits(unit)), (bits(ratios.column(input)), bits(Column::unit(input))));
+    }
     let (second, given_back) = M::acceleration_parts(&accelerations);
     assert_eq!(bits(given_back), bits(given.into()));
     assert_eq!(M::accelerations(second, given_back), accelerations);
