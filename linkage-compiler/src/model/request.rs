@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use proc_macro2::Span;
 
 use crate::diagnostics::{Diagnostics, nearest};
-use crate::syntax::{Statement, StatementKind};
+use crate::syntax::{NO_DEFAULT, Statement, StatementKind};
 
 /// A keyword of the statement `derive`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Request {
     /// The limits of each input.
     Limits,
-    /// q''', and the third derivatives of points and outputs.
+    /// `q'''`, and the third derivatives of points and outputs.
     Jerk,
     /// d2u/dv dv, and the second derivatives of points and outputs.
     VelocityRatioDerivatives,
@@ -48,6 +48,21 @@ impl Request {
     ];
 }
 
+/// Traits that a user may derive by an attribute before `mechanism`.
+const TRAITS: [&str; 8] = ["Clone", "Copy", "Debug", "PartialEq", "Eq", "PartialOrd", "Ord", "Hash"];
+
+/// The words after `unknown keyword`, about what the user may have meant.
+fn hint(text: &str, meant: Option<&str>) -> String {
+    match (text, meant) {
+        ("Default", _) => format!("\n{NO_DEFAULT}"),
+        (text, _) if TRAITS.contains(&text) => {
+            format!("\n`{text}` is a trait: write `#[derive({text})]` before `mechanism`")
+        }
+        (_, Some(meant)) => format!(", did you mean `{meant}`?"),
+        (_, None) => format!("\nkeywords: {}", Request::ALL.map(|(name, _)| name).join(", ")),
+    }
+}
+
 /// Collects the keywords of the `derive` statements of a mechanism, with their places.
 pub(super) fn resolve(
     statements: &[Statement],
@@ -65,10 +80,7 @@ pub(super) fn resolve(
         let names = Request::ALL.map(|(name, _)| name);
         let meant = nearest(&text, names);
         if named(&text).is_none() {
-            let hint = match meant {
-                Some(meant) => format!(", did you mean `{meant}`?"),
-                None => format!("\nkeywords: {}", names.join(", ")),
-            };
+            let hint = hint(&text, meant);
             diagnostics.error(word.span(), format_args!("unknown keyword `{text}` after `derive`{hint}"));
         }
         let Some(&(_, request)) = named(&text).or_else(|| named(meant?)) else { continue };

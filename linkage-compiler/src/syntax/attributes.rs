@@ -1,12 +1,13 @@
 //! The attributes that each construct accepts.
 
 use proc_macro2::TokenTree;
-use quote::ToTokens;
+use quote::{ToTokens, quote};
 use syn::parse::ParseStream;
 use syn::parse::discouraged::Speculative;
+use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 use syn::token::Bracket;
-use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Token};
+use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Path, Token};
 
 use super::kind::{Bearer, at_keyword};
 use crate::diagnostics::Diagnostics;
@@ -43,6 +44,10 @@ pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<At
     attributes
 }
 
+/// The reason why the types of a mechanism derive no `Default`.
+pub const NO_DEFAULT: &str = "`Default` is emitted with the default values of the parameters: remove it here, and give \
+    each parameter a value, as in `param a = 2;`";
+
 /// Returns the accepted attributes; reports those that would have no effect or a misleading one.
 pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mut Diagnostics) -> Vec<Attribute> {
     attributes.retain(|attribute| {
@@ -71,7 +76,22 @@ pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mu
         diagnostics.push(syn::Error::new(path.span(), message));
         false
     });
+    for attribute in attributes.iter_mut().filter(|attribute| attribute.path().is_ident("derive")) {
+        without_default(attribute, diagnostics);
+    }
     attributes
+}
+
+/// Reports and removes `Default` in a list of traits to derive: the emitted one has the default values of the parameters.
+fn without_default(derive: &mut Attribute, diagnostics: &mut Diagnostics) {
+    let traits = derive.parse_args_with(Punctuated::<Path, Token![,]>::parse_terminated);
+    let (Meta::List(list), Ok(traits)) = (&mut derive.meta, traits) else { return };
+    let is_default = |of: &&Path| of.segments.last().is_some_and(|last| last.ident == "Default");
+    let (defaults, others): (Vec<&Path>, Vec<&Path>) = traits.iter().partition(is_default);
+    if let Some(default) = defaults.first() {
+        diagnostics.push(syn::Error::new_spanned(default, NO_DEFAULT));
+        list.tokens = quote!(#(#others),*);
+    }
 }
 
 /// True if it is `doc = "…"`, as a doc comment is.

@@ -15,6 +15,11 @@ use super::tokens::{self, name, take};
 use super::{attributes, precedence, recovery};
 use crate::diagnostics::{Diagnostics, nearest};
 
+/// The forms of a friction, with the meaning of its factors.
+const FRICTION: &str = "friction mu, normal on s;` or `friction mu, radius, normal on phi;`\nthe product of the factors is \
+    the largest force along a length `s`, or the largest torque about an angle `phi`; `reaction` instead of `normal` is \
+    the force in the joint of `s` or `phi`, as in `friction mu, reaction on s;";
+
 /// Words that are written for an effect or a property.
 const SYNONYMS: [(&str, &str); 21] = [
     ("weight", "gravity"),
@@ -274,7 +279,7 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
         "potential" => EffectKind::Potential(precedence::parse(stream, expressions)?),
         "friction" => {
             if names_reaction(stream) {
-                return Err(expected(stream, "friction mu, radius, reaction on phi;` or `friction mu, reaction on s;"));
+                return Err(expected(stream, FRICTION));
             }
             let mut factors = vec![precedence::parse(stream, expressions)?];
             let mut reaction = None;
@@ -288,7 +293,7 @@ fn effect(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<Eff
                 factors.push(precedence::parse(stream, expressions)?);
             }
             if !tokens::word(stream, "on") {
-                return Err(expected(stream, "friction mu, radius, normal on phi;` or `friction mu, normal on s;"));
+                return Err(expected(stream, FRICTION));
             }
             EffectKind::Friction { factors, reaction, on: precedence::parse(stream, expressions)? }
         }

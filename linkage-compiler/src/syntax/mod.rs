@@ -24,6 +24,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::parse::{ParseStream, Parser};
 
 use crate::diagnostics::Diagnostics;
+pub use attributes::NO_DEFAULT;
 pub(crate) use expression::unknown_unit;
 pub use expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit, Unread};
 pub(crate) use foreign::constant_of_rust;

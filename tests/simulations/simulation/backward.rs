@@ -8,15 +8,15 @@ use linkage_oracle::close;
 linkage! {
     /// A block between a spring, a damper, a friction and a stop.
     mechanism Sledge {
-        param m = 2, k = 50, c = 0.5, mu = 0.3, e = 0.5, low = -0.2;
+        param m = 2, k = 50, c = 0.5, limit = 0.3, e = 0.5, low = -0.2;
         input x;
         unknown y;
         equation y = x;
         body block { mass m; center (x, 0); }
         scene Damped { inertia; spring k on x; damper c on x; }
-        scene Rubbing { inertia; spring k on x; friction mu on x; }
+        scene Rubbing { inertia; spring k on x; friction limit on x; }
         scene Hitting { inertia; spring k on x; damper c on x; stop x in low..9, restitution e; }
-        scene Both { inertia; spring k on x; stop x in low..9, restitution 1; friction mu on x; }
+        scene Both { inertia; spring k on x; stop x in low..9, restitution 1; friction limit on x; }
     }
 }
 

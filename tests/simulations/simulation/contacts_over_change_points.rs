@@ -12,14 +12,14 @@ linkage! {
     /// Two equal cranks and a coupler that stays parallel to the frame, without gravity.
     #[derive(Debug, Clone)]
     mechanism Cranks {
-        param a = 1, d = 2, m = 1.2, j = 5, mu = 1.5, e = 0.5, bound = 4;
+        param a = 1, d = 2, m = 1.2, j = 5, limit = 1.5, e = 0.5, bound = 4;
         input theta;
         unknown phi, psi;
         loop a@theta + d@phi = d@0 + a@psi;
         body left { inertia j; angle theta; }
         body coupler { mass m; center a@theta + (d/2)@phi; }
         body right { inertia j; angle psi; }
-        scene Rubbed { inertia; friction mu on psi; }
+        scene Rubbed { inertia; friction limit on psi; }
         scene Hit { inertia; stop psi in -9..bound, restitution e; }
     }
 }
@@ -37,20 +37,20 @@ fn friction_takes_all_the_energy() {
     let (scene, start) = (Rubbed::default(), 0.5);
     let near = [-0.3, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.3].map(|beyond| PI + beyond);
     for end in [2.9, 5.0, 7.8, 8.9, 10.1].into_iter().chain(near) {
-        let speed = (2.0 * scene.mu / INERTIA * (end - start)).sqrt();
+        let speed = (2.0 * scene.limit / INERTIA * (end - start)).sqrt();
         let mut motion = simulate(&scene, Start { t: 0.0, q: at(start), input_rates: speed }, 40.0, 1e-12).unwrap();
         let mut stuck = None;
         let mut last = 0.0;
         while let Some(state) = motion.advance().unwrap() {
             let times = (0..=10).map(|part| last + (state.t - last) * f64::from(part) / 10.0);
             for between in motion.at(times).map(Result::unwrap) {
-                let ends = INERTIA * speed / scene.mu;
+                let ends = INERTIA * speed / scene.limit;
                 let t = between.t.min(ends);
-                close("theta", between.q.theta, start + t * (speed - 0.5 * scene.mu / INERTIA * t), 1e-8);
+                close("theta", between.q.theta, start + t * (speed - 0.5 * scene.limit / INERTIA * t), 1e-8);
                 close("psi", between.q.psi, between.q.theta, 1e-8);
                 // The remaining energy is the initial energy less the work of friction.
                 let energy = 0.5 * INERTIA * between.rates.theta.powi(2);
-                let left = 0.5 * INERTIA * speed * speed - scene.mu * (between.q.psi - start);
+                let left = 0.5 * INERTIA * speed * speed - scene.limit * (between.q.psi - start);
                 close("energy", energy, left, 1e-7);
             }
             last = state.t;
@@ -59,7 +59,7 @@ fn friction_takes_all_the_energy() {
                 stuck = Some(state.t);
             }
         }
-        close("sticks", stuck.unwrap(), INERTIA * speed / scene.mu, 1e-8);
+        close("sticks", stuck.unwrap(), INERTIA * speed / scene.limit, 1e-8);
         assert_eq!(motion.state().mode("friction on psi"), Some(Mode::Stick));
         close("end", motion.state().q.psi, end, 1e-8);
     }
@@ -115,14 +115,14 @@ linkage! {
     /// Three flywheels on the links of a four-bar, a crossed parallelogram or a kite.
     #[derive(Debug, Clone)]
     mechanism Wheels {
-        param a = 1, b = 2, c = 1, d = 2, j1 = 5, j2 = 1.2, j3 = 3, mu = 1.5, e = 0.5, least = -9;
+        param a = 1, b = 2, c = 1, d = 2, j1 = 5, j2 = 1.2, j3 = 3, limit = 1.5, e = 0.5, least = -9;
         input theta;
         unknown phi, psi;
         loop a@theta + b@phi = d@0 + c@psi;
         body left { inertia j1; angle theta; }
         body coupler { inertia j2; angle phi; }
         body right { inertia j3; angle psi; }
-        scene Spinning { inertia; friction mu on psi; stop psi in least..20, restitution e; }
+        scene Spinning { inertia; friction limit on psi; stop psi in least..20, restitution e; }
     }
 }
 
@@ -136,9 +136,9 @@ fn the_account_of_energy_closes() {
     let of_crossed = WheelsCoordinates { theta: 0.9, phi: -1.03, psi: -1.93 };
     // The angle of the crank from one change point to the next.
     for (name, scene, q, between) in [("crossed", crossed, of_crossed, PI), ("kite", kite, of_kite, 2.0 * PI)] {
-        for (mu, least) in [(1.5, -20.0), (0.3, -20.0), (0.3, -3.3), (0.3, -3.2), (0.0, -4.0), (1.5, -6.0)] {
+        for (limit, least) in [(1.5, -20.0), (0.3, -20.0), (0.3, -3.3), (0.3, -3.2), (0.0, -4.0), (1.5, -6.0)] {
             let mut scene = scene.clone();
-            (scene.mu, scene.least) = (mu, least);
+            (scene.limit, scene.least) = (limit, least);
             let q = scene.mechanism.solve(&q).unwrap().coordinates;
             let mut motion = simulate(&scene, Start { t: 0.0, q, input_rates: 4.0 }, 12.0, 1e-12).unwrap();
             let kinetic = |rate: &WheelsRates<f64>| {
@@ -150,7 +150,7 @@ fn the_account_of_energy_closes() {
                 let now = (state.q.theta / between).floor();
                 passed += usize::from(now != half_turns);
                 half_turns = now;
-                taken += mu * (state.q.psi - last).abs();
+                taken += limit * (state.q.psi - last).abs();
                 last = state.q.psi;
                 close(name, kinetic(&state.rates), whole - taken, 1e-7 * whole);
                 if state.changes().any(|(_, change)| change == Change::Impact) {
@@ -158,8 +158,8 @@ fn the_account_of_energy_closes() {
                     taken += (1.0 - scene.e.powi(2)) * kinetic(&state.rates);
                 }
             }
-            assert!(impacts == 1 && passed > 1, "{name} {mu} {least}: {impacts} {passed}");
-            assert_eq!(motion.passages().change_points, passed, "{name} {mu} {least}");
+            assert!(impacts == 1 && passed > 1, "{name} {limit} {least}: {impacts} {passed}");
+            assert_eq!(motion.passages().change_points, passed, "{name} {limit} {least}");
         }
     }
 }

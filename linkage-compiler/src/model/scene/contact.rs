@@ -20,6 +20,9 @@ impl Resolver<'_> {
                     }
                     nodes.push(node);
                 }
+                if let (&[factor], None) = (factors.as_slice(), reaction) {
+                    self.lone_coefficient(factor);
+                }
                 if let Some(Some(pin)) = reaction {
                     self.vector(*pin);
                 }
@@ -64,6 +67,18 @@ impl Resolver<'_> {
         }
     }
 
+    /// Reports a friction whose only factor has the name of a coefficient: that would be its largest force.
+    fn lone_coefficient(&mut self, factor: ExpressionId) {
+        let name = self.expressions.as_name(factor).map(ToString::to_string);
+        let Some(name) = name.filter(|name| is_coefficient(name)) else { return };
+        let message = format!(
+            "`{name}` alone is the largest force or torque of this friction: name it so, as in `limit`, or write a \
+             coefficient with the normal force, `friction {name}, normal on s;` or `friction {name}, radius, normal on \
+             phi;`, where `reaction` instead of `normal` is the force in the joint"
+        );
+        self.diagnostics.error(self.expressions.region(factor), message);
+    }
+
     /// The declared range of the scalar of a stop, which is written without one.
     fn declared_ends(&mut self, on: ExpressionId, along: Option<NodeId>) -> [Option<NodeId>; 2] {
         let Some(along) = along else { return [None; 2] };
@@ -85,4 +100,10 @@ impl Resolver<'_> {
             (scalar, [lower, upper], false)
         }
     }
+}
+
+/// True for the names of a coefficient of friction: `mu`, `mu_1`, `mu2`.
+pub(super) fn is_coefficient(name: &str) -> bool {
+    let rest = name.strip_prefix("mu").or_else(|| name.strip_prefix('μ'));
+    rest.is_some_and(|rest| rest.chars().all(|next| next == '_' || next.is_ascii_digit()) || rest.starts_with('_'))
 }
