@@ -76,6 +76,8 @@ pub struct Parameter {
     pub attributes: Vec<Attribute>,
     pub symbol: SymbolId,
     pub default: Option<NodeId>,
+    /// The default as written, without spaces.
+    pub default_text: Option<String>,
     pub kind: Kind,
 }
 

@@ -175,6 +175,7 @@ impl Resolver<'_> {
                                 attributes,
                                 symbol,
                                 default: None,
+                                default_text: None,
                                 kind: Kind::Number,
                             });
                         }
@@ -250,6 +251,7 @@ impl Resolver<'_> {
                         let (node, text) = (self.constant(*default), name.to_string());
                         if let Some(parameter) = result.parameters.iter_mut().find(|p| p.name.text == text) {
                             parameter.default = node;
+                            parameter.default_text = node.map(|node| self.written(*default, node));
                         }
                     }
                 }

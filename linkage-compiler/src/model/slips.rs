@@ -8,7 +8,7 @@ use super::resolver::Resolver;
 use super::scope::Value;
 use crate::diagnostics::Region;
 use crate::graph::{NodeId, Number, SymbolId};
-use crate::syntax::{Expression, ExpressionId, Statement, StatementKind, Unit};
+use crate::syntax::{Expression, ExpressionId, Operator, Statement, StatementKind, Unit};
 
 /// A number above it is more than a turn in radians.
 const TURN: f64 = std::f64::consts::TAU;
@@ -26,6 +26,27 @@ impl Resolver<'_> {
             }
             _ => None,
         }
+    }
+
+    /// The text of a constant for readers: a plain number as written, another one as a decimal number if it has no division.
+    pub(super) fn written(&self, id: ExpressionId, node: NodeId) -> String {
+        if let Some((digits, _, unit)) = self.plain(id) {
+            return digits + if unit == Unit::Degrees { "deg" } else { "" };
+        }
+        match self.graph.as_number(node) {
+            Some(Number::Ratio(numerator, denominator)) if !self.divides(id) => {
+                (numerator as f64 / denominator as f64).to_string()
+            }
+            _ => self.graph.text(node),
+        }
+    }
+
+    /// True if a division is written in an expression.
+    fn divides(&self, id: ExpressionId) -> bool {
+        let expression = self.expressions.get(id);
+        let is_quotient = matches!(expression, Expression::Product(factors)
+            if factors.iter().any(|(operator, _)| *operator == Operator::Inverse));
+        is_quotient || expression.operands().into_iter().any(|operand| self.divides(operand))
     }
 
     /// Reports a plain number of more than a turn as an angle or as a term of one; returns true if there is one.

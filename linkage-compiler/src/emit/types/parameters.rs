@@ -92,7 +92,8 @@ pub(super) fn parameters(
 pub(in crate::emit) fn docs_of_parameter(mechanism: &Mechanism, parameter: &Parameter) -> TokenStream {
     let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
     let default = parameter.default.map(|default| {
-        let text = comment(&format!(" Default: {}.", mechanism.graph.text(default)));
+        let written = parameter.default_text.clone().unwrap_or_else(|| mechanism.graph.text(default));
+        let text = comment(&format!(" Default: {written}."));
         quote!(#[doc = ""] #[doc = #text])
     });
     quote!(#docs #default)
