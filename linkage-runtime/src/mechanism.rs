@@ -30,13 +30,18 @@ pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
 ///
 /// `linkage!` implements it for every mechanism and every driver of one. Functions that do not return a `Result` check
 /// nothing: for numbers that are not finite their results are not finite or have no meaning.
+///
+/// There is no `dyn Mechanism`: mechanisms differ in their types and in the numbers of their coordinates. A function of any
+/// mechanism is generic, `fn speed<M: Kinematic>(m: &M)`. A list of different ones holds a trait of yours that is implemented
+/// for all, `impl<M: Kinematic<Scalar = f64>> Named for M`, as `Box<dyn Named>`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a mechanism",
     note = "`linkage!` implements `Mechanism` for each `mechanism`, or for each `drive` of one with several inputs; a scene has its mechanism in the field `mechanism`"
 )]
 pub trait Mechanism {
     /// The type of lengths and angles.
-    type Scalar: Real;
+    // rustc shows the next line for `dyn Mechanism`, and that of `NAME` for `dyn Kinematic`.
+    type Scalar: Real; // Instead of `dyn`: a generic function over `M: Mechanism`, or your own trait for all `M`.
     /// The number of dependent coordinates.
     type U: Dim;
     /// The number of independent coordinates.
@@ -56,7 +61,7 @@ pub trait Mechanism {
     type Branch: Copy + Debug + Eq;
 
     /// The name of the mechanism, as in error messages.
-    const NAME: &'static str;
+    const NAME: &'static str; // Instead of `dyn`: a generic function over `M: Kinematic`, or your own trait for all `M`.
     /// The names of the dependent coordinates u, in the order of the columns of J.
     const UNKNOWNS: &'static [&'static str];
     /// The names of the independent coordinates v, in the order of the columns of A.
