@@ -25,6 +25,10 @@ pub(super) fn function(
     // A trait documents its functions.
     let is_shown = !matches!(access, Access::OfTrait | Access::OfMechanism | Access::Lane) || !doc.is_empty();
     let doc = is_shown.then(|| {
+        // The documentation of a binary has private functions too.
+        if access.is_private() {
+            return quote!(#[doc(hidden)]);
+        }
         let text = comment(&description(doc, cost.unwrap_or_default(), bound));
         quote!(#[doc = #text])
     });

@@ -74,6 +74,11 @@ impl Access {
                 | Self::OfMechanism
         )
     }
+
+    /// True if the callers are functions of the program alone.
+    pub fn is_private(self) -> bool {
+        matches!(self, Self::Inlined | Self::Layer | Self::Lane | Self::LaneAlone | Self::Cold)
+    }
 }
 
 #[derive(Debug, Clone)]
