@@ -4,7 +4,7 @@ use crate::MotionError;
 use linkage_runtime::__shared::all_finite;
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
 
-/// The equations of motion in the inputs, without frictions and stops: M v'' = Q, u' = W v', u'' = W v'' + `bias`.
+/// The equations of motion in the inputs, without frictions and stops: `M v'' = Q`, `u' = W v'`, `u'' = W v'' + bias`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -18,7 +18,7 @@ pub struct Equations<T: Real, U: Dim, V: Dim> {
     pub forces: Column<T, V>,
     /// W.
     pub ratios: Matrix<T, U, V>,
-    /// u'' at v'' = 0.
+    /// `u''` at `v'' = 0`.
     pub bias: Column<T, U>,
 }
 

@@ -17,14 +17,14 @@ pub struct ReducedMotion<P, R, T, const U: usize, const V: usize> {
     pub ratios: [[T; U]; V],
     /// q' = (W v', v').
     pub rates: R,
-    /// u'' at v'' = 0.
+    /// `u''` at `v'' = 0`.
     pub bias: [T; U],
 }
 
 /// A mechanism with inertia and forces, as a differential equation, with frictions and stops.
 ///
 /// `linkage!` implements it for every `scene` with `inertia`. The state is y = (q, v'): all coordinates, then the rates
-/// of the inputs. Its derivative (W v', v'') requires no position solution, follows angles beyond a turn, and stays on
+/// of the inputs. Its derivative `(W v', v'')` requires no position solution, follows angles beyond a turn, and stays on
 /// its branch, because W is infinite at a dead point. [`Scene::project`] removes the residual of the constraints that
 /// the errors of the steps accumulate: call it after each step or after several. At a [kink](Scene::KINKS) of a law the
 /// derivative may be undefined, and a jump of the rate of a drive does not reach the other coordinates: simulations end
@@ -63,7 +63,7 @@ pub trait Scene {
     fn state(q: &Coordinates<Self>, input_rates: &Inputs<Self>) -> StateColumn<Self>;
     /// Splits y into q and v'.
     fn parts(state: &StateColumn<Self>) -> StateParts<Coordinates<Self>, Inputs<Self>>;
-    /// Splits y', as [`derivative`](Self::derivative) returns it, into q' and v''.
+    /// Splits `y'`, as [`derivative`](Self::derivative) returns it, into `q'` and `v''`.
     fn rate_parts(derivative: &StateColumn<Self>) -> StateRates<Rates<Self>, Inputs<Self>> {
         let StateParts { q, input_rates: input_accelerations } = Self::parts(derivative);
         let (unknowns, inputs) = Self::Mechanism::parts(&q);
@@ -75,13 +75,13 @@ pub trait Scene {
     /// [`InputError::OutOfRange`] if a mass, an inertia or a friction is negative, with its name, or if the restitution
     /// of a stop is not between 0 and 1; [`InputError::EmptyRange`] with the name of a stop.
     fn check(&self) -> Result<(), MotionError>;
-    /// y' = (W v', v''), without frictions and stops.
+    /// `y' = (W v', v'')`, without frictions and stops.
     ///
     /// # Errors
     /// [`PositionError::Singular`] where J is singular, [`MotionError::NoInertia`] where an input could accelerate
     /// without a force, [`PositionError::NotFinite`] with the name of the body or the effect whose value is not finite.
     fn derivative(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError>;
-    /// M, Q, W and u'' at v'' = 0: [`derivative`](Self::derivative) where no input is prescribed.
+    /// M, Q, W and `u''` at `v'' = 0`: [`derivative`](Self::derivative) where no input is prescribed.
     ///
     /// # Errors
     /// [`PositionError::Singular`] where J is singular, [`PositionError::NotFinite`] with the name of the body or the
@@ -113,7 +113,7 @@ pub trait Scene {
     ) -> Result<BearingsOf<Self>, MotionError> {
         Ok(Column::repeat(None))
     }
-    /// M and F of M q'' + Psi_q' lambda = F in all coordinates, at the rates q': they hold for any choice of
+    /// M and F of `M q'' + Psi_q' lambda = F` in all coordinates, at the rates `q'`: they hold for any choice of
     /// independent coordinates.
     ///
     /// # Errors
@@ -124,7 +124,7 @@ pub trait Scene {
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
     ) -> Result<UnreducedOf<Self>, MotionError>;
-    /// The forces in the joints in a motion with the rates q', the accelerations (u'', v''), and these forces of
+    /// The forces in the joints in a motion with the rates `q'`, the accelerations `(u'', v'')`, and these forces of
     /// frictions and stops along their scalars.
     ///
     /// # Errors
@@ -247,7 +247,7 @@ pub type Coordinates<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
 pub type Rates<S> = <<S as Scene>::Mechanism as Mechanism>::Rates;
 /// The inputs v of a scene by name, or their rates.
 pub type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
-/// The accelerations (u'', v'') of all coordinates of a scene.
+/// The accelerations `(u'', v'')` of all coordinates of a scene.
 pub type Accelerations<S> = Vector<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The state y = (q, v') of a scene as one column.
 pub type StateColumn<S> = Column<<S as Scene>::Scalar, <S as Scene>::State>;
@@ -270,13 +270,13 @@ pub struct StateParts<Q, V> {
     pub input_rates: V,
 }
 
-/// The derivative y' = (q', v'') of the state of a scene, by name.
+/// The derivative `y' = (q', v'')` of the state of a scene, by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StateRates<R, V> {
     /// The rates q' of all coordinates.
     pub rates: R,
-    /// The accelerations v'' of the inputs.
+    /// The accelerations `v''` of the inputs.
     pub input_accelerations: V,
 }
 

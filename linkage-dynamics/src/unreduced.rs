@@ -2,7 +2,7 @@
 
 use linkage_runtime::{Column, Dim, Matrix, Real};
 
-/// Inertia and forces in all coordinates, M q'' + Psi_q' lambda = F, split into unknowns u and inputs v.
+/// Inertia and forces in all coordinates, `M q'' + Psi_q' lambda = F`, split into unknowns u and inputs v.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

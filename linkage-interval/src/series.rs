@@ -44,7 +44,7 @@ impl<N: Number> Series<N> {
         Self { value, first: rate, second: N::zero() }
     }
 
-    /// f(x) from f and its two derivatives at the value: f' x', f'' x'^2 + f' x''.
+    /// f(x) from f and its two derivatives at the value: `f' x'`, `f'' x'^2 + f' x''`.
     fn chain(self, value: N, by: N, twice: N) -> Self {
         Self { value, first: by * self.first, second: twice * self.first.square() + by * self.second }
     }

@@ -1,6 +1,6 @@
 //! The numbers of an analysis by hand at a position, from J, A and gamma alone: no mechanism needs more code for them.
 //!
-//! With Psi' = J u' + A v' the second derivative is Psi'' = J u'' + A v'' + J' u' + A' v', where J' and A' are the
+//! With `Psi' = J u' + A v'` the second derivative is `Psi'' = J u'' + A v'' + J' u' + A' v'`, where `J'` and `A'` are the
 //! derivatives of J and A with respect to time. Gamma is a quadratic form of the rates, gamma(q') = B(q', q'), and the
 //! columns of J' and A' are B(e, q') for the unit vectors e of the coordinates. B follows from gamma by
 //! B(a, b) = (gamma(a + b) - gamma(a - b)) / 4.
@@ -62,7 +62,7 @@ pub struct Analysis<T: Real, U: Dim, V: Dim> {
     pub unknown_rates: Column<T, U>,
     /// v'.
     pub input_rates: Column<T, V>,
-    /// v''.
+    /// `v''`.
     pub input_accelerations: Column<T, V>,
     /// J' and A'.
     pub jacobian_rates: Columns<T, U, V>,
@@ -72,9 +72,9 @@ pub struct Analysis<T: Real, U: Dim, V: Dim> {
     pub gamma: Column<T, U>,
     /// The parts of gamma: quadratic in u', quadratic in v', bilinear in both.
     pub gamma_parts: [Column<T, U>; 3],
-    /// H1 = A v'', H2 = J' (W v'), H3 = A' v', and their sum H0.
+    /// `H1 = A v''`, `H2 = J' (W v')`, `H3 = A' v'`, and their sum H0.
     pub terms: [Column<T, U>; 4],
-    /// u'' by two methods: -J^-1 H0, and W v'' - J^-1 gamma.
+    /// `u''` by two methods: -J^-1 H0, and `W v'' - J^-1 gamma`.
     pub accelerations: [Column<T, U>; 2],
 }
 
@@ -82,7 +82,7 @@ pub struct Analysis<T: Real, U: Dim, V: Dim> {
 pub type AnalysisOf<M> = Analysis<<M as Mechanism>::Scalar, <M as Mechanism>::U, <M as Mechanism>::V>;
 
 impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
-    /// The numbers at a position, at these rates v' and accelerations v'' of the inputs.
+    /// The numbers at a position, at these rates `v'` and accelerations `v''` of the inputs.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a number is not finite.

@@ -126,6 +126,43 @@ fn no_banned_word() {
     assert!(found.is_empty(), "{} lines:\n{found}", found.lines().count());
 }
 
+/// True if a doc comment has two primes outside of code, which rustdoc would set as quotation marks.
+fn has_bare_primes(comment: &str) -> bool {
+    let is_prime =
+        |at: usize, text: &str| text[..at].ends_with(|before: char| before.is_alphanumeric() || before == ')');
+    comment.split('`').step_by(2).any(|text| text.match_indices("''").any(|(at, _)| is_prime(at, text)))
+}
+
+/// In docs of the library, and in the manual, a second derivative is code: `` `q''` ``.
+#[test]
+fn derivatives_are_code() {
+    let root = Path::new(linkage_tests::ROOT);
+    let mut all = Vec::new();
+    files(root, &mut all);
+    let inner = |path: &PathBuf| path.strip_prefix(root).unwrap_or(path).to_path_buf();
+    let sources = all.iter().map(|path| (path, inner(path))).filter(|(_, path)| {
+        let mut folders = path.iter().map(|folder| folder.to_string_lossy());
+        folders.next().is_some_and(|first| first == "src" || first.starts_with("linkage-"))
+            && path.iter().any(|folder| folder == "src")
+    });
+    let mut found = String::new();
+    for (path, inner) in sources {
+        let text = fs::read_to_string(path).unwrap();
+        let is_prose = path.extension().is_some_and(|end| end == "md");
+        let mut is_code = false;
+        for (number, line) in text.lines().enumerate() {
+            let doc = comment(line).filter(|(_, is_doc)| *is_doc).map(|(text, _)| text);
+            let Some(doc) = is_prose.then_some(line).or(doc) else { continue };
+            is_code ^= doc.trim_start().starts_with("```");
+            if !is_code && has_bare_primes(doc) {
+                writeln!(found, "{}:{}: {}", inner.display(), number + 1, line.trim()).unwrap();
+            }
+        }
+    }
+    assert!(found.is_empty(), "{} lines:\n{found}", found.lines().count());
+    assert!(has_bare_primes("from q'' and v''") && !has_bare_primes("`q''` is ''"));
+}
+
 #[test]
 fn banned_words_are_found() {
     assert!(has("the size beside the scale", "beside") && !has("besides", "beside"));

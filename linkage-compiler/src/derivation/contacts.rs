@@ -1,6 +1,6 @@
 //! Frictions and stops: the derivatives of the scalars s that they act along.
 //!
-//! s(q) has the derivatives `ds/dq`, and s'' = `ds/dq` q'' + bias with the quadratic terms `(s_q q')_q q'`.
+//! s(q) has the derivatives `ds/dq`, and `s'' = ds/dq q'' + bias` with the quadratic terms `(s_q q')_q q'`.
 
 use std::collections::BTreeSet;
 

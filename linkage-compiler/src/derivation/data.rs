@@ -29,9 +29,9 @@ pub struct Quantity {
     pub jacobian: Vec<Row<ColumnId>>,
     /// The rate, in terms of q and q'.
     pub rate: Vec<NodeId>,
-    /// The acceleration, in terms of q, q' and q''.
+    /// The acceleration, in terms of q, `q'` and `q''`.
     pub acceleration: Vec<NodeId>,
-    /// The jerk, in terms of q to q'''. This and the next fields are empty without a `derive` statement.
+    /// The jerk, in terms of q to `q'''`. This and the next fields are empty without a `derive` statement.
     pub jerk: Vec<NodeId>,
     /// (l_q w_j)_q w_k, by pair of inputs and component, in terms of q and W.
     pub along_inputs: Table<PairId, Vec<NodeId>>,
@@ -124,7 +124,7 @@ pub struct Derivation {
     pub gamma: Table<RowId, NodeId>,
     pub points: Vec<Quantity>,
     pub outputs: Vec<Quantity>,
-    /// Psi''' at q''' = 0. This and the next two fields are `None` without a `derive` statement.
+    /// `Psi'''` at `q''' = 0`. This and the next two fields are `None` without a `derive` statement.
     pub eta: Option<Table<RowId, NodeId>>,
     pub ratio_derivatives: Option<RatioDerivatives>,
     pub sensitivity: Option<Sensitivity>,

@@ -1,5 +1,5 @@
-//! Third order: Psi''' = Psi_q q''' + eta with eta = 3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q', in terms
-//! of q, q' and q''.
+//! Third order: `Psi''' = Psi_q q''' + eta` with `eta = 3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`, in terms
+//! of q, `q'` and `q''`.
 
 use super::data::Derivation;
 use super::jacobian::along_rates;
@@ -25,7 +25,7 @@ impl Derivation {
         self.eta = Some(eta.into());
     }
 
-    /// -(A v''' + eta): the right side of J u''' = -(A v''' + eta).
+    /// `-(A v''' + eta)`: the right side of `J u''' = -(A v''' + eta)`.
     pub fn jerk_side(&mut self) -> Table<RowId, NodeId> {
         let eta = self.eta.clone().unwrap_or_default();
         eta.ids().map(|row| self.minus_inputs(row, |c| c.jerk, Some(eta[row]))).collect()

@@ -10,7 +10,7 @@ use crate::graph::{Function, Node, NodeId, SymbolId};
 use crate::model::{self, Account, ContactLaw, Driver, Mechanism};
 
 impl Derivation {
-    /// A law of motion with its derivatives. Those of |x| are (x / |x|) x' and (x / |x|) x'', where x / |x| is constant:
+    /// A law of motion with its derivatives. Those of |x| are (x / |x|) `x'` and (x / |x|) `x''`, where x / |x| is constant:
     /// the derivative of the quotient would be a difference of large terms near a kink.
     pub(super) fn prescribed_motion(&mut self, law: NodeId, seeds: &BTreeMap<SymbolId, NodeId>) -> Prescribed {
         let value = self.without_squares(law);

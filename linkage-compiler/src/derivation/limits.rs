@@ -1,8 +1,8 @@
 //! Limits of inputs: the conditions f(v) >= 0 under which groups can be assembled, as functions of one input.
 //!
 //! If a group depends on the inputs alone, directly or through linear equations, f may have one of two forms,
-//! recognised by their derivatives: f''' = -k^2 f' means a + b cos(k v) + c sin(k v), where k is the rate of an angle
-//! in f, and f''' = 0 means a + b v + c v^2. The limits of all other groups are found by search.
+//! recognised by their derivatives: `f''' = -k^2 f'` means a + b cos(k v) + c sin(k v), where k is the rate of an angle
+//! in f, and `f''' = 0` means a + b v + c v^2. The limits of all other groups are found by search.
 
 use std::collections::BTreeSet;
 

@@ -1,9 +1,9 @@
 //! Equations of motion reduced to the independent coordinates by the velocity ratios.
 //!
 //! With u' = W v' a scalar s of q has the rate s' = `s_j` v'j, `s_j` = ds/du W_j + ds/dvj, and the acceleration
-//! s'' = `s_j` v''j + `s_0`, where the bias `s_0` is s'' at v'' = 0. With the centres G and angular velocities w of the
-//! bodies, virtual work gives M v'' = Q with M = sum m (`G_j` . `G_k`) + j `w_j` `w_k` and
-//! Q = sum F `s_j` - m `G_j` . (`G_0` - g) - j `w_j` `w_0`. For one input M v'' + (dM/dv) v'^2 / 2 = F `s_1` is
+//! `s'' = s_j v''j + s_0`, where the bias `s_0` is `s''` at `v'' = 0`. With the centres G and angular velocities w of the
+//! bodies, virtual work gives `M v'' = Q` with M = sum m (`G_j` . `G_k`) + j `w_j` `w_k` and
+//! Q = sum F `s_j` - m `G_j` . (`G_0` - g) - j `w_j` `w_0`. For one input `M v'' + (dM/dv) v'^2 / 2 = F s_1` is
 //! Eksergian's equation (P. Eksergian, "Dynamical analysis of machines", Journal of the Franklin Institute, 1930/31).
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -203,7 +203,7 @@ impl Derivation {
         parts
     }
 
-    /// The symbols of u'' at v'' = 0.
+    /// The symbols of `u''` at `v'' = 0`.
     fn bias_symbols(&mut self) -> Table<UnknownId, SymbolId> {
         let names = self.unknowns.iter().map(|&unknown| format!("{}_bias", self.coordinates[unknown].name));
         names.map(|name| self.graph.symbol(name)).collect()
@@ -238,7 +238,7 @@ impl Derivation {
         jacobian(&mut self.graph, &[scalar], &places).remove(0)
     }
 
-    /// The symbols of W, q' and u'' at v'' = 0; M, Q and the energies are polynomials in these.
+    /// The symbols of W, `q'` and `u''` at `v'' = 0`; M, Q and the energies are polynomials in these.
     fn motion_symbols(&mut self, bias: &Table<UnknownId, SymbolId>) -> BTreeSet<NodeId> {
         let rates = self.coordinates.iter().map(|coordinate| coordinate.rate);
         let symbols: Vec<SymbolId> = self.ratios.iter().flatten().chain(bias).copied().chain(rates).collect();
@@ -284,7 +284,7 @@ impl Derivation {
         drives
     }
 
-    /// -gamma: the right side of J u'' = -gamma at v'' = 0.
+    /// -gamma: the right side of `J u'' = -gamma` at `v'' = 0`.
     pub fn bias_side(&mut self) -> Table<RowId, NodeId> {
         self.gamma.clone().map(|gamma| self.graph.negate(gamma))
     }

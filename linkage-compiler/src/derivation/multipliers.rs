@@ -1,6 +1,6 @@
 //! The Lagrange multipliers of the loop equations and constraints.
 //!
-//! The rows of the unknowns in M q'' + `Psi_q'` lambda = F give J' lambda = F_u - (M q'')_u. This is solved from the
+//! The rows of the unknowns in `M q'' + Psi_q' lambda = F` give `J' lambda = F_u - (M q'')_u`. This is solved from the
 //! last group to the first, each block of J transposed. For a `loop`, lambda is the force of the left side on the right
 //! side at the point where they meet.
 //!
@@ -63,7 +63,7 @@ impl Derivation {
         Multipliers { names, solved, eliminations, side }
     }
 
-    /// s'' in terms of q, q' and q''.
+    /// `s''` in terms of q, `q'` and `q''`.
     pub(super) fn acceleration_of(&mut self, scalar: NodeId) -> NodeId {
         let mut seeds = along_rates(&mut self.graph, &self.coordinates);
         let rate = self.graph.differentiate(&[scalar], &seeds)[0];

@@ -1,8 +1,8 @@
 //! The forces in joints: the generalised forces of the displacements that open them.
 //!
 //! With a displacement d of a link from a joint (`model::Opened`) as one more coordinate, its row of
-//! M q'' + Psi' lambda = F holds the force R in the joint on the link: R = sum m (s'' - g) `s_d` + `Psi_d'` lambda -
-//! sum F `s_d` at d = 0, with the forces F of effects and contacts along their scalars s.
+//! `M q'' + Psi' lambda = F` holds the force R in the joint on the link:
+//! `R = sum m (s'' - g) s_d + Psi_d' lambda - sum F s_d` at d = 0, with the forces F of effects and contacts along their scalars s.
 
 use rustc_hash::FxHashMap;
 

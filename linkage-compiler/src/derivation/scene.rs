@@ -12,7 +12,7 @@ use crate::structure::Elimination;
 pub struct Scene {
     /// The id in [`Mechanism::scenes`](crate::model::Mechanism::scenes).
     pub id: SceneId,
-    /// The symbols of u'' at v'' = 0.
+    /// The symbols of `u''` at `v'' = 0`.
     pub bias: Table<UnknownId, SymbolId>,
     /// M by rows, if anything has inertia.
     pub mass_matrix: Option<Table<InputId, Table<InputId, NodeId>>>,
@@ -66,7 +66,7 @@ pub struct Contact {
     /// `ds/dq`.
     pub row: Row<ColumnId>,
     pub rate: NodeId,
-    /// s'' at q'' = 0.
+    /// `s''` at `q'' = 0`.
     pub bias: NodeId,
     pub law: ContactFormula,
 }
@@ -103,11 +103,11 @@ pub struct Multipliers {
     pub solved: Table<RowId, SymbolId>,
     /// The steps from the rows as written to those of Psi.
     pub eliminations: Vec<Elimination>,
-    /// F_u - (M q'')_u, in terms of q, q', q'' and t.
+    /// `F_u - (M q'')_u`, in terms of q, `q'`, `q''` and t.
     pub side: Table<UnknownId, NodeId>,
 }
 
-/// The forces in joints, in terms of q, q', q'', t, lambda and the forces of contacts.
+/// The forces in joints, in terms of q, `q'`, `q''`, t, lambda and the forces of contacts.
 #[derive(Debug, Clone)]
 pub struct Reactions {
     /// The opened joints, as indices in [`Opened::loads`](crate::model::Opened::loads).
@@ -121,7 +121,7 @@ pub struct Reactions {
     pub bearings: Vec<Option<[BearingRow; 2]>>,
 }
 
-/// A component of a reaction, R = constant + b q'' + c lambda + d f, with the multipliers lambda of the rows of Psi and
+/// A component of a reaction, `R = constant + b q'' + c lambda + d f`, with the multipliers lambda of the rows of Psi and
 /// the forces f of contacts.
 #[derive(Debug, Clone)]
 pub struct BearingRow {

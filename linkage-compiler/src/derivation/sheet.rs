@@ -1,12 +1,12 @@
-//! The formulas of an analysis by hand: time derivatives of J and A, the terms of Psi'' by parts, the accelerations in two
+//! The formulas of an analysis by hand: time derivatives of J and A, the terms of `Psi''` by parts, the accelerations in two
 //! ways, the vectors that lead to points, and the condition of singularity for every choice of inputs.
 //!
-//! Psi' = J u' + A v', so that Psi'' = J u'' + A v'' + J' u' + A' v'. By the chain rule
+//! `Psi' = J u' + A v'`, so that `Psi'' = J u'' + A v'' + J' u' + A' v'`. By the chain rule
 //!
 //! - J' = (J u')_u + (A v')_u, and A' = (J u')_v + (A v')_v;
 //! - gamma = J' u' + A' v' = `gamma_u` + `gamma_uv` + `gamma_v`, where `gamma_u` = (J u')_u u' is quadratic in u', `gamma_v` =
 //!   (A v')_v v' in v', and `gamma_uv` = (J u')_v v' + (A v')_u u' bilinear;
-//! - u'' = -J^-1 (H1 + H2 + H3) with H1 = A v'', H2 = J' (W v'), H3 = A' v', and u'' = -J^-1 (A v'' + gamma). Their
+//! - `u'' = -J^-1 (H1 + H2 + H3)` with `H1 = A v''`, `H2 = J' (W v')`, `H3 = A' v'`, and `u'' = -J^-1 (A v'' + gamma)`. Their
 //!   difference is J^-1 J' (u' - W v'), which is zero.
 
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ pub struct Sheet {
     pub gamma: [Table<RowId, NodeId>; 3],
     /// H1, H2, H3 and their sum H0.
     pub terms: [Table<RowId, NodeId>; 4],
-    /// u'' by both methods.
+    /// `u''` by both methods.
     pub accelerations: [Table<UnknownId, NodeId>; 2],
     /// The choices of inputs.
     pub choices: Vec<DriverChoice>,
@@ -77,7 +77,7 @@ const MOST_CHOICES: usize = 64;
 struct Moving {
     unknowns: BTreeMap<SymbolId, NodeId>,
     inputs: BTreeMap<SymbolId, NodeId>,
-    /// q to q', and q' to q''.
+    /// q to `q'`, and `q'` to `q''`.
     all: BTreeMap<SymbolId, NodeId>,
 }
 
@@ -176,7 +176,7 @@ impl Derivation {
         moving
     }
 
-    /// The solution of J u'' = side, by formulas of each group in terms of the accelerations of earlier ones.
+    /// The solution of `J u'' = side`, by formulas of each group in terms of the accelerations of earlier ones.
     fn accelerations_of(&mut self, side: Table<RowId, NodeId>) -> Table<UnknownId, NodeId> {
         let names = self.unknowns.iter().map(|&unknown| self.coordinates[unknown].acceleration).collect();
         let (formulas, _) = self.solution_formulas(&(side, names));

@@ -78,7 +78,7 @@ impl Derivation {
         self.residual.ids().map(|row| self.minus_inputs(row, |c| c.rate, None)).collect()
     }
 
-    /// -(A v'' + gamma): the right side of J u'' = -(A v'' + gamma). Terms with the same product of rates are gathered:
+    /// `-(A v'' + gamma)`: the right side of `J u'' = -(A v'' + gamma)`. Terms with the same product of rates are gathered:
     /// the points of a link have its squared rate in common.
     pub fn acceleration_side(&mut self) -> Table<RowId, NodeId> {
         let rates = self.coordinates.iter().map(|coordinate| self.graph.variable(coordinate.rate)).collect();

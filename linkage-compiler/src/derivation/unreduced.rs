@@ -1,6 +1,6 @@
-//! M and F of M q'' + `Psi_q'` lambda = F in all coordinates, which can be reduced to any choice of independent ones.
+//! M and F of `M q'' + Psi_q' lambda = F` in all coordinates, which can be reduced to any choice of independent ones.
 //!
-//! A scalar s has the rate s' = s_q q' and the acceleration s'' = s_q q'' + `s_0`, where `s_0` is quadratic in q'.
+//! A scalar s has the rate `s' = s_q q'` and the acceleration `s'' = s_q q'' + s_0`, where `s_0` is quadratic in `q'`.
 //! Virtual work gives M = sum m `s_q'` `s_q` and F = sum F `s_q'` - m `s_q'` (`s_0` - g).
 
 use std::collections::BTreeMap;
@@ -46,7 +46,7 @@ impl Derivation {
         Unreduced { mass_matrix, forces }
     }
 
-    /// `s_0`: s'' in terms of q and q' at q'' = 0.
+    /// `s_0`: `s''` in terms of q and `q'` at `q'' = 0`.
     fn quadratic_part(&mut self, scalar: NodeId) -> NodeId {
         let seeds = along_rates(&mut self.graph, &self.coordinates);
         let rate = self.graph.differentiate(&[scalar], &seeds)[0];

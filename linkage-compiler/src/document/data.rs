@@ -150,7 +150,7 @@ pub struct SheetDocument {
     pub terms: [Matrix; 4],
     /// The parts of gamma by u', by v', and by both.
     pub gamma: [Matrix; 3],
-    /// u'' by both methods.
+    /// `u''` by both methods.
     pub accelerations: [Vec<Equation>; 2],
     pub choices: Vec<DriverChoice>,
     pub turning: Vec<Turning>,

@@ -180,7 +180,7 @@ pub enum Type {
         unknowns: usize,
         inputs: usize,
     },
-    /// `StateRates<Rates, Inputs>`: q' and v''.
+    /// `StateRates<Rates, Inputs>`: `q'` and `v''`.
     StateRates {
         rates: String,
         inputs: String,

@@ -37,8 +37,8 @@ impl Plan<'_, '_> {
             self.precise_kinematics();
         }
         let doc = lines([
-            "The position, the rates q' and the accelerations q'' of all coordinates in one computation, from the inputs, their",
-            "rates v' and their accelerations v''.",
+            "The position, the rates `q'` and the accelerations `q''` of all coordinates in one computation, from the inputs, their",
+            "rates `v'` and their accelerations `v''`.",
         ]);
         let promise = if self.signatures.is_open() { Vec::new() } else { lines([OF_A_BRANCH]) };
         let doc = doc.into_iter().chain(promise).chain(lines(ERRORS)).collect();
@@ -228,8 +228,8 @@ impl Plan<'_, '_> {
         let before = vec![Statement::Let(pattern, call)];
         let body = Body { before, ..Body::of(kernel, value) };
         let doc = lines([
-            "The position, the rates q' and the accelerations q'' of all coordinates, and the motion of points and outputs, from the",
-            "inputs, their rates v' and their accelerations v''.",
+            "The position, the rates `q'` and the accelerations `q''` of all coordinates, and the motion of points and outputs, from the",
+            "inputs, their rates `v'` and their accelerations `v''`.",
         ]);
         let promise = if self.signatures.is_open() { Vec::new() } else { lines([OF_A_BRANCH]) };
         let doc = doc.into_iter().chain(promise).chain(lines(ERRORS)).collect();

@@ -220,11 +220,11 @@ pub fn emitted_types(mechanism: &Mechanism) -> BTreeMap<String, Vec<String>> {
 pub struct Arguments {
     pub pose: String,
     pub q: String,
-    /// q', q'' and q'''.
+    /// `q'`, `q''` and `q'''`.
     pub rates: String,
     pub accelerations: String,
     pub jerks: String,
-    /// v', v'' and v'''.
+    /// `v'`, `v''` and `v'''`.
     pub input_rates: String,
     pub input_accelerations: String,
     pub input_jerks: String,

@@ -126,7 +126,7 @@ impl Plan<'_, '_> {
         let both = Expression::Tuple([&rates, &accelerations].into_iter().zip(&parts).map(rounded).collect());
         let body = Body { before, ..Body::plain(Expression::call(Intrinsic::Some, [both])) };
         let doc = lines([
-            "The rates q' and the accelerations q'' in twice the precision, rounded once; `None` if a number is not finite.",
+            "The rates `q'` and the accelerations `q''` in twice the precision, rounded once; `None` if a number is not finite.",
         ]);
         self.add(signature, doc, body);
     }

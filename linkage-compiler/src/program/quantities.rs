@@ -47,10 +47,10 @@ impl Plan<'_, '_> {
         let meaning = match order {
             0 if family == Family::Points => "The positions of the points.".to_owned(),
             0 => "The values of the outputs.".to_owned(),
-            1 if family == Family::Points => "The velocities of the points at the rates q'.".to_owned(),
-            1 => "The rates of the outputs at the rates q'.".to_owned(),
-            2 => format!("The accelerations of the {word}s at the rates q' and the accelerations q''."),
-            _ => format!("The jerks of the {word}s at the rates q', the accelerations q'' and the jerks q'''."),
+            1 if family == Family::Points => "The velocities of the points at the rates `q'`.".to_owned(),
+            1 => "The rates of the outputs at the rates `q'`.".to_owned(),
+            2 => format!("The accelerations of the {word}s at the rates `q'` and the accelerations `q''`."),
+            _ => format!("The jerks of the {word}s at the rates `q'`, the accelerations `q''` and the jerks `q'''`."),
         };
         let mut doc = vec![meaning];
         if order == 0 {
@@ -102,7 +102,7 @@ impl Plan<'_, '_> {
                 laws.extend(self.laws(family, name, &by, nodes));
             }
         }
-        let mut doc = vec![format!("The velocity ratios `W_l` of the {word}s: l' = `W_l` v'.")];
+        let mut doc = vec![format!("The velocity ratios `W_l` of the {word}s: `l' = W_l v'`.")];
         doc.extend(fenced(laws.into_iter()));
         doc.extend(lines([
             "",

@@ -27,7 +27,7 @@ impl Plan<'_, '_> {
         let kernel = Kernel { conclusive: 0..all.len(), ..kernel };
         let body = Body::of(kernel, self.coordinates_of(Order::Rate, 0)).checked("velocity", self.checked(0));
         let doc = lines([
-            "The rates q' of all coordinates at the input rates v'.",
+            "The rates `q'` of all coordinates at the input rates `v'`.",
             "",
             "# Errors",
             "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a rate is not finite.",
@@ -73,10 +73,10 @@ impl Plan<'_, '_> {
         let body = Body::of(kernel, matrix).checked("velocity ratios", results(0..count));
         let mut doc = match self.signatures.inputs() {
             1 => lines([
-                "The velocity ratios W = -J^-1 A with u' = W v'; for one input they are the transmission ratios.",
+                "The velocity ratios `W = -J^-1 A` with `u' = W v'`; for one input they are the transmission ratios.",
             ]),
             _ => lines([
-                "The velocity ratios W = -J^-1 A with u' = W v': the rate of each unknown for a unit rate of each input.",
+                "The velocity ratios `W = -J^-1 A` with `u' = W v'`: the rate of each unknown for a unit rate of each input.",
             ]),
         };
         let laws = names.iter().zip(self.formulas.ratios.iter().flatten());
@@ -91,7 +91,7 @@ impl Plan<'_, '_> {
         self.add(self.signatures.velocity_ratios(), doc, body);
     }
 
-    /// The private functions that scenes call: W, q' = (W v', v'), and u'' at v'' = 0. They check determinants only;
+    /// The private functions that scenes call: W, `q' = (W v', v')`, and `u''` at `v'' = 0`. They check determinants only;
     /// their callers check that results are finite.
     pub(super) fn layers(&mut self) {
         if self.signatures.is_open() {
@@ -137,11 +137,11 @@ impl Plan<'_, '_> {
         let sources = columns.into_iter().chain([by_value]).collect();
         let kernel = Kernel { sources, results: unnamed(nodes.into_values()), ..Kernel::default() };
         let body = Body::of(kernel, self.coordinates_of(Order::Rate, 0));
-        let text = if u > 0 { "The rates q' = (W v', v')." } else { "The rates q' = v'." };
+        let text = if u > 0 { "The rates `q' = (W v', v')`." } else { "The rates `q' = v'`." };
         self.add(self.signatures.coordinate_rates(), without_result(lines([text])), body);
     }
 
-    /// `reduced_motion`: the pose, W, q' and u'' at v'' = 0.
+    /// `reduced_motion`: the pose, W, `q'` and `u''` at `v'' = 0`.
     fn reduced_motion(&mut self) {
         let Arguments { q, input_rates, pose, ratios, rates, error_name, .. } = self.signatures.arguments.clone();
         let names = self.derivation.scenes.first().map(|scene| scene.bias.clone()).unwrap_or_default();
@@ -183,7 +183,7 @@ impl Plan<'_, '_> {
         if !is_fallible {
             signature.arguments.pop();
         }
-        let doc = lines(["The pose, W, q' = (W v', v'), and u'' at v'' = 0: J u'' = -gamma."]);
+        let doc = lines(["The pose, W, `q' = (W v', v')`, and `u''` at `v'' = 0`: `J u'' = -gamma`."]);
         self.add(signature, doc, body);
     }
 
@@ -211,9 +211,9 @@ impl Plan<'_, '_> {
         let body = Body::of(kernel, self.coordinates_of(Order::Acceleration, 0));
         let body = body.checked("acceleration", self.checked(0));
         let text = match self.signatures.is_open() {
-            true => "The accelerations q'' of all coordinates: the input accelerations v''.",
+            true => "The accelerations `q''` of all coordinates: the input accelerations `v''`.",
             false => {
-                "The accelerations q'' of all coordinates at the rates q' and the input accelerations v'': J u'' = -(A v'' + gamma)."
+                "The accelerations `q''` of all coordinates at the rates `q'` and the input accelerations `v''`: `J u'' = -(A v'' + gamma)`."
             }
         };
         let doc = lines([
@@ -227,10 +227,10 @@ impl Plan<'_, '_> {
 
     pub(super) fn jerk(&mut self) {
         let mut doc = match self.signatures.is_open() {
-            true => lines(["The jerks q''' of all coordinates: the input jerks v'''."]),
+            true => lines(["The jerks `q'''` of all coordinates: the input jerks `v'''`."]),
             false => lines([
-                "The jerks q''' of all coordinates at the rates q', the accelerations q'' and the input jerks v''':",
-                "J u''' = -(A v''' + eta) with eta = `3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`.",
+                "The jerks `q'''` of all coordinates at the rates `q'`, the accelerations `q''` and the input jerks `v'''`:",
+                "`J u''' = -(A v''' + eta)` with eta = `3 (Psi_q q')_q q'' + ((Psi_q q')_q q')_q q'`.",
             ]),
         };
         let eta = self.derivation.eta.clone().unwrap_or_default();
@@ -290,8 +290,8 @@ impl Plan<'_, '_> {
         let body = body.checked("the position", results(2 * count..3 * count)).checked("motion", checked);
         let body = if is_long { body.stored_in("motion") } else { body };
         let doc = lines([
-            "The rates q', the accelerations q'', and the motion of points and outputs at the coordinates q of a position, input",
-            "rates v' and input accelerations v'', with common subexpressions computed once.",
+            "The rates `q'`, the accelerations `q''`, and the motion of points and outputs at the coordinates q of a position, input",
+            "rates `v'` and input accelerations `v''`, with common subexpressions computed once.",
             "",
             "# Errors",
             "`PositionError::Singular` if J is singular, `PositionError::NotFinite` if a coordinate or a result is not finite.",

@@ -46,7 +46,7 @@ impl Plan<'_, '_> {
     fn unknown_ratio_derivatives(&mut self) {
         let mut doc = lines([
             "The derivatives of the velocity ratios, d2u/dv dv: for each unknown a symmetric matrix `L` with",
-            "u'' = W v'' + v' . `L` v'; from `J L_jk = -(Psi_q w_j)_q w_k`, where `w_j = (W_j, e_j)`.",
+            "`u'' = W v'' + v' . L v'`; from `J L_jk = -(Psi_q w_j)_q w_k`, where `w_j = (W_j, e_j)`.",
         ]);
         let second = self.derivation.ratio_derivatives.iter();
         let names: Vec<SymbolId> = second.flat_map(|second| second.names.iter().flatten()).copied().collect();

@@ -5,6 +5,7 @@ mod bodies_by_hand;
 mod closed_forms;
 mod dangling;
 mod divisors;
+mod documentation;
 mod exponents;
 mod features;
 mod limits;

@@ -1,6 +1,6 @@
 //! The reaction of a joint with friction, before and after the elimination of the multipliers.
 //!
-//! With [J A] x = `rows` the multipliers of M q'' + Psi_q' lambda = F + S' f give `rows` . lambda = x . (F + S' f - M q''):
+//! With [J A] x = `rows` the multipliers of `M q'' + Psi_q' lambda = F + S' f` give `rows . lambda = x . (F + S' f - M q'')`:
 //! they need no equations of their own. x is zero in the independent coordinates, so that no force of a drive enters.
 
 use crate::contact::Contact;
@@ -20,8 +20,8 @@ pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
     pub components: [ReactionRow<T, U, V, C>; 2],
 }
 
-/// A component of a reaction: R = `constant` + `unknowns` . u'' + `inputs` . v'' + `rows` . lambda + `contacts` . f,
-/// where lambda are the multipliers in M q'' + Psi_q' lambda = F + S' f and f the forces of the contacts.
+/// A component of a reaction: `R = constant + unknowns . u'' + inputs . v'' + rows . lambda + contacts . f`,
+/// where lambda are the multipliers in `M q'' + Psi_q' lambda = F + S' f` and f the forces of the contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -31,9 +31,9 @@ pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
 pub struct ReactionRow<T: Real, U: Dim, V: Dim, C: Dim> {
     /// Its value without accelerations, multipliers and contact forces.
     pub constant: T,
-    /// The factors of u''.
+    /// The factors of `u''`.
     pub unknowns: Column<T, U>,
-    /// The factors of v''.
+    /// The factors of `v''`.
     pub inputs: Column<T, V>,
     /// The factors of lambda.
     pub rows: Column<T, U>,
@@ -53,7 +53,7 @@ pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
     pub components: [ReducedReaction<T, V, C>; 2],
 }
 
-/// A component of a reaction in independent coordinates z: R = `constant` + `accelerations` . z'' + `contacts` . f.
+/// A component of a reaction in independent coordinates z: `R = constant + accelerations . z'' + contacts . f`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -63,7 +63,7 @@ pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
 pub struct ReducedReaction<T: Real, V: Dim, C: Dim> {
     /// Its value without accelerations and contact forces.
     pub constant: T,
-    /// The factors of z''.
+    /// The factors of `z''`.
     pub accelerations: Column<T, V>,
     /// The factors of f.
     pub contacts: Column<T, C>,
@@ -98,7 +98,7 @@ impl<T: Real, V: Dim, C: Dim> ReducedReaction<T, V, C> {
     }
 }
 
-/// A scene at one state in independent coordinates z: (u', v') = N z' and (u'', v'') = N z'' + b.
+/// A scene at one state in independent coordinates z: `(u', v') = N z'` and `(u'', v'') = N z'' + b`.
 pub(crate) struct Reduction<'a, T: Real, U: Dim, V: Dim, C: Dim> {
     /// The rows of N of the unknowns and of the inputs.
     pub basis: (&'a Matrix<T, U, V>, &'a Matrix<T, V, V>),
@@ -137,7 +137,7 @@ impl<T: Real, U: Dim, V: Dim, C: Dim> Reduction<'_, T, U, V, C> {
         Ok(reduced)
     }
 
-    /// R = `constant` + g . q'' + x . F + (`contacts` + S x) . f with g = (`unknowns`, `inputs`) - M x.
+    /// `R = constant + g . q'' + x . F + (contacts + S x) . f` with g = (`unknowns`, `inputs`) - M x.
     fn reaction(
         &self,
         row: &ReactionRow<T, U, V, C>,

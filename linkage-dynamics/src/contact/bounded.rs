@@ -1,7 +1,7 @@
 //! Bounded contact forces: a complementarity problem (LCP) solved by an active-set method.
 //!
 //! The problem is w = A f + b with w = 0 where f is between its bounds, w >= 0 at a lower and w <= 0 at an upper bound;
-//! f are forces and w accelerations s'', or impulses and rates. These are the conditions for the minimum of
+//! f are forces and w accelerations `s''`, or impulses and rates. These are the conditions for the minimum of
 //! f . A f / 2 + b . f; w is unique, f need not be. At first all forces are at a bound. They are released one after the other, the
 //! one with the greatest decrease of the function first; the released forces are solved for together, and the first
 //! that meets a bound is fixed there (C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter

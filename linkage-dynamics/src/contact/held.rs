@@ -1,6 +1,6 @@
 //! The forces of held contacts: frictions that stick and stops on which s rests.
 //!
-//! The forces f with A f = -b keep s'' = 0 of the held contacts, where A = S M^-1 S' and b is s'' without their forces.
+//! The forces f with A f = -b keep `s'' = 0` of the held contacts, where `A = S M^-1 S'` and b is `s''` without their forces.
 //! With redundant contacts, as where every joint of a linkage with one input sticks, A is singular. The factorisation
 //! L D L' with diagonal pivoting takes the row with the largest pivot divided by its diagonal entry of A, until the
 //! pivots are rounding errors. The contacts of these rows are independent and carry the forces; every other row is a
@@ -22,7 +22,7 @@ pub(super) struct Response<T: Real, V: Dim, C: Dim> {
     pub columns: Matrix<T, V, C>,
     /// S M^-1 S'.
     pub matrix: Matrix<T, C, C>,
-    /// s'' without the forces of the requested contacts, and the magnitude of its terms. In coordinates of one body
+    /// `s''` without the forces of the requested contacts, and the magnitude of its terms. In coordinates of one body
     /// relative to another the terms within M^-1 cancel: by Cauchy and Schwarz, |S M^-1 Q|^2 <= (S M^-1 S') (Q M^-1 Q).
     pub bias: Column<(T, T), C>,
 }
@@ -120,7 +120,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         Ok(Self { response, factors, forces })
     }
 
-    /// v''.
+    /// `v''`.
     pub(super) fn acceleration(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
         let mut acceleration = self.response.acceleration;
         for (&row, &force) in self.factors.order.iter().zip(&self.forces).take(self.factors.rank) {

@@ -109,8 +109,8 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         margins
     }
 
-    /// The rounding error of the force of each contact, from those of s'': A h = -b has the error |A^-1| |d b|. The terms
-    /// of s'' include those of the held forces, as in the choice of the modes, whose tolerance is an eighth of this one:
+    /// The rounding error of the force of each contact, from those of `s''`: A h = -b has the error |A^-1| |d b|. The terms
+    /// of `s''` include those of the held forces, as in the choice of the modes, whose tolerance is an eighth of this one:
     /// a contact that is released here is not held again.
     pub(super) fn force_tolerances(&self) -> Column<T, C> {
         let Ranked { order, rank, count, .. } = &self.factors;

@@ -1,16 +1,16 @@
 //! Dry friction and stops: contacts that stick or slip, are open or closed.
 //!
 //! Each contact acts along a scalar s(q) with a force f; its work is f ds. In any independent coordinates v
-//! ([`ReducedEquations`]) M v'' = Q + S' f, where S = ds/dv and s'' = S v'' + `s_0`:
+//! ([`ReducedEquations`]) `M v'' = Q + S' f`, where S = ds/dv and `s'' = S v'' + s_0`:
 //!
-//! - friction slips with f = -sign(s') limit, or sticks: s'' = 0 with |f| <= limit;
-//! - a stop is open with f = 0, or s rests on it: s'' = 0 with f directed away from the stop;
+//! - friction slips with `f = -sign(s') limit`, or sticks: `s'' = 0` with |f| <= limit;
+//! - a stop is open with f = 0, or s rests on it: `s'' = 0` with f directed away from the stop;
 //! - at an impact with a stop s'+ = -e s'-; stops that are closed at that time transmit impulses too, so that none is
 //!   penetrated. If s then moves towards another stop that it touches, this one is hit at the same time. **Impulses of
 //!   friction at an impact are neglected.**
 //!
 //! [`Contacts`] stores the [`Mode`] of each. At an event the modes of all contacts with s' = 0 follow from one
-//! complementarity problem: its bounded forces minimise a convex function, so that v'' is unique, however many joints
+//! complementarity problem: its bounded forces minimise a convex function, so that `v''` is unique, however many joints
 //! stick at once. The forces are not unique where contacts are redundant. A held contact is released only where its
 //! force exceeds the limit by 1024 ulps, so that a block pushed exactly with its friction limit stays.
 //!
@@ -61,7 +61,7 @@ pub struct ContactCoordinate<T: Real, U: Dim, V: Dim> {
     pub unknowns: Column<T, U>,
     /// `ds/dv` for each input.
     pub inputs: Column<T, V>,
-    /// s'' at q'' = 0: the quadratic terms in q'.
+    /// `s''` at `q'' = 0`: the quadratic terms in `q'`.
     pub bias: T,
 }
 

@@ -12,7 +12,7 @@ use linkage_runtime::{Column, Dim, Real};
     serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
 )]
 pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
-    /// v''.
+    /// `v''`.
     pub acceleration: Column<T, V>,
     /// The force of each contact along its s: its work is f ds. With redundant contacts the forces are not unique; this
     /// is one solution.
@@ -22,7 +22,7 @@ pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
 }
 
 impl<T: Real, V: Dim, C: Dim> ContactMotion<T, V, C> {
-    /// M v'' - Q - S' f of equations in which no motion is prescribed: the forces of the drives.
+    /// `M v'' - Q - S' f` of equations in which no motion is prescribed: the forces of the drives.
     pub(crate) fn residual(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
         let mut residual = equations.mass * self.acceleration - equations.forces;
         for (contact, &force) in equations.contacts.iter().zip(&self.forces) {

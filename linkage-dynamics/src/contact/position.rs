@@ -1,4 +1,4 @@
-//! The positions of held stops: the forces of a stop keep s'' = 0, so that s drifts from it by the errors of the steps.
+//! The positions of held stops: the forces of a stop keep `s'' = 0`, so that s drifts from it by the errors of the steps.
 
 use super::held::Held;
 use super::reduced::ReducedEquations;

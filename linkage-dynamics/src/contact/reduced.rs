@@ -6,8 +6,8 @@ use crate::scene::{Rates, StateColumn, coordinate_name};
 use crate::{Equations, MotionError, Scene, StateParts};
 use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, Real};
 
-/// M v'' = Q + S' f, where v are `V` independent coordinates, the inputs of a scene or others, and f the forces of the
-/// contacts, whose scalars s have s' = S v' + `drift` and s'' = S v'' + `bias`.
+/// `M v'' = Q + S' f`, where v are `V` independent coordinates, the inputs of a scene or others, and f the forces of the
+/// contacts, whose scalars s have `s' = S v' + drift` and `s'' = S v'' + bias`.
 ///
 /// No force accelerates a coordinate whose motion is prescribed: see [`prescribe`](Self::prescribe).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,14 +41,14 @@ pub struct ReducedContact<T: Real, V: Dim> {
     pub row: Column<T, V>,
     /// s' at v' = 0: nonzero only with prescribed coordinates.
     pub drift: T,
-    /// s'' at v'' = 0.
+    /// `s''` at `v'' = 0`.
     pub bias: T,
     /// The law of its force.
     pub law: ContactLaw<T>,
 }
 
 impl<T: Real, V: Dim> ReducedContact<T, V> {
-    /// Reduces a contact to independent coordinates z, in which (u', v') = N z' and (u'', v'') = N z'' + bias; N and
+    /// Reduces a contact to independent coordinates z, in which `(u', v') = N z'` and `(u'', v'') = N z'' + bias`; N and
     /// the bias are given as their rows of u and of v.
     pub(crate) fn new<U: Dim>(
         contact: &Contact<T, U, V>,

@@ -92,7 +92,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Lets a friction slip, or s leave its stop, where no force along s can hold it, since ds/dv = 0: at rest at a dead
-    /// centre s moves with s'' = 0 first, then by its quadratic term, s = b(v'') t^4 / 8.
+    /// centre s moves with `s'' = 0` first, then by its quadratic term, `s = b(v'') t^4 / 8`.
     fn leave_dead_centres<V: Dim>(
         &mut self,
         equations: &ReducedEquations<T, V, C>,
@@ -307,7 +307,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Holds again the contacts that are released at their limit and do not accelerate away, to rounding error: those
-    /// whose margin is positive if they are held. `sizes` are the sums of the magnitudes of the terms of s''. This is the
+    /// whose margin is positive if they are held. `sizes` are the sums of the magnitudes of the terms of `s''`. This is the
     /// test that ends the mode, so that a contact held here is not released again at the same state.
     fn hold_again<V: Dim>(
         &mut self,

@@ -52,7 +52,7 @@ pub struct ContactReview<T: Real, V: Dim> {
 }
 
 impl Mode {
-    /// Returns true if a force keeps s'' = 0.
+    /// Returns true if a force keeps `s'' = 0`.
     #[must_use]
     pub fn is_held(self) -> bool {
         matches!(self, Self::Stick | Self::AtLower | Self::AtUpper)
@@ -185,7 +185,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         Ok(ContactMotion { acceleration: held.acceleration(equations), forces, are_unique })
     }
 
-    /// Computes v'' alone.
+    /// Computes `v''` alone.
     ///
     /// # Errors
     /// Those of [`motion`](Self::motion).

@@ -134,7 +134,7 @@ pub(super) fn error<T: Real, N: Dim>(
 }
 
 /// The length of the first trial step by the norms of the allowed errors: h = 0.01 |y| / |f|, then h from
-/// h^p max(|f|, |y''|) = 0.01, where p is the order and y'' comes from an Euler step of the first length. Time is in
+/// `h^p max(|f|, |y''|) = 0.01`, where p is the order and `y''` comes from an Euler step of the first length. Time is in
 /// units of |y| / |f|. If the rate or the state is zero, the first length is 1e-6 `span`, or less if the state moves by
 /// its scale sooner.
 #[inline]

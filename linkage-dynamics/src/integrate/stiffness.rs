@@ -3,7 +3,7 @@
 //! The last stage and the end of a step are at the same time t. The difference d of their states lies mostly along the
 //! motions that the method amplifies most, and the difference of their rates is J d, with the Jacobian J of the rate
 //! (Hairer and Wanner, *Solving Ordinary Differential Equations II*, section IV.2). They estimate |lambda| by
-//! |J d| / |d|, which depends on the units: for x'' = -k x and d along x it is k in place of sqrt(k).
+//! |J d| / |d|, which depends on the units: for `x'' = -k x` and d along x it is k in place of sqrt(k).
 //!
 //! Here two steps of Arnoldi's method, with one more evaluation, give the dominant eigenvalue of J in the plane of d and
 //! J d. This is exact if d lies in a plane that J maps to itself, as that of an oscillation, in any units; the inner

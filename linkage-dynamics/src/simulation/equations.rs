@@ -1,7 +1,7 @@
 //! The differential equations of a scene in the current independent coordinates.
 //!
-//! q' = N z' and M_r z'' = Q_r with M_r = N' M N and Q_r = N' (F - M b), where the columns of N span the null space of
-//! [J A] and b is q'' at z'' = 0. With z = v these are the emitted equations.
+//! `q' = N z'` and `M_r z'' = Q_r` with `M_r = N' M N` and `Q_r = N' (F - M b)`, where the columns of N span the null space of
+//! [J A] and b is `q''` at `z'' = 0`. With z = v these are the emitted equations.
 
 use super::frame::Frame;
 use super::independent::{Choice, LEAST_PIVOT_RATIO};
@@ -127,8 +127,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {
-    /// The errors of y' with an interpolated frame, from those of its values: of q' N's times z', of z'' that of the
-    /// bias and those of the directions in which inertia and forces act, which are relative to z''.
+    /// The errors of `y'` with an interpolated frame, from those of its values: of `q'` N's times `z'`, of `z''` that of the
+    /// bias and those of the directions in which inertia and forces act, which are relative to `z''`.
     fn errors_of_rate(
         &self,
         errors: &Errors<S::Scalar>,

@@ -13,7 +13,7 @@ pub(super) type Basis<S> = (
     Matrix<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::V>,
 );
 
-/// The rates q' = N z' and accelerations q'' = N z'' + b at a position, in independent coordinates z.
+/// The rates `q' = N z'` and accelerations `q'' = N z'' + b` at a position, in independent coordinates z.
 pub(super) struct Frame<S: Scene> {
     /// The position, on the constraints to rounding error if it is interpolated.
     pub(super) q: Coordinates<S>,
@@ -32,7 +32,7 @@ impl<S: Scene> Frame<S> {
         Change::<S> { unknowns: *unknowns * *free, inputs: *inputs * *free }
     }
 
-    /// q'' from z''.
+    /// `q''` from `z''`.
     pub(super) fn accelerations(&self, free: &PerInput<S::Mechanism>) -> Change<S> {
         self.rates(free) + self.bias
     }

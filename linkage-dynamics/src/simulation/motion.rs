@@ -289,7 +289,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Frame { q: *q, basis, bias, is_interpolated: false }
     }
 
-    /// The q'' at z'' = 0.
+    /// The `q''` at `z'' = 0`.
     pub(super) fn bias(&self, factors: &FactorsOf<S>, q: &Coordinates<S>, rates: &PerInput<S::Mechanism>) -> Change<S> {
         let mechanism = self.scene.mechanism();
         let velocity = factors.rates(rates);

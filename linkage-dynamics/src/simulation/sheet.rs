@@ -1,7 +1,7 @@
 //! Positions of a motion near a change point, where [J A] loses rank.
 //!
 //! The positions of one motion form a smooth surface, its sheet; only [J A] is singular where another sheet crosses
-//! it. So near the crossing the position q, the basis N of q' = N z' and the bias b of q'' = N z'' + b are not
+//! it. So near the crossing the position q, the basis N of `q' = N z'` and the bias b of `q'' = N z'' + b` are not
 //! computed from [J A] there: they are interpolated along a line of the independent coordinates z across the
 //! crossing, from nodes on both sides of it where [J A] is regular. z includes the prescribed inputs.
 //!

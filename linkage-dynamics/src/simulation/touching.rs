@@ -183,7 +183,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The forces of the contacts in the modes of `contacts`, of the drives by input, zero without a drive, and in the
     /// joints.
     ///
-    /// The force of the drive of `v_i` is the residual of M v'' = Q + S' f in its row, in any coordinates that include
+    /// The force of the drive of `v_i` is the residual of `M v'' = Q + S' f` in its row, in any coordinates that include
     /// the prescribed inputs.
     pub(super) fn loads(
         &self,
@@ -226,7 +226,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         .finite(t)
     }
 
-    /// u'' and v'' from the accelerations of the independent coordinates.
+    /// `u''` and `v''` from the accelerations of the independent coordinates.
     fn accelerations(
         &self,
         t: S::Scalar,

@@ -112,7 +112,7 @@ impl Expansion {
     }
 
     /// Y Psi(p(c)) for all c of an interval and all dimensions, by Taylor's theorem about the middle:
-    /// Psi(p(c0)) + s (Psi p)'(c0) + s^2 / 2 (Psi p)''(C), and the mean-value theorem for the parameters.
+    /// `Psi(p(c0)) + s (Psi p)'(c0) + s^2 / 2 (Psi p)''(C)`, and the mean-value theorem for the parameters.
     pub(super) fn residual<M: Certifiable>(
         &self,
         system: &System<M>,
@@ -169,7 +169,7 @@ impl Expansion {
         self.solve(system, linear, &column, Interval::one())
     }
 
-    /// q''(c) over a box: J q'' = -gamma(q').
+    /// `q''(c)` over a box: `J q'' = -gamma(q')`.
     pub(super) fn accelerations<M: Certifiable>(
         &self,
         system: &System<M>,

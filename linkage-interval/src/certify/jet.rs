@@ -85,7 +85,7 @@ impl Measure {
     }
 
     /// The jet over an interval c with middle m, its values by the mean-value form f(m) + f'(C) (C - m), by Taylor's
-    /// f(m) + f'(m) (C - m) + f''(C) (C - m)^2 / 2, and by the mean-value form in the parameters.
+    /// `f(m) + f'(m) (C - m) + f''(C) (C - m)^2 / 2`, and by the mean-value form in the parameters.
     pub(super) fn jet<M: Certifiable>(self, system: &System<M>, tube: &Tube, c: Interval) -> Option<Jet> {
         let m = c.middle();
         let [nominal, all] = self.in_middle(system, tube, m)?;

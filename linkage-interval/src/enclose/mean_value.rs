@@ -38,7 +38,7 @@ pub(super) struct Solver<'a> {
 
 impl Solver<'_> {
     /// The derivatives x of this order of the unknowns along a curve of all numbers, in which they are zero: J x = -Psi'
-    /// or J x = -Psi''. They are intersected with their mean-value form.
+    /// or `J x = -Psi''`. They are intersected with their mean-value form.
     pub(super) fn solve<M: Certifiable>(&self, curve: &[Series<Interval>]) -> Result<Vec<Interval>, EncloseError> {
         let x = self.natural::<M>(self.linear, curve)?;
         let narrower = self.centered::<M>(curve, &x);

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`velocity_ratios`](PoseBox::velocity_ratios) | W = -J^-1 A |
 //! | [`velocity`](PoseBox::velocity) | u' = W v' |
-//! | [`acceleration`](PoseBox::acceleration) | u'' from J u'' = -(A v'' + gamma) |
+//! | [`acceleration`](PoseBox::acceleration) | `u''` from `J u'' = -(A v'' + gamma)` |
 //! | [`sensitivity`](PoseBox::sensitivity) | du/dp = -J^-1 Psi_p |
 //!
 //! A box across a dead point is an error that says which group may be singular, and how far the proof is from success

@@ -136,7 +136,7 @@ impl<M: Certifiable> PoseBox<M> {
         Ok(column(&self.solver(Order::First, "A v'").solve::<M>(&curve)?, 0))
     }
 
-    /// u'' from J u'' = -(A v'' + gamma): the accelerations of the unknowns for all rates and all accelerations of the
+    /// `u''` from `J u'' = -(A v'' + gamma)`: the accelerations of the unknowns for all rates and all accelerations of the
     /// inputs in these intervals. With the rates of [`velocity`](Self::velocity) they contain those of every motion
     /// through a point of the box.
     ///

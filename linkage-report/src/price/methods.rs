@@ -194,7 +194,7 @@ fn inputs<X: Mechanism<V = D<1>>>(input: f64) -> PerInput<X> {
     PerInput::<X>::from([real(input)])
 }
 
-/// u, u' or u'' at a pose.
+/// u, `u'` or `u''` at a pose.
 #[inline]
 fn rates<X: Kinematic<V = D<1>>>(m: &X, pose: &X::Pose, order: usize) -> Result<PerUnknown<X>, PositionError> {
     if order == 0 {

@@ -32,7 +32,7 @@ impl Exact for DoubleDouble {
     }
 }
 
-/// An input with the unknowns, their velocities and accelerations at v' = 1 and v'' = 0.
+/// An input with the unknowns, their velocities and accelerations at `v' = 1` and `v'' = 0`.
 pub(super) struct Reference {
     values: [Vec<DoubleDouble>; 3],
     is_angle: &'static [bool],

@@ -180,7 +180,7 @@ impl<const TERMS: usize> TrigonometricPolynomial<TERMS> {
         [value, slope]
     }
 
-    /// An upper bound of |g''|.
+    /// An upper bound of `|g''|`.
     fn most_curvature(&self) -> f64 {
         let terms = self.coefficients.iter().enumerate().take(self.degree + 1);
         terms.map(|(k, coefficient)| 2.0 * (k * k) as f64 * coefficient.l1_norm()).sum()

@@ -3,8 +3,10 @@
 //! J is singular there, but along one motion the unknowns are smooth functions u(t) of the parameter. From the rates at
 //! t - h and t + h the cubic through both with their slopes (Hermite) has
 //!
+//! ```text
 //! u'  = (u'+ + u'-) / 2 - h (u''+ - u''-) / 4
 //! u'' = 3 (u'+ - u'-) / (4 h) - (u''+ + u''-) / 4
+//! ```
 //!
 //! The errors are even powers of h from the fourth on, which extrapolation to h = 0 removes one after the other
 //! (Richardson).

@@ -25,9 +25,9 @@ pub(super) fn coordinates(
 ) -> TokenStream {
     let [what, of_one] = match order {
         Order::Value => ["coordinates q", ""],
-        Order::Rate => ["rates q' of the coordinates", "rate"],
-        Order::Acceleration => ["accelerations q'' of the coordinates", "acceleration"],
-        Order::Jerk => ["jerks q''' of the coordinates", "jerk"],
+        Order::Rate => ["rates `q'` of the coordinates", "rate"],
+        Order::Acceleration => ["accelerations `q''` of the coordinates", "acceleration"],
+        Order::Jerk => ["jerks `q'''` of the coordinates", "jerk"],
     };
     let title = format!(" The {what} of [`{}`] by name.", mechanism.name);
     let docs = |coordinate: &Coordinate| match order {

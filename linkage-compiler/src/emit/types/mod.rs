@@ -112,7 +112,7 @@ pub(super) fn of_driver(program: &Program<Code>, root: &TokenStream) -> TokenStr
     let inputs = ident(&types.inputs);
     let members: Vec<&Coordinate> = driver.inputs.iter().map(|&index| &mechanism.coordinates[index]).collect();
     let title = format!(
-        " The independent coordinates v of [`{name}`] by name; also used for their rates v' and accelerations v''."
+        " The independent coordinates v of [`{name}`] by name; also used for their rates `v'` and accelerations `v''`."
     );
     tokens.extend(by_name(mechanism, &inputs, &title, &members, &described, root));
     let fields = Fields::of(members.iter().map(|member| &member.name));

@@ -14,7 +14,7 @@ use crate::program::plan::unnamed;
 impl ScenePlan<'_, '_, '_> {
     /// `contacts`: each friction and stop with its scalar s, the derivatives of s, and its limits.
     pub(super) fn contacts(&mut self) {
-        let mut doc = lines(["The frictions and stops at a position and the rates q', in the order of the scene."]);
+        let mut doc = lines(["The frictions and stops at a position and the rates `q'`, in the order of the scene."]);
         let formulas = self.scene.contacts.iter().enumerate().map(|(place, contact)| {
             let value = self.plan.text(contact.value);
             match &contact.law {
@@ -137,7 +137,7 @@ impl ScenePlan<'_, '_, '_> {
         self.add(self.signatures.bearings(), doc, body);
     }
 
-    /// `equations`: M, Q, W and u'' at v'' = 0.
+    /// `equations`: M, Q, W and `u''` at `v'' = 0`.
     pub(super) fn equations(&mut self) {
         let (u, v) = (self.plan.signatures.unknowns(), self.signatures.inputs.len());
         let (inertia, forces) = (self.layers.inertia.iter().flatten(), &self.layers.forces);
@@ -157,7 +157,7 @@ impl ScenePlan<'_, '_, '_> {
         ];
         let body = Body { value: Value::Plain(structure("Equations", members)), ..body };
         let doc = lines([
-            "M and Q of M v'' = Q without frictions and stops, W of u' = W v', and u'' at v'' = 0.",
+            "M and Q of `M v'' = Q` without frictions and stops, W of `u' = W v'`, and `u''` at `v'' = 0`.",
             "",
             "# Errors",
             "`PositionError::Singular` if J is singular, `PositionError::NotFinite` with the name of the body or effect if its force is not",

@@ -45,7 +45,7 @@ impl ScenePlan<'_, '_, '_> {
     /// Inverse dynamics: `M_d v'' - Q_d`.
     pub(super) fn drive_forces(&mut self) {
         let mut doc = vec![
-            format!("The forces (for angles, torques) that drive {}, by inverse dynamics: M v'' - Q,", self.driven()),
+            format!("The forces (for angles, torques) that drive {}, by inverse dynamics: `M v'' - Q`,", self.driven()),
             "at this position and these rates of the inputs.".to_owned(),
         ];
         if !self.signatures.scene.contacts.is_empty() {

@@ -32,11 +32,11 @@ impl ScenePlan<'_, '_, '_> {
                 "The applied power of forces, torques and drives, and the power that dampers dissipate: dE/dt is their difference.",
             ]),
             (true, true) => lines([
-                "The applied power of forces and torques, and the power that dampers and frictions, limit |s'| each, dissipate:",
+                "The applied power of forces and torques, and the power that dampers and frictions, limit `|s'|` each, dissipate:",
                 "between impacts dE/dt is their difference.",
             ]),
             (true, false) => lines([
-                "The applied power of forces and torques, and the power that dampers and frictions, limit |s'| each, dissipate.",
+                "The applied power of forces and torques, and the power that dampers and frictions, limit `|s'|` each, dissipate.",
                 "The power of the drives, which depends on the modes of the contacts, is not included.",
             ]),
         };

@@ -15,7 +15,7 @@ impl ScenePlan<'_, '_, '_> {
         if kinks.is_empty() {
             return;
         }
-        let mut doc = lines(["The expressions at whose zeros a law has a kink, at a position and the rates q'."]);
+        let mut doc = lines(["The expressions at whose zeros a law has a kink, at a position and the rates `q'`."]);
         let formulas =
             kinks.iter().map(|Kink { label, argument, .. }| format!("{label}: {}", self.plan.text(*argument)));
         doc.extend(fenced(formulas));

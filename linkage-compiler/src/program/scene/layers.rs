@@ -120,7 +120,7 @@ impl ScenePlan<'_, '_, '_> {
         self.add(self.signatures.check_effects(self.effects_depend_on_time()), doc, body);
     }
 
-    /// A body with coordinates and input rates that computes W, q', u'' at v'' = 0, M and Q as far as the results
+    /// A body with coordinates and input rates that computes W, `q'`, `u''` at `v'' = 0`, M and Q as far as the results
     /// depend on them; `by_name` is a dependency of later statements.
     pub(super) fn on_motion(&self, results: Vec<Output>, by_name: Option<Read>) -> Body {
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
@@ -156,7 +156,7 @@ impl ScenePlan<'_, '_, '_> {
         body
     }
 
-    /// A body that computes the pose, W, q' and u'' at v'' = 0 as far as they are read.
+    /// A body that computes the pose, W, `q'` and `u''` at `v'' = 0` as far as they are read.
     fn moved(&self, reads: &BTreeSet<Read>) -> Body {
         let arguments = &self.signatures.arguments;
         let input_rates = Expression::name(&arguments.input_rates);
@@ -202,7 +202,7 @@ impl ScenePlan<'_, '_, '_> {
         body
     }
 
-    /// Sources of W, q' and u'' at v'' = 0, as far as they are read.
+    /// Sources of W, `q'` and `u''` at `v'' = 0`, as far as they are read.
     fn moving(&self, reads: &BTreeSet<Read>) -> Vec<Source> {
         let (arguments, derivation) = (&self.signatures.arguments, &self.plan.derivation);
         let ratios: Vec<SymbolId> = derivation.ratios.iter().flatten().copied().collect();

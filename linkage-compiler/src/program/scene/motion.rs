@@ -17,7 +17,7 @@ impl ScenePlan<'_, '_, '_> {
         let v = self.signatures.inputs.len();
         let entries: Vec<NodeId> = self.scene.mass_matrix.iter().flatten().flatten().copied().collect();
         let mut doc =
-            lines(["The mass matrix reduced to the inputs, M = sum m `W_G`' `W_G` + j w' w: M v'' = `forces`."]);
+            lines(["The mass matrix reduced to the inputs, `M = sum m W_G' W_G + j w' w`: `M v'' = forces`."]);
         let upper = entries.iter().enumerate().filter(|(index, _)| index / v <= index % v);
         doc.extend(fenced(upper.map(|(index, &node)| match v {
             1 => self.plan.law("M", node),
@@ -38,7 +38,7 @@ impl ScenePlan<'_, '_, '_> {
 
     pub(super) fn forces(&mut self) {
         let quadratic = match self.signatures.scene.inertia {
-            Some(_) => ", including the quadratic velocity terms: M v'' = Q.",
+            Some(_) => ", including the quadratic velocity terms: `M v'' = Q`.",
             None => ".",
         };
         let mut doc = vec![format!("The generalised forces Q of the inputs{quadratic}")];
@@ -112,7 +112,7 @@ impl ScenePlan<'_, '_, '_> {
         names
     }
 
-    /// `rates` returns q' and v'', `acceleration` v'' by calling it.
+    /// `rates` returns `q'` and `v''`, `acceleration` `v''` by calling it.
     pub(super) fn rates(&mut self) {
         let free = self.signatures.free.clone();
         let mut outputs = unnamed(self.minor(&free, &free));
@@ -151,13 +151,13 @@ impl ScenePlan<'_, '_, '_> {
         }
         let rates = if self.plan.signatures.is_open() { "v'" } else { "(W v', v')" };
         let mut doc = vec![format!(
-            "The rates q' = {rates} and the input accelerations v'' from M v'' = Q: the right-hand side for an integrator."
+            "The rates `q' = {rates}` and the input accelerations `v''` from `M v'' = Q`: the right-hand side for an integrator."
         )];
         doc.extend(errors.clone());
         self.add(self.signatures.rates(), doc, body);
 
         let mut doc =
-            lines(["The accelerations v'' of the inputs: from M v'' = Q, or from the law of a driven input."]);
+            lines(["The accelerations `v''` of the inputs: from `M v'' = Q`, or from the law of a driven input."]);
         doc.extend(errors);
         let arguments = &self.signatures.arguments;
         let state = [&arguments.time, &arguments.q, &arguments.input_rates];

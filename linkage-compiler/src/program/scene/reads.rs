@@ -15,7 +15,7 @@ pub enum Read {
     Ratios,
     /// q'.
     Rates,
-    /// u'' at v'' = 0.
+    /// `u''` at `v'' = 0`.
     Bias,
     /// v'.
     InputRates,

@@ -75,7 +75,7 @@ impl Signatures<'_> {
         Function { is_method: false, ..rates }
     }
 
-    /// The pose, W, q', and u'' at v'' = 0.
+    /// The pose, W, `q'`, and `u''` at `v'' = 0`.
     pub fn reduced_motion(&self) -> Function<Body> {
         let arguments = [self.coordinates(Order::Value), self.input_rates(), self.error_name()];
         let of = Type::ReducedMotion {

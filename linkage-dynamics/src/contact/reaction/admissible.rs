@@ -1,6 +1,6 @@
 //! The existence of admissible forces of redundant held contacts, as in a stuck ladder or drawer.
 //!
-//! The forces with s'' = 0 form a family with one parameter y for each redundant contact. On a line the bounds of each
+//! The forces with `s'' = 0` form a family with one parameter y for each redundant contact. On a line the bounds of each
 //! force are quadratic inequalities in y: the least distance from all bounds is evaluated at all their roots and
 //! between them. In more dimensions, in this order:
 //!

@@ -1,4 +1,4 @@
-//! The contact forces in given modes: f = base + sum columns_k x_k with s'' = 0 of the held contacts.
+//! The contact forces in given modes: f = base + sum columns_k x_k with `s'' = 0` of the held contacts.
 //!
 //! The first x are the magnitudes of the forces of the slipping bearings; the others, where held contacts are
 //! redundant, the forces of those that depend on the rest.

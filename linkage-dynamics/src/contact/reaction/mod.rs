@@ -1,7 +1,7 @@
 //! Friction by the reaction of its joint: |f| <= c |R|, where R depends on the accelerations and on all contact forces,
 //! its own friction included.
 //!
-//! With z'' eliminated, R = r + P f ([`problem`]). In given modes the held contacts are eliminated ([`family`]), and the
+//! With `z''` eliminated, R = r + P f ([`problem`]). In given modes the held contacts are eliminated ([`family`]), and the
 //! forces of slipping bearings are the solutions of t = c |r + P t| ([`slip`]). At rest all combinations of modes are
 //! enumerated ([`choice`]). A locked mechanism with redundant contacts only needs admissible forces ([`admissible`]).
 //! There may be no acceleration that satisfies every law, or several, as in Painleve's paradox: then the result is an

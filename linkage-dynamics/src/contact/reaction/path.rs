@@ -1,8 +1,8 @@
-//! Sticking frictions of one motion, as all of a linkage with one input at rest: s_i'' = a_i s''.
+//! Sticking frictions of one motion, as all of a linkage with one input at rest: `s_i'' = a_i s''`.
 //!
 //! On the path f_i = -x sign(a_i) c_i |R_i(f)| from x = -1 to 1 the forces are unique and continuous if the spectral
 //! radius of G_ij = c_i |dR_i/df_j| is below 1. At x = 1 they are those of slip forward, at x = -1 of slip backward. If
-//! neither slips, s'' passes zero between them, at admissible forces.
+//! neither slips, `s''` passes zero between them, at admissible forces.
 //!
 //! If moreover sum_i |a_i| G_ij <= |a_j| / 2 for each j, there are none where one of them slips: let f* be the forces of
 //! slip forward and d_i = sign(a_i) (f_i - f*_i) for forces f that hold. Then d_i >= -sum_j G_ij |d_j|, so that
@@ -69,7 +69,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
 }
 
 impl<T: Real, V: Dim, C: Dim> Path<'_, T, V, C> {
-    /// The forces at which s'' = 0, or None if the contacts slip; no answer if an iteration does not end.
+    /// The forces at which `s'' = 0`, or None if the contacts slip; no answer if an iteration does not end.
     fn zero(&self) -> Option<Option<Column<T, C>>> {
         let problem = self.held.problem;
         let [mut back, mut front] = [-T::one(), T::one()];

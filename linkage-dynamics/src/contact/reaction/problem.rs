@@ -1,4 +1,4 @@
-//! Accelerations and reactions as functions of the contact forces: s'' = b + A f, R = r + P f.
+//! Accelerations and reactions as functions of the contact forces: `s'' = b + A f`, R = r + P f.
 
 use crate::MotionError;
 use crate::contact::held::{Response, slipping};
@@ -77,19 +77,19 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
         Ok(Self { equations, response, reactions })
     }
 
-    /// s'', and the sum of the magnitudes of its terms.
+    /// `s''`, and the sum of the magnitudes of its terms.
     pub(super) fn along(&self, place: usize, forces: &Column<T, C>) -> (T, T) {
         let terms = forces.iter().enumerate().map(|(other, &force)| self.response.matrix[(place, other)] * force);
         terms.fold(self.response.bias[place], |(sum, size), term| (sum + term, size + term.abs()))
     }
 
-    /// True if s'' is zero within rounding error.
+    /// True if `s''` is zero within rounding error.
     pub(super) fn stands(&self, place: usize, forces: &Column<T, C>) -> bool {
         let (sum, size) = self.along(place, forces);
         sum.abs() <= held_tolerance::<T>() * size
     }
 
-    /// z'', and the sums of the magnitudes of its terms.
+    /// `z''`, and the sums of the magnitudes of its terms.
     pub(super) fn acceleration(&self, forces: &Column<T, C>) -> (Column<T, V>, Column<T, V>) {
         let start = self.response.acceleration;
         let columns = self.response.columns.columns().iter().zip(forces);
