@@ -66,15 +66,8 @@ fn extreme(rng: &mut SmallRng, count: usize) -> [Vec<f64>; 3] {
 type Motion = fn(&mut SmallRng, usize) -> [Vec<f64>; 3];
 
 /// The functions of [`results`] that need no regular J.
-const FUNCTIONS: [&str; 7] = [
-    "gamma",
-    "points",
-    "point_velocities",
-    "point_accelerations",
-    "outputs",
-    "output_rates",
-    "output_accelerations",
-];
+const FUNCTIONS: [&str; 7] =
+    ["gamma", "points", "point_velocities", "point_accelerations", "outputs", "output_rates", "output_accelerations"];
 
 /// The results of a mechanism in any scalar, by function, in the order of the code.
 fn results<T: linkage::Real>(

@@ -166,8 +166,7 @@ fn turning_points_in_order() {
         let (sine, cosine) = (speed * input).sin_cos();
         OutputMotion { value: sine, rate: speed * cosine, acceleration: -speed * speed * sine }
     };
-    let still =
-        |input: f64| OutputMotion { value: 1.0 + 1e-16 * (1e5 * input).sin(), rate: 1e-17, acceleration: 0.0 };
+    let still = |input: f64| OutputMotion { value: 1.0 + 1e-16 * (1e5 * input).sin(), rate: 1e-17, acceleration: 0.0 };
     let all = courses(&range, |motion| {
         let input = motion.position.theta;
         // The derivatives of a motion by arc length are those by the input times the rate of the input.
