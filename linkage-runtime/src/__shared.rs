@@ -14,6 +14,7 @@ pub use crate::position::hadamard_ratio;
 pub use crate::scalar::{arithmetic, greatest, larger, largest, smallest, to_f64};
 #[cfg(feature = "serde")]
 pub use crate::serialised::{array, columns};
+pub use crate::shown::Shown;
 pub use crate::sine::{HALF_PI, SINE_COEFFICIENTS, SINE_ERROR, sine_kernel, sine_polynomials};
 
 /// Implements `Clone`, `Copy`, `PartialEq` and `Debug` field by field for a struct whose fields have associated types

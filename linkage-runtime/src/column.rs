@@ -1,6 +1,6 @@
 //! Columns whose length is a type.
 
-use core::fmt::{self, Debug};
+use core::fmt::{self, Debug, Display};
 use core::iter::Sum;
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -194,6 +194,23 @@ impl<X: Copy + Debug, R: Dim> Debug for Column<X, R> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.as_slice().fmt(f)
     }
+}
+
+/// The entries in one line, `[1.5, -2]`, each with the precision asked for.
+impl<X: Copy + Debug + Display, R: Dim> Display for Column<X, R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        in_one_line(f, self)
+    }
+}
+
+/// Entries in brackets, separated by commas.
+pub(crate) fn in_one_line<X: Display>(f: &mut fmt::Formatter<'_>, entries: impl IntoIterator<Item = X>) -> fmt::Result {
+    f.write_str("[")?;
+    for (place, entry) in entries.into_iter().enumerate() {
+        f.write_str(if place == 0 { "" } else { ", " })?;
+        entry.fmt(f)?;
+    }
+    f.write_str("]")
 }
 
 impl<X: Copy + Debug + PartialEq, R: Dim> PartialEq for Column<X, R> {

@@ -67,6 +67,7 @@ mod same_position;
 mod scalar;
 #[cfg(feature = "serde")]
 mod serialised;
+mod shown;
 mod sine;
 pub mod singularity;
 pub mod skeleton;
@@ -89,3 +90,4 @@ pub use number::Number;
 pub use position::{AnyBranch, Solution, newton, newton_any_branch};
 pub use ranges::{RangeEnd, Ranged};
 pub use scalar::{Real, real};
+pub use shown::Named;

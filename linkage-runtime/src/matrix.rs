@@ -1,10 +1,11 @@
 //! Matrices whose numbers of rows and columns are types.
 
+use core::fmt::{self, Display};
 use core::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub};
 
 use nalgebra::SMatrix;
 
-use crate::column::Column;
+use crate::column::{Column, in_one_line};
 use crate::scalar::largest;
 use crate::{D, Dim, Real};
 
@@ -13,6 +14,13 @@ use crate::{D, Dim, Real};
 /// It converts to and from nalgebra's [`SMatrix`] by `into`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matrix<T: Real, R: Dim, C: Dim>(Column<Column<T, R>, C>);
+
+/// The rows in one line, `[[1, 2], [3, 4]]`, each entry with the precision asked for.
+impl<T: Real, R: Dim, C: Dim> Display for Matrix<T, R, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        in_one_line(f, (0..R::COUNT).map(|row| self.row(row)))
+    }
+}
 
 impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
     /// Builds the matrix whose entry at row i and column j is `entry(i, j)`.

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use crate::error::all_finite;
 use crate::linear::same_signs;
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, InputError, Matrix, PositionError, Ranged, Real};
+use crate::{Column, Dim, InputError, Matrix, Named, PositionError, Ranged, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -208,6 +208,12 @@ pub trait Mechanism {
     #[inline]
     fn with_inputs(q: &Self::Coordinates, inputs: PerInput<Self>) -> Self::Coordinates {
         Self::coordinates(Self::unknowns(q), inputs)
+    }
+    /// The coordinates q as one line for readers, the inputs first, with angles in degrees: `theta = 60°, s = 0.25`. A precision,
+    /// as in `{:.2}`, is the number of decimals; without one there are seven digits.
+    #[inline]
+    fn named(&self, q: &Self::Coordinates) -> Named<Self> {
+        Named(*q)
     }
     /// True if the determinant of each block of J has the same sign at both positions: if not, they belong to different
     /// assembly branches. NaN counts as negative.

@@ -1,5 +1,6 @@
 //! Positions by Newton's method, for a mechanism as a whole and for one of its groups.
 
+use core::fmt::{self, Debug, Display, Formatter};
 use core::marker::PhantomData;
 
 use crate::error::all_finite;
@@ -37,6 +38,30 @@ pub struct AnyBranch<Q> {
     /// True if the determinant of each block of J has the sign it had at the guess: if not, the position belongs to
     /// another assembly branch than the guess, or the guess was beyond a dead point.
     pub same_branch: bool,
+}
+
+/// The coordinates, with the names of their type, the effort and the residual, in one line; [`Mechanism::named`] has angles in
+/// degrees.
+impl<Q: Debug> Display for Solution<Q> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { coordinates, iterations, residual } = self;
+        found(f, coordinates, *iterations, *residual)
+    }
+}
+
+/// The line of a [`Solution`], and if it is on another branch than the guess.
+impl<Q: Debug> Display for AnyBranch<Q> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { coordinates, iterations, residual, same_branch } = self;
+        found(f, coordinates, *iterations, *residual)?;
+        f.write_str(if *same_branch { "" } else { ", on another branch than the guess" })
+    }
+}
+
+fn found(f: &mut Formatter<'_>, coordinates: &impl Debug, iterations: usize, residual: f64) -> fmt::Result {
+    let decimals = f.precision().unwrap_or(6);
+    let steps = if iterations == 1 { "step" } else { "steps" };
+    write!(f, "{coordinates:.decimals$?} after {iterations} Newton {steps}, relative residual {residual:.1e}")
 }
 
 /// One undamped Newton step: q with u - J^-1 Psi in place of u.

@@ -1,6 +1,7 @@
 //! The certificate of a motion.
 
 use std::f64::consts::TAU;
+use std::fmt;
 
 use linkage_runtime::{Certifiable, Column, Dim, Number};
 
@@ -42,6 +43,24 @@ pub struct Certificate<M: Certifiable> {
     pub(super) tests: usize,
     pub(super) inputs: Interval,
     pub(super) start: Vec<Interval>,
+}
+
+/// The statement that is proved, in one line, with angles in degrees: `FourBar: one motion without dead points, theta2 from 0° to
+/// 360°, at its start again`.
+impl<M: Certifiable> fmt::Display for Certificate<M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { system, end, inputs, .. } = self;
+        write!(f, "{}: one motion without dead points, {} from ", M::NAME, system.input_name())?;
+        system.shown_input(inputs.least()).fmt(f)?;
+        f.write_str(" to ")?;
+        system.shown_input(inputs.most()).fmt(f)?;
+        match end {
+            End::Closed { .. } => f.write_str(", at its start again")?,
+            End::Arrives { position, .. } => write!(f, ", to the position with the number {position} of those given")?,
+            End::Open => {}
+        }
+        f.write_str(system.shown_tolerances())
+    }
 }
 
 impl<M: Certifiable> Certificate<M> {

@@ -4,6 +4,8 @@
 //! is another coordinate, and the dead point a position like any other (W. C. Rheinboldt, J. V. Burkardt, "A locally
 //! parameterized continuation process", 1983).
 
+use std::fmt;
+
 use linkage_runtime::{Certifiable, Column};
 
 use super::Certify;
@@ -41,6 +43,22 @@ pub struct Curve<M: Certifiable> {
     turns: Vec<i64>,
     input_turns: i64,
     tests: usize,
+}
+
+/// The statement that is proved, in one line, with angles in degrees: `FourBar: one closed curve, on which theta turns back at
+/// 78.58481°, -78.58481°`.
+impl<M: Certifiable> fmt::Display for Curve<M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { system, dead_points, .. } = self;
+        let name = system.input_name();
+        write!(f, "{}: one closed curve, on which {name} ", M::NAME)?;
+        for (place, point) in dead_points.iter().enumerate() {
+            f.write_str(if place == 0 { "turns back at " } else { ", " })?;
+            system.shown_input(point.input.middle()).fmt(f)?;
+        }
+        f.write_str(if dead_points.is_empty() { "never turns back" } else { "" })?;
+        f.write_str(system.shown_tolerances())
+    }
 }
 
 impl<M: Certifiable> Curve<M> {

@@ -7,6 +7,7 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
+use std::fmt;
 
 use linkage_runtime::{Certifiable, Column, Dim};
 
@@ -38,6 +39,14 @@ pub struct Enclosure {
     pub is_sharp: bool,
     /// The number of boxes and points at which the quantity was evaluated.
     pub evaluations: usize,
+}
+
+/// Both enclosures in one line.
+impl fmt::Display for Enclosure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { least, largest, is_sharp, .. } = self;
+        write!(f, "least in {least}, largest in {largest}{}", if *is_sharp { "" } else { ", not sharp" })
+    }
 }
 
 impl Enclosure {

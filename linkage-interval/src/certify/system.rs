@@ -3,6 +3,7 @@
 //! The coordinates are q = (u, v): the unknowns, then the moving input. All derivatives come from Psi alone, by
 //! [`Series`]; the emitted J, A and gamma are only compared with them.
 
+use linkage_runtime::__shared::Shown;
 use linkage_runtime::jacobian::ScalesOf;
 use linkage_runtime::{Certifiable, Column, Dim, Formulas, Number, Ranged};
 
@@ -112,6 +113,21 @@ impl<M: Certifiable> System<M> {
         let input = M::INPUT_ANGLES.get(self.moving);
         let own = M::UNKNOWN_ANGLES.get(coordinate);
         own.or(if coordinate == M::U::COUNT { input } else { None }).copied().unwrap_or_default()
+    }
+
+    /// The name of the moving input.
+    pub(super) fn input_name(&self) -> &'static str {
+        M::INPUTS.get(self.moving).copied().unwrap_or_default()
+    }
+
+    /// A value of the moving input for readers.
+    pub(super) fn shown_input(&self, value: f64) -> Shown {
+        Shown { value, is_angle: self.is_angle(M::U::COUNT) }
+    }
+
+    /// The words about parameters that have tolerances.
+    pub(super) fn shown_tolerances(&self) -> &'static str {
+        if self.has_tolerances() { ", for all parameters within their tolerances" } else { "" }
     }
 
     /// True if Psi is the same after these full turns of the unknowns and of the moving input.

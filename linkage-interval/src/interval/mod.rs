@@ -7,6 +7,8 @@ mod number;
 mod rounding;
 mod sine;
 
+use core::fmt;
+
 use rounding::sum;
 
 /// The real numbers from `least` to `most`. A bound is a double or infinite, never NaN, and the interval is never empty.
@@ -178,6 +180,13 @@ impl Interval {
         let [least, most] = [sum(finite, -radius).down(), sum(finite, radius).up()];
         let bound = |bound: f64| if value.is_infinite() { value } else { bound };
         if value > 0.0 { Self { least, most: bound(most) } } else { Self { least: bound(least), most } }
+    }
+}
+
+/// Both bounds with all their digits: `[0.25, 1e300]`.
+impl fmt::Display for Interval {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "[{:?}, {:?}]", self.least, self.most)
     }
 }
 

@@ -20,20 +20,56 @@ mod walk;
 
 pub use self::limit::Limit;
 
+use core::fmt::{self, Display, Formatter};
+
 use self::searched::Searched;
 use crate::bounded::{angle_but_for_turns, has_bound, instead};
 use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
-use crate::{Mechanism, PositionError, Real, real};
+use crate::scalar::to_f64;
+use crate::shown::Shown;
+use crate::{Mechanism, PositionError, RangeEnd, Real, real};
 
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Limits<T> {
+    /// The name of the input.
+    pub of: &'static str,
+    /// True if it is an angle.
+    pub is_angle: bool,
     /// The end towards smaller inputs.
     pub lower: Limit<T>,
     /// The end towards larger inputs.
     pub upper: Limit<T>,
+}
+
+/// The limits and their reasons in one line, angles in degrees: `theta from 28.95502° (links of phi, psi in line) to 90° (the
+/// largest value of theta)`.
+impl<T: Real> Display for Limits<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { of, is_angle, lower, upper } = *self;
+        let end = |f: &mut Formatter<'_>, word: &str, limit: &Limit<T>| {
+            let Some(input) = limit.input() else { return Ok(()) };
+            f.write_str(word)?;
+            Shown { value: to_f64(input), is_angle }.fmt(f)?;
+            match limit {
+                Limit::Unlimited => Ok(()),
+                Limit::Exact { group, .. } => write!(f, " (links of {group} in line)"),
+                Limit::JointRange { of, end: RangeEnd::Least, .. } => write!(f, " (the least value of {of})"),
+                Limit::JointRange { of, end: RangeEnd::Most, .. } => write!(f, " (the largest value of {of})"),
+                Limit::Bracketed { group, .. } => write!(f, " ({group}, found by search)"),
+            }
+        };
+        f.write_str(of)?;
+        end(f, " from ", &lower)?;
+        end(f, if lower.input().is_some() { " to " } else { " up to " }, &upper)?;
+        f.write_str(match [lower.input(), upper.input()] {
+            [None, None] => " without limits",
+            [Some(_), None] => " on",
+            [_, Some(_)] => "",
+        })
+    }
 }
 
 /// A function of an input that is not negative where a group can be assembled.
@@ -102,10 +138,14 @@ pub fn limits<M: Mechanism, const B: usize>(
             searched.toward(start, &position, upper, start + reach)?,
         ),
     };
+    let of = M::INPUTS.get(place).copied().unwrap_or_default();
+    let is_angle = M::INPUT_ANGLES.get(place).copied().unwrap_or_default();
     if M::RANGES.is_empty() {
-        return Ok(Limits { lower, upper });
+        return Ok(Limits { of, is_angle, lower, upper });
     }
     Ok(Limits {
+        of,
+        is_angle,
         lower: searched.within_ranges(start, &position, lower, -M::Scalar::one())?,
         upper: searched.within_ranges(start, &position, upper, M::Scalar::one())?,
     })

@@ -1,4 +1,4 @@
-//! Elementary functions, and all positions of groups.
+//! Elementary functions, all positions of groups, and what is printed of results.
 
 #[cfg(feature = "std")]
 mod arctangent;
@@ -7,5 +7,7 @@ mod lane;
 mod modes;
 #[cfg(feature = "std")]
 mod pairs;
+#[cfg(feature = "std")]
+mod shown;
 #[cfg(feature = "std")]
 mod sine;

@@ -112,7 +112,7 @@ fn at_all_scales<V: PartialEq + Debug>(value: impl Fn(f64) -> V) -> V {
 
 /// A limit in a unit of length.
 fn in_unit(limits: Limits<f64>, unit: f64) -> Limits<f64> {
-    let Limits { lower, upper } = limits;
+    let Limits { lower, upper, .. } = limits;
     let [lower, upper] = [lower, upper].map(|limit| match limit {
         Limit::Unlimited => Limit::Unlimited,
         Limit::Exact { input, group } => Limit::Exact { input: input / unit, group },
@@ -121,7 +121,7 @@ fn in_unit(limits: Limits<f64>, unit: f64) -> Limits<f64> {
         }
         Limit::JointRange { input, of, end } => Limit::JointRange { input: input / unit, of, end },
     });
-    Limits { lower, upper }
+    Limits { lower, upper, ..limits }
 }
 
 /// Checks an exact limit: its group, and its input to an ulp.

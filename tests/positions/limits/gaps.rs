@@ -64,10 +64,12 @@ fn a_negative_length_points_the_other_way() {
     for (b, c) in [(3.0, 3.0), (-3.0, 3.0), (3.0, -3.0), (-3.0, -3.0)] {
         let m = Opposed { b, c, ..Opposed::default() };
         let found: Vec<_> = m.branches(0.5).unwrap().map(|pose| m.limits(0.5, pose.branch).unwrap()).collect();
-        assert_eq!(found, [Limits { lower: Limit::Unlimited, upper: Limit::Unlimited }; 2], "{b} {c}");
+        assert_eq!(found.len(), 2, "{b} {c}");
+        found.iter().for_each(free);
         let m = Squares { b, c, ..Squares::default() };
         let found: Vec<_> = m.branches(0.5).unwrap().map(|pose| m.limits(0.5, pose.branch).unwrap()).collect();
-        assert_eq!(found, [Limits { lower: Limit::Unlimited, upper: Limit::Unlimited }; 2], "{b} {c}");
+        assert_eq!(found.len(), 2, "{b} {c}");
+        found.iter().for_each(free);
         // |a@v - d@0| <= 2.5
         let short = Opposed { a: 2.0, b: b * 0.5, c: c / 3.0, ..Opposed::default() };
         let end = ((4.0 + 4.0 - 2.5 * 2.5) / 8.0_f64).acos();

@@ -155,7 +155,7 @@ parts! {
         ReactionRow { constant, unknowns, inputs, rows, contacts } => constant unknowns inputs rows contacts
     }
     [U: Dim, V: Dim] Contact<f64, U, V> { Contact { name: _, along, law } => along law }
-    [] Limits<f64> { Limits { lower, upper } => lower upper }
+    [] Limits<f64> { Limits { of: _, is_angle: _, lower, upper } => lower upper }
     [M: Mechanism<Scalar = f64, Coordinates: Finite, Rates: Finite>] continuation::PathStep<M> {
         continuation::PathStep { position, rates, length, event } => position rates length event
     }
