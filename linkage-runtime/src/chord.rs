@@ -3,6 +3,7 @@
 use crate::bounded::{exact, has_bound, instead, lost};
 use crate::branch::Side;
 use crate::linear::{is_nonzero, power_of_two_below};
+use crate::native::same;
 use crate::scalar::to_f64;
 use crate::{PositionError, Real, real};
 
@@ -102,15 +103,15 @@ pub fn reachable<T: Real>(mechanism: &'static str, group: &'static str, distance
 #[inline(never)]
 fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> PositionError {
     let gaps = numerators.iter().zip(scales).map(|(numerator, scale)| relative(numerator.abs(), *scale));
-    let tolerance = COINCIDENT_ULPS * to_f64(T::default_epsilon());
+    let tolerance = real::<T>(COINCIDENT_ULPS) * T::default_epsilon();
     // `max` would drop NaN.
-    let gap = gaps.fold(0.0, |most: f64, gap| if gap <= most { most } else { gap });
+    let gap = gaps.fold(T::zero(), |most, gap| if gap <= most { most } else { gap });
     if !numerators.iter().all(T::is_finite) {
         PositionError::NotFinite { mechanism, quantity: POSITION }
     } else if gap <= tolerance {
         PositionError::Undetermined { mechanism, group }
     } else {
-        PositionError::Unbuildable { mechanism, group, gap }
+        PositionError::Unbuildable { mechanism, group, gap: to_f64(gap) }
     }
 }
 
@@ -118,13 +119,13 @@ fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators:
 const POSITION: &str = "the position";
 
 /// magnitude / scale, where 0 / 0 = 0.
-fn relative<T: Real>(magnitude: T, scale: T) -> f64 {
+fn relative<T: Real>(magnitude: T, scale: T) -> T {
     if magnitude.is_zero() {
-        0.0
+        T::zero()
     } else if scale.is_zero() {
-        f64::INFINITY
+        real(f64::INFINITY)
     } else {
-        to_f64(magnitude / scale)
+        magnitude / scale
     }
 }
 
@@ -328,7 +329,7 @@ fn flat_chord<T: Real>(
         return Err(if is_undetermined {
             PositionError::Undetermined { mechanism, group }
         } else {
-            PositionError::Unbuildable { mechanism, group, gap: gap * gap }
+            PositionError::Unbuildable { mechanism, group, gap: to_f64(gap * gap) }
         });
     }
     let [low, high] = exact_factors(p, q, x, y, sum, distance);
@@ -343,7 +344,7 @@ fn flat_chord<T: Real>(
     } else if -least <= tolerance {
         in_line(low, high, sum)
     } else {
-        return Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, sum) });
+        return Err(PositionError::Unbuildable { mechanism, group, gap: to_f64(relative(-least, sum)) });
     };
     // A link of length zero can have any angle.
     if p.is_zero() || q.is_zero() { Err(PositionError::Undetermined { mechanism, group }) } else { Ok(root) }
@@ -400,7 +401,21 @@ fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
 /// a^2 and its rounding error.
 fn two_product<T: Real>(a: T) -> [T; 2] {
     let square = a * a;
-    [square, a.mul_add(a, -square)]
+    let rest = match same(a) {
+        Some(a) => same(rest_of_square(a)),
+        None => None,
+    };
+    [square, rest.unwrap_or_else(|| a.mul_add(a, -square))]
+}
+
+/// The rounding error of the square of a float by its halves (Dekker): without an instruction for it, a fused
+/// multiply-add of floats is computed in doubles.
+fn rest_of_square(a: f32) -> f32 {
+    /// The sign, the exponent and the first 12 bits.
+    const UPPER: u32 = 0xffff_f000;
+    let upper = f32::from_bits(a.to_bits() & UPPER);
+    let lower = a - upper;
+    (upper * upper - a * a) + (upper + upper) * lower + lower * lower
 }
 
 /// The chord of a group whose links are in line or do not reach each other, or whose factors overflow or underflow.
@@ -425,7 +440,7 @@ fn touching_chord<T: Real>(
     if least > T::zero() && !vanishes {
         Ok(root(low, high, radius))
     } else if -least > tolerance {
-        Err(PositionError::Unbuildable { mechanism, group, gap: relative(-least, radius) })
+        Err(PositionError::Unbuildable { mechanism, group, gap: to_f64(relative(-least, radius)) })
     } else if vanishes {
         Err(PositionError::Undetermined { mechanism, group })
     } else {

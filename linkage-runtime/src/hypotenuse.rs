@@ -57,10 +57,23 @@ pub(crate) fn hypotenuse<F: Length>((x, y): (F, F)) -> F {
     (x * x + y * y).sqrt()
 }
 
-/// The hypotenuse of scaled sides, scaled back, if that `is_regular`: the same digits in every unit.
-pub(crate) fn scaled<F: Length>((x, y): (F, F)) -> Option<F> {
+/// The hypotenuse of other sides, in other units: the same digits in every one. It is as accurate as `hypotenuse`, and
+/// half an ulp less where it is subnormal.
+pub(crate) fn scaled<F: Length>((x, y): (F, F)) -> F {
     let [large, small] = F::SCALES;
     let (scale, back) = if x * x + y * y < F::ONE { (large, small) } else { (small, large) };
+    let (x, y) = (x * scale, y * scale);
+    if is_regular((x, y)) {
+        return hypotenuse((x, y)) * back;
+    }
+    // Subnormal floats are scaled twice.
     let sides = (x * scale, y * scale);
-    is_regular(sides).then(|| hypotenuse(sides) * back)
+    if is_regular(sides) { hypotenuse(sides) * back * back } else { of_no_number(x, y) }
+}
+
+/// The hypotenuse of two zeros, or of sides of which one is infinite or NaN; an infinite side is longer than any other.
+fn of_no_number<F: Length>(x: F, y: F) -> F {
+    let (x, y) = (x.magnitude(), y.magnitude());
+    let infinity = F::of_bits(F::EXPONENT);
+    if (x == infinity) | (y == infinity) { infinity } else { x + y }
 }

@@ -13,21 +13,21 @@ use nalgebra::RealField;
 #[inline(always)]
 #[must_use]
 pub fn sine_cosine<T: RealField + Copy>(x: T) -> (T, T) {
-    native!(x => sine::both).unwrap_or_else(|| x.sin_cos())
+    native!(x => sine::both; else x.sin_cos())
 }
 
 /// The sine, if `is_moderate`.
 #[inline(always)]
 #[must_use]
 pub fn sine<T: RealField + Copy>(x: T) -> T {
-    native!(x => sine::both).map(|(sine, _): (T, T)| sine).unwrap_or_else(|| x.sin())
+    native!(x => sine::both; else (x.sin(), x)).0
 }
 
 /// The cosine, if `is_moderate`.
 #[inline(always)]
 #[must_use]
 pub fn cosine<T: RealField + Copy>(x: T) -> T {
-    native!(x => sine::both).map(|(_, cosine): (T, T)| cosine).unwrap_or_else(|| x.cos())
+    native!(x => sine::both; else (x, x.cos())).1
 }
 
 /// True for an angle whose sine and cosine are right.
@@ -41,7 +41,7 @@ pub fn is_moderate<T: RealField + Copy>(x: T) -> bool {
 #[inline(always)]
 #[must_use]
 pub fn arctangent2<T: RealField + Copy>(y: T, x: T) -> T {
-    native!((y, x) => arctangent::arctangent2).unwrap_or_else(|| y.atan2(x))
+    native!((y, x) => arctangent::arctangent2; else y.atan2(x))
 }
 
 /// True if `arctangent2` is right: not if both arguments are zero or one is very small, very large or NaN.
@@ -55,7 +55,7 @@ pub fn has_arctangent2<T: RealField + Copy>(y: T, x: T) -> bool {
 #[inline(always)]
 #[must_use]
 pub fn hypotenuse<T: RealField + Copy>(x: T, y: T) -> T {
-    native!((x, y) => hypotenuse::hypotenuse).unwrap_or_else(|| x.hypot(y))
+    native!((x, y) => hypotenuse::hypotenuse; else x.hypot(y))
 }
 
 /// True if `hypotenuse` is right: not if both arguments are zero or very small, or one is very large or NaN.

@@ -138,10 +138,10 @@ pub(crate) fn power_of_two_below<T: Real>(value: T) -> T {
     if has_bound::<T>() {
         return real(power_of_two_below(to_f64(value)));
     }
-    native!(value => native::power_of_two_below).flatten().unwrap_or_else(|| by_logarithm(value))
+    native!(value => native::power_of_two_below; else by_logarithm(value))
 }
 
-/// The power of two for other scalars, and for numbers without one below.
+/// The power of two for other scalars.
 #[cold]
 #[inline(never)]
 fn by_logarithm<T: Real>(value: T) -> T {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, RealField, Unit, UnitComplex};
 
-use crate::native::native;
+use crate::native::{native, same};
 use crate::{hypotenuse, lane, sine};
 
 /// A real scalar that is `Copy`: `f32`, `f64`, dual numbers. It is implemented for all such types.
@@ -11,8 +11,8 @@ use crate::{hypotenuse, lane, sine};
     note = "use `f64`, `f32` or `DoubleDouble`; an integer is written with a point, as in `2.0`"
 )]
 pub trait Real: RealField + Copy {
-    /// The sine and cosine of an angle in radians: for `f64` up to 1e5 and `f32` up to 1e4 inlined and within
-    /// 0.89 ulp, else the scalar's own.
+    /// The sine and cosine of an angle in radians: for `f64` up to 1e5 and every `f32` within 0.89 ulp, inlined up to
+    /// 1e5 and 1e4, else the scalar's own.
     #[inline(always)]
     #[must_use]
     fn sine_cosine(self) -> (Self, Self) {
@@ -26,7 +26,7 @@ pub trait Real: RealField + Copy {
         if !lane::is_moderate(self) {
             return beyond(self).0;
         }
-        native!(self => sine::sine).unwrap_or_else(|| self.sin())
+        native!(self => sine::sine; else self.sin())
     }
 
     /// The cosine alone, equal to that of `sine_cosine`.
@@ -36,7 +36,7 @@ pub trait Real: RealField + Copy {
         if !lane::is_moderate(self) {
             return beyond(self).1;
         }
-        native!(self => sine::cosine).unwrap_or_else(|| self.cos())
+        native!(self => sine::cosine; else self.cos())
     }
 
     /// The sines and cosines of several angles, equal to those of `sine_cosine`, computed by vector instructions.
@@ -46,7 +46,7 @@ pub trait Real: RealField + Copy {
         if !angles.iter().fold(true, |within, angle| within & lane::is_moderate(*angle)) {
             return one_by_one(angles);
         }
-        native!(angles => sine::several, N).unwrap_or_else(|| angles.map(Self::sin_cos))
+        native!(angles => sine::several, N; else angles.map(Self::sin_cos))
     }
 
     /// The angle of (x, y) with the x axis, from -pi to pi, where `self` is y: for `f64` and `f32` inlined and within
@@ -58,7 +58,7 @@ pub trait Real: RealField + Copy {
     }
 
     /// The length of (x, y), where `self` is x: for `f64` and `f32` inlined and within 1.25 ulp, with the same digits in
-    /// every unit, else the scalar's own, which also serves zero, infinity and NaN.
+    /// every unit, else the scalar's own. A subnormal length is within 1.25 ulp, too.
     #[inline(always)]
     #[must_use]
     fn hypotenuse(self, y: Self) -> Self {
@@ -75,11 +75,15 @@ pub trait Real: RealField + Copy {
 
 impl<T: RealField + Copy> Real for T {}
 
-/// The standard library's sine and cosine. It is not inlined: a vectorised loop would call them for every angle.
+/// The sine and cosine of a large angle; for `f64` those of the standard library. It is not inlined: a vectorised loop
+/// would call them for every angle.
 #[cold]
 #[inline(never)]
 fn beyond<T: Real>(angle: T) -> (T, T) {
-    angle.sin_cos()
+    match native!(angle => sine::beyond) {
+        Some(Some(pair)) => pair,
+        _ => angle.sin_cos(),
+    }
 }
 
 /// The sines and cosines of angles of which some are beyond this crate's range.
@@ -96,11 +100,11 @@ fn extreme_angle<T: Real>(y: T, x: T) -> T {
     y.atan2(x)
 }
 
-/// The length of scaled sides, or the standard library's hypot.
+/// The length of scaled sides, or the scalar's own.
 #[cold]
 #[inline(never)]
 fn extreme_length<T: Real>(x: T, y: T) -> T {
-    native!((x, y) => hypotenuse::scaled).flatten().unwrap_or_else(|| x.hypot(y))
+    native!((x, y) => hypotenuse::scaled; else x.hypot(y))
 }
 
 /// Traits to import for the functions of a scalar that is an associated type.
@@ -115,6 +119,26 @@ pub mod arithmetic {
 #[must_use]
 pub fn real<T: Real>(value: f64) -> T {
     nalgebra::convert(value)
+}
+
+/// An integer as a scalar.
+#[inline]
+pub(crate) fn whole<T: Real>(number: i32) -> T {
+    // Not by way of a double, which a small processor has none of.
+    match same(number as f32) {
+        Some(number) => number,
+        None => real(f64::from(number)),
+    }
+}
+
+/// The integer nearest to a scalar; the largest or least one if it is beyond, 0 for NaN.
+#[inline]
+pub(crate) fn rounded<T: Real>(value: T) -> i32 {
+    let value = value.round();
+    match same::<T, f32>(value) {
+        Some(value) => value as i32,
+        None => to_f64(value) as i32,
+    }
 }
 
 /// The direction with this cosine and sine, whose squares add up to 1.

@@ -5,8 +5,8 @@
 
 use core::cell::Cell;
 
-use crate::scalar::to_f64;
-use crate::{InputError, PositionError, Real, real};
+use crate::scalar::{rounded, to_f64, whole};
+use crate::{InputError, PositionError, Real};
 
 /// A choice of turns for the angles of a mechanism, each of which has an index.
 pub trait Turn<T: Real> {
@@ -62,14 +62,13 @@ impl<T: Real, const N: usize> Turn<T> for NearestTurns<T, N> {
 /// principal + 2 pi turns.
 #[inline]
 fn turned<T: Real>(principal: T, turns: i32) -> T {
-    principal + T::two_pi() * real::<T>(f64::from(turns))
+    principal + T::two_pi() * whole(turns)
 }
 
 /// The number of turns nearest to an angle.
 #[inline]
 fn whole_turns<T: Real>(angle: T) -> i32 {
-    // The conversion saturates.
-    to_f64((angle / T::two_pi()).round()) as i32
+    rounded(angle / T::two_pi())
 }
 
 /// Returns an error if the guess of an angle is infinite or NaN, or if a branch cannot count its turns.

@@ -160,6 +160,29 @@ macro_rules! special {
 special!(special_doubles, f64);
 special!(special_floats, f32);
 
+/// Lengths that the plain formula does not serve: subnormal, very small and very large floats.
+#[test]
+fn extreme_lengths_of_floats() {
+    let mut largest = (0.0, [0.0; 2]);
+    for (mantissas, exponents) in random(7).zip(random(8)).zip(random(9).zip(random(10))).take(40_000) {
+        let side = |part: f64, exponent: f64| ((1.0 + part) * 2f64.powi((277.0 * exponent) as i32 - 150)) as f32;
+        let (x, y) = (side(mantissas.0, exponents.0), side(mantissas.1, exponents.1));
+        // Of similar sides, too.
+        for (x, y) in [(x, y), (x, side(mantissas.1, exponents.0))] {
+            let exact = f64::from(x).hypot(f64::from(y));
+            if exact > 0.0 && exact < f64::from(f32::MAX) {
+                let error = float_ulps(x.hypotenuse(y), exact);
+                largest = if error > largest.0 { (error, [x, y]) } else { largest };
+            }
+        }
+    }
+    println!("{largest:?}");
+    assert!(f64::from(largest.0) <= LENGTH_ULPS, "{largest:?}");
+    for (side, other) in [(f32::INFINITY, f32::NAN), (f32::NEG_INFINITY, 0.0), (f32::INFINITY, 1e-40)] {
+        assert_eq!([side.hypotenuse(other), other.hypotenuse(side)], [f32::INFINITY; 2]);
+    }
+}
+
 /// Every other scalar has its own functions.
 #[test]
 fn other_scalars() {
