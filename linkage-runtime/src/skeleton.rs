@@ -47,4 +47,11 @@ pub trait Skeleton: Mechanism {
 
     /// x and y of each joint.
     fn joints(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::Parts>;
+
+    /// x and y along the guide of a slider or the arm of a sleeve, as its vector is written, by its place among these of
+    /// [`PARTS`](Self::PARTS).
+    fn guide(&self, pose: &Self::Pose, guide: usize) -> Option<[Self::Scalar; 2]> {
+        let _ = (pose, guide);
+        None
+    }
 }

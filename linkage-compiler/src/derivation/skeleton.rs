@@ -11,6 +11,8 @@ pub struct Skeleton {
     /// The name and the position of each joint.
     pub joints: Vec<(String, [NodeId; 2])>,
     pub parts: Vec<Part>,
+    /// The direction of the vector of each slider and sleeve, in the order of the parts.
+    pub guides: Vec<[NodeId; 2]>,
 }
 
 /// A part of a drawing, by indices of joints.
@@ -128,6 +130,18 @@ impl Tracer<'_> {
         }
     }
 
+    /// The derivative of a vector of variable length by the coordinate that is its length, up to a factor.
+    fn direction(&mut self, link: &Link) -> [NodeId; 2] {
+        let turning = link.angle.map_or_else(Vec::new, |angle| self.graph.symbols_of(&[angle]));
+        let symbols = self.graph.symbols_of(&link.vector);
+        let mut lengths =
+            symbols.into_iter().filter(|symbol| self.moving.contains(symbol) && !turning.contains(symbol));
+        match lengths.next() {
+            Some(length) => link.vector.map(|part| self.graph.partial(&[part], length)[0]),
+            None => link.vector,
+        }
+    }
+
     fn is_constant_apart(&mut self, one: NodeId, other: NodeId) -> bool {
         let difference = self.graph.subtract(one, other);
         !self.moves(&[difference])
@@ -138,7 +152,7 @@ impl Tracer<'_> {
         let is_fixed: Vec<bool> = (0..self.joints.len())
             .map(|joint| self.joints.formulas(joint).any(|formula| !self.moves(&formula)))
             .collect();
-        let mut parts = Vec::new();
+        let (mut parts, mut guides) = (Vec::new(), Vec::new());
         let mut pivots: BTreeSet<usize> = BTreeSet::new();
         for body in &bodies {
             let fixed = body.joints.iter().copied().find(|&joint| is_fixed[joint]);
@@ -165,6 +179,7 @@ impl Tracer<'_> {
                     let sleeve = Part::Sleeve { pin: to, on: from, towards };
                     if !parts.contains(&sleeve) {
                         parts.push(sleeve);
+                        guides.push(self.direction(&edge.link));
                     }
                 }
                 None => {
@@ -176,6 +191,7 @@ impl Tracer<'_> {
                         && !parts.contains(&Part::Slider(block))
                     {
                         parts.push(Part::Slider(block));
+                        guides.push(self.direction(&edge.link));
                     }
                 }
             }
@@ -194,7 +210,7 @@ impl Tracer<'_> {
         let grounds = pivots.into_iter().map(Part::Ground);
         parts.splice(0..0, grounds);
         let joints = self.named();
-        Skeleton { joints, parts }.compact()
+        Skeleton { joints, parts, guides }.compact()
     }
 
     /// The name of each joint: that of a point there, `O` for the origin, or else a number.
@@ -234,7 +250,7 @@ impl Skeleton {
         used.dedup();
         let index = |joint: usize| used.binary_search(&joint).unwrap_or_default();
         let parts = self.parts.into_iter().map(|part| part.map(index)).collect();
-        Self { joints: used.iter().map(|&joint| self.joints[joint].clone()).collect(), parts }
+        Self { joints: used.iter().map(|&joint| self.joints[joint].clone()).collect(), parts, guides: self.guides }
     }
 }
 

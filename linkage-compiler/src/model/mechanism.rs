@@ -251,6 +251,7 @@ impl Mechanism {
             ("sensitivit", Request::Sensitivity),
             ("ratio_derivatives", Request::VelocityRatioDerivatives),
             ("joints", Request::Drawing),
+            ("guides", Request::Drawing),
         ];
         let request = requests.iter().filter(|(word, _)| function.contains(word));
         let request = request.filter_map(|(_, request)| self.requests_at.get(request)).next().copied();

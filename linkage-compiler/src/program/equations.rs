@@ -50,6 +50,20 @@ impl Plan<'_, '_> {
         self.add(self.signatures.joints(joints.len()), without_result(doc), body);
     }
 
+    /// The directions of the guides of a drawing, if it has some.
+    pub(super) fn guides(&mut self) {
+        let guides = self.derivation.skeleton.clone().unwrap_or_default().guides;
+        if guides.is_empty() {
+            return;
+        }
+        let count = guides.len();
+        let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(guides.into_iter().flatten()));
+        let pairs = (0..count).map(|guide| Expression::List(results(2 * guide..2 * guide + 2)));
+        let doc = lines(["x and y along the guide of each slider and sleeve, as in a drawing."]);
+        let body = Body::of(kernel, Expression::List(pairs.collect()));
+        self.add(self.signatures.guides(count), without_result(doc), body);
+    }
+
     /// A function of the pose that returns these nodes in a vector.
     fn list_of(&self, nodes: Vec<NodeId>, vector: fn(Vec<Expression>) -> Expression) -> Body {
         let count = nodes.len();

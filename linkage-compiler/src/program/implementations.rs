@@ -236,13 +236,15 @@ impl Traits<'_> {
         let constants = vec![("JOINTS", ConstantValue::Texts(names)), ("PARTS", ConstantValue::Parts(skeleton.parts))];
         let joints = Expression::own_call("joints", [Expression::name("pose")]).converted();
         let returns = Type::Column(Box::new(Type::Scalar), count);
-        let joints = of_trait("joints", [pose()], returns, Body::plain(joints));
-        self.implementation(
-            Implemented::Skeleton,
-            vec![("Parts", Associated::Dimension(count))],
-            constants,
-            vec![joints],
-        )
+        let mut functions = vec![of_trait("joints", [pose()], returns, Body::plain(joints))];
+        functions.extend((!skeleton.guides.is_empty()).then(|| {
+            let all = Expression::own_call("guides", [Expression::name("pose")]);
+            let found = Expression::call(Intrinsic::Get, [all, Expression::name("guide")]);
+            let found = Expression::call(Intrinsic::Copied, [found]);
+            let returns = Type::Around("Option", Box::new(Type::List(Box::new(Type::Scalar), 2)));
+            of_trait("guide", [pose(), ("guide", Passed::ByValue(Type::Count))], returns, Body::plain(found))
+        }));
+        self.implementation(Implemented::Skeleton, vec![("Parts", Associated::Dimension(count))], constants, functions)
     }
 
     fn branch(&self) -> Type {

@@ -60,6 +60,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         }
         if wants(Request::Drawing) {
             plan.joints();
+            plan.guides();
         }
         if wants(Request::VelocityRatioDerivatives) {
             plan.ratio_derivatives();

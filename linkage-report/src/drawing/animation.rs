@@ -2,43 +2,8 @@
 
 use nalgebra::{Point2, Vector2};
 
-/// A part to draw, by the names of its points; see the methods of [`Animation`].
-#[derive(Debug, Clone)]
-pub(super) enum Part {
-    Ground(String),
-    Link { points: Vec<String>, driven: bool },
-    Bent(Vec<String>),
-    Slider(String),
-    Sleeve { pin: String, arm: [String; 2] },
-    Wheel { centre: String, towards: String, radius: f64 },
-    Plate { centre: String, towards: String, outline: Vec<Vector2<f64>> },
-    Spring([String; 2]),
-    GroundLine(Vec<Vector2<f64>>),
-    Trace(String),
-}
-
-impl Part {
-    pub(super) fn points(&self) -> Vec<&String> {
-        match self {
-            Self::Ground(point) | Self::Slider(point) | Self::Trace(point) => vec![point],
-            Self::Link { points, .. } | Self::Bent(points) => points.iter().collect(),
-            Self::Sleeve { pin, arm: [from, to] } => vec![pin, from, to],
-            Self::Wheel { centre, towards, .. } | Self::Plate { centre, towards, .. } => vec![centre, towards],
-            Self::Spring([from, to]) => vec![from, to],
-            Self::GroundLine(_) => Vec::new(),
-        }
-    }
-
-    /// The points at which the part is connected to others: points that belong to several parts are drawn as joints.
-    pub(super) fn joints(&self) -> impl Iterator<Item = &String> {
-        let count = match self {
-            Self::Trace(_) => 0,
-            Self::Sleeve { .. } | Self::Wheel { .. } | Self::Plate { .. } => 1,
-            _ => usize::MAX,
-        };
-        self.points().into_iter().take(count)
-    }
-}
+use super::figure::{Figure, owned};
+use super::part::Part;
 
 /// A builder for an animation: frames of named points, and the parts that connect them. Lengths are those of the
 /// mechanism; y points up.
@@ -61,22 +26,17 @@ impl Part {
 pub struct Animation {
     pub(super) title: String,
     pub(super) seconds: f64,
-    pub(super) frames: Vec<Vec<(String, Vector2<f64>)>>,
-    pub(super) parts: Vec<Part>,
-}
-
-fn owned(names: &[&str]) -> Vec<String> {
-    names.iter().map(|&name| name.to_owned()).collect()
+    pub(super) figure: Figure,
 }
 
 impl Animation {
     /// Creates an empty animation that repeats its frames after this number of seconds.
     pub fn new(title: impl Into<String>, seconds: f64) -> Self {
-        Self { title: title.into(), seconds, frames: Vec::new(), parts: Vec::new() }
+        Self { title: title.into(), seconds, figure: Figure::default() }
     }
 
     fn part(&mut self, part: Part) -> &mut Self {
-        self.parts.push(part);
+        self.figure.part(part);
         self
     }
 
@@ -87,7 +47,7 @@ impl Animation {
         N: Into<String>,
         P: Into<Point2<f64>>,
     {
-        self.frames.push(points.into_iter().map(|(name, at)| (name.into(), at.into().coords)).collect());
+        self.figure.frames.push(points.into_iter().map(|(name, at)| (name.into(), at.into().coords)).collect());
         self
     }
 
@@ -103,12 +63,14 @@ impl Animation {
 
     /// Adds a rigid link through points: a bar through two, a plate through more.
     pub fn link(&mut self, points: &[&str]) -> &mut Self {
-        self.part(Part::Link { points: owned(points), driven: false })
+        self.figure.link(points, false);
+        self
     }
 
     /// Adds the driving link; an arrow shows its rotation if its first point is at rest.
     pub fn crank(&mut self, points: &[&str]) -> &mut Self {
-        self.part(Part::Link { points: owned(points), driven: true })
+        self.figure.link(points, true);
+        self
     }
 
     /// Adds a rigid link with bars from point to point, such as an L.
@@ -118,12 +80,13 @@ impl Animation {
 
     /// Adds a sliding block at a point, on the straight guide along which the point moves.
     pub fn slider(&mut self, point: &str) -> &mut Self {
-        self.part(Part::Slider(point.to_owned()))
+        self.part(Part::Slider { point: point.to_owned(), along: None })
     }
 
     /// Adds a block at a pin that slides on an arm with the direction from one point to another.
-    pub fn sleeve(&mut self, pin: &str, [from, to]: [&str; 2]) -> &mut Self {
-        self.part(Part::Sleeve { pin: pin.to_owned(), arm: [from, to].map(str::to_owned) })
+    pub fn sleeve(&mut self, pin: &str, arm: [&str; 2]) -> &mut Self {
+        self.figure.sleeve(pin, arm);
+        self
     }
 
     /// Adds a wheel, or the pitch circle of a gear, that turns with the direction from its centre to the point
@@ -147,5 +110,26 @@ impl Animation {
     /// Adds the path of a point, such as a coupler curve.
     pub fn trace(&mut self, point: &str) -> &mut Self {
         self.part(Part::Trace(point.to_owned()))
+    }
+
+    /// Lets these points leave their paths, and no others: by default the declared points that are no joints do.
+    /// [`DrawingError::UnknownJoint`](super::DrawingError::UnknownJoint) if there is no such point.
+    pub fn paths(&mut self, points: &[&str]) -> &mut Self {
+        self.figure.trace(points);
+        self
+    }
+
+    /// Removes the parts that connect exactly these points: to draw another one there.
+    /// [`DrawingError::NoPart`](super::DrawingError::NoPart) if there is none.
+    pub fn without(&mut self, points: &[&str]) -> &mut Self {
+        self.figure.without(points);
+        self
+    }
+
+    /// Gives a joint or point another name, which it has from here on.
+    /// [`DrawingError::UnknownJoint`](super::DrawingError::UnknownJoint) if none has the first name.
+    pub fn rename(&mut self, from: &str, to: &str) -> &mut Self {
+        self.figure.rename(from, to);
+        self
     }
 }

@@ -5,16 +5,16 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Rotation2, Vector2};
 
 use super::DrawingError;
-use super::animation::{Animation, Part};
-use super::frame::bounds;
-
-/// The size of the picture and its margin, in pixels.
-pub(super) const SIZE: Vector2<f64> = Vector2::new(480.0, 360.0);
-const MARGIN: f64 = 40.0;
+use super::figure::Figure;
+use super::frame::View;
+use super::part::Part;
 
 /// Tolerance in pixels: a point that moves less is at rest, and a link whose points deviate less from a rigid motion is
 /// rigid.
 const UNSEEN: f64 = 0.02;
+
+/// Tolerance of a direction: on a line as long as a picture its end moves unseen.
+const UNSEEN_TURN: f64 = UNSEEN / 500.0;
 
 fn finite(vector: &Vector2<f64>) -> bool {
     vector.iter().all(|value| value.is_finite())
@@ -25,85 +25,49 @@ pub(super) struct Film {
     names: Vec<String>,
     /// One row for each frame.
     frames: Vec<Vec<Vector2<f64>>>,
-    pub pixels_per_unit: f64,
-    centre: Vector2<f64>,
+    pub view: View,
 }
 
 impl Film {
-    /// Scales the points so that all parts fit into the picture.
-    pub(super) fn of(animation: &Animation) -> Result<Self, DrawingError> {
-        let first = animation.frames.first().ok_or(DrawingError::Empty)?;
+    /// The film of a figure in the view that `fit` chooses for the points that must be in the picture.
+    pub(super) fn of(
+        figure: &Figure,
+        fit: impl Fn(&[Vector2<f64>]) -> View,
+    ) -> Result<(Self, Vec<Vector2<f64>>), DrawingError> {
+        if let Some(mistake) = &figure.mistake {
+            return Err(mistake.clone());
+        }
+        let first = figure.frames.first().ok_or(DrawingError::Empty)?;
         let names: Vec<String> = first.iter().map(|(name, _)| name.clone()).collect();
         for (index, name) in names.iter().enumerate() {
             if names[..index].contains(name) {
                 return Err(DrawingError::DuplicatePoint(name.clone()));
             }
         }
-        let mut film = Self { names, frames: Vec::new(), pixels_per_unit: 1.0, centre: Vector2::zeros() };
-        for (index, frame) in animation.frames.iter().enumerate() {
-            if !frame.iter().map(|(name, _)| name).eq(&film.names) {
+        let mut frames: Vec<Vec<Vector2<f64>>> = Vec::with_capacity(figure.frames.len());
+        for (index, frame) in figure.frames.iter().enumerate() {
+            if !frame.iter().map(|(name, _)| name).eq(&names) {
                 return Err(DrawingError::OtherPoints(index));
             }
             if let Some((name, _)) = frame.iter().find(|(_, at)| !finite(at)) {
                 return Err(DrawingError::NotFinite(format!("the point `{name}`")));
             }
-            film.frames.push(frame.iter().map(|(_, at)| *at).collect());
+            frames.push(frame.iter().map(|(_, at)| *at).collect());
         }
-        let shown = film.shown(animation)?;
+        let shown = shown(&figure.parts, &names, &frames)?;
         if shown.is_empty() {
             return Err(DrawingError::Empty);
         }
-        let (centre, size) = bounds(&shown);
-        let room = SIZE - Vector2::repeat(2.0 * MARGIN);
-        film.pixels_per_unit = (room.x / size.x).min(room.y / size.y);
-        film.centre = centre;
-        if !(film.pixels_per_unit.is_normal() && finite(&centre)) {
+        let view = fit(&shown);
+        if !(view.pixels_per_unit.is_normal() && finite(&view.centre)) {
             return Err(DrawingError::NotFinite("the extent of the drawing".to_owned()));
         }
-        film.frames = film.frames.iter().map(|frame| frame.iter().map(|at| film.pixel(*at)).collect()).collect();
-        Ok(film)
-    }
-
-    /// The points that must be in the picture, in the lengths of the mechanism.
-    fn shown(&self, animation: &Animation) -> Result<Vec<Vector2<f64>>, DrawingError> {
-        let mut shown = Vec::new();
-        for part in &animation.parts {
-            for name in part.points() {
-                shown.extend(self.track(self.index(name)?));
-            }
-            let (centre, reach) = match part {
-                Part::Wheel { centre, radius, .. } => (centre, *radius),
-                Part::Plate { centre, outline, .. } => {
-                    (centre, outline.iter().map(Vector2::norm).max_by(f64::total_cmp).unwrap_or_default())
-                }
-                Part::GroundLine(line) => {
-                    shown.extend(line);
-                    continue;
-                }
-                _ => continue,
-            };
-            if !(reach.is_finite() && reach > 0.0) {
-                return Err(DrawingError::NotFinite(format!("the radius of the part about `{centre}`")));
-            }
-            let corners = [-reach, reach].map(Vector2::repeat);
-            shown.extend(self.track(self.index(centre)?).iter().flat_map(|at| corners.map(|corner| at + corner)));
-        }
-        if shown.iter().all(finite) {
-            Ok(shown)
-        } else {
-            Err(DrawingError::NotFinite("a line of the ground".to_owned()))
-        }
-    }
-
-    /// Converts a point to pixels from the top left corner.
-    pub(super) fn pixel(&self, point: Vector2<f64>) -> Vector2<f64> {
-        let offset = (point - self.centre) * self.pixels_per_unit;
-        SIZE / 2.0 + Vector2::new(offset.x, -offset.y)
+        let frames = frames.iter().map(|frame| frame.iter().map(|at| view.pixel(*at)).collect()).collect();
+        Ok((Self { names, frames, view }, shown))
     }
 
     pub(super) fn index(&self, name: &str) -> Result<usize, DrawingError> {
-        let found = self.names.iter().position(|other| other == name);
-        found.ok_or_else(|| DrawingError::UnknownPoint(name.to_owned()))
+        place(&self.names, name)
     }
 
     pub(super) fn names(&self) -> &[String] {
@@ -167,8 +131,8 @@ impl Film {
         Ok(body)
     }
 
-    /// The ends of the straight line on which a point moves; an error if it rests or leaves the line.
-    pub(super) fn guide(&self, point: usize) -> Result<[Vector2<f64>; 2], DrawingError> {
+    /// The straight line on which a point moves; an error if it leaves the line, or if it rests and no direction is given.
+    pub(super) fn guide(&self, point: usize, along: Option<Vector2<f64>>) -> Result<Guide, DrawingError> {
         let track = self.track(point);
         let farthest = |from: Vector2<f64>| {
             let distance = |at: &Vector2<f64>| (at - from).norm_squared();
@@ -176,13 +140,18 @@ impl Film {
         };
         let one = farthest(track[0]);
         let other = farthest(one);
-        let along = other - one;
-        let off = |at: &Vector2<f64>| along.perp(&(at - one)).abs() > UNSEEN * along.norm();
-        if along.amax() < UNSEEN || track.iter().any(off) {
-            return Err(DrawingError::NotStraight(self.names[point].clone()));
-        }
+        let stroke = other - one;
+        // On the screen y points down.
+        let given = along.map(|along| Vector2::new(along.x, -along.y)).filter(|_| stroke.amax() < UNSEEN);
+        let along = given.unwrap_or(stroke).try_normalize(0.0);
+        let off = |along: &Vector2<f64>| track.iter().any(|at| along.perp(&(at - one)).abs() > UNSEEN);
+        let along = along.filter(|along| (given.is_some() || stroke.amax() >= UNSEEN) && !off(along));
+        let along = along.ok_or_else(|| DrawingError::NotStraight(self.names[point].clone()))?;
         // Order: from left to right, or upwards.
-        Ok(if along.x > UNSEEN || (along.x > -UNSEEN && along.y < 0.0) { [one, other] } else { [other, one] })
+        let is_ordered = along.x > UNSEEN_TURN || (along.x > -UNSEEN_TURN && along.y < 0.0);
+        let along = if is_ordered { along } else { -along };
+        let ends = if along.dot(&stroke) < 0.0 { [other, one] } else { [one, other] };
+        Ok(Guide { ends, along })
     }
 
     /// The position of a point at rest; an error if it moves.
@@ -193,6 +162,49 @@ impl Film {
         }
         Ok(track[0])
     }
+}
+
+fn place(names: &[String], name: &str) -> Result<usize, DrawingError> {
+    let found = names.iter().position(|other| other == name);
+    found.ok_or_else(|| DrawingError::UnknownPoint(name.to_owned()))
+}
+
+/// The points that must be in the picture, in the lengths of the mechanism.
+fn shown(parts: &[Part], names: &[String], frames: &[Vec<Vector2<f64>>]) -> Result<Vec<Vector2<f64>>, DrawingError> {
+    let track = |name: &String| Ok(place(names, name).map(|point| frames.iter().map(move |frame| frame[point]))?);
+    let mut shown: Vec<Vector2<f64>> = Vec::new();
+    for part in parts {
+        for name in part.points() {
+            shown.extend(track(name)?);
+        }
+        let (centre, reach) = match part {
+            Part::Wheel { centre, radius, .. } => (centre, *radius),
+            Part::Plate { centre, outline, .. } => {
+                (centre, outline.iter().map(Vector2::norm).max_by(f64::total_cmp).unwrap_or_default())
+            }
+            Part::GroundLine(line) | Part::Path(line) => {
+                let what = if matches!(part, Part::Path(_)) { "a path" } else { "a line of the ground" };
+                if !line.iter().all(finite) {
+                    return Err(DrawingError::NotFinite(what.to_owned()));
+                }
+                shown.extend(line);
+                continue;
+            }
+            _ => continue,
+        };
+        if !(reach.is_finite() && reach > 0.0) {
+            return Err(DrawingError::NotFinite(format!("the radius of the part about `{centre}`")));
+        }
+        let corners = [-reach, reach].map(Vector2::repeat);
+        shown.extend(track(centre)?.flat_map(|at| corners.map(|corner| at + corner)));
+    }
+    Ok(shown)
+}
+
+/// The line on which a block slides: the ends of its stroke, and its direction.
+pub(super) struct Guide {
+    pub ends: [Vector2<f64>; 2],
+    pub along: Vector2<f64>,
 }
 
 /// The positions of a body's origin, and its angles on the screen, continuous from frame to frame.

@@ -6,9 +6,10 @@ use linkage_runtime::continuation::Options;
 use linkage_runtime::range_of_motion::{Driven, MotionByLength, MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::skeleton::{Part as Known, Skeleton};
 use linkage_runtime::{Assembly, Mechanism, PathError};
-use nalgebra::{Point2, Vector2};
+use nalgebra::Vector2;
 
-use super::animation::Part;
+use super::figure::Figure;
+use super::part::Part;
 use super::{Animation, Drawing, DrawingError};
 
 /// The frames of a turn, and the seconds that it takes.
@@ -18,45 +19,73 @@ const SECONDS: f64 = 4.0;
 /// The length of an arm beyond its farthest block.
 const BEYOND: f64 = 1.1;
 
-/// The names and positions of the joints.
-fn joints<M: Skeleton<Scalar = f64>>(mechanism: &M, pose: &M::Pose) -> Vec<(&'static str, Point2<f64>)> {
-    let parts = mechanism.joints(pose);
-    let places = parts.as_slice().chunks_exact(2).map(|at| Point2::new(at[0], at[1]));
-    M::JOINTS.iter().copied().zip(places).collect()
-}
-
 fn name<M: Skeleton>(joint: usize) -> &'static str {
     M::JOINTS.get(joint).copied().unwrap_or_default()
+}
+
+impl Figure {
+    /// The joints of a mechanism at these poses, and its parts.
+    fn of<'a, M: Skeleton<Scalar = f64>>(mechanism: &M, poses: impl IntoIterator<Item = &'a M::Pose>) -> Self
+    where
+        M::Pose: 'a,
+    {
+        let mut figure = Self::default();
+        let mut first = None;
+        for pose in poses {
+            let parts = mechanism.joints(pose);
+            let places = parts.as_slice().chunks_exact(2).map(Vector2::from_column_slice);
+            figure.frames.push(M::JOINTS.iter().map(|&name| name.to_owned()).zip(places).collect());
+            first.get_or_insert(pose);
+        }
+        let mut guides = 0..;
+        for part in M::PARTS {
+            let guide = matches!(part, Known::Slider(_) | Known::Sleeve { .. }).then(|| guides.next()).flatten();
+            match *part {
+                Known::Ground(joint) => figure.part(Part::Ground(name::<M>(joint).to_owned())),
+                Known::Slider(joint) => {
+                    let along = first.zip(guide).and_then(|(pose, guide)| mechanism.guide(pose, guide));
+                    let along = along.map(Vector2::from);
+                    figure.part(Part::Slider { point: name::<M>(joint).to_owned(), along });
+                }
+                Known::Trace(joint) => figure.part(Part::Trace(name::<M>(joint).to_owned())),
+                Known::Bar { joints, is_driven } => {
+                    let names: Vec<&str> = joints.iter().map(|&joint| name::<M>(joint)).collect();
+                    figure.link(&names, is_driven);
+                }
+                Known::Sleeve { pin, on, towards } => {
+                    let [pin, on] = [pin, on].map(|joint| name::<M>(joint));
+                    match towards {
+                        Some(end) => figure.sleeve(pin, [on, name::<M>(end)]),
+                        None => figure.arm(pin, on),
+                    }
+                }
+                _ => {}
+            }
+        }
+        figure
+    }
+
+    /// Adds the arm of a sleeve, whose end is no joint: a little longer than the farthest distance of its block.
+    fn arm(&mut self, pin: &str, on: &str) {
+        let tip = format!("{on}-{pin}");
+        let at = |frame: &[(String, Vector2<f64>)], name: &str| {
+            frame.iter().find(|(other, _)| other == name).map(|(_, at)| *at).unwrap_or_default()
+        };
+        let along = |frame: &[(String, Vector2<f64>)]| at(frame, pin) - at(frame, on);
+        let length = BEYOND * self.frames.iter().map(|frame| along(frame).norm()).fold(0.0, f64::max);
+        for frame in &mut self.frames {
+            let direction = along(frame).try_normalize(0.0).unwrap_or_default();
+            frame.push((tip.clone(), at(frame, on) + length * direction));
+        }
+        self.link(&[on, &tip], false);
+        self.sleeve(pin, [on, &tip]);
+    }
 }
 
 impl Drawing {
     /// Draws a mechanism with `derive drawing;` at a pose: its joints, links, pivots and points. More can be added.
     pub fn of<M: Skeleton<Scalar = f64>>(mechanism: &M, pose: &M::Pose) -> Self {
-        let mut drawing = Self::new(M::NAME);
-        let is_part = |joint: usize, kind: fn(usize) -> Known| M::PARTS.contains(&kind(joint));
-        for (place, (name, at)) in joints(mechanism, pose).into_iter().enumerate() {
-            if is_part(place, Known::Ground) {
-                drawing.ground(name, at);
-            } else if is_part(place, Known::Trace) {
-                drawing.point(name, at);
-            } else {
-                drawing.joint(name, at);
-            }
-        }
-        for part in M::PARTS {
-            match *part {
-                Known::Bar { joints, .. } => {
-                    let ends = joints.iter().zip(joints.iter().cycle().skip(1)).take(joints.len().max(2) - 1);
-                    for (&from, &to) in ends.chain((joints.len() > 2).then(|| (&joints[joints.len() - 1], &joints[0])))
-                    {
-                        drawing.bar(name::<M>(from), name::<M>(to));
-                    }
-                }
-                Known::Sleeve { pin, on, .. } => _ = drawing.bar(name::<M>(on), name::<M>(pin)),
-                _ => {}
-            }
-        }
-        drawing
+        Self { figure: Figure::of(mechanism, [pose]), ..Self::new(M::NAME) }
     }
 }
 
@@ -70,48 +99,7 @@ impl Animation {
     where
         M::Pose: 'a,
     {
-        let mut animation = Self::new(M::NAME, seconds);
-        let mut frames: Vec<Vec<(String, Point2<f64>)>> = (poses.into_iter())
-            .map(|pose| joints(mechanism, pose).into_iter().map(|(name, at)| (name.to_owned(), at)).collect())
-            .collect();
-        for part in M::PARTS {
-            match *part {
-                Known::Ground(joint) => _ = animation.ground(name::<M>(joint)),
-                Known::Slider(joint) => _ = animation.slider(name::<M>(joint)),
-                Known::Trace(joint) => _ = animation.trace(name::<M>(joint)),
-                Known::Bar { joints, is_driven } => {
-                    let names: Vec<&str> = joints.iter().map(|&joint| name::<M>(joint)).collect();
-                    _ = if is_driven { animation.crank(&names) } else { animation.link(&names) };
-                }
-                Known::Sleeve { pin, on, towards } => {
-                    let [pin, on] = [pin, on].map(|joint| name::<M>(joint));
-                    match towards {
-                        Some(end) => _ = animation.sleeve(pin, [on, name::<M>(end)]),
-                        None => _ = animation.arm(&mut frames, pin, on),
-                    }
-                }
-                _ => {}
-            }
-        }
-        for frame in frames {
-            animation.frame(frame);
-        }
-        animation
-    }
-
-    /// Adds the arm of a sleeve, whose end is no joint: a little longer than the farthest distance of its block.
-    fn arm(&mut self, frames: &mut [Vec<(String, Point2<f64>)>], pin: &str, on: &str) -> &mut Self {
-        let tip = format!("{on}-{pin}");
-        let at = |frame: &[(String, Point2<f64>)], name: &str| {
-            frame.iter().find(|(other, _)| other == name).map_or_else(Point2::origin, |(_, at)| *at)
-        };
-        let along = |frame: &[(String, Point2<f64>)]| at(frame, pin) - at(frame, on);
-        let length = BEYOND * frames.iter().map(|frame| along(frame).norm()).fold(0.0, f64::max);
-        for frame in frames {
-            let direction: Vector2<f64> = along(frame).try_normalize(0.0).unwrap_or_default();
-            frame.push((tip.clone(), at(frame, on) + length * direction));
-        }
-        self.link(&[on, &tip]).sleeve(pin, [on, &tip])
+        Self { figure: Figure::of(mechanism, poses), ..Self::new(M::NAME, seconds) }
     }
 
     /// Animates a turn of the input of a mechanism with `derive drawing;`: one motion that begins on this branch and passes
@@ -230,16 +218,6 @@ impl Animation {
         let pose = |input: f64| range.at(input).map(|q| range.driven().pose_at(&q));
         let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathError> = inputs.map(pose).collect();
         Ok(Self::of(range.driven(), &poses.map_err(|error| no_position(&error))?, seconds))
-    }
-
-    /// Removes the parts that connect exactly these points: to draw another one there.
-    pub fn without(&mut self, points: &[&str]) -> &mut Self {
-        let connects = |part: &Part| {
-            let of_part = part.points();
-            of_part.len() == points.len() && points.iter().all(|point| of_part.iter().any(|other| other == point))
-        };
-        self.parts.retain(|part| !connects(part));
-        self
     }
 }
 

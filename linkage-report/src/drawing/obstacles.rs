@@ -1,20 +1,21 @@
-//! The shapes of an animation that names should not cover.
+//! The shapes of a picture that names should not cover.
 
 use nalgebra::Vector2;
 
 use super::DrawingError;
-use super::animation::{Animation, Part};
+use super::figure::Figure;
 use super::film::Film;
 use super::names::{Shape, foot};
+use super::part::Part;
 use super::shapes::{BLOCK, HALF_LINK};
 
 /// The corners that stand for a wheel, an outline or a path.
 const CORNERS: usize = 16;
 
 /// The shapes at one moment, of which `places` has the points in pixels.
-pub(super) fn shapes(animation: &Animation, film: &Film, places: &[Vector2<f64>]) -> Result<Vec<Shape>, DrawingError> {
+pub(super) fn shapes(figure: &Figure, film: &Film, places: &[Vector2<f64>]) -> Result<Vec<Shape>, DrawingError> {
     let mut shapes = Vec::new();
-    for part in &animation.parts {
+    for part in &figure.parts {
         let at = |name: &String| Ok::<_, DrawingError>(places[film.index(name)?]);
         match part {
             Part::Ground(point) => shapes.extend(foot(at(point)?)),
@@ -27,37 +28,45 @@ pub(super) fn shapes(animation: &Animation, film: &Film, places: &[Vector2<f64>]
                 shapes.extend(points.windows(2).map(|ends| Shape::line([ends[0], ends[1]], HALF_LINK)));
             }
             Part::Spring([from, to]) => shapes.push(Shape::line([at(from)?, at(to)?], 6.0)),
-            Part::Slider(point) => {
-                let guide = film.guide(film.index(point)?)?;
-                shapes.push(block(at(point)?, guide[1] - guide[0]));
-                shapes.push(Shape::faint(guide));
+            Part::Slider { point, along } => {
+                let guide = film.guide(film.index(point)?, *along)?;
+                shapes.push(block(at(point)?, guide.along));
+                shapes.push(Shape::faint(guide.ends));
             }
             Part::Sleeve { pin, arm: [from, to] } => shapes.push(block(at(pin)?, at(to)? - at(from)?)),
             Part::Wheel { centre, radius, .. } => {
-                let (centre, radius) = (at(centre)?, radius * film.pixels_per_unit);
+                let (centre, radius) = (at(centre)?, radius * film.view.pixels_per_unit);
                 let corner = |corner: usize| std::f64::consts::TAU * corner as f64 / CORNERS as f64;
                 let rim: Vec<_> = (0..CORNERS).map(corner).map(|angle| centre + polar(radius, angle)).collect();
                 shapes.extend(closed(&rim).map(Shape::faint));
             }
             Part::Plate { centre, towards, outline } => {
                 let (centre, towards) = (at(centre)?, at(towards)?);
-                let x = (towards - centre).try_normalize(0.0).unwrap_or_else(Vector2::x) * film.pixels_per_unit;
+                let x = (towards - centre).try_normalize(0.0).unwrap_or_else(Vector2::x) * film.view.pixels_per_unit;
                 let y = Vector2::new(x.y, -x.x);
                 let corners = outline.iter().step_by(outline.len().div_ceil(CORNERS).max(1));
                 let corners: Vec<_> = corners.map(|corner| centre + x * corner.x + y * corner.y).collect();
                 shapes.extend(closed(&corners).map(Shape::faint));
             }
             Part::GroundLine(line) => {
-                shapes.extend(line.windows(2).map(|ends| Shape::faint([film.pixel(ends[0]), film.pixel(ends[1])])));
+                shapes.extend(
+                    line.windows(2).map(|ends| Shape::faint([film.view.pixel(ends[0]), film.view.pixel(ends[1])])),
+                );
             }
-            Part::Trace(point) => {
-                let track = film.track(film.index(point)?);
-                let track: Vec<_> = track.iter().step_by(track.len().div_ceil(CORNERS)).copied().collect();
-                shapes.extend(closed(&track).map(Shape::faint));
+            Part::Trace(point) => shapes.extend(curve(&film.track(film.index(point)?))),
+            Part::Path(path) => {
+                shapes.extend(curve(&path.iter().map(|at| film.view.pixel(*at)).collect::<Vec<_>>()));
             }
+            Part::Joint(_) | Part::Point(_) => {}
         }
     }
     Ok(shapes)
+}
+
+/// Some of the points of a path as a polygon.
+fn curve(points: &[Vector2<f64>]) -> Vec<Shape> {
+    let corners: Vec<_> = points.iter().step_by(points.len().div_ceil(CORNERS).max(1)).copied().collect();
+    closed(&corners).map(Shape::faint).collect()
 }
 
 /// The sides of a polygon.

@@ -127,4 +127,9 @@ impl Signatures<'_> {
     pub fn joints(&self, count: usize) -> Function<Body> {
         total("joints", [self.pose()], Type::Vector(2 * count))
     }
+
+    /// x and y along the guide of each slider and sleeve of a drawing.
+    pub fn guides(&self, count: usize) -> Function<Body> {
+        total("guides", [self.pose()], Type::List(Box::new(Type::List(Box::new(Type::Scalar), 2)), count))
+    }
 }
