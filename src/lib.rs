@@ -19,8 +19,8 @@ pub use linkage_double::DoubleDouble;
 #[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
 pub use linkage_dynamics::{
     Accelerations, Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Coordinates, Energy, Equations, Inputs,
-    Joint, JointForces, Kink, Mode, MotionError, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn, StateParts,
-    StateRates, Unreduced, contact, simulation,
+    Kink, Mode, MotionError, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn, StateParts, StateRates,
+    Unreduced, contact, simulation,
 };
 #[cfg(feature = "interval")]
 pub use linkage_interval::{Interval, certify, enclose};
@@ -64,9 +64,10 @@ pub use linkage_rounding::Rounded;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
     AnyBranch, Assembled, Assembly, AssemblyMode, Branches, Certifiable, Column, D, Dim, Elbow, Formulas, Group,
-    InputError, Kinematic, Limits, Matrix, Mechanism, Number, OutputMotion, PathError, PerInput, PerUnknown,
-    PointMotion, PositionError, RangeEnd, Ranged, Real, Slider, Slope, Solution, accuracy, analysis, continuation,
-    derivation, extremes, held, kinematic, lanes, limits, nalgebra, position, real, singularity, skeleton,
+    InputError, Joint, JointForces, Kinematic, Limits, Matrix, Mechanism, Number, OutputMotion, PathError, PerInput,
+    PerUnknown, PointMotion, PositionError, RangeEnd, Ranged, Real, Slider, Slope, Solution, accuracy, analysis,
+    continuation, derivation, extremes, held, kinematic, lanes, limits, nalgebra, position, real, singularity,
+    skeleton,
 };
 #[cfg(feature = "std")]
 pub use linkage_runtime::{circuits, range_of_motion};

@@ -6,7 +6,7 @@ pub use crate::inertia::reduced;
 pub use crate::reactions::{bearing_loss, drive_forces, reactions};
 pub use crate::scene::{ReducedMotion, finite_each, not_negative};
 pub use crate::{
-    Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Energy, Equations, Joint, JointForces, Kink, MotionError,
-    Power, Prescribed, ReactionRow, Scene, StateParts, StateRates, Unreduced,
+    Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Energy, Equations, Kink, MotionError, Power, Prescribed,
+    ReactionRow, Scene, StateParts, StateRates, Unreduced,
 };
 pub use linkage_runtime::jacobian::Vector;

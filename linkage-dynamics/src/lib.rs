@@ -20,7 +20,6 @@ mod equilibrium;
 mod error;
 mod inertia;
 pub mod integrate;
-mod joints;
 mod reactions;
 mod scene;
 pub mod simulation;
@@ -31,7 +30,6 @@ pub use energy::{Energy, Power};
 pub use equations::Equations;
 pub use equilibrium::Balance;
 pub use error::{CrossingRates, MotionError};
-pub use joints::{Joint, JointForces};
 pub use scene::{
     Accelerations, Coordinates, Inputs, Kink, Prescribed, Rates, Scene, StateColumn, StateParts, StateRates,
 };

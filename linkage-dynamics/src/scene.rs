@@ -2,11 +2,11 @@
 
 use crate::contact::within;
 use crate::simulation::scales::resolution_by_inputs;
-use crate::{Bearing, Contact, ContactLaw, Equations, JointForces, MotionError, Unreduced};
+use crate::{Bearing, Contact, ContactLaw, Equations, MotionError, Unreduced};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
-use linkage_runtime::{Column, Dim, InputError, Mechanism, PerInput, PositionError, Real, newton, real};
+use linkage_runtime::{Column, Dim, InputError, JointForces, Mechanism, PerInput, PositionError, Real, newton, real};
 
 /// Values shared by the functions of a scene, at one position and one set of input rates.
 #[derive(Debug, Clone, Copy)]

@@ -17,6 +17,7 @@ pub use crate::chord::{
 };
 pub use crate::error::{finite, finite_matrix, no_closed_form, no_list, too_many_branches};
 pub use crate::implied::{closes, implied};
+pub use crate::joints::{Joint, JointForces};
 pub use crate::kinematic::{FullKinematicsOf, Kinematic, KinematicsOf, MotionOf, Quantity};
 pub use crate::lanes::{Batch, Lanes, Values};
 pub use crate::limits::{Bound, Search, limits};

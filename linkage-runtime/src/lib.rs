@@ -44,6 +44,7 @@ mod hypotenuse;
 mod implied;
 #[doc(hidden)]
 pub mod jacobian;
+mod joints;
 pub mod kinematic;
 #[doc(hidden)]
 pub mod lane;
@@ -79,6 +80,7 @@ pub use column::Column;
 pub use dim::{D, Dim};
 pub use error::{InputError, PathError, PositionError};
 pub use formulas::{Certifiable, Formulas};
+pub use joints::{Joint, JointForces};
 pub use kinematic::Kinematic;
 pub use limits::Limits;
 pub use matrix::Matrix;

@@ -192,16 +192,8 @@ impl Angle for f32 {
 /// behind the next 96: the error is below m 2^-94, or 2^-70 quarters. No float is nearer than 2^-30 to a multiple of pi/2.
 fn reduced_beyond(x: f32) -> Reduced<f32> {
     /// 32 zeros and the first 224 bits of 2/pi behind the point.
-    const TWO_OVER_PI: [u32; 8] = [
-        0,
-        0xa2f9_836e,
-        0x4e44_1529,
-        0xfc27_57d1,
-        0xf534_ddc0,
-        0xdb62_9599,
-        0x3c43_9041,
-        0xfe51_63ab,
-    ];
+    const TWO_OVER_PI: [u32; 8] =
+        [0, 0xa2f9_836e, 0x4e44_1529, 0xfc27_57d1, 0xf534_ddc0, 0xdb62_9599, 0x3c43_9041, 0xfe51_63ab];
     /// pi/2 in 2^-63.
     const HALF_PI: u64 = 0xc90f_daa2_2168_c235;
     let halves = |number: u64| [number >> 32, number & 0xffff_ffff];

@@ -50,8 +50,15 @@ pub trait Skeleton: Mechanism {
 
     /// x and y along the guide of a slider or the arm of a sleeve, as its vector is written, by its place among these of
     /// [`PARTS`](Self::PARTS).
-    fn guide(&self, pose: &Self::Pose, guide: usize) -> Option<[Self::Scalar; 2]> {
-        let _ = (pose, guide);
+    fn guide(&self, pose: &Self::Pose, place: usize) -> Option<[Self::Scalar; 2]> {
+        let _ = (pose, place);
+        None
+    }
+
+    /// x and y of the joint of a force, then those of the direction of its first component; the second is a quarter turn
+    /// anticlockwise from it. `place` is that of a [`Joint`](crate::Joint).
+    fn force_place(&self, pose: &Self::Pose, place: usize) -> Option<[Self::Scalar; 4]> {
+        let _ = (pose, place);
         None
     }
 }

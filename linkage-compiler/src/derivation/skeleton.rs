@@ -31,6 +31,7 @@ pub enum Part {
 }
 
 /// A vector between two joints.
+#[derive(Clone, Copy)]
 struct Edge {
     ends: [usize; 2],
     link: Link,
@@ -59,6 +60,7 @@ impl Skeleton {
         for point in &mechanism.points {
             tracer.trace(&point.chain);
         }
+        tracer.merge();
         tracer.finish(&driving)
     }
 }
@@ -86,6 +88,33 @@ impl Tracer<'_> {
             last = next;
         }
         last
+    }
+
+    /// Merges joints that the vectors show to be one: a position at the end of a vector from any formula of its start, such
+    /// as `D - l4@theta4` and the joint C of the loop `B + l3@theta3 = C`, `C + l4@theta4 = D`.
+    fn merge(&mut self) {
+        let mut is_changed = true;
+        while is_changed {
+            is_changed = false;
+            for edge in 0..self.edges.len() {
+                let Edge { ends: [from, to], link } = self.edges[edge];
+                let sign = if link.is_reversed { Number::MINUS_ONE } else { Number::ONE };
+                let backwards = if link.is_reversed { Number::ONE } else { Number::MINUS_ONE };
+                for (start, end, sign) in [(from, to, sign), (to, from, backwards)] {
+                    let formulas: Vec<[NodeId; 2]> = self.joints.formulas(self.joints.find(start)).collect();
+                    for at in formulas {
+                        let moved =
+                            [0, 1].map(|axis| self.graph.sum(&[(Number::ONE, at[axis]), (sign, link.vector[axis])]));
+                        if let Some(known) = self.joints.known(moved)
+                            && known != self.joints.find(end)
+                        {
+                            self.joints.merge(known, end);
+                            is_changed = true;
+                        }
+                    }
+                }
+            }
+        }
     }
 
     fn moves(&self, nodes: &[NodeId]) -> bool {
@@ -196,14 +225,16 @@ impl Tracer<'_> {
                 }
             }
         }
-        // A declared point of one body that turns about no pivot is a point of interest.
+        // A declared point that moves and is no joint leaves its path: the end of a link, or a point of one.
         for point in &self.mechanism.points {
             let Some(joint) = self.joints.known([point.x, point.y]) else { continue };
-            let mut holding = bodies.iter().filter(|body| body.joints.contains(&joint));
-            if let (Some(body), None) = (holding.next(), holding.next())
-                && !body.joints.iter().any(|&joint| is_fixed[joint])
-                && !parts.contains(&Part::Slider(joint))
-            {
+            let holding = bodies.iter().filter(|body| body.joints.contains(&joint)).count();
+            let slides = parts.iter().any(|part| match *part {
+                Part::Slider(block) => block == joint,
+                Part::Sleeve { pin, .. } => pin == joint,
+                _ => false,
+            });
+            if holding == 1 && !is_fixed[joint] && !slides && !parts.contains(&Part::Trace(joint)) {
                 parts.push(Part::Trace(joint));
             }
         }
@@ -237,12 +268,6 @@ impl Tracer<'_> {
 }
 
 impl Skeleton {
-    /// The joint at one of these positions.
-    #[must_use]
-    pub fn joint(&self, places: &[[NodeId; 2]]) -> Option<usize> {
-        self.joints.iter().position(|(_, at)| places.contains(at))
-    }
-
     /// Keeps the joints that a part needs.
     fn compact(self) -> Self {
         let mut used: Vec<usize> = self.parts.iter().flat_map(Part::joints).collect();

@@ -107,8 +107,7 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         let span = spans::of(name.span());
         tokens.extend(spans::located(scene::types(&scene.signatures, root), span, 1));
         tokens.extend(drives::types(&scene.signatures, driver, root).map(|types| spans::located(types, span, 1)));
-        let skeleton = derivation.and_then(|derivation| derivation.skeleton.as_ref());
-        tokens.extend(reactions::types(&scene.signatures, skeleton, root).map(|types| spans::located(types, span, 1)));
+        tokens.extend(reactions::types(&scene.signatures, root).map(|types| spans::located(types, span, 1)));
         let implemented = scene.implementation.as_ref().map(|implementation| {
             let conversions = conversions::of_scene(&scene.signatures, driver);
             implementations::implementation(implementation, name, Some(conversions), span)

@@ -6,27 +6,20 @@ use quote::quote;
 use super::names::{comment, ident};
 use super::rust::literal;
 use super::types::derives;
-use crate::derivation::Skeleton;
 use crate::model::LoadKind;
 use crate::program::{MULTIPLIERS, SceneSignatures};
 
-pub(super) fn types(
-    signatures: &SceneSignatures,
-    skeleton: Option<&Skeleton>,
-    root: &TokenStream,
-) -> Option<TokenStream> {
+pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<TokenStream> {
     if !signatures.has_reactions() {
         return None;
     }
-    let SceneSignatures { mechanism, scene, reactions_type, unknowns, .. } = signatures;
+    let SceneSignatures { mechanism, scene, reactions_type, unknowns, types, .. } = signatures;
     let (visibility, name, derives) = (&mechanism.visibility, ident(reactions_type), derives(mechanism, root));
+    let driver = ident(&types.driver);
     let [mut members, mut joints, mut forces] = [const { Vec::new() }; 3];
-    for &load in &scene.loads {
-        let load = &mechanism.opened.loads[load];
-        let drawn = match skeleton.and_then(|skeleton| skeleton.joint(&load.places)) {
-            Some(joint) => quote!(::core::option::Option::Some(#joint)),
-            None => quote!(::core::option::Option::None),
-        };
+    for &place in &scene.loads {
+        let load = &mechanism.opened.loads[place];
+        let place = literal(place);
         let of_implied = if load.is_determined {
             ""
         } else {
@@ -44,7 +37,7 @@ pub(super) fn types(
                 let field = ident(&load.field);
                 members.push(quote!(#[doc = #doc] pub #field: #root::__rt::Vector2<T>));
                 let (name, at, on) = (&load.field, joint, link);
-                joints.push(quote!(#root::__rt::Joint::Pin { name: #name, at: #at, on: #on, drawn: #drawn }));
+                joints.push(quote!(#root::__rt::Joint::Pin { name: #name, at: #at, on: #on, place: #place }));
                 forces.push(quote!([self.#field.x, self.#field.y]));
             }
             LoadKind::Guide { coordinate, guide, block, end } => {
@@ -61,7 +54,7 @@ pub(super) fn types(
                     members.push(quote!(#[doc = #doc] pub #field: T));
                 }
                 let (name, on) = (&load.field, block);
-                joints.push(quote!(#root::__rt::Joint::Guide { name: #name, on: #on, drawn: #drawn }));
+                joints.push(quote!(#root::__rt::Joint::Guide { name: #name, on: #on, place: #place }));
                 forces.push(quote!([#(self.#fields),*]));
             }
         }
@@ -80,6 +73,7 @@ pub(super) fn types(
         #derives
         #visibility struct #name<T: #root::__rt::Scalar = f64> { #(#members),* }
         impl<T: #root::__rt::Real> #root::__rt::JointForces<T> for #name<T> {
+            type Mechanism = #driver<T>;
             const JOINTS: &'static [#root::__rt::Joint] = &[#(#joints),*];
             fn each(&self) -> impl ::core::iter::Iterator<Item = [T; 2]> {
                 ::core::iter::IntoIterator::into_iter([#(#forces),*])

@@ -31,6 +31,8 @@ pub(super) struct Guide {
     pub(super) coordinate: SymbolId,
     pub(super) ends: [usize; 2],
     pub(super) links: [usize; 2],
+    /// A quarter turn from its direction.
+    pub(super) normal: [NodeId; 2],
 }
 
 /// A vector, or a part of one.
@@ -133,14 +135,14 @@ impl Links {
         }
         links.add_bodies(graph, bodies, &chains.means);
         for Edge { ends, of, .. } in edges {
-            let LegOf::Guide { direction, length, .. } = of else { continue };
+            let LegOf::Guide { direction, length, normal } = of else { continue };
             let ends = ends.map(|end| links.joints.find(end));
             let symbols = graph.symbols_of(&[length]);
             let mut coordinates = symbols.into_iter().filter(|symbol| links.moving.contains(symbol));
             let (Some(coordinate), None) = (coordinates.next(), coordinates.next()) else { continue };
             let [Some(base), Some(block)] = ends.map(|end| links.link_at(end, direction)) else { continue };
             if links.guides.iter().all(|guide| guide.ends != ends || guide.coordinate != coordinate) {
-                links.guides.push(Guide { coordinate, ends, links: [base, block] });
+                links.guides.push(Guide { coordinate, ends, links: [base, block], normal });
             }
         }
         let floating = chains.loops.iter().enumerate();
@@ -230,9 +232,9 @@ impl Links {
         self.joints.known(position)
     }
 
-    /// The formulas of the position of a joint.
-    pub(super) fn places(&self, joint: usize) -> Vec<[NodeId; 2]> {
-        self.joints.formulas(self.joints.find(joint)).collect()
+    /// The position of a joint.
+    pub(super) fn position(&self, joint: usize) -> [NodeId; 2] {
+        self.joints.position(joint)
     }
 
     /// The links in which a position is fixed.

@@ -252,12 +252,21 @@ impl Mechanism {
             ("ratio_derivatives", Request::VelocityRatioDerivatives),
             ("joints", Request::Drawing),
             ("guides", Request::Drawing),
+            ("force_places", Request::Drawing),
         ];
         let request = requests.iter().filter(|(word, _)| function.contains(word));
         let request = request.filter_map(|(_, request)| self.requests_at.get(request)).next().copied();
         let point = || self.points.first().filter(|_| function.starts_with("point")).map(|point| point.name.span);
         let output = || self.outputs.first().filter(|_| function.starts_with("output")).map(|output| output.name.span);
         request.or_else(point).or_else(output).unwrap_or_else(|| driver.name.span())
+    }
+
+    /// The number of forces in joints that a drawing can show.
+    #[must_use]
+    pub fn drawn_forces(&self) -> usize {
+        let are_drawn = self.requests.contains(&Request::Drawing);
+        let is_shown = self.scenes.iter().any(|scene| !scene.loads.is_empty());
+        if are_drawn && is_shown { self.opened.loads.len() } else { 0 }
     }
 
     /// Removes a driver, with its scenes.

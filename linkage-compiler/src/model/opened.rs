@@ -9,8 +9,10 @@ pub struct Load {
     /// The name of its field; a guide has one for each part of its force.
     pub field: String,
     pub kind: LoadKind,
-    /// The formulas of the point at which it acts: the pin, or the end of the vector of the guide.
-    pub places: Vec<[NodeId; 2]>,
+    /// The position of the joint; for a guide, of its end.
+    pub at: [NodeId; 2],
+    /// The direction of the normal force of a guide; `None` for a pin.
+    pub normal: Option<[NodeId; 2]>,
     /// The components of the displacement that opens the joint: along x and y; for a guide, along its normal, and the
     /// angle about its end.
     pub displacement: [SymbolId; 2],

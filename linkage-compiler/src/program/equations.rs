@@ -64,6 +64,32 @@ impl Plan<'_, '_> {
         self.add(self.signatures.guides(count), without_result(doc), body);
     }
 
+    /// The places of the forces in joints, in the order of `Load`s, and the directions of their first components; the second
+    /// is a quarter turn from it.
+    pub(super) fn force_places(&mut self) {
+        let count = self.signatures.mechanism.drawn_forces();
+        if count == 0 {
+            return;
+        }
+        let graph = &mut self.derivation.graph;
+        let mut nodes = Vec::new();
+        for load in &self.signatures.mechanism.opened.loads {
+            nodes.extend(load.at);
+            nodes.extend(match load.normal {
+                Some(normal) => normal,
+                None => [graph.one(), graph.zero()],
+            });
+        }
+        let kernel = self.on_pose(Vec::new(), Vec::new(), unnamed(nodes));
+        let places = (0..count).map(|place| Expression::List(results(4 * place..4 * place + 4)));
+        let doc = lines([
+            "For each force in a joint, as in a drawing: x and y of the joint, then those of the direction of the first",
+            "component of the force.",
+        ]);
+        let body = Body::of(kernel, Expression::List(places.collect()));
+        self.add(self.signatures.force_places(count), without_result(doc), body);
+    }
+
     /// A function of the pose that returns these nodes in a vector.
     fn list_of(&self, nodes: Vec<NodeId>, vector: fn(Vec<Expression>) -> Expression) -> Body {
         let count = nodes.len();

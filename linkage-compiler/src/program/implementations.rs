@@ -237,13 +237,16 @@ impl Traits<'_> {
         let joints = Expression::own_call("joints", [Expression::name("pose")]).converted();
         let returns = Type::Column(Box::new(Type::Scalar), count);
         let mut functions = vec![of_trait("joints", [pose()], returns, Body::plain(joints))];
-        functions.extend((!skeleton.guides.is_empty()).then(|| {
-            let all = Expression::own_call("guides", [Expression::name("pose")]);
-            let found = Expression::call(Intrinsic::Get, [all, Expression::name("guide")]);
+        let one_of = |name, all, size| {
+            let all = Expression::own_call(all, [Expression::name("pose")]);
+            let found = Expression::call(Intrinsic::Get, [all, Expression::name("place")]);
             let found = Expression::call(Intrinsic::Copied, [found]);
-            let returns = Type::Around("Option", Box::new(Type::List(Box::new(Type::Scalar), 2)));
-            of_trait("guide", [pose(), ("guide", Passed::ByValue(Type::Count))], returns, Body::plain(found))
-        }));
+            let returns = Type::Around("Option", Box::new(Type::List(Box::new(Type::Scalar), size)));
+            of_trait(name, [pose(), ("place", Passed::ByValue(Type::Count))], returns, Body::plain(found))
+        };
+        functions.extend((!skeleton.guides.is_empty()).then(|| one_of("guide", "guides", 2)));
+        let has_forces = self.signatures.mechanism.drawn_forces() > 0;
+        functions.extend(has_forces.then(|| one_of("force_place", "force_places", 4)));
         self.implementation(Implemented::Skeleton, vec![("Parts", Associated::Dimension(count))], constants, functions)
     }
 

@@ -61,6 +61,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         if wants(Request::Drawing) {
             plan.joints();
             plan.guides();
+            plan.force_places();
         }
         if wants(Request::VelocityRatioDerivatives) {
             plan.ratio_derivatives();

@@ -25,9 +25,19 @@ impl Quantity {
 /// A vector at a point.
 #[derive(Debug, Clone)]
 pub(super) struct Arrow {
-    pub from: String,
+    pub from: Tail,
     pub vector: Vector2<f64>,
     pub quantity: Quantity,
+    /// The words at its tip.
+    pub label: String,
+}
+
+/// The place at which an arrow begins.
+#[derive(Debug, Clone)]
+pub(super) enum Tail {
+    /// A point by its name.
+    Point(String),
+    At(Vector2<f64>),
 }
 
 /// The length of a unit vector in the drawing.

@@ -5,7 +5,7 @@ use svg::Document;
 use svg::node::element::{Description, Group, Line, Path, Rectangle, Style, Text, Title};
 
 use super::DrawingError;
-use super::arrows::{Arrow, Quantity};
+use super::arrows::{Arrow, Quantity, Tail};
 use super::axes::{label, ticks};
 use super::frame::{Frame, LEFT, WIDTH, bounds};
 use super::stage::{CLASS, STYLE, Shapes};
@@ -57,7 +57,8 @@ pub(super) fn svg(drawing: &Drawing) -> Result<String, DrawingError> {
         document = document.add(item.group(None));
     }
     for (arrow, ends) in &arrows {
-        document = document.add(vector(ends.map(|end| view.pixel(end)), arrow.quantity));
+        let ends = ends.map(|end| view.pixel(end));
+        document = document.add(labelled(vector(ends, arrow.quantity), &arrow.label, ends));
     }
     for (entry, (class, words)) in legend.iter().enumerate() {
         let (x, y) = (LEFT + ENTRY[0] * (entry % ENTRIES) as f64, bottom + ENTRY[1] * (entry / ENTRIES) as f64);
@@ -91,9 +92,15 @@ fn arrows(drawing: &Drawing) -> Result<Vec<(&Arrow, [Vector2<f64>; 2])>, Drawing
         }
     }
     let ends = |arrow: &'_ Arrow| {
-        let at = drawing.at(&arrow.from).ok_or_else(|| DrawingError::UnknownPoint(arrow.from.clone()))?;
+        let (at, place) = match &arrow.from {
+            Tail::Point(name) => {
+                let at = drawing.at(name).ok_or_else(|| DrawingError::UnknownPoint(name.clone()))?;
+                (at, format!("at `{name}`"))
+            }
+            Tail::At(at) => (*at, arrow.label.clone()),
+        };
         let tip = at + arrow.vector * scales[arrow.quantity as usize];
-        if finite(&tip) { Ok([at, tip]) } else { Err(DrawingError::NotFinite(format!("a vector at `{}`", arrow.from))) }
+        if finite(&tip) { Ok([at, tip]) } else { Err(DrawingError::NotFinite(format!("a vector {place}"))) }
     };
     drawing.arrows.iter().map(|arrow| Ok((arrow, ends(arrow)?))).collect()
 }
@@ -115,12 +122,31 @@ fn legend(drawing: &Drawing) -> Vec<(&'static str, String)> {
         let unit = match of {
             Quantity::Velocity => units.map(|units| units.time.clone()),
             Quantity::Acceleration => units.map(|units| units.time.clone() + "²"),
-            Quantity::Force => None,
+            Quantity::Force => {
+                units.zip(drawing.force_unit.as_ref()).map(|(units, of)| format!("{}/{of}", units.length))
+            }
         };
         let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
         (of.name(), format!("{} × {}{unit}", of.name(), scale(drawing, of)))
     };
     shown.map(words).collect()
+}
+
+/// An arrow with words beyond its tip.
+fn labelled(arrow: Group, label: &str, [from, to]: [Vector2<f64>; 2]) -> Group {
+    if label.is_empty() {
+        return arrow;
+    }
+    let along = (to - from).try_normalize(0.0).unwrap_or_else(Vector2::y);
+    let anchor = if along.x > 0.4 {
+        "start"
+    } else if along.x < -0.4 {
+        "end"
+    } else {
+        "middle"
+    };
+    let at = to + along.component_mul(&Vector2::new(6.0, 13.0)) + Vector2::new(0.0, 4.0);
+    arrow.add(text(label, "label", at, anchor))
 }
 
 fn describe(drawing: &Drawing) -> String {

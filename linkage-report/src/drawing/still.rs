@@ -1,9 +1,10 @@
 //! A linkage at one position, with axes and with vectors to scale.
 
-use linkage_runtime::{Kinematic, PointMotion};
+use linkage_runtime::skeleton::Skeleton;
+use linkage_runtime::{Joint, JointForces, Kinematic, PointMotion};
 use nalgebra::{Point2, Vector2};
 
-use super::arrows::{Arrow, Quantity, Scale};
+use super::arrows::{Arrow, Quantity, Scale, Tail};
 use super::figure::Figure;
 use super::part::Part;
 use super::render;
@@ -18,6 +19,7 @@ pub struct Drawing {
     /// The scale of each kind of vector, in the order of [`Quantity::ALL`].
     pub(super) scales: [Scale; 3],
     pub(super) units: Option<Units>,
+    pub(super) force_unit: Option<String>,
 }
 
 #[derive(Debug, Clone)]
@@ -29,6 +31,14 @@ pub(super) struct Units {
 /// The motion of the points of a mechanism.
 type MotionOfPoints<M> = <M as Kinematic>::Points<PointMotion<f64>>;
 
+/// The link at rest, in the names of forces.
+const GROUND: &str = "ground";
+
+/// True if two forces are opposite but for rounding errors, relative to them.
+fn is_opposite(one: Vector2<f64>, other: Vector2<f64>) -> bool {
+    (one + other).norm() <= 1e-9 * one.norm().max(other.norm())
+}
+
 impl Drawing {
     /// Creates an empty drawing. By default a unit velocity or acceleration is drawn with the length 1.
     pub fn new(title: impl Into<String>) -> Self {
@@ -38,6 +48,7 @@ impl Drawing {
             arrows: Vec::new(),
             scales: [Scale::Default; 3],
             units: None,
+            force_unit: None,
         }
     }
 
@@ -127,8 +138,12 @@ impl Drawing {
     /// name.
     pub fn rename(&mut self, from: &str, to: &str) -> &mut Self {
         self.figure.rename(from, to);
-        for arrow in self.arrows.iter_mut().filter(|arrow| arrow.from == from) {
-            to.clone_into(&mut arrow.from);
+        for arrow in &mut self.arrows {
+            if let Tail::Point(point) = &mut arrow.from
+                && point == from
+            {
+                to.clone_into(point);
+            }
         }
         self
     }
@@ -198,6 +213,60 @@ impl Drawing {
         self
     }
 
+    /// Sets the drawn length of a unit force.
+    pub fn force_scale(&mut self, scale: f64) -> &mut Self {
+        self.scale(Quantity::Force, Scale::Given(scale))
+    }
+
+    /// Names the unit of forces, such as N.
+    pub fn force_unit(&mut self, unit: impl Into<String>) -> &mut Self {
+        self.force_unit = Some(unit.into());
+        self
+    }
+
+    /// Adds a force at a point, given by name. The longest arrow is about a quarter of the linkage, unless the scale is set.
+    pub fn force(&mut self, at: &str, vector: impl Into<Vector2<f64>>) -> &mut Self {
+        self.fit(Quantity::Force);
+        self.arrow(at, vector.into(), Quantity::Force)
+    }
+
+    /// Adds the forces in the joints of a scene at a pose, as its `reactions` or the `joints` of its loads have them, each with
+    /// the link on which it acts. Of two forces in a joint that are opposite, one is drawn, and that on the ground is not.
+    /// The longest arrow is about a quarter of the linkage, unless the scale is set.
+    pub fn forces<M, F>(&mut self, mechanism: &M, pose: &M::Pose, forces: &F) -> &mut Self
+    where
+        M: Skeleton<Scalar = f64>,
+        F: JointForces<f64, Mechanism = M>,
+    {
+        self.fit(Quantity::Force);
+        let all = F::JOINTS.iter().zip(forces.each()).filter_map(|(joint, [first, second])| {
+            // The second number of a guide is a moment.
+            let (on, place, second) = match *joint {
+                Joint::Pin { on, place, .. } => (on, place, second),
+                Joint::Guide { on, place, .. } => (on, place, 0.0),
+            };
+            let [x, y, along_x, along_y] = mechanism.force_place(pose, place)?;
+            let along = Vector2::new(along_x, along_y);
+            Some((on, Vector2::new(x, y), along * first + Vector2::new(-along.y, along.x) * second))
+        });
+        let all: Vec<(&str, Vector2<f64>, Vector2<f64>)> = all.collect();
+        for (index, &(link, at, vector)) in all.iter().enumerate() {
+            let here: Vec<usize> = (0..all.len()).filter(|&other| all[other].1 == at).collect();
+            let is_shown = match here[..] {
+                [one, other] if is_opposite(all[one].2, all[other].2) => {
+                    let on_ground = if all[one].0 == GROUND { one } else { other };
+                    index != on_ground
+                }
+                _ => true,
+            };
+            if is_shown && vector != Vector2::zeros() {
+                let from = Tail::At(at);
+                self.arrows.push(Arrow { from, vector, quantity: Quantity::Force, label: format!("on {link}") });
+            }
+        }
+        self
+    }
+
     /// Fits the scale of a kind of vectors, unless it is set.
     fn fit(&mut self, quantity: Quantity) {
         if self.scales[quantity as usize] == Scale::Default {
@@ -206,7 +275,7 @@ impl Drawing {
     }
 
     fn arrow(&mut self, of: &str, vector: Vector2<f64>, quantity: Quantity) -> &mut Self {
-        self.arrows.push(Arrow { from: of.to_owned(), vector, quantity });
+        self.arrows.push(Arrow { from: Tail::Point(of.to_owned()), vector, quantity, label: String::new() });
         self
     }
 

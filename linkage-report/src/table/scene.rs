@@ -1,10 +1,10 @@
 //! Tables of the loads of scenes: what drives must apply, frictions and stops, forces in joints.
 
 use linkage_dynamics::simulation::Loads;
-use linkage_dynamics::{Inputs, Joint, JointForces, MotionError, Scene};
+use linkage_dynamics::{Inputs, MotionError, Scene};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, RangeOfMotion};
-use linkage_runtime::{Assembly, Kinematic, Mechanism, PathError, PerInput};
+use linkage_runtime::{Assembly, Joint, JointForces, Kinematic, Mechanism, PathError, PerInput};
 
 use super::motion::{Clock, columns, on_branch, row, turn};
 use super::{Cause, Quantity, Table};

@@ -222,8 +222,7 @@ where
         row.extend(of_points.iter().flat_map(|numbers| &numbers[2 * point..2 * point + 2]));
     }
     let values = mechanism.outputs(&pose).map(|all| Of::<S>::each_output(all).iter().copied().collect());
-    let rates =
-        mechanism.output_rates(&pose, rates).map(|all| Of::<S>::each_output(all).iter().copied().collect());
+    let rates = mechanism.output_rates(&pose, rates).map(|all| Of::<S>::each_output(all).iter().copied().collect());
     let of_outputs = [values, rates, second_of_outputs].map(|numbers| found(numbers, o));
     for output in 0..o {
         row.extend(of_outputs.iter().map(|numbers| numbers[output]));

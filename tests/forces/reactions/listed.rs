@@ -24,7 +24,6 @@ fn every_force_has_its_name_and_its_place() {
     let q = scene.mechanism.assemble(0.7, PumpBranch { psi_s: Slider::Far }).unwrap().coordinates();
     let forces = scene.reactions(0.0, &q, 30.0).unwrap();
     let pose = scene.mechanism.pose_at(&q);
-    let places = scene.mechanism.joints(&pose);
     let crank_pin = [scene.mechanism.r * q.phi.cos(), scene.mechanism.r * q.phi.sin()];
     let piston_pin = [q.s, scene.mechanism.h];
     let expected: [(&str, &str, [f64; 2], [f64; 2]); 7] = [
@@ -39,11 +38,13 @@ fn every_force_has_its_name_and_its_place() {
     let listed: Vec<_> = PumpingReactions::<f64>::JOINTS.iter().zip(forces.each()).collect();
     assert_eq!(listed.len(), expected.len(), "{listed:?}");
     for (joint, force) in listed {
-        let (Joint::Pin { name, on, drawn, .. } | Joint::Guide { name, on, drawn, .. }) = *joint;
+        let (Joint::Pin { name, on, place, .. } | Joint::Guide { name, on, place, .. }) = *joint;
         let (_, of, wanted, at) = *expected.iter().find(|(other, ..)| *other == name).expect(name);
         assert_eq!((on, force), (of, wanted), "{name}");
-        let place = 2 * drawn.expect(name);
-        let gap = (places[place] - at[0]).hypot(places[place + 1] - at[1]);
+        let [x, y, along_x, along_y] = scene.mechanism.force_place(&pose, place).expect(name);
+        // The guide of the piston lies along x.
+        assert_eq!([along_x, along_y], if name == "s" { [0.0, 1.0] } else { [1.0, 0.0] }, "{name}");
+        let gap = (x - at[0]).hypot(y - at[1]);
         assert!(gap < 4.0 * f64::EPSILON * (scene.mechanism.r + scene.mechanism.l), "{name}: {gap:e}");
     }
     let at: Vec<&str> = PumpingReactions::<f64>::JOINTS

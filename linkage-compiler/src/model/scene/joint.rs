@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::contact::is_coefficient;
-use super::{ContactLaw, Scene};
+use super::Scene;
 use crate::diagnostics::Region;
-use crate::graph::{Node, NodeId, SymbolId};
+use crate::graph::{NodeId, SymbolId};
 use crate::ids::SceneId;
 use crate::model::links::{GROUND, Links};
 use crate::model::mechanism::Mechanism;
@@ -123,7 +122,6 @@ impl Finder<'_, '_> {
                 }
                 WantedOf::Friction(contact, along, pin) => {
                     let Some(site) = self.bearing(along, pin, region) else { continue };
-                    self.without_radius(site, id, contact, region);
                     let load = self.open(site);
                     self.result.scenes[id].contacts[contact].bearing = Some(load);
                 }
@@ -181,20 +179,6 @@ impl Finder<'_, '_> {
         None
     }
 
-    /// Reports a friction in a pin whose only factor has the name of a coefficient: its torque needs a radius.
-    fn without_radius(&mut self, site: Site, scene: SceneId, contact: usize, region: Region) {
-        let ContactLaw::Friction(factors) = &self.result.scenes[scene].contacts[contact].law else { return };
-        let (Site::Pin { .. }, &[factor]) = (site, factors.as_slice()) else { return };
-        let Node::Symbol(symbol) = *self.resolver.graph.node(factor) else { return };
-        let name = self.resolver.graph.symbol_name(symbol).to_owned();
-        if is_coefficient(&name) {
-            let message = format!(
-                "the torque of friction in a pin is the force times a radius: write `friction {name}, radius, reaction`"
-            );
-            self.resolver.diagnostics.error(region, message);
-        }
-    }
-
     /// The index of the load of a site, which is added at its first use.
     fn open(&mut self, site: Site) -> usize {
         if let Some(known) = self.found.iter().position(|(other, _)| *other == site) {
@@ -212,6 +196,13 @@ impl Finder<'_, '_> {
     }
 
     fn load(&mut self, site: Site) -> Load {
+        let (at, normal) = match site {
+            Site::Pin { joint, .. } => (self.links.position(joint), None),
+            Site::Guide { ends, .. } => {
+                let guide = self.links.guides.iter().find(|guide| guide.ends == ends);
+                (self.links.position(ends[1]), guide.map(|guide| guide.normal))
+            }
+        };
         let (field, kind) = match site {
             Site::Pin { joint, link } => {
                 let (joint, field) = self.name_of(joint);
@@ -232,11 +223,7 @@ impl Finder<'_, '_> {
         // No identifier has a blank.
         let displacement = [1, 2].map(|at| graph.symbol(format!("displacement {at} of {field}")));
         let left_out = self.equations_of(site);
-        let places = self.links.places(match site {
-            Site::Pin { joint, .. } => joint,
-            Site::Guide { ends: [_, end], .. } => end,
-        });
-        Load { field, kind, places, displacement, is_determined: true, left_out }
+        Load { field, kind, at, normal, displacement, is_determined: true, left_out }
     }
 
     /// The equations in the angles of the links of a joint, and in the length of a guide.

@@ -128,8 +128,15 @@ impl Signatures<'_> {
         total("joints", [self.pose()], Type::Vector(2 * count))
     }
 
+    /// The place and the direction of each force in a joint.
+    pub fn force_places(&self, count: usize) -> Function<Body> {
+        let of = Type::List(Box::new(Type::Scalar), 4);
+        inlined(total("force_places", [self.pose()], Type::List(Box::new(of), count)))
+    }
+
     /// x and y along the guide of each slider and sleeve of a drawing.
     pub fn guides(&self, count: usize) -> Function<Body> {
-        total("guides", [self.pose()], Type::List(Box::new(Type::List(Box::new(Type::Scalar), 2)), count))
+        let of = Type::List(Box::new(Type::Scalar), 2);
+        inlined(total("guides", [self.pose()], Type::List(Box::new(of), count)))
     }
 }

@@ -14,9 +14,9 @@ pub enum Joint {
         at: &'static str,
         /// The link on which the force acts.
         on: &'static str,
-        /// The joint among those of the drawing, [`Skeleton::JOINTS`](linkage_runtime::skeleton::Skeleton::JOINTS), of a
-        /// mechanism with `derive drawing;`.
-        drawn: Option<usize>,
+        /// Its place among the forces in joints of the mechanism, for
+        /// [`Skeleton::force_place`](crate::skeleton::Skeleton::force_place).
+        place: usize,
     },
     /// A guide. Its force on what slides is a normal force and a moment.
     Guide {
@@ -24,8 +24,8 @@ pub enum Joint {
         name: &'static str,
         /// The link that slides.
         on: &'static str,
-        /// The end of the vector among the joints of the drawing: the point about which the moment is taken.
-        drawn: Option<usize>,
+        /// As for a pin.
+        place: usize,
     },
 }
 
@@ -34,7 +34,7 @@ pub enum Joint {
 /// `linkage!` implements it for the type of the reactions of each scene; `()` is that of a scene that shows none.
 ///
 /// ```
-/// use linkage_dynamics::{Joint, JointForces};
+/// use linkage_runtime::{Joint, JointForces};
 ///
 /// /// The largest force in a pin.
 /// fn largest<F: JointForces<f64>>(forces: &F) -> f64 {
@@ -43,7 +43,13 @@ pub enum Joint {
 /// }
 /// assert_eq!(largest(&()), 0.0);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no forces in joints",
+    note = "name them by `reaction at P;` or `reactions;` in a scene"
+)]
 pub trait JointForces<T>: Copy + PartialEq + Debug {
+    /// The kinematics; `()` if there are no forces.
+    type Mechanism;
     /// The joints.
     const JOINTS: &'static [Joint];
 
@@ -52,6 +58,8 @@ pub trait JointForces<T>: Copy + PartialEq + Debug {
 }
 
 impl<T> JointForces<T> for () {
+    type Mechanism = ();
+
     const JOINTS: &'static [Joint] = &[];
 
     fn each(&self) -> impl Iterator<Item = [T; 2]> {
