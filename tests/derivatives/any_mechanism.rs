@@ -89,7 +89,7 @@ fn agrees<M: Kinematic<Scalar = f64>>(m: &M, guess: &M::Coordinates, input_rates
     let ratios = m.velocity_ratios(&pose).unwrap();
     for (input, by_name) in m.ratios_by_input(&pose).unwrap().iter().enumerate() {
         let (column, unit) = M::rate_parts(by_name);
-        assert_eq!((bits(column), bits(unit)), (bits(ratios.column(input)), bits(Column::unit(input))));
+        assert_eq!((bits(column), bits(unit)), (bits(ratios.column(input)), bits(Column::<f64, M::V>::unit(input))));
     }
     let (second, given_back) = M::acceleration_parts(&accelerations);
     assert_eq!(bits(given_back), bits(given.into()));

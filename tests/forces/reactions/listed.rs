@@ -1,5 +1,6 @@
 //! The forces in joints as a list: names, numbers, and the places of the joints in the drawing.
 
+use linkage::skeleton::Skeleton;
 use linkage::{Joint, JointForces, Scene, Slider};
 
 linkage::linkage! {

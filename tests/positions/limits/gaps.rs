@@ -2,12 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::limits::{Limit, Limits};
+use linkage::limits::Limit;
 use linkage::linkage;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use crate::limits::exact;
+use crate::limits::{exact, free};
 
 linkage! {
     /// The joint of a link f is on a slider that comes nearest to it while the crank passes its inner dead centre.
