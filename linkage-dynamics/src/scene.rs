@@ -2,7 +2,7 @@
 
 use crate::contact::within;
 use crate::simulation::scales::resolution_by_inputs;
-use crate::{Bearing, Contact, ContactLaw, Equations, MotionError, Unreduced};
+use crate::{Bearing, Contact, ContactLaw, Energy, Equations, MotionError, Unreduced};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
@@ -180,6 +180,13 @@ pub trait Scene {
         Self: Sized,
     {
         crate::reactions::driven_loads(self, t, q, (input_rates.into(), input_accelerations.into()))
+    }
+    /// The energy at a position and the rates v' of the inputs, if the scene has `energy;`.
+    ///
+    /// # Errors
+    /// [`PositionError::Singular`] where J is singular, [`PositionError::NotFinite`] if the energy is not finite.
+    fn energy_of(&self, _: &Coordinates<Self>, _: &Inputs<Self>) -> Result<Option<Energy<Self::Scalar>>, MotionError> {
+        Ok(None)
     }
     /// The prescribed motion of each input, or None.
     fn prescribed(&self, t: Self::Scalar) -> Column<Option<Prescribed<Self::Scalar>>, Self::V>;

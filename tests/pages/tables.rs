@@ -237,14 +237,16 @@ fn a_simulation_by_steps() {
     assert_eq!(theta[1..], states.iter().map(|state| state.q.theta).collect::<Vec<_>>());
     // No input has a drive.
     assert_eq!((table.column("theta_torque"), table.column("drive_power")), (None, None));
-    // Another number at each state: the energy grows by the work of the torque, less the friction.
+    // Its energies, and another number at each state.
     let all = || simulate(&scene, start(), 1.0, 1e-8).unwrap();
     let first = *all().state();
-    let energies = [first].into_iter().chain(states).map(|state| {
-        let energy = scene.energy(&state.q, state.rates.theta).unwrap();
-        energy.kinetic + energy.potential
-    });
-    let table = table.with("energy", energies.collect()).unwrap();
+    let energies = [first].into_iter().chain(states).map(|state| scene.energy(&state.q, state.rates.theta).unwrap());
+    let energies: Vec<_> = energies.collect();
+    let [kinetic, potential] = columns(&table, ["kinetic_energy", "potential_energy"]);
+    assert_eq!(kinetic, energies.iter().map(|energy| energy.kinetic).collect::<Vec<_>>());
+    assert_eq!(potential, energies.iter().map(|energy| energy.potential).collect::<Vec<_>>());
+    let whole = energies.iter().map(|energy| energy.kinetic + energy.potential).collect();
+    let table = table.with("energy", whole).unwrap();
     assert_eq!(table.names().last(), Some(&"energy"));
     let twice = table.clone().with("energy", vec![0.0; table.len()]).unwrap_err();
     assert_eq!(twice, TableError::SameName { name: "energy".to_owned() });

@@ -1,7 +1,7 @@
 //! Tables of the loads of scenes: what drives must apply, frictions and stops, forces in joints.
 
 use linkage_dynamics::simulation::Loads;
-use linkage_dynamics::{Inputs, MotionError, Scene};
+use linkage_dynamics::{Energy, Inputs, MotionError, Scene};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, RangeOfMotion};
 use linkage_runtime::{Assembly, Joint, JointForces, Kinematic, Mechanism, PathError, PerInput};
@@ -99,6 +99,7 @@ impl Table {
     /// | `friction on theta`, `stop on s` | the force of a friction or a stop along its scalar |
     /// | `b_on_rod_x`, `b_on_rod_y`, `b_on_rod` | the force in a pin that a `reaction` names, and its magnitude |
     /// | `s_normal`, `s_moment` | the force and the moment in a guide |
+    /// | `kinetic_energy`, `potential_energy` | the energy of a scene with `energy;` |
     ///
     /// A friction that depends on a force in a joint acts as [`Scene::loads`] has it. The time of the scene is that of the
     /// column `time`, or 0; its own drives do not act. Where loads do not exist, as at a dead point, their cells are
@@ -116,18 +117,22 @@ impl Table {
     {
         let mut clock = Clock::new(rate);
         let mut rows = Vec::new();
-        let mut names = None;
+        let (mut names, mut has_energy) = (None, false);
         for input in inputs {
             let (mut row, motion) = row(range, input, &mut clock);
             let loads = motion.map_err(Cause::Path).and_then(|motion| {
                 let t = clock.at(input).unwrap_or_default();
                 names = names.take().or_else(|| contact_names(scene, t, &motion.position, &motion.rates));
-                driven_loads(scene, t, &motion).map_err(Cause::Motion)
+                loads_and_energy(scene, t, &motion).map_err(Cause::Motion)
             });
-            let cause = loads.map(|loads| row.extend(numbers(&loads, |_| true))).err();
+            let cause = loads.map(|(loads, energy)| {
+                has_energy |= energy.is_some();
+                row.extend(numbers(&loads, |_| true).into_iter().chain(of_energy(energy)));
+            });
+            let cause = cause.err();
             rows.push((row, cause));
         }
-        let loads = load_columns::<S>(names.as_deref(), |_| true);
+        let loads = load_columns::<S>(names.as_deref(), has_energy, |_| true);
         let mut table = Self::of_columns(columns::<M>(rate).into_iter().chain(loads));
         for (row, cause) in rows {
             table.push_partial(&row, cause);
@@ -137,14 +142,25 @@ impl Table {
     }
 }
 
-/// The loads if drives make this motion.
-fn driven_loads<S>(scene: &S, t: f64, motion: &MotionOf<S::Mechanism>) -> Result<Loads<S>, MotionError>
+/// The loads if drives make this motion, and the energy.
+fn loads_and_energy<S>(
+    scene: &S,
+    t: f64,
+    motion: &MotionOf<S::Mechanism>,
+) -> Result<(Loads<S>, Option<Energy<f64>>), MotionError>
 where
     S: Scene<Scalar = f64, Mechanism: Kinematic>,
 {
     let (_, rates) = S::Mechanism::rate_parts(&motion.rates);
     let (_, accelerations) = S::Mechanism::acceleration_parts(&motion.accelerations);
-    scene.driven_loads(t, &motion.position, Inputs::<S>::from(rates), Inputs::<S>::from(accelerations))
+    let (rates, accelerations) = (Inputs::<S>::from(rates), Inputs::<S>::from(accelerations));
+    let energy = scene.energy_of(&motion.position, &rates)?;
+    Ok((scene.driven_loads(t, &motion.position, rates, accelerations)?, energy))
+}
+
+/// The numbers of an energy, if there is one.
+pub(super) fn of_energy(energy: Option<Energy<f64>>) -> impl Iterator<Item = f64> {
+    energy.into_iter().flat_map(|Energy { kinetic, potential }| [kinetic, potential])
 }
 
 /// The names of frictions and stops; none where they cannot be evaluated.
@@ -157,9 +173,10 @@ pub(super) fn contact_names<S: Scene>(
     Some(scene.contacts(t, q, rates).ok()?.iter().map(|contact| contact.name).collect())
 }
 
-/// The columns of the loads, with the forces of these drives.
+/// The columns of the loads and the energy, with the forces of these drives.
 pub(super) fn load_columns<S: Scene>(
     contacts: Option<&[&str]>,
+    has_energy: bool,
     is_driven: impl Fn(usize) -> bool,
 ) -> Vec<(String, Quantity)> {
     use linkage_runtime::Dim;
@@ -188,6 +205,9 @@ pub(super) fn load_columns<S: Scene>(
                 all.push((format!("{name}_moment"), Quantity::Torque));
             }
         }
+    }
+    if has_energy {
+        all.extend(["kinetic_energy", "potential_energy"].map(|name| (name.to_owned(), Quantity::Torque)));
     }
     all
 }

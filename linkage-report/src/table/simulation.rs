@@ -3,17 +3,17 @@
 use linkage_dynamics::contact::Change;
 use linkage_dynamics::integrate::Method;
 use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
-use linkage_dynamics::{MotionError, Scene};
+use linkage_dynamics::{Energy, Inputs, MotionError, Scene};
 use linkage_runtime::{Column, Dim, Kinematic, Mechanism};
 
 use super::motion::{coordinates, points_and_outputs};
-use super::scene::{contact_names, load_columns, numbers};
+use super::scene::{contact_names, load_columns, numbers, of_energy};
 use super::{Cause, Mark, Missing, Quantity, Table};
 
 impl Table {
     /// The rest of a simulation, a row for its state and for each step and each event until its end: the time, of each
     /// coordinate and each output the value, rate and acceleration, of each point x, y, its velocity and its acceleration,
-    /// and the loads as in [`Table::over_with_loads`], with the forces of the inputs that the scene drives.
+    /// and the loads and energies as in [`Table::over_with_loads`], with the forces of the inputs that the scene drives.
     ///
     /// Events, kinks and changes of frictions and stops are [`marks`](Self::marks) of the column `time`. At an event the
     /// rates are those before it, and accelerations and loads those after it; where the rates jump, points and outputs have
@@ -126,7 +126,8 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
         let time = [("time".to_owned(), Quantity::Time)].into_iter();
         let inputs = coordinates(S::Mechanism::INPUTS, S::Mechanism::INPUT_ANGLES);
         let unknowns = coordinates(S::Mechanism::UNKNOWNS, S::Mechanism::UNKNOWN_ANGLES);
-        let loads = load_columns::<S>(contacts.as_deref(), |input| is_driven[input]);
+        let has_energy = matches!(energy(scene, state), Ok(Some(_)));
+        let loads = load_columns::<S>(contacts.as_deref(), has_energy, |input| is_driven[input]);
         let motion = time.chain(inputs).chain(unknowns).chain(points_and_outputs::<S::Mechanism>());
         Self { table: Table::of_columns(motion.chain(loads)), is_driven, error: None }
     }
@@ -134,9 +135,9 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
     fn push(&mut self, scene: &S, state: &State<S>, loads: Result<Loads<S>, MotionError>) {
         let accelerations = loads.as_ref().ok().map(|loads| loads.accelerations);
         let (mut row, error) = moving(scene, state, accelerations.map(|all| (all.unknowns, all.inputs)));
-        let cause = match loads {
-            Ok(loads) => {
-                row.extend(numbers(&loads, |input| self.is_driven[input]));
+        let cause = match loads.and_then(|loads| Ok((loads, energy(scene, state)?))) {
+            Ok((loads, energy)) => {
+                row.extend(numbers(&loads, |input| self.is_driven[input]).into_iter().chain(of_energy(energy)));
                 error
             }
             Err(error) => Some(Cause::Motion(error)),
@@ -166,6 +167,12 @@ fn in_words(change: Change) -> &'static str {
         Change::Rests => "holds",
         Change::LetsGo => "lets go",
     }
+}
+
+/// The energy at a state.
+fn energy<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<Energy<f64>>, MotionError> {
+    let (_, rates) = S::Mechanism::rate_parts(&state.rates);
+    scene.energy_of(&state.q, &Inputs::<S>::from(rates))
 }
 
 /// The accelerations u'' and v''.

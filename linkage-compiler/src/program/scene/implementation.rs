@@ -1,6 +1,7 @@
 //! The trait by which simulations call the functions of a scene.
 
 use super::SceneSignatures;
+use crate::model::SceneRequest;
 use crate::program::expression::{Expression, Pattern, Statement, Type, Variable};
 use crate::program::function::{Body, Function, Passed};
 use crate::program::implementation::{
@@ -34,6 +35,7 @@ pub(in crate::program) fn of_scene(signatures: &SceneSignatures, kinks: Vec<Kink
     functions.extend(has_bearings.then(|| of.bearings()));
     functions.extend((!kinks.is_empty()).then(|| of.kink()));
     functions.extend([of.unreduced(), of.prescribed()]);
+    functions.extend(signatures.scene.requests.contains(&SceneRequest::Energy).then(|| of.energy()));
     constants.extend((!kinks.is_empty()).then_some(("KINKS", ConstantValue::Kinks(kinks))));
     let (of, on, error) = (Implemented::Scene, signatures.types.itself.clone(), "MotionError");
     Some(Implementation { of, on, is_generic: true, error, types, constants, functions })
@@ -209,6 +211,14 @@ impl OfScene<'_> {
 
     fn unreduced(&self) -> Function<Body> {
         fallible_of_trait("unreduced", self.motion(), self.sized("Unreduced"), Body::result(call("unreduced")))
+    }
+
+    fn energy(&self) -> Function<Body> {
+        let inputs = Type::Own(self.0.types.inputs.clone());
+        let arguments = [self.coordinates("q", Order::Value), ("input_rates", Passed::ByReference(inputs))];
+        let found = Expression::own_call("energy", [name("q"), name("input_rates").dereferenced()]).tried();
+        let of = Type::Around("Option", Box::new(Type::Runtime("Energy", Vec::new())));
+        fallible_of_trait("energy_of", arguments, of, Body::plain(perhaps(Some(found))))
     }
 
     /// The law of each input that has a drive.
