@@ -141,7 +141,7 @@ fn a_motion_that_ends_early() {
 
 /// The loads of a motion along a path of two inputs: the torques of both motors, against M v'' - Q.
 #[test]
-fn two_motors_along_a_line() {
+fn two_motors() {
     use linkage::continuation::{Along, Line};
 
     linkage! {
@@ -155,6 +155,28 @@ fn two_motors_along_a_line() {
         }
     }
     let scene = Held::default();
+    let scale = scene.m * scene.g;
+    // Along a curve the inputs accelerate: M v'' - Q.
+    let curve = |s: f64| {
+        let at = |shoulder, elbow| ArmInputs { shoulder, elbow };
+        [at(0.2 + s, 0.9 - s * s), at(1.0, -2.0 * s), at(0.0, -2.0)]
+    };
+    let along = Along { mechanism: scene.mechanism.clone(), inputs: curve };
+    let range = RangeOfMotion::on_branch(&along, ArmBranch::default(), [0.0], RangeOptions::default()).unwrap();
+    let table = Table::over_with_loads(&scene, &range, [0.1, 0.4, 0.9], 3.0);
+    assert_eq!(table.missing(), []);
+    let [s, at_shoulder, at_elbow] = columns(&table, [table.names()[0], "shoulder_torque", "elbow_torque"]);
+    for row in 0..3 {
+        let [at, slope, bend] = curve(s[row]);
+        let q = ArmCoordinates { shoulder: at.shoulder, elbow: at.elbow };
+        let rates = ArmInputs { shoulder: slope.shoulder * 3.0, elbow: slope.elbow * 3.0 };
+        let accelerations = [bend.shoulder * 9.0, bend.elbow * 9.0];
+        let (mass, forces) = (scene.mass_matrix(&q).unwrap(), scene.forces(0.0, &q, rates).unwrap());
+        for (input, found) in [at_shoulder[row], at_elbow[row]].into_iter().enumerate() {
+            let inertia = mass[(input, 0)] * accelerations[0] + mass[(input, 1)] * accelerations[1];
+            close("torque", found, inertia - forces[input], 1e-13 * scale);
+        }
+    }
     let (from, to) = (ArmInputs { shoulder: 0.2, elbow: 0.9 }, ArmInputs { shoulder: 1.1, elbow: 0.1 });
     let along = Along { mechanism: scene.mechanism.clone(), inputs: Line { from, to } };
     let start = RangeOfMotion::on_branch(&along, ArmBranch::default(), [0.0], RangeOptions::default()).unwrap();
@@ -168,9 +190,9 @@ fn two_motors_along_a_line() {
         let forces = scene.forces(0.0, &q, rates).unwrap();
         // At constant rates M v'' is zero, and the forces include those of inertia.
         for (found, expected) in [(at_shoulder[row], -forces[0]), (at_elbow[row], -forces[1])] {
-            close("torque", found, expected, 1e-13 * scene.m * scene.g);
+            close("torque", found, expected, 1e-13 * scale);
         }
-        close("power", power[row], -forces[0] * rates.shoulder - forces[1] * rates.elbow, 1e-12 * scene.m * scene.g);
+        close("power", power[row], -forces[0] * rates.shoulder - forces[1] * rates.elbow, 1e-12 * scale);
     }
 }
 
