@@ -3,8 +3,8 @@
 use linkage_dynamics::contact::Change;
 use linkage_dynamics::integrate::Method;
 use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
-use linkage_dynamics::{Energy, Inputs, MotionError, Scene};
-use linkage_runtime::{Column, Dim, Kinematic, Mechanism};
+use linkage_dynamics::{Accelerations, Energy, Inputs, MotionError, Scene};
+use linkage_runtime::{Column, Dim, Kinematic, Mechanism, PositionError};
 
 use super::motion::{coordinates, points_and_outputs};
 use super::scene::{contact_names, load_columns, numbers, of_energy};
@@ -134,7 +134,7 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
 
     fn push(&mut self, scene: &S, state: &State<S>, loads: Result<Loads<S>, MotionError>) {
         let accelerations = loads.as_ref().ok().map(|loads| loads.accelerations);
-        let (mut row, error) = moving(scene, state, accelerations.map(|all| (all.unknowns, all.inputs)));
+        let (mut row, error) = moving(scene, state, accelerations);
         let cause = match loads.and_then(|loads| Ok((loads, energy(scene, state)?))) {
             Ok((loads, energy)) => {
                 row.extend(numbers(&loads, |input| self.is_driven[input]).into_iter().chain(of_energy(energy)));
@@ -175,67 +175,59 @@ fn energy<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<
     scene.energy_of(&state.q, &Inputs::<S>::from(rates))
 }
 
-/// The accelerations u'' and v''.
-type Accelerations<S> =
-    (Column<f64, <<S as Scene>::Mechanism as Mechanism>::U>, Column<f64, <<S as Scene>::Mechanism as Mechanism>::V>);
-
 /// The numbers of a state before its loads, NaN for those that do not exist, and why.
 fn moving<S>(scene: &S, state: &State<S>, accelerations: Option<Accelerations<S>>) -> (Vec<f64>, Option<Cause>)
 where
     S: Scene<Scalar = f64, Mechanism: Kinematic>,
 {
-    let (mechanism, State { q, rates, .. }) = (scene.mechanism(), state);
-    let (unknowns, inputs) = S::Mechanism::parts(q);
-    let (unknown_rates, input_rates) = S::Mechanism::rate_parts(rates);
-    let (of_unknowns, of_inputs) =
-        accelerations.unwrap_or_else(|| (Column::repeat(f64::NAN), Column::repeat(f64::NAN)));
+    let nothing = || Accelerations::<S> { unknowns: Column::repeat(f64::NAN), inputs: Column::repeat(f64::NAN) };
+    let Accelerations::<S> { unknowns: of_unknowns, inputs: of_inputs } = accelerations.unwrap_or_else(nothing);
+    let (unknowns, inputs) = S::Mechanism::parts(&state.q);
+    let (unknown_rates, input_rates) = S::Mechanism::rate_parts(&state.rates);
     let mut row = vec![state.t];
     let each = inputs.iter().zip(&input_rates).zip(&of_inputs);
     row.extend(each.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
     let each = unknowns.iter().zip(&unknown_rates).zip(&of_unknowns);
     row.extend(each.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
 
-    let pose = mechanism.pose_at(q);
     let jumps = jumps(state);
-    let accelerations =
-        accelerations.filter(|_| !jumps).map(|(unknowns, inputs)| S::Mechanism::accelerations(unknowns, inputs));
-    let mut error = None;
-    let mut found = |numbers: Result<Vec<f64>, linkage_runtime::PositionError>, count: usize| {
-        numbers.unwrap_or_else(|of| {
-            error = Some(Cause::Motion(of.into()));
-            vec![f64::NAN; count]
-        })
-    };
-    type Of<S> = <S as Scene>::Mechanism;
-    let points =
-        mechanism.points(&pose).map(|all| Of::<S>::each_point(all).iter().flat_map(|at| [at.x, at.y]).collect());
-    let velocities = mechanism
-        .point_velocities(&pose, rates)
-        .map(|all| Of::<S>::each_point(all).iter().flat_map(|vector| [vector.x, vector.y]).collect());
-    let second = accelerations.map(|accelerations| {
-        let points = mechanism
-            .point_accelerations(&pose, rates, &accelerations)
-            .map(|all| Of::<S>::each_point(all).iter().flat_map(|vector| [vector.x, vector.y]).collect());
-        let outputs = mechanism
-            .output_accelerations(&pose, rates, &accelerations)
-            .map(|all| Of::<S>::each_output(all).iter().copied().collect());
-        (points, outputs)
-    });
-    let (p, o) = (<Of<S> as Kinematic>::P::COUNT, <Of<S> as Kinematic>::O::COUNT);
-    let (second_of_points, second_of_outputs) =
-        second.unwrap_or_else(|| (Ok(vec![f64::NAN; 2 * p]), Ok(vec![f64::NAN; o])));
-    let of_points = [points, velocities, second_of_points].map(|numbers| found(numbers, 2 * p));
-    for point in 0..p {
-        row.extend(of_points.iter().flat_map(|numbers| &numbers[2 * point..2 * point + 2]));
+    let smooth = accelerations.filter(|_| !jumps).map(|all| S::Mechanism::accelerations(all.unknowns, all.inputs));
+    let (p, o) = (<S::Mechanism as Kinematic>::P::COUNT, <S::Mechanism as Kinematic>::O::COUNT);
+    match quantities(scene.mechanism(), &state.q, &state.rates, smooth) {
+        Ok(numbers) => {
+            row.extend(numbers);
+            (row, (jumps && p + o > 0).then_some(Cause::Jump))
+        }
+        Err(error) => {
+            row.extend(std::iter::repeat_n(f64::NAN, 6 * p + 3 * o));
+            (row, Some(Cause::Motion(error.into())))
+        }
     }
-    let values = mechanism.outputs(&pose).map(|all| Of::<S>::each_output(all).iter().copied().collect());
-    let rates = mechanism.output_rates(&pose, rates).map(|all| Of::<S>::each_output(all).iter().copied().collect());
-    let of_outputs = [values, rates, second_of_outputs].map(|numbers| found(numbers, o));
-    for output in 0..o {
-        row.extend(of_outputs.iter().map(|numbers| numbers[output]));
+}
+
+/// The numbers of points and outputs, with NaN where there are no accelerations.
+fn quantities<M: Kinematic<Scalar = f64>>(
+    mechanism: &M,
+    q: &M::Coordinates,
+    rates: &M::Rates,
+    accelerations: Option<M::Accelerations>,
+) -> Result<Vec<f64>, PositionError> {
+    let pose = mechanism.pose_at(q);
+    let mut row = Vec::new();
+    let second = accelerations.map(|second| mechanism.point_accelerations(&pose, rates, &second)).transpose()?;
+    let second = second.map(M::each_point);
+    let (points, velocities) = (mechanism.points(&pose)?, mechanism.point_velocities(&pose, rates)?);
+    for (place, (at, velocity)) in M::each_point(points).iter().zip(&M::each_point(velocities)).enumerate() {
+        let [x, y] = second.map_or([f64::NAN; 2], |second| [second[place].x, second[place].y]);
+        row.extend([at.x, at.y, velocity.x, velocity.y, x, y]);
     }
-    let has_seconds = p + o > 0;
-    (row, error.or((jumps && has_seconds).then_some(Cause::Jump)))
+    let second = accelerations.map(|second| mechanism.output_accelerations(&pose, rates, &second)).transpose()?;
+    let second = second.map(M::each_output);
+    let (outputs, output_rates) = (mechanism.outputs(&pose)?, mechanism.output_rates(&pose, rates)?);
+    for (place, (value, rate)) in M::each_output(outputs).iter().zip(&M::each_output(output_rates)).enumerate() {
+        row.extend([*value, *rate, second.map_or(f64::NAN, |second| second[place])]);
+    }
+    Ok(row)
 }
 
 /// True if the rates may jump at this state.
