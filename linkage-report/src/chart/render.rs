@@ -214,10 +214,11 @@ impl Frame<'_> {
                 let y = TOP + 10.0 + APART * row as f64;
                 format!("<text class=\"soft mark\" x=\"{from:.1}\" y=\"{y:.1}\">{name}</text>")
             });
-            let label = label.unwrap_or_default();
-            format!("<path class=\"line\" d=\"M{x:.1} {TOP}V{bottom:.1}\"><title>{name}</title></path>{label}")
+            let line = format!("<path class=\"line\" d=\"M{x:.1} {TOP}V{bottom:.1}\"><title>{name}</title></path>");
+            (line, label.unwrap_or_default())
         });
-        drawn.collect()
+        let (lines, labels): (String, String) = drawn.unzip();
+        lines + &labels
     }
 
     fn curve(&self, curve: &Curve) -> String {
