@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use linkage::nalgebra::{Complex, UnitComplex};
-use linkage::{Elbow, PositionError, Real, linkage};
+use linkage::{Elbow, InputValues, PositionError, Real, linkage};
 
 linkage! {
     /// No angle of this mechanism is read, so none is computed.
@@ -68,7 +68,12 @@ fn by_hand_alike(m: &FourBar, theta2: f64) -> Result<FourBarPose, PositionError>
     let (sum, difference) = (m.l3 + m.l4, m.l3 - m.l4);
     let radicand = (sum * sum - distance) * (distance - difference * difference);
     if radicand < 0.0 {
-        return Err(PositionError::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap: -radicand });
+        return Err(PositionError::Unbuildable {
+            mechanism: "FourBar",
+            group: "theta3, theta4",
+            gap: -radicand,
+            inputs: InputValues::default(),
+        });
     }
     let across = 0.5 * radicand.sqrt();
     let along = 0.5 * (distance + m.l3 * m.l3 - m.l4 * m.l4);

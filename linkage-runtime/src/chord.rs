@@ -2,6 +2,7 @@
 
 use crate::bounded::{exact, has_bound, instead, lost};
 use crate::branch::Side;
+use crate::error::{InputValues, Origin};
 use crate::linear::{is_nonzero, power_of_two_below};
 use crate::native::same;
 use crate::scalar::to_f64;
@@ -33,7 +34,7 @@ pub const COINCIDENT_ULPS: f64 = 8.0;
 /// [`PositionError::NotFinite`] if a number is not finite.
 #[inline]
 pub fn chord<T: Real, S: Side>(
-    mechanism: &'static str,
+    origin: impl Origin,
     group: &'static str,
     factors: [T; 2],
     radius: T,
@@ -46,7 +47,8 @@ pub fn chord<T: Real, S: Side>(
     let root = if is_in_range(radicand) {
         radicand.sqrt()
     } else {
-        touching_chord(mechanism, group, low, high, radius, scales[0], scales[1])?
+        touching_chord(origin.mechanism(), group, low, high, radius, scales[0], scales[1])
+            .map_err(|error| origin.located(error))?
     };
     Ok(side.signed(root))
 }
@@ -58,7 +60,7 @@ pub fn chord<T: Real, S: Side>(
 /// Those of [`chord`].
 #[inline]
 pub fn reach_chord<T: Real, S: Side>(
-    mechanism: &'static str,
+    origin: impl Origin,
     group: &'static str,
     factors: [T; 2],
     radius: T,
@@ -66,9 +68,10 @@ pub fn reach_chord<T: Real, S: Side>(
     side: S,
 ) -> Result<T, PositionError> {
     if radius <= real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scales[0] {
-        touching_chord(mechanism, group, factors[0], factors[1], radius, scales[0], scales[1])?;
+        touching_chord(origin.mechanism(), group, factors[0], factors[1], radius, scales[0], scales[1])
+            .map_err(|error| origin.located(error))?;
     }
-    chord(mechanism, group, factors, radius, scales, side)
+    chord(origin, group, factors, radius, scales, side)
 }
 
 /// Returns an error if the determinant of a group of linear unknowns is zero. `numerators` are those of Cramer's rule,
@@ -79,14 +82,18 @@ pub fn reach_chord<T: Real, S: Side>(
 /// [`PositionError::NotFinite`] if a numerator is not finite.
 #[inline]
 pub fn solvable<T: Real, const N: usize>(
-    mechanism: &'static str,
+    origin: impl Origin,
     group: &'static str,
     determinant: T,
     numerators: [T; N],
     scales: [T; N],
 ) -> Result<(), PositionError> {
     // A determinant that is NaN makes the position NaN, which is reported when the position is complete.
-    if determinant.is_zero() { Err(unsolvable(mechanism, group, &numerators, &scales)) } else { Ok(()) }
+    if determinant.is_zero() {
+        Err(origin.located(unsolvable(origin.mechanism(), group, &numerators, &scales)))
+    } else {
+        Ok(())
+    }
 }
 
 /// Returns an error if a distance that an equation gives is negative.
@@ -94,9 +101,9 @@ pub fn solvable<T: Real, const N: usize>(
 /// # Errors
 /// [`PositionError::Unbuildable`], with the whole distance as the gap.
 #[inline]
-pub fn reachable<T: Real>(mechanism: &'static str, group: &'static str, distance: T) -> Result<(), PositionError> {
+pub fn reachable<T: Real>(origin: impl Origin, group: &'static str, distance: T) -> Result<(), PositionError> {
     // A distance that is NaN makes the position NaN, which is reported when the position is complete.
-    if distance < T::zero() { Err(PositionError::Unbuildable { mechanism, group, gap: 1.0 }) } else { Ok(()) }
+    if distance < T::zero() { Err(origin.located(unbuildable(origin.mechanism(), group, 1.0))) } else { Ok(()) }
 }
 
 #[cold]
@@ -111,8 +118,13 @@ fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators:
     } else if gap <= tolerance {
         PositionError::Undetermined { mechanism, group }
     } else {
-        PositionError::Unbuildable { mechanism, group, gap: to_f64(gap) }
+        unbuildable(mechanism, group, to_f64(gap))
     }
+}
+
+/// The error of a group that cannot be assembled; its caller may know the inputs.
+fn unbuildable(mechanism: &'static str, group: &'static str, gap: f64) -> PositionError {
+    PositionError::Unbuildable { mechanism, group, gap, inputs: InputValues::default() }
 }
 
 /// The quantity named in errors of this module.
@@ -194,7 +206,7 @@ impl<T: Real> Triangle<T> {
 /// and the links are equally long or if a link has no length, [`PositionError::NotFinite`] if a number is not finite.
 #[inline(always)]
 pub fn elbow_chord<T: Real, S: Side>(
-    mechanism: &'static str,
+    origin: impl Origin,
     group: &'static str,
     triangle: Triangle<T>,
     side: S,
@@ -207,7 +219,7 @@ pub fn elbow_chord<T: Real, S: Side>(
     } else if is_open {
         root(low, high, reach_squared)
     } else {
-        flat_chord(mechanism, group, p, q, x, y, scale)?
+        flat_chord(origin.mechanism(), group, p, q, x, y, scale).map_err(|error| origin.located(error))?
     };
     Ok((side.signed(root), is_plain))
 }
@@ -329,7 +341,7 @@ fn flat_chord<T: Real>(
         return Err(if is_undetermined {
             PositionError::Undetermined { mechanism, group }
         } else {
-            PositionError::Unbuildable { mechanism, group, gap: to_f64(gap * gap) }
+            unbuildable(mechanism, group, to_f64(gap * gap))
         });
     }
     let [low, high] = exact_factors(p, q, x, y, sum, distance);
@@ -344,7 +356,7 @@ fn flat_chord<T: Real>(
     } else if -least <= tolerance {
         in_line(low, high, sum)
     } else {
-        return Err(PositionError::Unbuildable { mechanism, group, gap: to_f64(relative(-least, sum)) });
+        return Err(unbuildable(mechanism, group, to_f64(relative(-least, sum))));
     };
     // A link of length zero can have any angle.
     if p.is_zero() || q.is_zero() { Err(PositionError::Undetermined { mechanism, group }) } else { Ok(root) }
@@ -440,7 +452,7 @@ fn touching_chord<T: Real>(
     if least > T::zero() && !vanishes {
         Ok(root(low, high, radius))
     } else if -least > tolerance {
-        Err(PositionError::Unbuildable { mechanism, group, gap: to_f64(relative(-least, radius)) })
+        Err(unbuildable(mechanism, group, to_f64(relative(-least, radius))))
     } else if vanishes {
         Err(PositionError::Undetermined { mechanism, group })
     } else {

@@ -5,7 +5,7 @@ use std::thread;
 
 use linkage::Elbow;
 use linkage::PathError;
-use linkage::continuation::{Along, AlongCoordinates, Direction, Path, PathStep};
+use linkage::continuation::{Along, AlongCoordinates, Direction, Options, Path, PathStep};
 use linkage::range_of_motion::{MotionByLength, RangeOfMotion, RangeOptions};
 
 linkage::linkage! {
@@ -92,8 +92,9 @@ fn a_path_of_inputs_is_owned() {
     let q = start(&m);
     let along = move || Along { mechanism: FourBar::default(), inputs: |s: f64| [[0.5 + s * s], [2.0 * s], [2.0]] };
     let started = AlongCoordinates { q, parameter: 0.1 };
-    let owned = RangeOfMotion::of(along(), &started, RangeOptions::default()).unwrap();
-    let shared = Arc::new(along());
-    let shared = RangeOfMotion::of(shared, &started, RangeOptions::default()).unwrap();
+    let options = Options { range: Some([-1.0, 1.0]), ..Options::default() };
+    let options = RangeOptions { path: options, ..RangeOptions::default() };
+    let owned = RangeOfMotion::of(along(), &started, options).unwrap();
+    let shared = RangeOfMotion::of(Arc::new(along()), &started, options).unwrap();
     assert_eq!(owned.at(0.7).unwrap(), shared.at(0.7).unwrap());
 }

@@ -330,7 +330,9 @@ impl Bits for JansenPose<f64> {
 fn links_that_do_not_reach_are_named() {
     let short = FourBar::new(80.0, 20.0, 10.0, 10.0);
     match short.assemble(0.3, branch(Elbow::Right)) {
-        Err(PositionError::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap }) => assert!(gap > 1.0),
+        Err(PositionError::Unbuildable { mechanism: "FourBar", group: "theta3, theta4", gap, .. }) => {
+            assert!(gap > 1.0)
+        }
         other => panic!("{other:?}"),
     }
     // The second of two groups: its links are too short, the first assembles.

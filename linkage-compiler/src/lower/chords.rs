@@ -79,13 +79,13 @@ impl Writer<'_> {
                 if is_regular {
                     (Intrinsic::RegularElbowChord, vec![triangle, side])
                 } else {
-                    (Intrinsic::ElbowChord, vec![self.error_name(), self.group(group), triangle, side])
+                    (Intrinsic::ElbowChord, vec![self.origin(), self.group(group), triangle, side])
                 }
             }
             ChordGeometry::Circle { scales, may_cancel } => {
                 let chord = if may_cancel { Intrinsic::ReachChord } else { Intrinsic::Chord };
                 let scales = self.list(scales);
-                (chord, vec![self.error_name(), self.group(group), factors, size, scales, side])
+                (chord, vec![self.origin(), self.group(group), factors, size, scales, side])
             }
             ChordGeometry::RegularCircle { scale: None } => (Intrinsic::RegularChord, vec![factors, size, side]),
             ChordGeometry::RegularCircle { scale: Some(scale) } => {

@@ -160,7 +160,8 @@ impl Writer<'_> {
 
     /// Adds a call that checks a group, or the flag of its form over lanes.
     fn check(&mut self, of: Intrinsic, group: GroupId, arguments: impl IntoIterator<Item = ValueId>) {
-        let common = [self.error_name(), self.group(group)];
+        let origin = if of == Intrinsic::Regular { self.error_name() } else { self.origin() };
+        let common = [origin, self.group(group)];
         let arguments: Vec<ValueId> = common.into_iter().chain(arguments).collect();
         if self.is_flagged()
             && let Some(form) = of.row().in_lane

@@ -196,6 +196,22 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// The mechanism at its inputs in the errors of a group that cannot be assembled; its name where they are not numbers of the
+    /// kernel, or where nothing reads the error.
+    pub(super) fn origin(&mut self) -> ValueId {
+        let derivation = self.context.derivation;
+        let inputs = derivation.inputs.iter().map(|&column| derivation.coordinates[column].value);
+        let inputs: Option<Vec<ValueId>> = inputs.map(|input| self.symbols.get(&input).copied()).collect();
+        let is_read = self.kernel.error_name.is_none() && self.otherwise.is_none() && !self.is_flagged();
+        match inputs.filter(|_| is_read) {
+            Some(inputs) => {
+                let inputs = self.list(inputs);
+                self.call(Intrinsic::At, [inputs])
+            }
+            None => self.error_name(),
+        }
+    }
+
     pub(super) fn group(&mut self, group: GroupId) -> ValueId {
         let title = self.context.derivation.groups[group].title(self.context.derivation);
         self.text(title)

@@ -248,6 +248,8 @@ intrinsics! {
     OutputMotions "output_motions" Function [Mechanism, Columns] {
         meaning: Meaning::Named(Entry::OutputMotion), is_unchanged: true
     }
+    /// The mechanism at its inputs, as the first argument of functions that know no more than the mechanism.
+    At "at::<Self, _>" Function [Numbers] {}
     Regular "regular" Function [Mechanism, Part, Number, Number] { meaning: Meaning::Check("regular", &[2, 3]) }
     IsNonzero "is_nonzero" Function [Number, Number] { meaning: Meaning::Check("regular", &[0, 1]) }
     Closes "closes" Function [Number, Number] {}

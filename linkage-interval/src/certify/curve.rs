@@ -46,7 +46,7 @@ pub struct Curve<M: Certifiable> {
 }
 
 /// The statement that is proved, in one line, with angles in degrees: `FourBar: one closed curve, on which theta turns back at
-/// 78.58481°, -78.58481°`.
+/// 78.58484°, -78.58484°`.
 impl<M: Certifiable> fmt::Display for Curve<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { system, dead_points, .. } = self;

@@ -2,6 +2,7 @@
 
 mod digits;
 mod input;
+mod inputs;
 mod path;
 mod position;
 
@@ -10,6 +11,7 @@ use core::iter::Empty;
 use nalgebra::SMatrix;
 
 pub use input::InputError;
+pub use inputs::{InputValues, Origin, at};
 pub use path::PathError;
 pub use position::PositionError;
 

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::InputError;
+use super::{InputError, InputValues};
 
 /// The reason why a mechanism has no position at its inputs, or no velocity or force at its position. All measures are
 /// nondimensional: scaling all lengths of a mechanism changes none of them.
@@ -31,6 +31,8 @@ pub enum PositionError {
         /// distance of the outer joints is outside the range that the links span, divided by the square of the sum of
         /// their lengths; for other groups the gap divided by the length of the link.
         gap: f64,
+        /// The inputs.
+        inputs: InputValues,
     },
     /// A group has infinitely many positions at this input. For two links (RRR) the outer joints coincide and the
     /// lengths are equal up to rounding error, or a length is zero. For other groups all that determines an unknown
@@ -127,10 +129,10 @@ impl fmt::Display for PositionError {
                 "{mechanism} is in a singular configuration: group {group} has regularity {regularity:.1e}, 0 is \
                  singular"
             ),
-            Self::Unbuildable { mechanism, group, gap } => {
+            Self::Unbuildable { mechanism, group, gap, inputs } => {
                 write!(
                     f,
-                    "{mechanism} cannot be assembled at this input: group {group} does not close by a relative gap of \
+                    "{mechanism} cannot be assembled at {inputs}: group {group} does not close by a relative gap of \
                      {gap:.1e}"
                 )
             }

@@ -31,6 +31,14 @@ linkage::linkage! {
         derive limits;
     }
 
+    #[derive(Debug, Clone)]
+    mechanism Robot {
+        param a = 1, b = 1.2, e = 2;
+        input left, right;
+        unknown phi, psi;
+        loop a@left + b@phi = e@0 + a@right + b@psi;
+    }
+
     /// The second dyad stops the first.
     #[derive(Debug, Clone)]
     mechanism SixBar {
@@ -58,8 +66,8 @@ fn vectors_in_one_line() {
 fn coordinates_by_name() {
     let m = Engine::default();
     let q = m.assemble(3.0, EngineBranch::new(Elbow::Left)).unwrap().coordinates();
-    assert_eq!(m.named(&q).to_string(), format!("z = 3, phi = {}°, psi = 19.18814°", "-80.40593"));
-    assert_eq!(format!("{:.1}", m.named(&q)), "z = 3.0, phi = -80.4°, psi = 19.2°");
+    assert_eq!(m.named(&q).to_string(), "z = 3, phi = 80.40593°, psi = -19.18814°");
+    assert_eq!(format!("{:.1}", m.named(&q)), "z = 3.0, phi = 80.4°, psi = -19.2°");
     let found = m.solve(&EngineCoordinates { z: 3.0, phi: -1.4, psi: 0.33 }).unwrap();
     let line = found.to_string();
     let expected =
@@ -75,7 +83,7 @@ fn limits_in_one_line() {
     let crank = FourBar::default().limits(0.5, FourBarBranch::new(Elbow::Left)).unwrap();
     assert_eq!(
         crank.to_string(),
-        "theta from -78.58481° (links of phi, psi in line) to 78.58481° (links of phi, psi in line)"
+        "theta from -78.58484° (links of phi, psi in line) to 78.58484° (links of phi, psi in line)"
     );
     assert_eq!(
         format!("{crank:.1}"),
@@ -90,4 +98,24 @@ fn limits_in_one_line() {
     let start = (0..360).map(|degree| f64::from(degree).to_radians()).find(|v| m.assemble(*v, branch).is_ok()).unwrap();
     let searched = m.limits(start, branch).unwrap().to_string();
     assert!(searched.contains("° (theta4, theta5, found by search)"), "{searched}");
+}
+
+/// The error of a position has the inputs at which there is none.
+#[test]
+fn inputs_of_errors() {
+    let (m, branch) = (FourBar::default(), FourBarBranch::new(Elbow::Left));
+    let start = "FourBar cannot be assembled at theta = 90°: group phi, psi ";
+    let theta = std::f64::consts::FRAC_PI_2;
+    let none = m.assemble(theta, branch).unwrap_err();
+    assert!(none.to_string().starts_with(start), "{none}");
+    assert_eq!(m.kinematics(theta, branch, 1.0, 0.0).unwrap_err(), none);
+    // The last digits of the gap are those of the scalar.
+    let single = FourBar::<f32>::new(4.0, 3.0, 2.0, 2.5).assemble(theta as f32, branch).unwrap_err();
+    assert!(single.to_string().starts_with(start), "{single}");
+    let robot = Robot::default();
+    let none = robot.assemble(RobotInputs { left: 3.0, right: 0.25 }, RobotBranch::new(Elbow::Left)).unwrap_err();
+    assert!(
+        none.to_string().starts_with("Robot cannot be assembled at left = 171.8873°, right = 14.32394°: "),
+        "{none}"
+    );
 }

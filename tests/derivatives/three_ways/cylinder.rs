@@ -58,5 +58,8 @@ fn a_negative_distance() {
     assert_eq!(m.branches(-50.0).unwrap().count(), 0);
     let branch = DistancesBranch::all().next().unwrap();
     let error = m.assemble(-50.0, branch).unwrap_err();
-    assert_eq!(error, linkage::PositionError::Unbuildable { mechanism: "Distances", group: "x, y", gap: 1.0 });
+    let linkage::PositionError::Unbuildable { mechanism: "Distances", group: "x, y", gap: 1.0, inputs } = error else {
+        panic!("{error:?}")
+    };
+    assert!(inputs.iter().eq([("stroke", -50.0)]), "{inputs:?}");
 }

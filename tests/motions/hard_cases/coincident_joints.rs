@@ -319,7 +319,7 @@ fn parallel_guides() {
     let at = |scale: f64| Guides { a: 4.0 * scale, b: scale, alpha: 0.5 };
     let branch = GuidesBranch {};
     let apart = at_all_scales(|scale| at(scale).assemble(0.5, branch).map(|pose| pose.s));
-    let Err(PositionError::Unbuildable { mechanism: "Guides", group: "s, u", gap }) = apart else {
+    let Err(PositionError::Unbuildable { mechanism: "Guides", group: "s, u", gap, .. }) = apart else {
         panic!("{apart:?}")
     };
     // Their distance, relative to its terms.

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use linkage_dynamics::MotionError;
 use linkage_dynamics::integrate::{Action, Crossing, FixedStep, System, Tolerance, dop853, dopri5, watched};
 use linkage_runtime::nalgebra::vector;
-use linkage_runtime::{Column, D, InputError, PositionError};
+use linkage_runtime::{Column, D, InputError, InputValues, PositionError};
 
 use super::systems::{HORIZONTAL, pendulum};
 use super::{Entries, Rate, State, tolerance};
@@ -68,7 +68,12 @@ fn output_times_must_lie_ahead() {
 /// y' = 1 / sqrt(1 - t), which ends at t = 1 with y = 2; beyond it the rate is NaN or an error.
 #[test]
 fn a_motion_that_ends_is_followed_to_its_end() {
-    let own = MotionError::from(PositionError::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 });
+    let own = MotionError::from(PositionError::Unbuildable {
+        mechanism: "Crank",
+        group: "theta",
+        gap: 0.1,
+        inputs: InputValues::default(),
+    });
     for (fails, expected) in [(false, None), (true, Some(own))] {
         let rate = move |t: f64, _: &State<1>| match expected {
             Some(error) if t > 1.0 => Err(error),
@@ -95,7 +100,12 @@ fn a_motion_that_ends_is_followed_to_its_end() {
 
 #[test]
 fn the_own_error_of_a_rate_comes_back_at_its_place() {
-    let own = MotionError::from(PositionError::Unbuildable { mechanism: "Crank", group: "theta", gap: 0.1 });
+    let own = MotionError::from(PositionError::Unbuildable {
+        mechanism: "Crank",
+        group: "theta",
+        gap: 0.1,
+        inputs: InputValues::default(),
+    });
     for wrong in [Err(own), Ok(vector![f64::NAN, 0.0]), Ok(vector![0.0, f64::INFINITY])] {
         let rate = move |t: f64, y: &State<2>| if t > 1.0 { wrong } else { pendulum(t, y) };
         let fails = |error: MotionError| {

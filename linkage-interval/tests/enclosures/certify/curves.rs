@@ -31,7 +31,7 @@ fn a_four_bar_without_full_turn() {
     let found: Vec<_> = curve.dead_points().iter().map(|point| (point.input, point.is_largest)).collect();
     assert_eq!(found.len(), 2);
     let line = curve.to_string();
-    assert_eq!(line, "Loops: one closed curve, on which v turns back at 78.58481°, -78.58481°");
+    assert_eq!(line, "Loops: one closed curve, on which v turns back at 78.58484°, -78.58484°");
     assert!(is_limit(found[0].0, limit) && found[0].1, "{found:?}");
     assert!(is_limit(found[1].0, -limit) && !found[1].1, "{found:?}");
     assert!(curve.passes(&start) && curve.passes(&other));

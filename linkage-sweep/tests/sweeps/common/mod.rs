@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use linkage_runtime::lanes::{Found, Given, Lanes};
-use linkage_runtime::{D, PositionError, Real, real};
+use linkage_runtime::{D, InputValues, PositionError, Real, real};
 use linkage_sweep::{Distribution, Plan, Progress, Sequence, Sweep};
 
 #[derive(Debug, Clone, Copy)]
@@ -77,7 +77,7 @@ impl<T: Real> Lanes for Crank<T> {
         let (mechanism, group) = (Self::NAME, "s");
         if square < T::zero() {
             let gap = linkage_runtime::nalgebra::try_convert(-square / (self.l * self.l)).unwrap_or(f64::NAN);
-            return Err(PositionError::Unbuildable { mechanism, group, gap });
+            return Err(PositionError::Unbuildable { mechanism, group, gap, inputs: InputValues::default() });
         }
         if square == T::zero() {
             return Err(PositionError::Singular { mechanism, group, regularity: 0.0 });
