@@ -15,7 +15,7 @@ pub use crate::chord::{
     Triangle, chord, elbow_chord, reach_chord, reachable, regular_chord, regular_elbow_chord, regular_reach_chord,
     solvable,
 };
-pub use crate::error::{at, finite, finite_matrix, no_closed_form, no_list, too_many_branches};
+pub use crate::error::{finite, finite_matrix, no_closed_form, no_list, too_many_branches};
 pub use crate::implied::{closes, implied};
 pub use crate::joints::{Joint, JointForces};
 pub use crate::kinematic::{FullKinematicsOf, Kinematic, KinematicsOf, MotionOf, Quantity};
@@ -26,6 +26,7 @@ pub use crate::modes::{Loops, Memory, Unknown};
 pub use crate::motion::{
     each_sized, finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };
+pub use crate::origin::at;
 pub use crate::position::newton_group;
 pub use crate::ranges::{in_range, ranged, ranged_direction, ranged_modulo_turns};
 pub use crate::scalar::{largest, unit};

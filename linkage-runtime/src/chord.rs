@@ -2,9 +2,10 @@
 
 use crate::bounded::{exact, has_bound, instead, lost};
 use crate::branch::Side;
-use crate::error::{InputValues, Origin};
+use crate::error::InputValues;
 use crate::linear::{is_nonzero, power_of_two_below};
 use crate::native::same;
+use crate::origin::Origin;
 use crate::scalar::to_f64;
 use crate::{PositionError, Real, real};
 

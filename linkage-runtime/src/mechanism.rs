@@ -1,11 +1,13 @@
 //! The trait that every emitted mechanism implements.
 
-use core::fmt::Debug;
+use core::fmt::{self, Debug, Display, Formatter};
 
 use crate::error::all_finite;
 use crate::linear::same_signs;
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, InputError, Matrix, Named, PositionError, Ranged, Real};
+use crate::scalar::to_f64;
+use crate::shown::Shown;
+use crate::{Column, Dim, InputError, Matrix, PositionError, Ranged, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -220,6 +222,24 @@ pub trait Mechanism {
     #[inline]
     fn same_branch(&self, pose: &Self::Pose, other: &Self::Pose) -> bool {
         same_signs(self.block_determinants(pose).as_slice(), self.block_determinants(other).as_slice())
+    }
+}
+
+/// The coordinates of a position by name, in one line. Made by [`Mechanism::named`].
+#[derive(Debug)]
+pub struct Named<M: Mechanism + ?Sized>(M::Coordinates);
+
+impl<M: Mechanism + ?Sized> Display for Named<M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (unknowns, inputs) = M::parts(&self.0);
+        let inputs = inputs.into_iter().zip(M::INPUTS).zip(M::INPUT_ANGLES);
+        let unknowns = unknowns.into_iter().zip(M::UNKNOWNS).zip(M::UNKNOWN_ANGLES);
+        for (place, ((value, name), &is_angle)) in inputs.chain(unknowns).enumerate() {
+            f.write_str(if place == 0 { "" } else { ", " })?;
+            write!(f, "{name} = ")?;
+            Display::fmt(&Shown { value: to_f64(value), is_angle }, f)?;
+        }
+        Ok(())
     }
 }
 

@@ -1,9 +1,6 @@
-//! Numbers and coordinates as people read them: a short line, with angles in degrees.
+//! Numbers as people read them, with angles in degrees.
 
 use core::fmt::{self, Display, Formatter, Write};
-
-use crate::Mechanism;
-use crate::scalar::to_f64;
 
 /// The significant digits of a number without a precision.
 const DIGITS: usize = 7;
@@ -78,24 +75,6 @@ impl Write for Text {
         let end = self.length + part.len();
         self.bytes.get_mut(self.length..end).ok_or(fmt::Error)?.copy_from_slice(part.as_bytes());
         self.length = end;
-        Ok(())
-    }
-}
-
-/// The coordinates of a position by name, in one line. Made by [`Mechanism::named`].
-#[derive(Debug)]
-pub struct Named<M: Mechanism + ?Sized>(pub(crate) M::Coordinates);
-
-impl<M: Mechanism + ?Sized> Display for Named<M> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let (unknowns, inputs) = M::parts(&self.0);
-        let inputs = inputs.into_iter().zip(M::INPUTS).zip(M::INPUT_ANGLES);
-        let unknowns = unknowns.into_iter().zip(M::UNKNOWNS).zip(M::UNKNOWN_ANGLES);
-        for (place, ((value, name), &is_angle)) in inputs.chain(unknowns).enumerate() {
-            f.write_str(if place == 0 { "" } else { ", " })?;
-            write!(f, "{name} = ")?;
-            Shown { value: to_f64(value), is_angle }.fmt(f)?;
-        }
         Ok(())
     }
 }

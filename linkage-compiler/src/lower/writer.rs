@@ -205,8 +205,8 @@ impl<'a> Writer<'a> {
         let is_read = self.kernel.error_name.is_none() && self.otherwise.is_none() && !self.is_flagged();
         match inputs.filter(|_| is_read) {
             Some(inputs) => {
-                let inputs = self.list(inputs);
-                self.call(Intrinsic::At, [inputs])
+                let (own, inputs) = (self.variable("self"), self.list(inputs));
+                self.call(Intrinsic::At, [own, inputs])
             }
             None => self.error_name(),
         }

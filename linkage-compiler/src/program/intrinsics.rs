@@ -248,8 +248,8 @@ intrinsics! {
     OutputMotions "output_motions" Function [Mechanism, Columns] {
         meaning: Meaning::Named(Entry::OutputMotion), is_unchanged: true
     }
-    /// The mechanism at its inputs, as the first argument of functions that know no more than the mechanism.
-    At "at::<Self, _>" Function [Numbers] {}
+    /// The mechanism at its inputs, in place of its name, so that an error names them.
+    At "at" Function [Data, Numbers] {}
     Regular "regular" Function [Mechanism, Part, Number, Number] { meaning: Meaning::Check("regular", &[2, 3]) }
     IsNonzero "is_nonzero" Function [Number, Number] { meaning: Meaning::Check("regular", &[0, 1]) }
     Closes "closes" Function [Number, Number] {}

@@ -11,7 +11,7 @@ use core::iter::Empty;
 use nalgebra::SMatrix;
 
 pub use input::InputError;
-pub use inputs::{InputValues, Origin, at};
+pub use inputs::InputValues;
 pub use path::PathError;
 pub use position::PositionError;
 
