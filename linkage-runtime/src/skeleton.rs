@@ -35,7 +35,8 @@ pub enum Part {
 ///
 /// `linkage!` implements it on request, by `derive drawing;`. The parts are guessed from the vectors of loops and points:
 /// a vector of constant length at a moving angle is a bar, one of variable length a slider or a sleeve; vectors that turn
-/// together and share a joint are one link.
+/// together and share a joint are one link, and so are three links that meet in three joints. A declared point that moves
+/// and is no joint leaves its path.
 #[diagnostic::on_unimplemented(message = "`{Self}` has no drawing", note = "write `derive drawing;` in its `linkage!`")]
 pub trait Skeleton: Mechanism {
     /// Twice the number of joints.

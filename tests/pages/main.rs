@@ -3,6 +3,7 @@
 mod animation;
 mod charts;
 mod door_closer;
+mod drawings;
 mod engine;
 mod example_files;
 mod manual;

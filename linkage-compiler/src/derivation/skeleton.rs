@@ -37,10 +37,48 @@ struct Edge {
     link: Link,
 }
 
-/// Joints that turn as one body.
+/// Joints that turn as one body, with the angles of its vectors.
 struct Body {
-    angle: NodeId,
+    angles: Vec<NodeId>,
     joints: BTreeSet<usize>,
+}
+
+impl Body {
+    fn meets(&self, other: &Self) -> bool {
+        !self.joints.is_disjoint(&other.joints)
+    }
+}
+
+/// Makes one body of three that meet in three joints, a rigid triangle, until there are no more.
+fn join_triangles(mut bodies: Vec<Body>) -> Vec<Body> {
+    while let Some([first, second, third]) = triangle(&bodies) {
+        // From the last, so that the others keep their places.
+        for at in [third, second] {
+            let Body { angles, joints } = bodies.remove(at);
+            bodies[first].angles.extend(angles);
+            bodies[first].joints.extend(joints);
+        }
+    }
+    bodies
+}
+
+/// The places of three bodies that meet in three joints, in order.
+fn triangle(bodies: &[Body]) -> Option<[usize; 3]> {
+    let later = |at: usize| bodies.iter().enumerate().skip(at + 1);
+    for (first, one) in bodies.iter().enumerate() {
+        for (second, other) in later(first).filter(|(_, other)| one.meets(other)) {
+            let is_third = |third: &Body| {
+                let corners = [(one, other), (other, third), (third, one)];
+                let shared = corners.map(|(a, b)| a.joints.intersection(&b.joints).copied().collect::<BTreeSet<_>>());
+                let all: BTreeSet<usize> = shared.iter().flatten().copied().collect();
+                shared.iter().all(|joints| !joints.is_empty()) && all.len() > 2
+            };
+            if let Some((third, _)) = later(second).find(|(_, third)| is_third(third)) {
+                return Some([first, second, third]);
+            }
+        }
+    }
+    None
 }
 
 impl Skeleton {
@@ -130,10 +168,10 @@ impl Tracer<'_> {
                 continue;
             };
             let ends = edge.ends.map(|end| self.joints.find(end));
-            let mut body = Body { angle, joints: BTreeSet::from(ends) };
+            let mut body = Body { angles: vec![angle], joints: BTreeSet::from(ends) };
             let mut rest = Vec::new();
             for other in bodies {
-                let is_rigid = self.is_constant_apart(angle, other.angle);
+                let is_rigid = self.is_constant_apart(angle, other.angles[0]);
                 match is_rigid && !other.joints.is_disjoint(&body.joints) {
                     true => body.joints.extend(other.joints),
                     false => rest.push(other),
@@ -142,7 +180,7 @@ impl Tracer<'_> {
             rest.push(body);
             bodies = rest;
         }
-        bodies
+        join_triangles(bodies)
     }
 
     /// True if the length of a link depends on a coordinate.
@@ -185,7 +223,7 @@ impl Tracer<'_> {
         let mut pivots: BTreeSet<usize> = BTreeSet::new();
         for body in &bodies {
             let fixed = body.joints.iter().copied().find(|&joint| is_fixed[joint]);
-            let is_input = self.graph.symbols_of(&[body.angle]).iter().any(|symbol| driving.contains(symbol));
+            let is_input = self.graph.symbols_of(&body.angles).iter().any(|symbol| driving.contains(symbol));
             pivots.extend(fixed);
             let first = fixed.into_iter();
             let joints = first.chain(body.joints.iter().copied().filter(|&joint| Some(joint) != fixed)).collect();
@@ -199,8 +237,8 @@ impl Tracer<'_> {
             match edge.link.angle.filter(|&angle| self.moves(&[angle])) {
                 Some(angle) => {
                     let arm = bodies.iter().find(|body| {
-                        let difference = self.graph.subtract(angle, body.angle);
-                        body.joints.contains(&from) && !self.moves(&[difference])
+                        let mut angles = body.angles.iter();
+                        body.joints.contains(&from) && angles.any(|&other| self.is_constant_apart(angle, other))
                     });
                     let towards = arm.and_then(|arm| arm.joints.iter().copied().find(|&joint| joint != from));
                     pivots.extend(is_fixed[from].then_some(from));

@@ -1,6 +1,6 @@
-//! Linkages as SVG: a [`Drawing`] of one position, with named points, joints, bars, velocity and acceleration
-//! vectors to scale, axes and a legend; an [`Animation`] of a whole motion, with coupler curves; a [`CircuitChart`] of the
-//! circuits of a mechanism.
+//! Linkages as SVG: a [`Drawing`] of one position, with axes, and with velocities, accelerations and forces to scale; an
+//! [`Animation`] of a whole motion, in the same style, with the paths of points; a [`CircuitChart`] of the circuits of a
+//! mechanism.
 //!
 //! ```
 //! use linkage_report::drawing::Drawing;
