@@ -27,7 +27,8 @@ fn signatures<B>(functions: &Functions<B>) -> Vec<String> {
         .iter()
         .filter(|function| matches!(function.access, Access::Public | Access::Hidden | Access::OfMechanism));
     // These follow from the vectors of a finished mechanism.
-    let public = public.filter(|function| !["joints", "length_scale"].contains(&function.name.as_str()));
+    let of_vectors = ["joints", "guides", "force_places", "length_scale"];
+    let public = public.filter(|function| !of_vectors.contains(&function.name.as_str()));
     let signature = |function: &Function<B>| {
         let Function { name, is_method, arguments, returns, is_fallible, .. } = function;
         format!("{name} {is_method} {arguments:?} -> {returns:?} {is_fallible}")

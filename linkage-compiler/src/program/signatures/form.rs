@@ -32,6 +32,11 @@ pub(super) fn public_inlined(function: Function<Body>) -> Function<Body> {
     Function { access: Access::PublicInlined, ..function }
 }
 
+/// A public function that the runtime calls, through a trait.
+pub(super) fn hidden(function: Function<Body>) -> Function<Body> {
+    Function { access: Access::Hidden, ..function }
+}
+
 /// A private function marked `#[inline]`.
 pub(super) fn inlined(function: Function<Body>) -> Function<Body> {
     Function { access: Access::Inlined, ..function }

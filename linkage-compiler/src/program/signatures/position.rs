@@ -1,7 +1,7 @@
 //! Functions that compute a position.
 
 use super::Signatures;
-use super::form::{fallible, inlined, public_inlined, total};
+use super::form::{fallible, hidden, inlined, public_inlined, total};
 use crate::ids::InputId;
 use crate::program::branch::Position;
 use crate::program::expression::Type;
@@ -131,12 +131,12 @@ impl Signatures<'_> {
     /// The place and the direction of each force in a joint.
     pub fn force_places(&self, count: usize) -> Function<Body> {
         let of = Type::List(Box::new(Type::Scalar), 4);
-        inlined(total("force_places", [self.pose()], Type::List(Box::new(of), count)))
+        hidden(total("force_places", [self.pose()], Type::List(Box::new(of), count)))
     }
 
     /// x and y along the guide of each slider and sleeve of a drawing.
     pub fn guides(&self, count: usize) -> Function<Body> {
         let of = Type::List(Box::new(Type::Scalar), 2);
-        inlined(total("guides", [self.pose()], Type::List(Box::new(of), count)))
+        hidden(total("guides", [self.pose()], Type::List(Box::new(of), count)))
     }
 }
