@@ -200,7 +200,7 @@ fn still_and_film_have_one_style() {
     one_style(&m, &turn(|theta| m.assemble(theta, branch).unwrap(), &m));
     let m = Jansen::default();
     let [left, right] = [Elbow::Left, Elbow::Right];
-    let branch = JansenBranch::new(left, right, right, left, right);
+    let branch = JansenBranch::new(left, left, right, right, right);
     one_style(&m, &turn(|crank| m.assemble(crank, branch).unwrap(), &m));
     let m = Excavator::default();
     let branch =

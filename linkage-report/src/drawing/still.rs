@@ -260,11 +260,26 @@ impl Drawing {
                 _ => true,
             };
             if is_shown && vector != Vector2::zeros() {
-                let from = Tail::At(at);
-                self.arrows.push(Arrow { from, vector, quantity: Quantity::Force, label: format!("on {link}") });
+                self.force_on(link, at, vector);
             }
         }
         self
+    }
+
+    /// Adds a force on a link, or the link to an arrow that is there.
+    fn force_on(&mut self, link: &str, at: Vector2<f64>, vector: Vector2<f64>) {
+        let is_same = |arrow: &&mut Arrow| {
+            matches!(arrow.from, Tail::At(tail) if tail == at)
+                && arrow.quantity == Quantity::Force
+                && is_opposite(arrow.vector, -vector)
+        };
+        match self.arrows.iter_mut().find(is_same) {
+            Some(arrow) => arrow.label += &format!(", {link}"),
+            None => {
+                let label = format!("on {link}");
+                self.arrows.push(Arrow { from: Tail::At(at), vector, quantity: Quantity::Force, label });
+            }
+        }
     }
 
     /// Fits the scale of a kind of vectors, unless it is set.
