@@ -84,13 +84,14 @@ linkage! {
         unknown angle_b, angle_j, angle_d, angle_e, angle_c, angle_k, angle_f, angle_g, angle_h, angle_i;
         let pivot = (-a, -l);
         loop m@crank + j@angle_j = pivot + b@angle_b;
-        loop b@angle_b + e@angle_e = d@angle_d;
+        loop pivot + b@angle_b + e@angle_e = pivot + d@angle_d;
         loop m@crank + k@angle_k = pivot + c@angle_c;
-        loop d@angle_d + f@angle_f = c@angle_c + g@angle_g;
-        loop g@angle_g + h@angle_h = i@angle_i;
+        let knee = pivot + c@angle_c;
+        loop pivot + d@angle_d + f@angle_f = knee + g@angle_g;
+        loop knee + g@angle_g + h@angle_h = knee + i@angle_i;
         point Pivot = pivot;
-        point Knee = pivot + c@angle_c;
-        point Foot = Knee + i@angle_i;
+        point Knee = knee;
+        point Foot = knee + i@angle_i;
         derive drawing;
     }
     /// Boom, stick and bucket of an excavator on two cylinders.

@@ -171,7 +171,7 @@ fn place(names: &[String], name: &str) -> Result<usize, DrawingError> {
 
 /// The points that must be in the picture, in the lengths of the mechanism.
 fn shown(parts: &[Part], names: &[String], frames: &[Vec<Vector2<f64>>]) -> Result<Vec<Vector2<f64>>, DrawingError> {
-    let track = |name: &String| Ok(place(names, name).map(|point| frames.iter().map(move |frame| frame[point]))?);
+    let track = |name: &String| place(names, name).map(|point| frames.iter().map(move |frame| frame[point]));
     let mut shown: Vec<Vector2<f64>> = Vec::new();
     for part in parts {
         for name in part.points() {

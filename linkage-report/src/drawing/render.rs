@@ -82,8 +82,11 @@ fn wrapped(title: &str, letters: usize) -> Vec<String> {
     lines
 }
 
-/// The arrows with their ends, in lengths of the mechanism.
-fn arrows(drawing: &Drawing) -> Result<Vec<(&Arrow, [Vector2<f64>; 2])>, DrawingError> {
+/// An arrow with its ends, in lengths of the mechanism.
+type Placed<'a> = (&'a Arrow, [Vector2<f64>; 2]);
+
+/// The arrows of a drawing to scale.
+fn arrows(drawing: &Drawing) -> Result<Vec<Placed<'_>>, DrawingError> {
     let finite = |vector: &Vector2<f64>| vector.iter().all(|value| value.is_finite());
     let scales = Quantity::ALL.map(|quantity| scale(drawing, quantity));
     for (scale, quantity) in scales.iter().zip(Quantity::ALL) {
