@@ -18,6 +18,10 @@
 //! | [`scenes`] | all effects of a scene; dry friction and stops |
 //! | [`dead_points`], [`change_points`] | motions through positions where the input cannot drive, and where motions cross |
 //! | [`circuits`] | all positions at one input, and which of them are connected by motion |
+//! | [`recipes`] | inverse kinematics, a motor between links, compliant joints, a suspension, a gripper |
+//! | [`many_designs`] | thousands of designs at once |
+//! | [`microcontrollers`] | without the standard library, in `f32`: flags and sizes |
+//! | [`units`] | units that fit, rpm and degrees |
 //! | [`certificates`] | proofs that a motion has no jump, and enclosures of its extremes |
 //! | [`errors`] | messages of the macro, errors at run time |
 //! | [`speed`], [`accuracy`], [`stability`] | times, errors and hard cases, as measured |
@@ -50,10 +54,14 @@ pub mod the_sheet {}
 
 /// The first questions about a mechanism, answered in one call.
 ///
+#[doc = include_str!("first_report.svg")]
+///
 #[doc = include_str!("first_report.md")]
 pub mod first_report {}
 
 /// Bodies, forces, and a motion in time.
+///
+#[doc = include_str!("first_simulation.svg")]
 ///
 #[doc = include_str!("first_simulation.md")]
 pub mod first_simulation {}
@@ -91,6 +99,8 @@ pub mod two_inputs {}
 
 /// Your own functions: cam laws, tables, errors of gears, with their derivatives.
 ///
+#[doc = include_str!("cam_laws.svg")]
+///
 #[doc = include_str!("cam_laws.md")]
 pub mod cam_laws {}
 
@@ -100,6 +110,8 @@ pub mod cam_laws {}
 pub mod scenes {}
 
 /// Motions through dead points, where the input cannot drive.
+///
+#[doc = include_str!("dead_points.svg")]
 ///
 #[doc = include_str!("dead_points.md")]
 pub mod dead_points {}
@@ -113,8 +125,32 @@ pub mod change_points {}
 
 /// All positions at one input, and which of them are connected by motion.
 ///
+#[doc = include_str!("circuits.svg")]
+///
 #[doc = include_str!("circuits.md")]
 pub mod circuits {}
+
+/// Recipes that need no function of their own.
+///
+#[doc = include_str!("recipes.svg")]
+///
+#[doc = include_str!("recipes.md")]
+pub mod recipes {}
+
+/// Thousands of designs at once.
+///
+#[doc = include_str!("many_designs.md")]
+pub mod many_designs {}
+
+/// On a microcontroller: without the standard library, in `f32`.
+///
+#[doc = include_str!("microcontrollers.md")]
+pub mod microcontrollers {}
+
+/// Units that fit together, speeds and angles.
+///
+#[doc = include_str!("units.md")]
+pub mod units {}
 
 /// Proofs that a motion has no jump, no gap and no dead point, and enclosures of its extremes.
 ///

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::{env, fs};
 
-use linkage::drawing::{Animation, Drawing};
+use linkage::circuits::{CircuitOptions, Circuits};
+use linkage::drawing::{Animation, CircuitChart, Drawing};
 use linkage::nalgebra::{Point2, Vector2};
 use linkage::{Elbow, Slider, linkage};
 
@@ -98,6 +99,59 @@ linkage! {
         point C = s@theta;
         derive drawing;
     }
+    pub mechanism Engine {
+        param crank = 1, rod = 3;
+        input phi;
+        unknown psi, stroke;
+        loop crank@phi + rod@psi = stroke@0;
+        derive drawing;
+    }
+    pub mechanism DoubleRocker {
+        param ground = 4, crank = 3, coupler = 1, rocker = 3.5;
+        input theta;
+        unknown phi, psi;
+        loop crank@theta + coupler@phi = ground@0 + rocker@psi;
+        derive drawing;
+    }
+    pub mechanism Swing {
+        param l1 = 0.8, l2 = 0.2, l3 = 0.5, l4 = 0.7;
+        input theta2;
+        unknown theta3, theta4;
+        loop l2@theta2 + l3@theta3 = l1@0 + l4@theta4;
+        point G3 = l2@theta2 + (l3/2)@theta3;
+        point G4 = l1@0 + (l4/2)@theta4;
+        derive drawing;
+    }
+    pub mechanism SlottedLever {
+        param crank = 50, offset = 120, lever = 300, rod = 100, height = 166;
+        input theta;
+        unknown psi, s, phi, x;
+        loop crank@theta = (0, -offset) + s@psi;
+        loop (0, -offset) + lever@psi + rod@phi = (x, height);
+        derive drawing;
+    }
+    pub mechanism Suspension {
+        param lower = 0.36, upper = 0.25, upright = 0.25, inward = 0.07, height = 0.2;
+        param out = 0.12, down = 0.11;
+        input alpha;
+        unknown gamma, beta;
+        loop lower@alpha + upright@gamma = (inward, height) + upper@beta;
+        point Inner = (inward, height);
+        point Ball = lower@alpha;
+        point Top = Ball + upright@gamma;
+        point Contact = Ball + (-down, -out)@gamma;
+        derive drawing;
+    }
+    pub mechanism Gripper {
+        param pivot = 30, lever = 25, rod = 32, finger = 60;
+        input s;
+        unknown phi, psi;
+        loop (s, 0) + rod@phi = (0, pivot) + lever@psi;
+        point Pin = (s, 0) + rod@phi;
+        point Pivot = (0, pivot);
+        point Tip = Pivot + finger@(psi + 90deg);
+        derive drawing;
+    }
     pub mechanism Rpp {
         param r = 1, slot = 70deg;
         input theta;
@@ -148,6 +202,61 @@ fn pictures() {
         drawing.bar(&names[0], &names[1]).bar(&names[1], &names[2]).bar(&names[2], &names[3]);
     }
     compare("parallelogram.svg", &drawing.to_svg().unwrap());
+}
+
+/// The mechanisms that pages of the manual speak of, each as its page defines it.
+#[test]
+fn mechanisms_of_pages() {
+    let film = Animation::turn(&Engine::default(), EngineBranch::new(Slider::Far)).unwrap();
+    compare("dead_points.svg", &film.to_svg().unwrap());
+
+    let m = DoubleRocker::default();
+    let both = Circuits::over(&m, [0.8, -0.8], CircuitOptions::default()).unwrap();
+    compare("circuits.svg", &CircuitChart::of(&m, &both, "psi").unwrap().to_svg());
+
+    let m = Swing::default();
+    compare(
+        "first_simulation.svg",
+        &Drawing::of(&m, &m.assemble(1.0, SwingBranch::new(Elbow::Left)).unwrap()).to_svg().unwrap(),
+    );
+
+    let m = SlottedLever::default();
+    let branch = m.branches(1.0).unwrap().next().unwrap().branch;
+    compare("first_report.svg", &Animation::turn(&m, branch).unwrap().to_svg().unwrap());
+
+    let m = Suspension::default();
+    let branch = SuspensionBranch::new(Elbow::Right);
+    let suspension = Drawing::of(&m, &m.assemble(0.0, branch).unwrap());
+    let m = Gripper::default();
+    let gripper = Drawing::of(&m, &m.assemble(-20.0, GripperBranch::new(Elbow::Left)).unwrap());
+    let drawings = [("A suspension", suspension), ("A finger of a gripper", gripper)];
+    compare_text("recipes.svg", &row_of_figures(drawings.map(|(name, drawing)| (name, drawing.to_svg().unwrap()))));
+}
+
+/// The cam of the page on laws: a roller follower at the end of its rise.
+#[test]
+fn cam() {
+    let (radius, height, rise) = (40.0, 20.0, 2.0 * TAU / 3.0);
+    let mut film = Animation::new("Cam", 4.0);
+    // The rise of the page, a return like it, and a dwell in between.
+    let cycloid = |part: f64| part - (TAU * part).sin() / TAU;
+    let lift = |phi: f64| {
+        let phi = phi.rem_euclid(TAU);
+        let part = if phi < TAU / 2.0 { phi / (rise / 2.0) } else { (TAU - phi) / (rise / 2.0) };
+        radius + height * cycloid(part.min(1.0))
+    };
+    for step in 0..=120 {
+        let phi = TAU * f64::from(step) / 120.0;
+        let mark = Point2::new(10.0 * phi.cos(), 10.0 * phi.sin());
+        film.frame([("O", Point2::origin()), ("Mark", mark), ("Pitch", Point2::new(0.0, lift(phi)))]);
+    }
+    let outline = (0..120).map(|step| {
+        let angle = TAU * f64::from(step) / 120.0;
+        // In the axes of the cam, which turns by phi: the follower is above its centre.
+        Vector2::new(angle.cos(), angle.sin()) * lift(TAU / 4.0 - angle)
+    });
+    film.ground("O").plate("O", "Mark", outline).slider("Pitch");
+    compare("cam_laws.svg", &film.to_svg().unwrap());
 }
 
 /// The columns of the matrix of a point, and their sum.
@@ -214,11 +323,17 @@ fn dyads() {
         ("PRP", Animation::between(&Prp::default(), PrpBranch::new(), [50_f64, 130.0].map(f64::to_radians))),
         ("RPP", Ok(yoke())),
     ];
+    let figures = films.map(|(name, film)| (name, film.unwrap().to_svg().unwrap()));
+    compare_text("assur_groups.svg", &row_of_figures(figures));
+}
+
+/// Pictures side by side, each with its name below.
+fn row_of_figures<const N: usize>(figures: [(&str, String); N]) -> String {
     let mut text = String::from("<div style=\"display: flex; flex-wrap: wrap; gap: 1em\">\n");
-    for (name, film) in films {
-        let svg = without_empty_lines(&film.unwrap().to_svg().unwrap());
+    for (name, svg) in figures {
+        let svg = without_empty_lines(&svg);
         text +=
             &format!("<figure style=\"margin: 0; width: 15em\">\n{svg}\n<figcaption>{name}</figcaption>\n</figure>\n");
     }
-    compare_text("assur_groups.svg", &(text + "</div>\n"));
+    text + "</div>\n"
 }
