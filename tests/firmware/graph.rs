@@ -95,6 +95,15 @@ impl Graph {
 
     /// The functions whose names these are, each with the shortest way from it to a function that panics, if there is one.
     pub fn panics(&self, is_meant: impl Fn(&str) -> bool) -> Vec<(&str, Option<Vec<&str>>)> {
+        self.ways(is_meant, is_panic)
+    }
+
+    /// The functions whose names these are, each with the shortest way from it to one of the ends, if there is one.
+    pub fn ways(
+        &self,
+        is_meant: impl Fn(&str) -> bool,
+        is_end: impl Fn(&str) -> bool,
+    ) -> Vec<(&str, Option<Vec<&str>>)> {
         let mut from = vec![Vec::new(); self.nodes.len()];
         for (node, Node { to, .. }) in self.nodes.iter().enumerate() {
             for to in to.iter().filter_map(|to| self.resolved(to)) {
@@ -103,8 +112,8 @@ impl Graph {
         }
         // From the ends back: each node's next on its way.
         let ends: BTreeSet<usize> =
-            self.functions.iter().filter(|(name, _)| is_panic(name)).map(|(_, node)| *node).collect();
-        assert!(!ends.is_empty(), "no function that panics is in the libraries: they are not all there");
+            self.functions.iter().filter(|(name, _)| is_end(name)).map(|(_, node)| *node).collect();
+        assert!(!ends.is_empty(), "no such end is in the libraries: they are not all there");
         let mut next: Vec<Option<usize>> = vec![None; self.nodes.len()];
         let mut queue: VecDeque<usize> = ends.iter().copied().collect();
         while let Some(node) = queue.pop_front() {

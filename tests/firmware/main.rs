@@ -4,6 +4,8 @@
 //! tests, compiled at the levels that firmware uses. In its object files, and in those of all libraries under it and of
 //! `core`, no call leads from an emitted function to a function that panics.
 //!
+//! In `f32`, no double is computed with either: `single_precision`.
+//!
 //! ```text
 //! cargo test --test firmware                                          for this machine
 //! FIRMWARE_TARGET=thumbv7em-none-eabihf cargo test --test firmware    for another target that is installed
@@ -12,6 +14,7 @@
 #![cfg(target_os = "linux")]
 
 mod graph;
+mod single_precision;
 mod wrappers;
 
 use std::path::{Path, PathBuf};
@@ -54,13 +57,36 @@ fn cargo() -> Command {
     command
 }
 
-/// The library and all that are under it, built in a folder at a level.
-fn libraries(folder: &Path, level: &str) -> Vec<PathBuf> {
+/// The target that is asked for, or else this machine.
+fn chosen_target() -> Option<String> {
+    env::var("FIRMWARE_TARGET").ok()
+}
+
+/// The folder of a package with these files. What is the same as before is not written, so that it is not built again.
+fn package(name: &str, manifest: &str, files: Vec<(String, String)>) -> PathBuf {
+    let root = linkage_tests::ROOT;
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(folder.join("src")).unwrap();
+    let manifest = ("Cargo.toml".to_owned(), manifest.replace("ROOT", root));
+    let sources = files.into_iter().map(|(file, text)| (format!("src/{file}"), text));
+    for (file, text) in sources.chain([manifest]) {
+        let path = folder.join(file);
+        if fs::read_to_string(&path).ok().as_ref() != Some(&text) {
+            fs::write(path, text).unwrap();
+        }
+    }
+    // The versions under test are those of this workspace.
+    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    folder
+}
+
+/// What a package makes, built in its folder at a level for a target, by the end of its name.
+fn built(folder: &Path, level: &str, target: Option<&str>, is_meant: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
     let mut command = cargo();
     command.args(["build", "--quiet", "--message-format=json-render-diagnostics", "--profile", level, "--target-dir"]);
-    command.arg(folder.join("target")).current_dir(folder);
-    let target = env::var("FIRMWARE_TARGET").ok();
-    if let Some(target) = &target {
+    // One for all packages, so that the macro is built once.
+    command.arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware/target")).current_dir(folder);
+    if let Some(target) = target {
         command.args(["--target", target]);
     }
     let output = command.output().unwrap();
@@ -68,16 +94,24 @@ fn libraries(folder: &Path, level: &str) -> Vec<PathBuf> {
     let messages = String::from_utf8(output.stdout).unwrap();
     let messages = messages.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap());
     let files = messages.filter_map(|message| message["filenames"].as_array().cloned()).flatten();
-    let files = files.filter_map(|file| Some(PathBuf::from(file.as_str()?)));
-    let mut files: Vec<PathBuf> = files.filter(|file| file.extension().is_some_and(|end| end == "rlib")).collect();
+    files.filter_map(|file| Some(PathBuf::from(file.as_str()?))).filter(|file| is_meant(file)).collect()
+}
+
+/// The folder of the libraries of Rust for a target; it exists if the target is installed.
+fn of_rust(folder: &Path, target: Option<&str>) -> PathBuf {
     let mut command = Command::new(env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned()));
     command.args(["--print", "target-libdir"]);
-    if let Some(target) = &target {
+    if let Some(target) = target {
         command.args(["--target", target]);
     }
     let output = command.current_dir(folder).output().unwrap();
-    let of_rust = PathBuf::from(String::from_utf8(output.stdout).unwrap().trim());
-    let found = fs::read_dir(&of_rust).unwrap().map(|entry| entry.unwrap().path());
+    PathBuf::from(String::from_utf8(output.stdout).unwrap().trim())
+}
+
+/// The library and all that are under it, built in a folder at a level.
+fn libraries(folder: &Path, level: &str, target: Option<&str>) -> Vec<PathBuf> {
+    let mut files = built(folder, level, target, |file| file.extension().is_some_and(|end| end == "rlib"));
+    let found = fs::read_dir(of_rust(folder, target)).unwrap().map(|entry| entry.unwrap().path());
     let is_core = |file: &PathBuf| {
         let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
         name.ends_with(".rlib") && (name.starts_with("libcore-") || name.starts_with("libcompiler_builtins-"))
@@ -88,21 +122,8 @@ fn libraries(folder: &Path, level: &str) -> Vec<PathBuf> {
 
 #[test]
 fn emitted_functions_cannot_panic() {
-    let root = linkage_tests::ROOT;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("firmware");
-    fs::create_dir_all(folder.join("src")).unwrap();
-    let manifest = ("Cargo.toml".to_owned(), MANIFEST.replace("ROOT", root));
-    let (sources, count) = wrappers::files(Path::new(root));
-    let sources = sources.into_iter().map(|(file, text)| (format!("src/{file}"), text));
-    for (file, text) in sources.chain([manifest]) {
-        let path = folder.join(file);
-        // What is the same is not built again.
-        if fs::read_to_string(&path).ok().as_ref() != Some(&text) {
-            fs::write(path, text).unwrap();
-        }
-    }
-    // The versions under test are those of this workspace.
-    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
+    let (sources, count) = wrappers::files(Path::new(linkage_tests::ROOT));
+    let folder = package("firmware", MANIFEST, sources);
     // Side by side: one after the other, much of the time only one core is busy.
     std::thread::scope(|scope| {
         for level in LEVELS {
@@ -116,7 +137,7 @@ fn emitted_functions_cannot_panic() {
 /// contacts or for all positions of a group.
 fn judge(folder: &Path, level: &str, count: usize) {
     let mut graph = Graph::default();
-    for library in libraries(folder, level) {
+    for library in libraries(folder, level, chosen_target().as_deref()) {
         graph.add(&library);
     }
     // Not a Rust closure inside of a wrapper.

@@ -132,6 +132,43 @@ fn run_of_a_batch(of: &TokenStream) -> String {
     format!("#[inline(never)] {text}\n")
 }
 
+/// The text of a library with `full_kinematics` of each mechanism whose groups all have closed forms, in `f32`.
+pub fn in_floats(root: &Path) -> Vec<(String, String)> {
+    let laws = root.join("dev/gallery/src/cam_laws.rs");
+    let mut library = format!("#![no_std]\n#[path = {laws:?}] mod cam_laws;\n");
+    let mut files = Vec::new();
+    for Expansion { module, functions, emitted } in every::expansions(root, None) {
+        let wrappers: String = every::items(&emitted.items).into_iter().filter_map(full_kinematics).collect();
+        let text = functions + &prettyplease::unparse(&emitted);
+        writeln!(library, "#[allow(warnings, reason = \"`emitted_source` looks at them\")] pub mod {module};").unwrap();
+        files.push((format!("{module}.rs"), format!("{text}\npub mod wrappers {{ use super::*;\n{wrappers}}}\n")));
+    }
+    files.push(("lib.rs".to_owned(), library));
+    files
+}
+
+/// A wrapper of `full_kinematics` of a mechanism in `f32`.
+fn full_kinematics(item: &Item) -> Option<String> {
+    let Item::Impl(implementation) = item else { return None };
+    let (path, _) = implementation.trait_.as_ref()?;
+    if path.segments.last()?.ident != "Kinematic" {
+        return None;
+    }
+    let of = replaced(implementation.self_ty.to_token_stream(), &|name| (name == "T").then(|| quote!(f32)));
+    let name = quote::format_ident!("{}", of.to_string().split('<').next().unwrap_or_default().trim());
+    let text = quote! {
+        pub fn #name(
+            m: &#of,
+            guess: &<#of as ::linkage::Mechanism>::Coordinates,
+            branch: <#of as ::linkage::Mechanism>::Branch,
+            rates: <#of as ::linkage::Mechanism>::Inputs,
+        ) {
+            ::core::hint::black_box(::linkage::Kinematic::full_kinematics(m, guess, branch, rates, rates).is_ok());
+        }
+    };
+    Some(format!("#[inline(never)] {text}\n"))
+}
+
 /// A wrapper of the functions of a mechanism that have a body in the runtime.
 fn provided(of: &TokenStream) -> String {
     let name = quote::format_ident!("{}_provided", of.to_string().split('<').next().unwrap_or_default().trim());
