@@ -16,6 +16,9 @@ const PLOT: &str = include_str!("plot.css");
 /// The length of an arrow head, in pixels.
 const HEAD: f64 = 10.0;
 
+/// The width of a letter of a label, in pixels.
+const LETTER: f64 = 5.5;
+
 /// The letters of a line of the title, and the height of a line and of the space for all of them, in pixels.
 const TITLE: usize = 54;
 const TITLE_LINE: f64 = 18.0;
@@ -25,8 +28,19 @@ const TITLE_ROOM: f64 = 24.0;
 const ENTRY: [f64; 2] = [208.0, 20.0];
 const ENTRIES: usize = 2;
 
+impl Drawing {
+    /// Writes the SVG.
+    ///
+    /// # Errors
+    /// [`DrawingError`] if the drawing is empty, a name is unknown or used twice, a number is not finite, or `rename` or
+    /// `without` found nothing.
+    pub fn to_svg(&self) -> Result<String, DrawingError> {
+        svg(self)
+    }
+}
+
 /// The SVG of a drawing.
-pub(super) fn svg(drawing: &Drawing) -> Result<String, DrawingError> {
+fn svg(drawing: &Drawing) -> Result<String, DrawingError> {
     let arrows = arrows(drawing)?;
     let ends: Vec<[Vector2<f64>; 2]> = arrows.iter().map(|(_, ends)| *ends).collect();
     let title = wrapped(&drawing.title, TITLE);
@@ -141,14 +155,18 @@ fn labelled(arrow: Group, label: &str, [from, to]: [Vector2<f64>; 2]) -> Group {
         return arrow;
     }
     let along = (to - from).try_normalize(0.0).unwrap_or_else(Vector2::y);
-    let anchor = if along.x > 0.4 {
-        "start"
-    } else if along.x < -0.4 {
-        "end"
-    } else {
-        "middle"
-    };
     let at = to + along.component_mul(&Vector2::new(6.0, 13.0)) + Vector2::new(0.0, 4.0);
+    let width = LETTER * label.chars().count() as f64;
+    let (anchor, at) = if along.x > 0.4 && at.x + width > LEFT + WIDTH {
+        // Above the arrow, where there is room.
+        ("end", Vector2::new(LEFT + WIDTH, at.y - 12.0))
+    } else if along.x > 0.4 {
+        ("start", at)
+    } else if along.x < -0.4 {
+        ("end", at)
+    } else {
+        ("middle", at)
+    };
     arrow.add(text(label, "label", at, anchor))
 }
 

@@ -20,7 +20,8 @@ impl Animation {
     ///
     /// # Errors
     /// [`DrawingError`] if there is nothing to draw, a name is unknown or used twice, a number is not finite, or the
-    /// parts contradict the frames: a link changes its shape, a ground pivot moves, a slider leaves its straight line.
+    /// parts contradict the frames: a link changes its shape, a ground pivot moves, a slider leaves its straight line; or if
+    /// `rename`, `paths` or `without` found nothing.
     pub fn to_svg(&self) -> Result<String, DrawingError> {
         if !(self.seconds.is_finite() && self.seconds > 0.0) {
             return Err(DrawingError::NotFinite("the duration of an animation".to_owned()));

@@ -7,7 +7,6 @@ use nalgebra::{Point2, Vector2};
 use super::arrows::{Arrow, Quantity, Scale, Tail};
 use super::figure::Figure;
 use super::part::Part;
-use super::render;
 use super::{Animation, DrawingError};
 
 /// A builder for a drawing. Lengths are those of the mechanism; y points up.
@@ -296,15 +295,6 @@ impl Drawing {
 
     pub(super) fn at(&self, name: &str) -> Option<Vector2<f64>> {
         self.figure.frames[0].iter().find(|(other, _)| other == name).map(|(_, at)| *at)
-    }
-
-    /// Writes the SVG.
-    ///
-    /// # Errors
-    /// [`DrawingError`] if the drawing is empty, a name is unknown or used twice, or a number is not
-    /// finite.
-    pub fn to_svg(&self) -> Result<String, DrawingError> {
-        render::svg(self)
     }
 }
 
