@@ -213,12 +213,12 @@ fn reduced_beyond(x: f32) -> Reduced<f32> {
     // The product with pi/2, in 2^-(61 + zeros): 24 bits of it are exact in a float, and the rest is a float, too.
     let zeros = rest.unsigned_abs().leading_zeros();
     let ([a, b], [c, d]) = (halves(rest.unsigned_abs() << (zeros & 63)), halves(HALF_PI));
-    let angle = a * c + (a * d >> 32) + (b * c >> 32);
+    let angle = a * c + ((a * d) >> 32) + ((b * c) >> 32);
     let power = |exponent: u32| f32::from_bits(exponent.wrapping_sub(zeros) << 23);
-    let nearest = angle + (1 << 39) >> 40;
+    let nearest = (angle + (1 << 39)) >> 40;
     let above = (nearest << 40).wrapping_sub(angle).cast_signed();
     let head = nearest as u32 as f32 * power(127 - 21);
-    let tail = (above >> 8) as i32 as f32 * power(127 - 53);
+    let tail = (above >> 9) as i32 as f32 * power(127 - 52);
     let (head, tail) = if rest.is_negative() == x.is_sign_negative() { (head, tail) } else { (-head, -tail) };
     let quadrant = quadrant as u32;
     Reduced { quadrant: if x.is_sign_negative() { quadrant.wrapping_neg() } else { quadrant }, head, tail }

@@ -62,7 +62,8 @@ fn chosen_target() -> Option<String> {
     env::var("FIRMWARE_TARGET").ok()
 }
 
-/// The folder of a package with these files. What is the same as before is not written, so that it is not built again.
+/// Writes a package with these files and returns its folder. A file that is there is not written, so that it is not built
+/// again.
 fn package(name: &str, manifest: &str, files: Vec<(String, String)>) -> PathBuf {
     let root = linkage_tests::ROOT;
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
@@ -80,7 +81,7 @@ fn package(name: &str, manifest: &str, files: Vec<(String, String)>) -> PathBuf 
     folder
 }
 
-/// What a package makes, built in its folder at a level for a target, by the end of its name.
+/// The files that a package makes, built in its folder at a level for a target.
 fn built(folder: &Path, level: &str, target: Option<&str>, is_meant: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
     let mut command = cargo();
     command.args(["build", "--quiet", "--message-format=json-render-diagnostics", "--profile", level, "--target-dir"]);

@@ -16,7 +16,7 @@ const ULPS: f64 = 0.85;
 /// The largest |x| that is not left to the standard library.
 const LIMIT: f64 = 1e5;
 
-/// The same of floats beyond `FLOAT_LIMIT`, of which every one was tried.
+/// A little more than the largest error of floats beyond `FLOAT_LIMIT`, of which every one was tried.
 const ULPS_BEYOND: f64 = 0.86;
 
 /// The largest |x| of floats that is reduced by multiples of pi/2, the others by bits of 2/pi.
