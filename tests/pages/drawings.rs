@@ -6,7 +6,7 @@ use std::{env, fs};
 use linkage::drawing::{Animation, Drawing, DrawingError};
 use linkage::nalgebra::Vector2;
 use linkage::skeleton::{JointForces, Part, Skeleton};
-use linkage::{Elbow, Slider, linkage};
+use linkage::{Elbow, JointForces, Slider, linkage};
 use roxmltree::{Document, Node};
 
 linkage! {
@@ -342,7 +342,7 @@ fn forces_in_joints() {
         let error = (drawn - force).norm().min((drawn + force).norm());
         assert!(error < 0.02 * force.norm() + 0.1 / (scale * pixels), "{name}: {drawn} {force}");
     }
-    assert!(!LoadedReactions::<f64>::FORCES.is_empty());
+    assert!(!LoadedReactions::<f64>::JOINTS.is_empty());
 
     let m = Shaper::default();
     let scene = Cutting { mechanism: m.clone(), ..Cutting::default() };
