@@ -5,7 +5,7 @@ use std::{env, fs};
 
 use linkage::drawing::{Animation, Drawing, DrawingError};
 use linkage::nalgebra::Vector2;
-use linkage::skeleton::{JointForces, Part, Skeleton};
+use linkage::skeleton::{Part, Skeleton};
 use linkage::{Elbow, JointForces, Slider, linkage};
 use roxmltree::{Document, Node};
 
