@@ -104,7 +104,7 @@ fn the_links_are_drawn() {
         };
         parts.iter().map(text).collect()
     };
-    assert_eq!(parts(Pendulum::<f64>::PARTS, Pendulum::<f64>::JOINTS), ["ground O", "crank O-G"]);
+    assert_eq!(parts(Pendulum::<f64>::PARTS, Pendulum::<f64>::JOINTS), ["ground O", "crank O-G", "trace G"]);
     assert_eq!(
         parts(CartPendulum::<f64>::PARTS, CartPendulum::<f64>::JOINTS),
         ["bar Cart-Bob", "slider Cart", "trace Bob"]
