@@ -1,4 +1,4 @@
-//! What a motion follows: it borrows it, owns it, or shares it.
+//! The mechanism or the scene that a motion borrows, owns or shares.
 
 use core::ops::Deref;
 #[cfg(feature = "std")]
