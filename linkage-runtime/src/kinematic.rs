@@ -113,7 +113,8 @@ impl<Q: Copy + Debug + PartialEq> Quantity for Q {}
 )]
 pub trait Kinematic:
     Mechanism<
-        Coordinates: From<PerCoordinate<Self>> + Into<PerCoordinate<Self>>,
+        // rustc shows the next line for `dyn Kinematic`.
+        Coordinates: From<PerCoordinate<Self>> + Into<PerCoordinate<Self>>, // Instead: your trait for all `M: Kinematic`.
         Rates: From<PerCoordinate<Self>> + Into<PerCoordinate<Self>>,
         Pose: Copy + Debug,
     >

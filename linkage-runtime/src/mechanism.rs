@@ -42,8 +42,7 @@ pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
 )]
 pub trait Mechanism {
     /// The type of lengths and angles.
-    // rustc shows the next line for `dyn Mechanism`, and that of `NAME` for `dyn Kinematic`.
-    type Scalar: Real; // Instead of `dyn`: a generic function over `M: Mechanism`, or your own trait for all `M`.
+    type Scalar: Real;
     /// The number of dependent coordinates.
     type U: Dim;
     /// The number of independent coordinates.
@@ -63,7 +62,7 @@ pub trait Mechanism {
     type Branch: Copy + Debug + Eq;
 
     /// The name of the mechanism, as in error messages.
-    const NAME: &'static str; // Instead of `dyn`: a generic function over `M: Kinematic`, or your own trait for all `M`.
+    const NAME: &'static str; // Instead of `dyn`: a generic function, or a trait of yours for all `M: Mechanism`.
     /// The names of the dependent coordinates u, in the order of the columns of J.
     const UNKNOWNS: &'static [&'static str];
     /// The names of the independent coordinates v, in the order of the columns of A.

@@ -3,4 +3,5 @@
 mod checked;
 mod one_message;
 mod plain_words;
+mod trait_objects;
 mod ui;

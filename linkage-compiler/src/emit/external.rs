@@ -28,7 +28,7 @@ pub(super) fn calls(
 }
 
 fn call(external: &ExternalFunction) -> TokenStream {
-    let ExternalFunction { path, attributes, arguments, names, .. } = external;
+    let ExternalFunction { path, arguments, names, .. } = external;
     // Type errors are reported at the last segment of the path.
     let span = path.segments.last().map_or_else(Span::call_site, |segment| segment.ident.span());
     let span = Span::call_site().located_at(span);
@@ -37,15 +37,11 @@ fn call(external: &ExternalFunction) -> TokenStream {
     let mut taken = Taken::new(&reserved);
     let arguments: Vec<Ident> = arguments.iter().map(|name| identifier(&taken.unique(name), span)).collect();
     let fields: Vec<String> = names.iter().map(|name| name.field.clone()).collect();
-    let texts: Vec<&str> = names.iter().map(|name| name.text.as_str()).collect();
-    let docs = attributes.iter().filter(|attribute| attribute.path().is_ident("doc"));
-    let text = format!(" Returns `({})` from the user function.", texts.join(", "));
-    let scalars = texts.iter().map(|_| quote!(T));
-    let result = if texts.len() == 1 { quote!(T) } else { quote!((#(#scalars),*)) };
+    let scalars = names.iter().map(|_| quote!(T));
+    let result = if names.len() == 1 { quote!(T) } else { quote!((#(#scalars),*)) };
     let (name, call) = (ident(&call_of(&fields)), quote_spanned!(span=> #path(#(#arguments),*)));
     quote! {
-        #(#docs)*
-        #[doc = #text]
+        #[doc(hidden)]
         #[inline]
         fn #name(#(#arguments: T),*) -> #result {
             #call

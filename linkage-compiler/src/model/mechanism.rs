@@ -169,7 +169,6 @@ impl JointRange {
 /// A user function.
 pub struct ExternalFunction {
     pub path: syn::Path,
-    pub attributes: Vec<Attribute>,
     pub id: ExternalId,
     /// The names of its arguments; derivatives are with respect to the first.
     pub arguments: Vec<String>,

@@ -194,14 +194,14 @@ impl Resolver<'_> {
                     }
                 }
                 StatementKind::External { path, arguments, names } => {
-                    self.declare_external(&statement.attributes, path, arguments, names);
+                    self.declare_external(path, arguments, names);
                 }
                 _ => {}
             }
         }
     }
 
-    fn declare_external(&mut self, attributes: &[Attribute], path: &Path, arguments: &[Ident], names: &[Ident]) {
+    fn declare_external(&mut self, path: &Path, arguments: &[Ident], names: &[Ident]) {
         let written = |path: &Path| path.to_token_stream().to_string().replace(' ', "");
         if self.externals.iter().any(|other| written(&other.path) == written(path)) {
             let span = path.segments.last().map_or_else(|| path.span(), |segment| segment.ident.span());
@@ -220,7 +220,6 @@ impl Resolver<'_> {
         }
         self.externals.push(ExternalFunction {
             path: path.clone(),
-            attributes: attributes.to_vec(),
             id,
             arguments: arguments.into_iter().map(|argument| argument.field).collect(),
             names: names.iter().map(Name::new).collect(),

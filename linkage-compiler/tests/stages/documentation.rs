@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use proc_macro2::{TokenStream, TokenTree};
-use syn::{Expr, File, ImplItem, Item, ItemImpl, Meta, Stmt, Visibility};
+use syn::{Expr, File, ImplItem, ImplItemFn, Item, ItemImpl, Meta, Stmt, Visibility};
 
 /// The expansions of the mechanisms of the gallery, each with its file.
 fn expansions() -> Vec<(String, TokenStream)> {
@@ -39,45 +39,57 @@ fn texts(tokens: TokenStream, found: &mut Vec<String>) {
     }
 }
 
-/// rustdoc sets primes in plain text as quotation marks.
+/// rustdoc sets primes in plain text as quotation marks, so that derivatives are code. The documentation of a binary has
+/// private functions too, so that they are hidden.
 #[test]
-fn derivatives_are_code() {
-    for (file, tokens) in expansions() {
-        let mut found = Vec::new();
-        texts(tokens, &mut found);
-        for text in found {
-            // Code between fences, and between single marks.
-            let prose: String = text.split("```").step_by(2).flat_map(|part| part.split('`').step_by(2)).collect();
-            let words = prose.split(|letter: char| !(letter.is_alphanumeric() || letter == '\''));
-            // A plural has an apostrophe too.
-            let bare: Vec<&str> =
-                words.filter(|word| word.contains("''") || (word.len() == 2 && word.ends_with('\''))).collect();
-            assert!(bare.is_empty(), "{file}: {bare:?} in {text}");
-        }
-    }
-}
-
-/// The documentation of a binary has private functions too.
-#[test]
-fn private_functions_are_hidden() {
+fn derivatives_are_code_and_private_functions_hidden() {
     let mut hidden = 0;
     for (file, tokens) in expansions() {
+        let mut found = Vec::new();
+        texts(tokens.clone(), &mut found);
+        for text in found {
+            let bare = bare_primes(&text);
+            assert!(bare.is_empty(), "{file}: {bare:?} in {text}");
+        }
         let file_of: File = syn::parse2(tokens).unwrap();
-        for block in file_of.items.into_iter().flat_map(blocks) {
-            for item in block.items {
-                let ImplItem::Fn(function) = item else { continue };
-                if block.trait_.is_some() || !matches!(function.vis, Visibility::Inherited) {
-                    continue;
-                }
-                let is_hidden = function.attrs.iter().any(|attribute| {
-                    matches!(&attribute.meta, Meta::List(list) if list.path.is_ident("doc") && list.tokens.to_string() == "hidden")
-                });
-                assert!(is_hidden, "{file}: {}", function.sig.ident);
-                hidden += 1;
-            }
+        for function in file_of.items.into_iter().flat_map(blocks).flat_map(private) {
+            assert!(is_hidden(&function), "{file}: {}", function.sig.ident);
+            hidden += 1;
         }
     }
     assert!(hidden > 100, "{hidden} private functions");
+}
+
+/// The derivatives outside of code.
+fn bare_primes(text: &str) -> Vec<String> {
+    // Code is between fences, and between single marks.
+    let prose: Vec<&str> = text.split("```").step_by(2).flat_map(|part| part.split('`').step_by(2)).collect();
+    let prose = prose.join(" ");
+    let words = prose.split(|letter: char| !(letter.is_alphanumeric() || letter == '\''));
+    // A plural has an apostrophe too.
+    let is_bare = |word: &&str| word.contains("''") || (word.chars().count() == 2 && word.ends_with('\''));
+    words.filter(is_bare).map(str::to_owned).collect()
+}
+
+#[test]
+fn bare_primes_are_found() {
+    assert_eq!(bare_primes("From q'' and the inputs' v', by `W v'`.\n```text\nu' = W v'\n```"), ["q''", "v'"]);
+}
+
+/// The private functions of a block that implements no trait.
+fn private(block: ItemImpl) -> impl Iterator<Item = ImplItemFn> {
+    let is_own = block.trait_.is_none();
+    block.items.into_iter().filter(move |_| is_own).filter_map(|item| match item {
+        ImplItem::Fn(function) if matches!(function.vis, Visibility::Inherited) => Some(function),
+        _ => None,
+    })
+}
+
+fn is_hidden(function: &ImplItemFn) -> bool {
+    function.attrs.iter().any(|attribute| match &attribute.meta {
+        Meta::List(list) => list.path.is_ident("doc") && list.tokens.to_string() == "hidden",
+        _ => false,
+    })
 }
 
 /// The `impl` blocks of an item, also those in an anonymous constant.

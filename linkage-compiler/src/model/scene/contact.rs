@@ -72,9 +72,9 @@ impl Resolver<'_> {
         let name = self.expressions.as_name(factor).map(ToString::to_string);
         let Some(name) = name.filter(|name| is_coefficient(name)) else { return };
         let message = format!(
-            "`{name}` alone is the largest force or torque of this friction: name it so, as in `limit`, or write a \
-             coefficient with the normal force, `friction {name}, normal on s;` or `friction {name}, radius, normal on \
-             phi;`, where `reaction` instead of `normal` is the force in the joint"
+            "`{name}` alone is the largest force or torque of this friction\na coefficient is multiplied by the normal \
+             force: `friction {name}, normal on s;`, or of an angle `friction {name}, radius, normal on phi;`; \
+             `reaction` instead of `normal` is the force in the joint\na force has another name, such as `limit`"
         );
         self.diagnostics.error(self.expressions.region(factor), message);
     }

@@ -1,0 +1,30 @@
+//! `dyn Mechanism`, which rustc rejects with the reasons, shows what to write instead.
+
+use super::checked::{messages, package};
+
+const PROGRAM: &str = "\
+use linkage::Kinematic;
+
+linkage::linkage! {
+    pub mechanism Crank {
+        param r = 2;
+        input phi;
+        unknown x;
+        equation x = r * cos(phi);
+    }
+}
+
+pub fn all() -> Vec<Box<dyn Kinematic<Scalar = f64>>> {
+    vec![Box::new(Crank::default())]
+}
+";
+
+#[test]
+fn a_trait_object_has_a_message_with_its_replacement() {
+    let folder = package("trait_objects", [("src/lib.rs".to_owned(), PROGRAM.to_owned())]);
+    let all = messages(&folder, &["--lib"]);
+    let text: String = all.iter().filter_map(|line| line["message"]["rendered"].as_str()).collect();
+    for part in ["E0038", "Instead: your trait for all `M: Kinematic`", "Instead of `dyn`: a generic function"] {
+        assert!(text.contains(part), "{part} is not in\n{text}");
+    }
+}
