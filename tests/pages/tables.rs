@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use linkage::range_of_motion::{RangeOfMotion, RangeOptions};
 use linkage::simulation::{Start, Then, simulate};
 use linkage::table::{Cause, TableError, Units};
-use linkage::{Elbow, MotionError, Scene, Table, linkage};
+use linkage::{Elbow, MotionError, PathError, Scene, Table, linkage};
 use linkage_oracle::close;
 use serde_json::Value;
 
@@ -34,7 +34,7 @@ linkage! {
             reaction at A;
             reaction at O;
         }
-        /// The same with a drive of the motor.
+        /// A drive turns the motor.
         scene Turned {
             inertia;
             gravity (0, -g);
@@ -317,6 +317,8 @@ fn columns_by_name_in_any_order() {
     let none = Table::default().select(["theta"]).unwrap_err();
     assert_eq!(none, TableError::UnknownColumn { name: "theta".to_owned(), nearest: None });
     assert!(table.clone().unit("tip", "mm").is_err() && table.clone().degrees_of(["tip"]).is_err());
+    let no_steps = Table::turn_with_loads(&Wiping::default(), BRANCH, 0, RATE).unwrap_err();
+    assert!(matches!(no_steps, PathError::NoDirection { .. }), "{no_steps}");
     // Two columns of one name have two names.
     assert_eq!(Table::new(["a", "a", "b", "a"]).names(), ["a", "a_2", "b", "a_3"]);
 }
@@ -363,6 +365,8 @@ fn degrees_and_units() {
         assert!(found.iter().zip(radians).all(|(found, radians)| *found == radians.to_degrees()), "{name}");
     }
     assert!(all.to_csv().starts_with("theta [deg],time,phi [deg],phi_rate [deg/s],"));
+    // In any order.
+    assert_eq!(table.clone().units(mm).degrees(), table.clone().degrees().units(mm));
     assert_eq!(all.column("theta_torque"), table.column("theta_torque"));
     let no_angle = table.degrees_of(["Tip_x"]).unwrap_err();
     assert_eq!(no_angle, TableError::NotAnAngle { name: "Tip_x".to_owned() });

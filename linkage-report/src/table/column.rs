@@ -108,7 +108,9 @@ impl Column {
     pub(super) fn turn_to_degrees(&mut self) -> bool {
         let Quantity::Angle(order) = self.quantity else { return false };
         self.quantity = Quantity::Degrees(order);
-        self.unit = self.quantity.unit(None);
+        // The unit of time may be named already.
+        let named = self.unit.as_deref().and_then(|unit| unit.strip_prefix("rad"));
+        self.unit = named.map(|by_time| format!("deg{by_time}")).or_else(|| self.quantity.unit(None));
         for value in &mut self.values {
             *value = value.to_degrees();
         }

@@ -76,8 +76,7 @@ impl Table {
 
 /// The inputs of a turn, in equal steps.
 pub(super) fn turn(steps: u32) -> Vec<f64> {
-    let ends = if steps == 0 { 1..=0 } else { 0..=steps };
-    ends.map(|step| TAU * f64::from(step) / f64::from(steps)).collect()
+    (0..=steps).filter(|_| steps > 0).map(|step| TAU * f64::from(step) / f64::from(steps)).collect()
 }
 
 /// The motion through change points that begins on a branch.

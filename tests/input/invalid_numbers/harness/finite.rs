@@ -9,6 +9,7 @@ use linkage::integrate::{self, Action, Interpolant};
 use linkage::kinematic::{FullKinematics, Kinematics, Motion};
 use linkage::limits::{Limit, Limits};
 use linkage::nalgebra::{Point2, SMatrix, UnitComplex};
+use linkage::__rt::Vector as ByCoordinate;
 use linkage::simulation::{Loads, State, Touch};
 use linkage::singularity::{Accuracy, Exchange, GroupMeasure, Singularity};
 use linkage::{
@@ -167,6 +168,7 @@ parts! {
         Loads { contacts, are_unique: _, drives, drive_power, joints, accelerations } =>
             contacts drives drive_power joints accelerations
     }
+    [U: Dim, V: Dim] ByCoordinate<f64, U, V> { ByCoordinate { unknowns, inputs } => unknowns inputs }
     [] GroupMeasure<f64> {
         GroupMeasure { name: _, determinant, regularity, sigma_min, is_regular: _ } => determinant regularity sigma_min
     }
