@@ -30,10 +30,6 @@ panic = "abort"
 lto = LTO
 codegen-units = 1
 
-[profile.three]
-inherits = "size"
-opt-level = 3
-
 [workspace]
 "#;
 
@@ -93,8 +89,8 @@ extern "C" fn _start() -> ! {
 }
 "#;
 
-/// The largest numbers of bytes of the program at each level, code and constants: 6.5 and 8.9 kB are linked today.
-const BYTES: [(&str, u64); 2] = [("size", 7_000), ("three", 10_000)];
+/// The program may have this many bytes, code and constants: on Rust 1.95 it has 6694.
+const MOST: u64 = 7_000;
 
 #[test]
 fn a_program_links_no_doubles() {
@@ -102,22 +98,20 @@ fn a_program_links_no_doubles() {
         return;
     }
     let folder = package("program", &manifest("program", true), vec![("main.rs".to_owned(), PROGRAM.to_owned())]);
-    for (level, most) in BYTES {
-        let files = built(&folder, level, Some(TARGET), |file| file.ends_with("program"));
-        let [program] = &files[..] else { panic!("{files:?}") };
-        let data = std::fs::read(program).unwrap();
-        let file = object::File::parse(&*data).unwrap();
-        let names = file.symbols().filter_map(|symbol| symbol.name().map(str::to_owned).ok());
-        let names: Vec<String> = names.map(|name| format!("{:#}", rustc_demangle::demangle(&name))).collect();
-        assert!(names.iter().any(|name| name.contains("kinematics")), "{level}: the symbols are not there: {names:?}");
-        let doubles: Vec<_> = names.iter().filter(|name| computes_in_doubles(name)).collect();
-        assert!(doubles.is_empty(), "{level}: {doubles:#?}");
-        let is_loaded = |flags| matches!(flags, SectionFlags::Elf { sh_flags } if sh_flags & 2 != 0);
-        let loaded = file.sections().filter(|section| is_loaded(section.flags()));
-        let bytes: u64 = loaded.map(|section| section.size()).sum();
-        println!("{level}: {bytes} bytes");
-        assert!(bytes <= most, "{level}: {bytes} bytes, more than {most}");
-    }
+    let files = built(&folder, "size", Some(TARGET), |file| file.ends_with("program"));
+    let [program] = &files[..] else { panic!("{files:?}") };
+    let data = std::fs::read(program).unwrap();
+    let file = object::File::parse(&*data).unwrap();
+    let names = file.symbols().filter_map(|symbol| symbol.name().map(str::to_owned).ok());
+    let names: Vec<String> = names.map(|name| format!("{:#}", rustc_demangle::demangle(&name))).collect();
+    assert!(names.iter().any(|name| name.contains("kinematics")), "the symbols are not there: {names:?}");
+    let doubles: Vec<_> = names.iter().filter(|name| computes_in_doubles(name)).collect();
+    assert!(doubles.is_empty(), "{doubles:#?}");
+    let is_loaded = |flags| matches!(flags, SectionFlags::Elf { sh_flags } if sh_flags & 2 != 0);
+    let loaded = file.sections().filter(|section| is_loaded(section.flags()));
+    let bytes: u64 = loaded.map(|section| section.size()).sum();
+    println!("{bytes} bytes");
+    assert!(bytes <= MOST, "{bytes} bytes, more than {MOST}");
 }
 
 /// Mechanisms with a group of more than two unknowns: where it is nearly singular, it is solved in twice the precision.
@@ -132,7 +126,7 @@ const IN_TWICE_THE_PRECISION: [&str; 8] = [
     "TwoTriads",
 ];
 
-/// Mechanisms with functions that `libm` computes in doubles: tan, asin and acos, and sines and powers in laws of users.
+/// Mechanisms with functions that `libm` computes in doubles: tan and asin, and sines and powers in user functions.
 const WITH_FUNCTIONS_IN_DOUBLES: [&str; 6] =
     ["CamFollower", "CamRocker", "Engine", "EveryFunction", "Geneva", "Introductory"];
 
