@@ -140,8 +140,6 @@ linkage! {
         point Ball = lower@alpha;
         point Top = Ball + upright@gamma;
         point Contact = Ball + (-down, -out)@gamma;
-        point Seat = 0.22@alpha;
-        point Strut = (inward, 0.35);
         derive drawing;
     }
     pub mechanism Gripper {
@@ -228,12 +226,11 @@ fn mechanisms_of_pages() {
 
     let m = Suspension::default();
     let branch = SuspensionBranch::new(Elbow::Right);
-    let mut suspension = Animation::between(&m, branch, [-0.2, 0.2]).unwrap();
-    suspension.spring("Strut", "Seat");
-    let branch = GripperBranch::new(Elbow::Left);
-    let gripper = Animation::between(&Gripper::default(), branch, [-26.0, -14.0]).unwrap();
-    let films = [("A suspension", suspension), ("A finger of a gripper", gripper)];
-    compare_text("recipes.svg", &row_of_figures(films.map(|(name, film)| (name, film.to_svg().unwrap()))));
+    let suspension = Drawing::of(&m, &m.assemble(0.0, branch).unwrap());
+    let m = Gripper::default();
+    let gripper = Drawing::of(&m, &m.assemble(-20.0, GripperBranch::new(Elbow::Left)).unwrap());
+    let drawings = [("A suspension", suspension), ("A finger of a gripper", gripper)];
+    compare_text("recipes.svg", &row_of_figures(drawings.map(|(name, drawing)| (name, drawing.to_svg().unwrap()))));
 }
 
 /// The pitch curve of the cam of the page on laws, and its follower.
