@@ -226,11 +226,10 @@ fn mechanisms_of_pages() {
 
     let m = Suspension::default();
     let branch = SuspensionBranch::new(Elbow::Right);
-    let suspension = Drawing::of(&m, &m.assemble(0.0, branch).unwrap());
-    let m = Gripper::default();
-    let gripper = Drawing::of(&m, &m.assemble(-20.0, GripperBranch::new(Elbow::Left)).unwrap());
-    let drawings = [("A suspension", suspension), ("A finger of a gripper", gripper)];
-    compare_text("recipes.svg", &row_of_figures(drawings.map(|(name, drawing)| (name, drawing.to_svg().unwrap()))));
+    let suspension = Animation::between(&m, branch, [-0.2, 0.2]);
+    let gripper = Animation::between(&Gripper::default(), GripperBranch::new(Elbow::Left), [-26.0, -14.0]);
+    let films = [("A suspension", suspension), ("A finger of a gripper", gripper)];
+    compare_text("recipes.svg", &row_of_figures(films.map(|(name, film)| (name, film.unwrap().to_svg().unwrap()))));
 }
 
 /// The pitch curve of the cam of the page on laws, and its follower.
