@@ -163,7 +163,7 @@ fn classes(svg: &str) -> Vec<String> {
     all.filter(|class| !of_plot.contains(class)).map(str::to_owned).collect()
 }
 
-/// The same shapes in the same order, with the same colours, and the same style sheet.
+/// Still and film agree in shapes, their order, their colours, and the style sheet.
 fn one_style<M: Skeleton<Scalar = f64>>(m: &M, poses: &[M::Pose]) {
     let (still, film) = (Drawing::of(m, &poses[0]).to_svg().unwrap(), Animation::of(m, poses, 4.0).to_svg().unwrap());
     assert_eq!(

@@ -4,12 +4,25 @@ use linkage_runtime::skeleton::Skeleton;
 use linkage_runtime::{Joint, JointForces, Kinematic, PointMotion};
 use nalgebra::{Point2, Vector2};
 
+use super::Animation;
 use super::arrows::{Arrow, Quantity, Scale, Tail};
 use super::figure::Figure;
 use super::part::Part;
-use super::{Animation, DrawingError};
 
 /// A builder for a drawing. Lengths are those of the mechanism; y points up.
+///
+/// ```
+/// use linkage_report::drawing::{Drawing, DrawingError};
+///
+/// let mut drawing = Drawing::new("A lever and its load");
+/// drawing.ground("O", [0.0, 0.0]).joint("A", [3.0, 0.0]).joint("B", [3.0, 1.0]).link(&["O", "A", "B"]);
+/// drawing.force("A", [0.0, -200.0]).rename("B", "Handle");
+/// assert!(drawing.to_svg()?.contains("force × 0.005"));
+/// // No part connects these two alone.
+/// drawing.without(&["O", "A"]);
+/// assert!(matches!(drawing.to_svg(), Err(DrawingError::NoPart(_))));
+/// # Ok::<(), DrawingError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Drawing {
     pub(super) title: String,
@@ -126,15 +139,15 @@ impl Drawing {
         self
     }
 
-    /// Removes the parts that connect exactly these points: to draw another one there. [`DrawingError::NoPart`] if there is
-    /// none.
+    /// Removes the parts that connect exactly these points: to draw another one there.
+    /// [`DrawingError::NoPart`](super::DrawingError::NoPart) if there is none.
     pub fn without(&mut self, points: &[&str]) -> &mut Self {
         self.figure.without(points);
         self
     }
 
-    /// Gives a joint or point another name, which it has from here on. [`DrawingError::UnknownJoint`] if none has the first
-    /// name.
+    /// Gives a joint or point another name, which it has from here on.
+    /// [`DrawingError::UnknownJoint`](super::DrawingError::UnknownJoint) if none has the first name.
     pub fn rename(&mut self, from: &str, to: &str) -> &mut Self {
         self.figure.rename(from, to);
         for arrow in &mut self.arrows {
@@ -301,6 +314,7 @@ impl Drawing {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::DrawingError;
 
     fn bar() -> Drawing {
         let mut drawing = Drawing::new("a < b & c");
