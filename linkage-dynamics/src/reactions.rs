@@ -114,7 +114,7 @@ pub fn drive_forces<S: Scene>(
     loads(scene, t, q, input_rates).map(|loads| loads.drives)
 }
 
-/// The rates q' and the accelerations (u'', v'') at these rates of the inputs and in this motion.
+/// The rates q' and the accelerations `(u'', v'')` at these rates of the inputs and in this motion.
 fn moving<S: Scene>(
     scene: &S,
     t: S::Scalar,

@@ -164,8 +164,8 @@ pub trait Scene {
     {
         crate::reactions::loads(self, t, q, input_rates.into())
     }
-    /// The [`loads`](Self::loads) in a motion with these rates v' and accelerations v'' of the inputs, as if each input
-    /// had a drive that makes this motion: the forces of the drives are those that motors must apply.
+    /// The [`loads`](Self::loads) in a motion with these rates v' and accelerations `v''` of the inputs, as if each
+    /// input had a drive that makes this motion: the forces of the drives are those that motors must apply.
     ///
     /// # Errors
     /// Those of [`loads`](Self::loads).
@@ -394,7 +394,7 @@ pub struct Loads<S: Scene> {
     pub drive_power: S::Scalar,
     /// The forces in the joints that `reaction` statements of the scene name.
     pub joints: S::Reactions,
-    /// The accelerations (u'', v'') in the motion with these forces.
+    /// The accelerations `(u'', v'')` in the motion with these forces.
     pub accelerations: Accelerations<S>,
 }
 

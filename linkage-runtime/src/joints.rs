@@ -24,7 +24,7 @@ pub enum Joint {
         name: &'static str,
         /// The link that slides.
         on: &'static str,
-        /// As for a pin.
+        /// Its place, as that of a pin.
         place: usize,
     },
 }
