@@ -113,7 +113,7 @@ impl<Q: Copy + Debug + PartialEq> Quantity for Q {}
 )]
 pub trait Kinematic:
     Mechanism<
-        // rustc shows the next line for `dyn Kinematic`.
+        // rustc shows the next line, or that of `Points`, for `dyn Kinematic`.
         Coordinates: From<PerCoordinate<Self>> + Into<PerCoordinate<Self>>, // Instead: your trait for all `M: Kinematic`.
         Rates: From<PerCoordinate<Self>> + Into<PerCoordinate<Self>>,
         Pose: Copy + Debug,
@@ -128,7 +128,7 @@ pub trait Kinematic:
     /// The accelerations `q''` by name.
     type Accelerations: Copy + Debug + PartialEq + From<PerCoordinate<Self>> + Into<PerCoordinate<Self>>;
     /// A quantity for each point by name; without points an empty list.
-    type Points<Q: Quantity>: Copy
+    type Points<Q: Quantity>: Copy // Instead of `dyn`: a generic function, or your trait for all `M: Kinematic`.
         + Debug
         + PartialEq
         + From<<Self::P as Dim>::Array<Q>>
