@@ -68,6 +68,8 @@ pub mod first_simulation {}
 
 /// Torque and forces over a turn, as a table, as CSV and as charts.
 ///
+#[doc = include_str!("torque.svg")]
+///
 #[doc = include_str!("torque.md")]
 pub mod torque {}
 

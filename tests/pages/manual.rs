@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::{env, fs};
 
+use linkage::chart::{Chart, Polar};
 use linkage::circuits::{CircuitOptions, Circuits};
 use linkage::drawing::{Animation, CircuitChart, Drawing};
 use linkage::nalgebra::{Point2, Vector2};
-use linkage::{Elbow, Slider, linkage};
+use linkage::table::Units;
+use linkage::{Elbow, Slider, Table, linkage};
 
 linkage! {
     pub mechanism FourBar {
@@ -160,6 +162,37 @@ linkage! {
         point A = r@theta;
         point Foot = t@0;
     }
+    pub mechanism Wiper {
+        param crank = 0.05, rod = 0.24, rocker = 0.07, frame = 0.25;
+        param lean = -17deg, inner = 0.25, outer = 0.65;
+        param j2 = 2e-4, m3 = 0.12, j3 = 6e-4, m4 = 0.55, j4 = 0.025, c4 = 0.36;
+        param mu = 0.12, pin = 0.006, wet = 0.4, load = 7, g = 8;
+        input theta;
+        unknown phi, psi;
+        loop crank@theta + rod@phi = frame@0 + rocker@psi;
+        point Motor = (0, 0);
+        point A = crank@theta;
+        point B = A + rod@phi;
+        point Pivot = (frame, 0);
+        point Inner = Pivot + inner@(psi + lean);
+        point Outer = Pivot + outer@(psi + lean);
+        output arm = psi + lean;
+
+        body wheel { inertia j2; angle theta; }
+        body link { mass m3; inertia j3; center A + (rod / 2)@phi; angle phi; }
+        body blade { mass m4; inertia j4; center Pivot + c4@(psi + lean); angle psi; }
+        scene Wiping {
+            inertia;
+            gravity (0, -g);
+            friction mu, pin, reaction on theta;
+            friction mu, pin, reaction on theta - phi;
+            friction mu, pin, reaction on phi - psi;
+            friction mu, pin, reaction on psi;
+            friction wet, (inner + outer) / 2, load on psi;
+            reactions;
+        }
+        derive drawing;
+    }
 }
 
 /// A picture of a page; in rustdoc an empty line would end it.
@@ -230,6 +263,19 @@ fn mechanisms_of_pages() {
     let gripper = Animation::between(&Gripper::default(), GripperBranch::new(Elbow::Left), [-26.0, -14.0]);
     let films = [("A suspension", suspension), ("A finger of a gripper", gripper)];
     compare_text("recipes.svg", &row_of_figures(films.map(|(name, film)| (name, film.unwrap().to_svg().unwrap()))));
+}
+
+/// The wiper of the page on torque: its film, the torque of its motor over a turn, and the load of a pin.
+#[test]
+fn torque_over_a_turn() {
+    let (scene, left) = (Wiping::default(), WiperBranch::new(Elbow::Left));
+    let film = Animation::turn(&scene.mechanism, left).unwrap().paths(&["Inner", "Outer"]).to_svg().unwrap();
+    let table = Table::turn_with_loads(&scene, left, 360, TAU).unwrap().degrees().units(Units::SI);
+    let torque = Chart::of(&table, "theta", ["theta_torque"]).unwrap().to_svg();
+    let pin = Polar::of(&table, "a_on_link_x", "a_on_link_y").unwrap().to_svg();
+    let figures =
+        [("The wiper", film), ("The torque of the motor", torque), ("The force in the pin A on the rod", pin)];
+    compare_text("torque.svg", &row_of_figures(figures));
 }
 
 /// The pitch curve of the cam of the page on laws, and its follower.

@@ -58,7 +58,7 @@ impl Polar {
     /// The chart as a file.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        self.svg(&format!("<style>svg{{background:var(--card)}}{STYLE}</style>"))
+        self.svg(&format!("<style>.chart{{background:var(--card)}}{STYLE}</style>"))
     }
 
     /// The chart as a part of a page that has the [`STYLE`].
