@@ -379,7 +379,9 @@ fn mistakes_are_named() {
     assert_eq!(film().paths(&["P1"]).to_svg(), unknown("P1", "P"));
     assert_eq!(film().without(&["A", "C"]).to_svg(), Err(DrawingError::NoPart(vec!["A".to_owned(), "C".to_owned()])));
     assert_eq!(film().without(&[]).to_svg(), Err(DrawingError::NoPart(Vec::new())));
-    assert_eq!(Drawing::of(&m, &pose).without(&["Q"]).to_svg(), Err(DrawingError::NoPart(vec!["Q".to_owned()])));
+    // A name that is near to none has no guess.
+    let nothing_near = Err(DrawingError::UnknownJoint { name: "Q".to_owned(), nearest: None });
+    assert_eq!(Drawing::of(&m, &pose).without(&["A", "Q"]).to_svg(), nothing_near);
     // The first mistake is reported.
     assert_eq!(film().rename("b", "c").without(&["Q"]).to_svg(), unknown("b", "B"));
     assert_eq!(Drawing::of(&m, &pose).rename("A", "B").to_svg(), Err(DrawingError::DuplicatePoint("B".to_owned())));

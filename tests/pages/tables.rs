@@ -214,11 +214,12 @@ fn a_simulation_by_rows() {
         "psi_rate",
         "psi_acceleration",
         "Tip_velocity_y",
+        "Tip_speed",
         "Tip_acceleration_x",
         "swing_rate",
         "swing_acceleration",
     ];
-    let [time, psi, rate, acceleration, velocity, second, swing, swing_acceleration] = columns(&table, names);
+    let [time, psi, rate, acceleration, velocity, speed, second, swing, swing_acceleration] = columns(&table, names);
     let [torque, pin, drag] = columns(&table, ["theta_torque", "a_on_rod", "friction on psi"]);
     let mut simulation = simulate(&scene, start(), 1.2, 1e-9).unwrap();
     for (row, state) in simulation.at(times()).with_loads().enumerate() {
@@ -230,6 +231,7 @@ fn a_simulation_by_rows() {
         let scale = motion.accelerations.psi.abs() + RATE * RATE;
         close("psi''", acceleration[row], motion.accelerations.psi, 1e-11 * scale);
         close("velocity", velocity[row], motion.points.tip.velocity.y, 1e-12 * RATE);
+        close("speed", speed[row], motion.points.tip.velocity.norm(), 1e-12 * RATE);
         close("acceleration", second[row], motion.points.tip.acceleration.x, 1e-11 * scale);
         close("rate", swing[row], motion.rates.psi - motion.rates.phi, 1e-12 * RATE);
         let expected = motion.accelerations.psi - motion.accelerations.phi;
@@ -314,6 +316,8 @@ fn columns_by_name_in_any_order() {
     assert_eq!(chosen.column("theta"), table.column("theta"));
     let error = table.select(["theta", "thta_torque"]).unwrap_err();
     assert_eq!(error.to_string(), "the table has no column `thta_torque`; the nearest name is `theta_torque`");
+    let far = table.select(["crank"]).unwrap_err();
+    assert_eq!(far.to_string(), "the table has no column `crank`: its `names` lists the columns");
     let none = Table::default().select(["theta"]).unwrap_err();
     assert_eq!(none, TableError::UnknownColumn { name: "theta".to_owned(), nearest: None });
     assert!(table.clone().unit("tip", "mm").is_err() && table.clone().degrees_of(["tip"]).is_err());

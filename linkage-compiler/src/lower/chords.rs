@@ -85,7 +85,9 @@ impl Writer<'_> {
             ChordGeometry::Circle { scales, may_cancel } => {
                 let chord = if may_cancel { Intrinsic::ReachChord } else { Intrinsic::Chord };
                 let scales = self.list(scales);
-                (chord, vec![self.origin(), self.group(group), factors, size, scales, side])
+                // Another function finds the error.
+                let origin = if self.otherwise.is_some() { self.error_name() } else { self.origin() };
+                (chord, vec![origin, self.group(group), factors, size, scales, side])
             }
             ChordGeometry::RegularCircle { scale: None } => (Intrinsic::RegularChord, vec![factors, size, side]),
             ChordGeometry::RegularCircle { scale: Some(scale) } => {

@@ -202,7 +202,7 @@ impl<'a> Writer<'a> {
         let derivation = self.context.derivation;
         let inputs = derivation.inputs.iter().map(|&column| derivation.coordinates[column].value);
         let inputs: Option<Vec<ValueId>> = inputs.map(|input| self.symbols.get(&input).copied()).collect();
-        let is_read = self.kernel.error_name.is_none() && self.otherwise.is_none() && !self.is_flagged();
+        let is_read = self.kernel.error_name.is_none() && !self.is_flagged();
         match inputs.filter(|_| is_read) {
             Some(inputs) => {
                 let (own, inputs) = (self.variable("self"), self.list(inputs));

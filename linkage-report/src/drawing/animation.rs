@@ -112,6 +112,12 @@ impl Animation {
         self.part(Part::Trace(point.to_owned()))
     }
 
+    /// Sets the seconds that all frames take: a turn of 45 rpm takes 60/45.
+    pub fn seconds(&mut self, seconds: f64) -> &mut Self {
+        self.seconds = seconds;
+        self
+    }
+
     /// Lets these points leave their paths, and no others: by default the declared points that are no joints do.
     /// [`DrawingError::UnknownJoint`](super::DrawingError::UnknownJoint) if there is no such point.
     pub fn paths(&mut self, points: &[&str]) -> &mut Self {

@@ -44,12 +44,19 @@ impl Figure {
     /// The mistake of a name that no point has.
     fn unknown(&self, name: &str) -> DrawingError {
         let distance = |other: &&str| letters_apart(name, other);
-        let nearest = self.names().min_by_key(distance).map(str::to_owned);
+        // Half the letters may differ, and the case.
+        let is_near = |other: &&str| name.eq_ignore_ascii_case(other) || distance(other) <= name.chars().count() / 2;
+        let near = self.names().filter(is_near);
+        let nearest = near.min_by_key(distance).map(str::to_owned);
         DrawingError::UnknownJoint { name: name.to_owned(), nearest }
     }
 
     /// Removes the parts that connect exactly these points; a mistake if there are none.
     pub(super) fn without(&mut self, points: &[&str]) {
+        if let Some(unknown) = points.iter().find(|point| !self.names().any(|name| name == **point)) {
+            self.mistaken(self.unknown(unknown));
+            return;
+        }
         let count = self.parts.len();
         let connects = |part: &Part| {
             let of_part = part.points();

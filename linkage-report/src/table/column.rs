@@ -74,6 +74,8 @@ impl Quantity {
             #[cfg(feature = "dynamics")]
             Self::Torque => Some(format!("{_force} {length}")),
             #[cfg(feature = "dynamics")]
+            Self::Power if (_force, length, time) == ("N", "m", "s") => Some("W".to_owned()),
+            #[cfg(feature = "dynamics")]
             Self::Power => Some(format!("{_force} {length}/{time}")),
         }
     }

@@ -49,7 +49,7 @@ impl fmt::Display for TableError {
                 write!(f, "the table has no column `{name}`; the nearest name is `{nearest}`")
             }
             Self::UnknownColumn { name, nearest: None } => {
-                write!(f, "the table has no column `{name}`: it has no columns")
+                write!(f, "the table has no column `{name}`: its `names` lists the columns")
             }
             Self::SameName { name } => write!(f, "the table has a column `{name}`: give the new one another name"),
             Self::Length { name, numbers, rows } => {
@@ -70,7 +70,9 @@ impl TableError {
     pub(super) fn unknown(name: &str, names: &[&str]) -> Self {
         // A capital letter is a smaller slip than another letter.
         let by_case = |other: &str| (edits(&name.to_lowercase(), &other.to_lowercase()), edits(name, other));
-        let nearest = names.iter().min_by_key(|other| by_case(other)).map(|&nearest| nearest.to_owned());
+        // Half the letters may differ.
+        let near = names.iter().filter(|other| by_case(other).0 <= name.chars().count() / 2);
+        let nearest = near.min_by_key(|other| by_case(other)).map(|&nearest| nearest.to_owned());
         Self::UnknownColumn { name: name.to_owned(), nearest }
     }
 }

@@ -7,7 +7,7 @@
 //! | `Table::simulated`, `Table::simulated_at` | steps of a simulation, or times | the motion and the loads |
 //!
 //! A motion has the columns of its input, `time` if the input moves, of each unknown and each output `psi`, `psi_rate` and
-//! `psi_acceleration`, and of each point `C_x`, `C_y`, `C_velocity_x`, `C_velocity_y`, `C_acceleration_x` and
+//! `psi_acceleration`, and of each point `C_x`, `C_y`, `C_velocity_x`, `C_velocity_y`, `C_speed`, `C_acceleration_x` and
 //! `C_acceleration_y`. [`Table::select`] chooses and orders them, [`Table::degrees`] writes angles in degrees,
 //! [`Table::units`] puts units in the heads, [`Table::digits`] rounds what is written, and
 //! [`Chart::of`](crate::chart::Chart::of) draws them.

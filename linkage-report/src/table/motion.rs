@@ -163,10 +163,16 @@ pub(super) fn coordinates(names: &[&str], are_angles: &[bool]) -> Vec<(String, Q
 /// The columns of points and outputs.
 pub(super) fn points_and_outputs<M: Kinematic>() -> impl Iterator<Item = (String, Quantity)> {
     let points = M::POINTS.iter().flat_map(|point| {
-        let vectors = [(0, ""), (1, "velocity_"), (2, "acceleration_")];
-        let each =
-            vectors.map(|(order, of)| ["x", "y"].map(|axis| (format!("{point}_{of}{axis}"), Quantity::Length(order))));
-        each.into_iter().flatten()
+        let columns = [
+            (0, "x"),
+            (0, "y"),
+            (1, "velocity_x"),
+            (1, "velocity_y"),
+            (1, "speed"),
+            (2, "acceleration_x"),
+            (2, "acceleration_y"),
+        ];
+        columns.map(|(order, of)| (format!("{point}_{of}"), Quantity::Length(order)))
     });
     let outputs = M::OUTPUTS
         .iter()
@@ -192,8 +198,8 @@ fn numbers<M: Driven<Scalar = f64>>(motion: &MotionOf<M::Of>) -> Vec<f64> {
     let moving = of_unknowns.iter().zip(&unknown_rates).zip(&unknown_accelerations);
     row.extend(moving.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
     for point in M::Of::each_point(motion.points) {
-        let vectors = [point.position.coords, point.velocity, point.acceleration];
-        row.extend(vectors.iter().flat_map(|vector| [vector.x, vector.y]));
+        let (at, velocity, acceleration) = (point.position, point.velocity, point.acceleration);
+        row.extend([at.x, at.y, velocity.x, velocity.y, velocity.norm(), acceleration.x, acceleration.y]);
     }
     for output in M::Of::each_output(motion.outputs) {
         row.extend([output.value, output.rate, output.acceleration]);

@@ -199,7 +199,7 @@ where
             (row, (jumps && p + o > 0).then_some(Cause::Jump))
         }
         Err(error) => {
-            row.extend(std::iter::repeat_n(f64::NAN, 6 * p + 3 * o));
+            row.extend(std::iter::repeat_n(f64::NAN, 7 * p + 3 * o));
             (row, Some(Cause::Motion(error.into())))
         }
     }
@@ -219,7 +219,7 @@ fn quantities<M: Kinematic<Scalar = f64>>(
     let (points, velocities) = (mechanism.points(&pose)?, mechanism.point_velocities(&pose, rates)?);
     for (place, (at, velocity)) in M::each_point(points).iter().zip(&M::each_point(velocities)).enumerate() {
         let [x, y] = second.map_or([f64::NAN; 2], |second| [second[place].x, second[place].y]);
-        row.extend([at.x, at.y, velocity.x, velocity.y, x, y]);
+        row.extend([at.x, at.y, velocity.x, velocity.y, velocity.norm(), x, y]);
     }
     let second = accelerations.map(|second| mechanism.output_accelerations(&pose, rates, &second)).transpose()?;
     let second = second.map(M::each_output);

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use super::Scene;
+use super::contact::is_coefficient;
+use super::{ContactLaw, Scene};
 use crate::diagnostics::Region;
-use crate::graph::{NodeId, SymbolId};
+use crate::graph::{Node, NodeId, SymbolId};
 use crate::ids::SceneId;
 use crate::model::links::{GROUND, Links};
 use crate::model::mechanism::Mechanism;
@@ -96,6 +97,11 @@ impl Finder<'_, '_> {
                     if holding.is_empty() {
                         let message = format!("{text} is fixed in no body and no link: name a point of a link");
                         self.resolver.diagnostics.error(region, message);
+                    } else if holding.iter().all(|&link| link == GROUND) {
+                        let message = format!(
+                            "{text} is fixed in the ground alone, where no link begins or ends: name a point of a link"
+                        );
+                        self.resolver.diagnostics.error(region, message);
                     }
                     let joint = self.links.hold(position, &holding);
                     for link in holding {
@@ -122,6 +128,7 @@ impl Finder<'_, '_> {
                 }
                 WantedOf::Friction(contact, along, pin) => {
                     let Some(site) = self.bearing(along, pin, region) else { continue };
+                    self.without_radius(site, id, contact, region);
                     let load = self.open(site);
                     self.result.scenes[id].contacts[contact].bearing = Some(load);
                 }
@@ -177,6 +184,20 @@ impl Finder<'_, '_> {
             }
         }
         None
+    }
+
+    /// Reports a friction in a pin whose only factor has the name of a coefficient: its torque needs a radius.
+    fn without_radius(&mut self, site: Site, scene: SceneId, contact: usize, region: Region) {
+        let ContactLaw::Friction(factors) = &self.result.scenes[scene].contacts[contact].law else { return };
+        let (Site::Pin { .. }, &[factor]) = (site, factors.as_slice()) else { return };
+        let Node::Symbol(symbol) = *self.resolver.graph.node(factor) else { return };
+        let name = self.resolver.graph.symbol_name(symbol).to_owned();
+        if is_coefficient(&name) {
+            let message = format!(
+                "the torque of friction in a pin is the force times a radius: write `friction {name}, radius, reaction`"
+            );
+            self.resolver.diagnostics.error(region, message);
+        }
     }
 
     /// The index of the load of a site, which is added at its first use.

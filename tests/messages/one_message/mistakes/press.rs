@@ -105,6 +105,7 @@ pub const PRESS: &[Mistake] = &[
     ("requests_in_plural", "reactions;", "«reaction»;"),
     ("request_twice", "energy;", "energy; «energy»;"),
     ("reaction_at_a_loose_point", "reactions;", "reactions; reaction at «(2 * z, 0)»;"),
+    ("reaction_at_a_point_of_the_ground", "reactions;", "reactions; reaction at «(3, 0.2)»;"),
     ("reaction_on_a_pin", "reactions;", "reactions; reaction on «B»;"),
     ("reaction_at_a_scalar", "reactions;", "reactions; reaction at «z»;"),
     ("reaction_on_an_angle", "reactions;", "reactions; reaction on «psi»;"),
