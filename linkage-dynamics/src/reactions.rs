@@ -65,7 +65,7 @@ pub(crate) fn loads<S: Scene>(
 ///
 /// # Errors
 /// Those of [`loads`].
-pub(crate) fn driven_loads<S: Scene>(
+pub(crate) fn loads_of_motion<S: Scene>(
     scene: &S,
     t: S::Scalar,
     q: &Coordinates<S>,

@@ -169,7 +169,7 @@ pub trait Scene {
     ///
     /// # Errors
     /// Those of [`loads`](Self::loads).
-    fn driven_loads(
+    fn loads_of_motion(
         &self,
         t: Self::Scalar,
         q: &Coordinates<Self>,
@@ -179,13 +179,17 @@ pub trait Scene {
     where
         Self: Sized,
     {
-        crate::reactions::driven_loads(self, t, q, (input_rates.into(), input_accelerations.into()))
+        crate::reactions::loads_of_motion(self, t, q, (input_rates.into(), input_accelerations.into()))
     }
     /// The energy at a position and the rates v' of the inputs, if the scene has `energy;`.
     ///
     /// # Errors
     /// [`PositionError::Singular`] where J is singular, [`PositionError::NotFinite`] if the energy is not finite.
-    fn energy_of(&self, _: &Coordinates<Self>, _: &Inputs<Self>) -> Result<Option<Energy<Self::Scalar>>, MotionError> {
+    fn kinetic_and_potential(
+        &self,
+        _: &Coordinates<Self>,
+        _: &Inputs<Self>,
+    ) -> Result<Option<Energy<Self::Scalar>>, MotionError> {
         Ok(None)
     }
     /// The prescribed motion of each input, or None.

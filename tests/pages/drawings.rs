@@ -248,7 +248,7 @@ fn pivots_have_the_names_that_the_user_gives() {
     let mut drawing = Drawing::of(&m, &pose);
     // The arrows before and after a change of the name are at one point.
     drawing.velocity("B", [1.0, 0.0]).rename("B", "Pin").velocities(&m, &motion.points).without(&["B"]);
-    assert_eq!(drawing.to_svg(), Err(DrawingError::NoPart(vec!["B".to_owned()])));
+    assert_eq!(drawing.to_svg(), Err(DrawingError::UnknownJoint { name: "B".to_owned(), nearest: None }));
     let mut drawing = Drawing::of(&m, &pose);
     drawing.velocity("B", [1.0, 0.0]).rename("B", "Pin").rename("A", "B").velocities(&m, &motion.points);
     let svg = drawing.to_svg().unwrap();

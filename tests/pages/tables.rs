@@ -444,7 +444,7 @@ fn a_force_for_a_length() {
     for row in 0..3 {
         close("force", force[row], scene.k * (z[row] - 0.1), 1e-13 * scene.k);
         let q = range.at(z[row]).unwrap();
-        let joints = scene.driven_loads(0.0, &q, 0.0, 0.0).unwrap().joints;
+        let joints = scene.loads_of_motion(0.0, &q, 0.0, 0.0).unwrap().joints;
         assert_eq!([normal[row], moment[row]], [joints.z_normal, joints.z_moment]);
     }
     let csv = table.select(["z", "z_force", "z_normal", "z_moment"]).unwrap().units(Units::SI).to_csv();

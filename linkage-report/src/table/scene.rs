@@ -154,8 +154,8 @@ where
     let (_, rates) = S::Mechanism::rate_parts(&motion.rates);
     let (_, accelerations) = S::Mechanism::acceleration_parts(&motion.accelerations);
     let (rates, accelerations) = (Inputs::<S>::from(rates), Inputs::<S>::from(accelerations));
-    let energy = scene.energy_of(&motion.position, &rates)?;
-    Ok((scene.driven_loads(t, &motion.position, rates, accelerations)?, energy))
+    let energy = scene.kinetic_and_potential(&motion.position, &rates)?;
+    Ok((scene.loads_of_motion(t, &motion.position, rates, accelerations)?, energy))
 }
 
 /// The numbers of an energy, if there is one.

@@ -172,7 +172,7 @@ fn in_words(change: Change) -> &'static str {
 /// The energy at a state.
 fn energy<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<Energy<f64>>, MotionError> {
     let (_, rates) = S::Mechanism::rate_parts(&state.rates);
-    scene.energy_of(&state.q, &Inputs::<S>::from(rates))
+    scene.kinetic_and_potential(&state.q, &Inputs::<S>::from(rates))
 }
 
 /// The numbers of a state before its loads, NaN for those that do not exist, and why.

@@ -218,7 +218,7 @@ impl OfScene<'_> {
         let arguments = [self.coordinates("q", Order::Value), ("input_rates", Passed::ByReference(inputs))];
         let found = Expression::own_call("energy", [name("q"), name("input_rates").dereferenced()]).tried();
         let of = Type::Around("Option", Box::new(Type::Runtime("Energy", Vec::new())));
-        fallible_of_trait("energy_of", arguments, of, Body::plain(perhaps(Some(found))))
+        fallible_of_trait("kinetic_and_potential", arguments, of, Body::plain(perhaps(Some(found))))
     }
 
     /// The law of each input that has a drive.
