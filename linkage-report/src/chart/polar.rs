@@ -108,7 +108,7 @@ impl Disc {
         let step = nice(longest / CIRCLES);
         let [width, height] = chart.size;
         let radius = ((height - TOP - SIDE) / 2.0).min(width / 2.0 - SIDE).max(1.0);
-        // A rounding error beyond a circle is no reason for another one.
+        // A vector that ends beyond a circle by its rounding error alone needs no further circle.
         let most = (longest / step - 1e-6).ceil() * step;
         let disc = Self { centre: [width / 2.0, TOP + radius], radius, most, step, labels: 0.0 };
         Self { labels: disc.free_angle(chart), ..disc }

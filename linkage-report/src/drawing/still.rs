@@ -46,7 +46,7 @@ type MotionOfPoints<M> = <M as Kinematic>::Points<PointMotion<f64>>;
 /// The link at rest, in the names of forces.
 const GROUND: &str = "ground";
 
-/// True if two forces are opposite but for rounding errors, relative to them.
+/// True if the sum of two forces is no more than a rounding error of the larger one.
 fn is_opposite(one: Vector2<f64>, other: Vector2<f64>) -> bool {
     (one + other).norm() <= 1e-9 * one.norm().max(other.norm())
 }
