@@ -122,7 +122,7 @@ impl Chart {
     /// The chart as a file.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        self.svg(&format!("<style>.chart{{background:var(--card)}}{STYLE}</style>"))
+        self.svg(&render::style_of_file())
     }
 
     /// The chart as a part of a page that has the [`STYLE`].

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use super::axis::nice;
-use super::render::{LETTER, ROW, legend, legend_at, path};
-use super::{COLOURS, Curve, Look, STYLE};
+use super::render::{LETTER, path, style_of_file, titled};
+use super::{COLOURS, Curve, Look};
 use crate::sheet::escape;
 
 /// The margins around the outermost circle, in pixels: for the title and for the angles.
@@ -58,7 +58,7 @@ impl Polar {
     /// The chart as a file.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        self.svg(&format!("<style>.chart{{background:var(--card)}}{STYLE}</style>"))
+        self.svg(&style_of_file())
     }
 
     /// The chart as a part of a page that has the [`STYLE`].
@@ -68,22 +68,10 @@ impl Polar {
     }
 
     fn svg(&self, style: &str) -> String {
-        let legend = if self.has_legend { legend(&self.curves, self.size[0]) } else { Vec::new() };
-        let rows = legend.last().map_or(0.0, |(_, [_, row])| row + 1.0);
-        let [width, height] = [self.size[0], self.size[1] + ROW * rows];
-        let title = escape(&self.title);
-        let mut svg = format!(
-            "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-             aria-label=\"{title}\">{style}<text class=\"title\" x=\"8\" y=\"17\">{title}</text>"
-        );
         let disc = Disc::of(self);
-        svg.push_str(&disc.grid(&self.radius));
-        for curve in &self.curves {
-            svg.push_str(&disc.curve(curve));
-        }
-        svg.push_str(&legend_at(&legend, self.size[1]));
-        svg.push_str("</svg>");
-        svg
+        let curves: String = self.curves.iter().map(|curve| disc.curve(curve)).collect();
+        let drawn = disc.grid(&self.radius) + &curves;
+        titled(style, &self.title, self.size, if self.has_legend { &self.curves } else { &[] }, &drawn)
     }
 }
 

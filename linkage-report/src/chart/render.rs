@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{COLOURS, Chart, Curve, Line, Look, Unit};
+use super::{COLOURS, Chart, Curve, Line, Look, STYLE, Unit};
 use crate::sheet::escape;
 
 /// The margins, in pixels.
@@ -13,7 +13,7 @@ const RIGHT: f64 = 16.0;
 
 /// The width of a letter, and the height of a row of the legend.
 pub(super) const LETTER: f64 = 6.3;
-pub(super) const ROW: f64 = 18.0;
+const ROW: f64 = 18.0;
 
 /// The least distance of two labels at the right ends of curves.
 const APART: f64 = 11.0;
@@ -78,33 +78,31 @@ impl<'a> Frame<'a> {
 impl Chart {
     pub(super) fn svg(&self, style: &str) -> String {
         let frame = Frame::of(self);
-        let legend = if self.has_legend { legend(&self.curves, self.size[0]) } else { Vec::new() };
-        let rows = legend.last().map_or(0.0, |(_, [_, row])| row + 1.0);
-        let [width, height] = [self.size[0], self.size[1] + ROW * rows];
-        let title = escape(&self.title);
-        let mut svg = format!(
-            "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-             aria-label=\"{title}\">{style}<text class=\"title\" x=\"8\" y=\"17\">{title}</text>"
-        );
-        let mut push = |text: std::fmt::Arguments<'_>| {
-            // Writing to a string does not fail.
-            let _ = svg.write_fmt(text);
-        };
-        push(format_args!("{}", frame.spans()));
-        push(format_args!("{}", frame.grid()));
-        push(format_args!("{}", frame.lines()));
-        for curve in &self.curves {
-            push(format_args!("{}", frame.curve(curve)));
-        }
-        push(format_args!("{}", frame.labels()));
-        svg.push_str(&legend_at(&legend, self.size[1]));
-        svg.push_str("</svg>");
-        svg
+        let curves: String = self.curves.iter().map(|curve| frame.curve(curve)).collect();
+        let drawn = [frame.spans(), frame.grid(), frame.lines(), curves, frame.labels()].concat();
+        titled(style, &self.title, self.size, if self.has_legend { &self.curves } else { &[] }, &drawn)
     }
 }
 
+/// The style of a chart that is a file of its own.
+pub(super) fn style_of_file() -> String {
+    format!("<style>.chart{{background:var(--card)}}{STYLE}</style>")
+}
+
+/// What a chart draws, below its title and above the legend of these curves.
+pub(super) fn titled(style: &str, title: &str, size: [f64; 2], curves: &[Curve], drawn: &str) -> String {
+    let legend = legend(curves, size[0]);
+    let rows = legend.last().map_or(0.0, |(_, [_, row])| row + 1.0);
+    let [width, height] = [size[0], size[1] + ROW * rows];
+    let (title, legend) = (escape(title), legend_at(&legend, size[1]));
+    format!(
+        "<svg class=\"chart\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+         aria-label=\"{title}\">{style}<text class=\"title\" x=\"8\" y=\"17\">{title}</text>{drawn}{legend}</svg>"
+    )
+}
+
 /// The curves with names, each with its x and its row, in a legend of this width.
-pub(super) fn legend(curves: &[Curve], width: f64) -> Vec<(&Curve, [f64; 2])> {
+fn legend(curves: &[Curve], width: f64) -> Vec<(&Curve, [f64; 2])> {
     let mut next = [8.0, 0.0];
     let named = curves.iter().filter(|curve| !curve.name.is_empty());
     let placed = named.map(|curve| {
@@ -120,7 +118,7 @@ pub(super) fn legend(curves: &[Curve], width: f64) -> Vec<(&Curve, [f64; 2])> {
 }
 
 /// A legend below this height.
-pub(super) fn legend_at(legend: &[(&Curve, [f64; 2])], height: f64) -> String {
+fn legend_at(legend: &[(&Curve, [f64; 2])], height: f64) -> String {
     let entries = legend.iter().map(|(curve, [x, row])| {
         let y = height + ROW * row;
         format!(
