@@ -309,6 +309,16 @@ fn a_simulation_that_ends_early() {
 }
 
 #[test]
+fn the_speed_of_a_point_is_the_length_of_its_velocity() {
+    let table = loads();
+    let [x, y, speed] = columns(&table, ["Tip_velocity_x", "Tip_velocity_y", "Tip_speed"]);
+    assert!(speed.iter().any(|speed| *speed > 0.0));
+    for ((x, y), speed) in x.iter().zip(y).zip(speed) {
+        close("speed", speed, x.hypot(y), 4.0 * f64::EPSILON * speed);
+    }
+}
+
+#[test]
 fn columns_by_name_in_any_order() {
     let table = loads();
     let chosen = table.select(["theta_torque", "theta"]).unwrap();
