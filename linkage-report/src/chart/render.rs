@@ -89,7 +89,7 @@ pub(super) fn style_of_file() -> String {
     format!("<style>.chart{{background:var(--card)}}{STYLE}</style>")
 }
 
-/// What a chart draws, below its title and above the legend of these curves.
+/// A chart under its title, above the legend of these curves; `drawn` is what is between them.
 pub(super) fn titled(style: &str, title: &str, size: [f64; 2], curves: &[Curve], drawn: &str) -> String {
     let legend = legend(curves, size[0]);
     let rows = legend.last().map_or(0.0, |(_, [_, row])| row + 1.0);
