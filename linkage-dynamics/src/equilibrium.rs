@@ -75,6 +75,7 @@ where
     F: Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError>,
 {
     type Scalar = T;
+    type Name = &'static str;
     type N = D<N>;
     type Point = Result<(Q, Balance<T, N>), MotionError>;
 

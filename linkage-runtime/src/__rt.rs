@@ -26,7 +26,7 @@ pub use crate::modes::{Loops, Memory, Unknown};
 pub use crate::motion::{
     each_sized, finite_matrices, finite_outputs, finite_points, finite_vectors, output_motions, point_motions,
 };
-pub use crate::origin::at;
+pub use crate::origin::{Origin, at, at_named};
 pub use crate::position::newton_group;
 pub use crate::ranges::{in_range, ranged, ranged_direction, ranged_modulo_turns};
 pub use crate::scalar::{largest, unit};

@@ -1,6 +1,6 @@
 //! The two solutions of an Assur group, named by their geometry.
 
-use crate::{PositionError, Real};
+use crate::{Name, PositionError, Real};
 
 /// The choice between the two solutions of a group, which differ in the sign of a square root.
 pub trait Side: Copy + PartialEq {
@@ -103,10 +103,10 @@ pub fn side_at<S: Side>(number: usize) -> S {
 ///
 /// # Errors
 /// Any other error of a branch, before the first position.
-pub fn existing<B: Copy, P>(
+pub fn existing<B: Copy, P, S: Name>(
     branches: impl Iterator<Item = B> + Clone,
-    mut assemble: impl FnMut(B) -> Result<P, PositionError>,
-) -> Result<impl Iterator<Item = Assembled<B, P>>, PositionError> {
+    mut assemble: impl FnMut(B) -> Result<P, PositionError<S>>,
+) -> Result<impl Iterator<Item = Assembled<B, P>>, PositionError<S>> {
     for branch in branches.clone() {
         match assemble(branch) {
             Ok(_)

@@ -2,7 +2,7 @@
 
 use crate::bounded::{exact, has_bound, instead, lost};
 use crate::branch::Side;
-use crate::error::InputValues;
+use crate::error::{InputValues, Name};
 use crate::linear::{is_nonzero, power_of_two_below};
 use crate::native::same;
 use crate::origin::Origin;
@@ -34,14 +34,14 @@ pub const COINCIDENT_ULPS: f64 = 8.0;
 /// [`PositionError::Unbuildable`] if the product is negative, [`PositionError::Undetermined`] if n and h are both zero,
 /// [`PositionError::NotFinite`] if a number is not finite.
 #[inline]
-pub fn chord<T: Real, S: Side>(
-    origin: impl Origin,
-    group: &'static str,
+pub fn chord<T: Real, S: Side, O: Origin>(
+    origin: O,
+    group: O::Name,
     factors: [T; 2],
     radius: T,
     scales: [T; 2],
     side: S,
-) -> Result<T, PositionError> {
+) -> Result<T, PositionError<O::Name>> {
     let [low, high] = factors;
     let radicand = low * high;
     // At most one factor is negative.
@@ -60,14 +60,14 @@ pub fn chord<T: Real, S: Side>(
 /// # Errors
 /// Those of [`chord`].
 #[inline]
-pub fn reach_chord<T: Real, S: Side>(
-    origin: impl Origin,
-    group: &'static str,
+pub fn reach_chord<T: Real, S: Side, O: Origin>(
+    origin: O,
+    group: O::Name,
     factors: [T; 2],
     radius: T,
     scales: [T; 2],
     side: S,
-) -> Result<T, PositionError> {
+) -> Result<T, PositionError<O::Name>> {
     if radius <= real::<T>(COINCIDENT_ULPS) * T::default_epsilon() * scales[0] {
         touching_chord(origin.mechanism(), group, factors[0], factors[1], radius, scales[0], scales[1])
             .map_err(|error| origin.located(error))?;
@@ -82,13 +82,13 @@ pub fn reach_chord<T: Real, S: Side>(
 /// [`PositionError::Undetermined`] if the numerators are zero as well, else [`PositionError::Unbuildable`];
 /// [`PositionError::NotFinite`] if a numerator is not finite.
 #[inline]
-pub fn solvable<T: Real, const N: usize>(
-    origin: impl Origin,
-    group: &'static str,
+pub fn solvable<T: Real, O: Origin, const N: usize>(
+    origin: O,
+    group: O::Name,
     determinant: T,
     numerators: [T; N],
     scales: [T; N],
-) -> Result<(), PositionError> {
+) -> Result<(), PositionError<O::Name>> {
     // A determinant that is NaN makes the position NaN, which is reported when the position is complete.
     if determinant.is_zero() {
         Err(origin.located(unsolvable(origin.mechanism(), group, &numerators, &scales)))
@@ -102,20 +102,20 @@ pub fn solvable<T: Real, const N: usize>(
 /// # Errors
 /// [`PositionError::Unbuildable`], with the whole distance as the gap.
 #[inline]
-pub fn reachable<T: Real>(origin: impl Origin, group: &'static str, distance: T) -> Result<(), PositionError> {
+pub fn reachable<T: Real, O: Origin>(origin: O, group: O::Name, distance: T) -> Result<(), PositionError<O::Name>> {
     // A distance that is NaN makes the position NaN, which is reported when the position is complete.
     if distance < T::zero() { Err(origin.located(unbuildable(origin.mechanism(), group, 1.0))) } else { Ok(()) }
 }
 
 #[cold]
 #[inline(never)]
-fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators: &[T], scales: &[T]) -> PositionError {
+fn unsolvable<T: Real, S: Name>(mechanism: S, group: S, numerators: &[T], scales: &[T]) -> PositionError<S> {
     let gaps = numerators.iter().zip(scales).map(|(numerator, scale)| relative(numerator.abs(), *scale));
     let tolerance = real::<T>(COINCIDENT_ULPS) * T::default_epsilon();
     // `max` would drop NaN.
     let gap = gaps.fold(T::zero(), |most, gap| if gap <= most { most } else { gap });
     if !numerators.iter().all(T::is_finite) {
-        PositionError::NotFinite { mechanism, quantity: POSITION }
+        PositionError::NotFinite { mechanism, quantity: S::from_static(POSITION) }
     } else if gap <= tolerance {
         PositionError::Undetermined { mechanism, group }
     } else {
@@ -124,7 +124,7 @@ fn unsolvable<T: Real>(mechanism: &'static str, group: &'static str, numerators:
 }
 
 /// The error of a group that cannot be assembled; its caller may know the inputs.
-fn unbuildable(mechanism: &'static str, group: &'static str, gap: f64) -> PositionError {
+fn unbuildable<S: Name>(mechanism: S, group: S, gap: f64) -> PositionError<S> {
     PositionError::Unbuildable { mechanism, group, gap, inputs: InputValues::default() }
 }
 
@@ -206,12 +206,12 @@ impl<T: Real> Triangle<T> {
 /// [`PositionError::Unbuildable`] if there is no such triangle, [`PositionError::Undetermined`] if the joints coincide
 /// and the links are equally long or if a link has no length, [`PositionError::NotFinite`] if a number is not finite.
 #[inline(always)]
-pub fn elbow_chord<T: Real, S: Side>(
-    origin: impl Origin,
-    group: &'static str,
+pub fn elbow_chord<T: Real, S: Side, O: Origin>(
+    origin: O,
+    group: O::Name,
     triangle: Triangle<T>,
     side: S,
-) -> Result<(T, bool), PositionError> {
+) -> Result<(T, bool), PositionError<O::Name>> {
     let Triangle { links: [p, q], line: [x, y], scale, reach_squared, factors: [low, high], .. } = triangle;
     let (is_open, product) = (triangle.is_open(), low * high);
     let is_plain = is_open && is_in_range(product);
@@ -320,19 +320,19 @@ pub fn regular_reach_chord<T: Real, S: Side>(factors: [T; 2], radius: T, scale: 
 /// Scalars instead of arrays: arrays would be stored in memory even by callers that do not reach this function.
 #[cold]
 #[inline(never)]
-fn flat_chord<T: Real>(
-    mechanism: &'static str,
-    group: &'static str,
+fn flat_chord<T: Real, S: Name>(
+    mechanism: S,
+    group: S,
     p: T,
     q: T,
     x: T,
     y: T,
     scale: T,
-) -> Result<T, PositionError> {
+) -> Result<T, PositionError<S>> {
     let (p, q, epsilon) = (p.abs(), q.abs(), T::default_epsilon());
     let (sum, distance, line) = ((p + q) * (p + q), x * x + y * y, x.hypotenuse(y));
     if !(sum.is_finite() && distance.is_finite()) {
-        return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
+        return Err(PositionError::NotFinite { mechanism, quantity: S::from_static(POSITION) });
     }
     let coincident = real::<T>(COINCIDENT_ULPS) * epsilon;
     let difference = (p - q).abs();
@@ -434,17 +434,17 @@ fn rest_of_square(a: f32) -> f32 {
 /// The chord of a group whose links are in line or do not reach each other, or whose factors overflow or underflow.
 #[cold]
 #[inline(never)]
-fn touching_chord<T: Real>(
-    mechanism: &'static str,
-    group: &'static str,
+fn touching_chord<T: Real, S: Name>(
+    mechanism: S,
+    group: S,
     low: T,
     high: T,
     radius: T,
     radius_scale: T,
     offset_scale: T,
-) -> Result<T, PositionError> {
+) -> Result<T, PositionError<S>> {
     if !(low.is_finite() && high.is_finite() && radius.is_finite()) {
-        return Err(PositionError::NotFinite { mechanism, quantity: POSITION });
+        return Err(PositionError::NotFinite { mechanism, quantity: S::from_static(POSITION) });
     }
     let (scale, epsilon) = (radius_scale + offset_scale, T::default_epsilon());
     let least = if low < high { low } else { high };

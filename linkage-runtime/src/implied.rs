@@ -2,7 +2,7 @@
 
 use crate::jacobian::ulp::nearly_zero;
 use crate::scalar::to_f64;
-use crate::{PositionError, Real};
+use crate::{Name, PositionError, Real};
 
 /// True if the residual of an implied loop is zero relative to the sum of the magnitudes of its terms.
 ///
@@ -18,12 +18,12 @@ pub fn closes<T: Real>(residual: T, scale: T) -> bool {
 /// # Errors
 /// [`PositionError::NotImplied`] with the name of the first; [`PositionError::NotFinite`] if its residual is not finite.
 #[inline]
-pub fn implied<T: Real, const N: usize>(
-    mechanism: &'static str,
-    names: [&'static str; N],
+pub fn implied<T: Real, S: Name, const N: usize>(
+    mechanism: S,
+    names: [S; N],
     residuals: [T; N],
     scales: [T; N],
-) -> Result<(), PositionError> {
+) -> Result<(), PositionError<S>> {
     let mut rows = names.into_iter().zip(residuals.into_iter().zip(scales));
     match rows.find(|(_, (residual, scale))| !closes(*residual, *scale)) {
         None => Ok(()),
@@ -33,7 +33,7 @@ pub fn implied<T: Real, const N: usize>(
 
 #[cold]
 #[inline(never)]
-fn open<T: Real>(mechanism: &'static str, equation: &'static str, residual: T) -> PositionError {
+fn open<T: Real, S: Name>(mechanism: S, equation: S, residual: T) -> PositionError<S> {
     let residual = to_f64(residual.abs());
     if residual.is_finite() {
         PositionError::NotImplied { mechanism, equation, residual }

@@ -6,7 +6,7 @@ use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::native::{self, native};
 use crate::scalar::{greatest, largest, smallest, to_f64};
 use crate::wide::loses_digits;
-use crate::{PositionError, Real, real};
+use crate::{Name, PositionError, Real, real};
 
 /// Returns an error if the determinant of a group of unknowns is zero to rounding error, relative to `scale`, the
 /// largest value that it can take; the sign of `scale` does not matter.
@@ -14,19 +14,14 @@ use crate::{PositionError, Real, real};
 /// # Errors
 /// [`PositionError::Singular`], or [`PositionError::NotFinite`] if either is not a finite number.
 #[inline]
-pub fn regular<T: Real>(
-    mechanism: &'static str,
-    group: &'static str,
-    determinant: T,
-    scale: T,
-) -> Result<(), PositionError> {
+pub fn regular<T: Real, S: Name>(mechanism: S, group: S, determinant: T, scale: T) -> Result<(), PositionError<S>> {
     if is_nonzero(determinant, scale) && determinant.abs() <= greatest() {
         return Ok(());
     }
     // The error is put together here: a compiler that does not see a function return an error goes on behind the call.
     Err(match regularity(determinant, scale) {
         Some(regularity) => PositionError::Singular { mechanism, group, regularity },
-        None => PositionError::NotFinite { mechanism, quantity: "the Jacobian" },
+        None => PositionError::NotFinite { mechanism, quantity: S::from_static("the Jacobian") },
     })
 }
 
@@ -70,12 +65,12 @@ impl<T: Real, const N: usize> Factorization<T, N> {
     /// # Errors
     /// [`PositionError::Singular`] if the smallest pivot is no larger than its rounding error,
     /// [`PositionError::NotFinite`] if an entry is not a finite number.
-    pub fn new(
-        mechanism: &'static str,
-        group: &'static str,
+    pub fn new<S: Name>(
+        mechanism: S,
+        group: S,
         mut columns: [[T; N]; N],
         scales: [T; N],
-    ) -> Result<Self, PositionError> {
+    ) -> Result<Self, PositionError<S>> {
         let row_factors = scales.map(unit_of);
         let mut column_factors = [T::one(); N];
         for (column, column_factor) in columns.iter_mut().zip(&mut column_factors) {
@@ -88,7 +83,7 @@ impl<T: Real, const N: usize> Factorization<T, N> {
             }
         }
         if !columns.as_flattened().iter().all(T::is_finite) {
-            return Err(PositionError::NotFinite { mechanism, quantity: "the Jacobian" });
+            return Err(PositionError::NotFinite { mechanism, quantity: S::from_static("the Jacobian") });
         }
         let factors = Lu::of(columns);
         let smallest = smallest(factors.pivots());

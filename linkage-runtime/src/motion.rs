@@ -3,7 +3,7 @@
 use nalgebra::{Point2, SMatrix, Scalar, Vector2};
 
 use crate::error::all_finite;
-use crate::{D, Matrix, PositionError, Real};
+use crate::{D, Matrix, Name, PositionError, Real};
 
 /// The motion of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,11 +34,11 @@ pub struct OutputMotion<T = f64> {
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
 #[inline]
-pub fn finite_points<T: Real, G: From<[Point2<T>; N]>, const N: usize>(
-    mechanism: &'static str,
-    quantity: &'static str,
+pub fn finite_points<T: Real, S: Name, G: From<[Point2<T>; N]>, const N: usize>(
+    mechanism: S,
+    quantity: S,
     points: [[T; 2]; N],
-) -> Result<G, PositionError> {
+) -> Result<G, PositionError<S>> {
     all_finite(mechanism, quantity, points.as_flattened().iter())?;
     Ok(G::from(points.map(Point2::from)))
 }
@@ -48,11 +48,11 @@ pub fn finite_points<T: Real, G: From<[Point2<T>; N]>, const N: usize>(
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
 #[inline]
-pub fn finite_vectors<T: Real, G: From<[Vector2<T>; N]>, const N: usize>(
-    mechanism: &'static str,
-    quantity: &'static str,
+pub fn finite_vectors<T: Real, S: Name, G: From<[Vector2<T>; N]>, const N: usize>(
+    mechanism: S,
+    quantity: S,
     vectors: [[T; 2]; N],
-) -> Result<G, PositionError> {
+) -> Result<G, PositionError<S>> {
     all_finite(mechanism, quantity, vectors.as_flattened().iter())?;
     Ok(G::from(vectors.map(Vector2::from)))
 }
@@ -62,11 +62,11 @@ pub fn finite_vectors<T: Real, G: From<[Vector2<T>; N]>, const N: usize>(
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
 #[inline]
-pub fn finite_outputs<T: Real, G: From<[T; N]>, const N: usize>(
-    mechanism: &'static str,
-    quantity: &'static str,
+pub fn finite_outputs<T: Real, S: Name, G: From<[T; N]>, const N: usize>(
+    mechanism: S,
+    quantity: S,
     outputs: [T; N],
-) -> Result<G, PositionError> {
+) -> Result<G, PositionError<S>> {
     all_finite(mechanism, quantity, outputs.iter())?;
     Ok(G::from(outputs))
 }
@@ -76,11 +76,11 @@ pub fn finite_outputs<T: Real, G: From<[T; N]>, const N: usize>(
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
 #[inline]
-pub fn finite_matrices<T: Real, G, const N: usize, const R: usize, const C: usize>(
-    mechanism: &'static str,
-    quantity: &'static str,
+pub fn finite_matrices<T: Real, S: Name, G, const N: usize, const R: usize, const C: usize>(
+    mechanism: S,
+    quantity: S,
     matrices: [[[T; R]; C]; N],
-) -> Result<G, PositionError>
+) -> Result<G, PositionError<S>>
 where
     G: From<[SMatrix<T, R, C>; N]>,
 {
@@ -93,11 +93,11 @@ where
 /// # Errors
 /// [`PositionError::NotFinite`] with this name.
 #[inline]
-pub fn point_motions<T: Real, G: From<[PointMotion<T>; N]>, const N: usize>(
-    mechanism: &'static str,
+pub fn point_motions<T: Real, S: Name, G: From<[PointMotion<T>; N]>, const N: usize>(
+    mechanism: S,
     points: [[[T; 2]; 3]; N],
-) -> Result<G, PositionError> {
-    all_finite(mechanism, "motion", points.as_flattened().as_flattened().iter())?;
+) -> Result<G, PositionError<S>> {
+    all_finite(mechanism, S::from_static("motion"), points.as_flattened().as_flattened().iter())?;
     Ok(G::from(points.map(|point| {
         let [position, velocity, acceleration] = point;
         PointMotion { position: position.into(), velocity: velocity.into(), acceleration: acceleration.into() }
@@ -109,11 +109,11 @@ pub fn point_motions<T: Real, G: From<[PointMotion<T>; N]>, const N: usize>(
 /// # Errors
 /// [`PositionError::NotFinite`] with this name.
 #[inline]
-pub fn output_motions<T: Real, G: From<[OutputMotion<T>; N]>, const N: usize>(
-    mechanism: &'static str,
+pub fn output_motions<T: Real, S: Name, G: From<[OutputMotion<T>; N]>, const N: usize>(
+    mechanism: S,
     outputs: [[T; 3]; N],
-) -> Result<G, PositionError> {
-    all_finite(mechanism, "motion", outputs.as_flattened().iter())?;
+) -> Result<G, PositionError<S>> {
+    all_finite(mechanism, S::from_static("motion"), outputs.as_flattened().iter())?;
     Ok(G::from(outputs.map(|[value, rate, acceleration]| OutputMotion { value, rate, acceleration })))
 }
 

@@ -4,7 +4,7 @@ use crate::bounded::{exact, has_bound, lost, unknown};
 use crate::jacobian::ulp::{ZERO_ULPS, ulps};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
-use crate::{Column, Dim, Matrix, PositionError, Real, real};
+use crate::{Column, Dim, Matrix, Name, PositionError, Real, real};
 
 /// The most Newton steps of a search; from a good guess it takes four or five.
 const MOST_ITERATIONS: usize = 60;
@@ -16,6 +16,8 @@ const MOST_HALVINGS: usize = 40;
 pub trait Constraints {
     /// The type of an unknown.
     type Scalar: Real;
+    /// The type of the names in errors.
+    type Name: Name;
     /// The number of unknowns.
     type N: Dim;
     /// The quantities computed from values of the unknowns.
@@ -25,13 +27,13 @@ pub trait Constraints {
     /// Psi, and the sum of the magnitudes of the terms of each constraint.
     fn residual(&self, point: &Self::Point) -> (Unknowns<Self>, Unknowns<Self>);
     /// J^-1 `right`.
-    fn solve(&self, point: &Self::Point, right: &Unknowns<Self>) -> Result<Unknowns<Self>, PositionError>;
+    fn solve(&self, point: &Self::Point, right: &Unknowns<Self>) -> Result<Unknowns<Self>, PositionError<Self::Name>>;
     /// J, row by column.
     fn jacobian(&self, point: &Self::Point) -> Matrix<Self::Scalar, Self::N, Self::N>;
     /// The regularity of J, for error messages.
     fn regularity(&self, point: &Self::Point) -> f64;
     /// The name of the mechanism, and of the group if only one is solved.
-    fn names(&self) -> (&'static str, Option<&'static str>);
+    fn names(&self) -> (Self::Name, Option<Self::Name>);
 }
 
 /// A number for each unknown or constraint.
@@ -52,11 +54,17 @@ pub struct Iterate<C: Constraints + ?Sized> {
 ///
 /// Steps are halved until the residual decreases. The search ends at a residual within rounding error, after one more
 /// step that reduces it further.
-pub fn search<C: Constraints>(constraints: &C, start: Unknowns<C>) -> Result<(Iterate<C>, usize), PositionError> {
+pub fn search<C: Constraints>(
+    constraints: &C,
+    start: Unknowns<C>,
+) -> Result<(Iterate<C>, usize), PositionError<C::Name>> {
     let enough = ulps::<C::Scalar>(ZERO_ULPS);
     let mut here = iterate(constraints, start);
     if !here.size.is_finite() {
-        return Err(PositionError::NotFinite { mechanism: constraints.names().0, quantity: "the residual" });
+        return Err(PositionError::NotFinite {
+            mechanism: constraints.names().0,
+            quantity: Name::from_static("the residual"),
+        });
     }
     let mut iterations = 0;
     while iterations < MOST_ITERATIONS {
@@ -64,7 +72,7 @@ pub fn search<C: Constraints>(constraints: &C, start: Unknowns<C>) -> Result<(It
         let step = match constraints.solve(&here.point, &here.residual) {
             Ok(step) => step,
             Err(_) if arrived => break,
-            Err(error) => return Err(failure(constraints, iterations, here.size, &error)),
+            Err(error) => return Err(failure(constraints, iterations, here.size, error)),
         };
         let next = if arrived { iterate_at(constraints, &here, step) } else { damped(constraints, &here, step) };
         // Within rounding error a step may not reduce the residual; the better iterate is kept.
@@ -143,9 +151,14 @@ fn damped<C: Constraints>(constraints: &C, from: &Iterate<C>, step: Unknowns<C>)
 }
 
 /// The error of a search that ends where J is singular.
-fn failure<C: Constraints>(constraints: &C, iterations: usize, size: C::Scalar, why: &PositionError) -> PositionError {
+fn failure<C: Constraints>(
+    constraints: &C,
+    iterations: usize,
+    size: C::Scalar,
+    why: PositionError<C::Name>,
+) -> PositionError<C::Name> {
     let (mechanism, _) = constraints.names();
-    match *why {
+    match why {
         PositionError::Singular { group, regularity, .. } => PositionError::NotConverged {
             mechanism,
             group: Some(group),
@@ -157,7 +170,7 @@ fn failure<C: Constraints>(constraints: &C, iterations: usize, size: C::Scalar, 
     }
 }
 
-fn stopped<C: Constraints>(constraints: &C, iterations: usize, at: &Iterate<C>) -> PositionError {
+fn stopped<C: Constraints>(constraints: &C, iterations: usize, at: &Iterate<C>) -> PositionError<C::Name> {
     let (mechanism, group) = constraints.names();
     let (residual, regularity) = (to_f64(at.size), constraints.regularity(&at.point));
     PositionError::NotConverged { mechanism, group, iterations, residual, regularity }

@@ -11,7 +11,7 @@ use crate::linear::{Factorization, product_of_pivots, same_signs};
 use crate::mechanism::finite_coordinates;
 use crate::newton::{Constraints, Iterate, search};
 use crate::scalar::to_f64;
-use crate::{Column, D, Dim, Matrix, Mechanism, PerUnknown, PositionError, Real};
+use crate::{Column, D, Dim, Matrix, Mechanism, Name, PerUnknown, PositionError, Real};
 
 /// A position on the branch of its guess, with the effort and the residual of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -143,14 +143,15 @@ fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searc
 /// # Errors
 /// [`PositionError::NotConverged`] if the residual does not vanish, [`PositionError::OtherBranch`] if the group is
 /// singular between the start and the position found, [`PositionError::NotFinite`] if a number is not finite.
-pub fn newton_group<T, const N: usize>(
-    mechanism: &'static str,
-    group: &'static str,
+pub fn newton_group<T, S, const N: usize>(
+    mechanism: S,
+    group: S,
     start: [T; N],
     evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
-) -> Result<[T; N], PositionError>
+) -> Result<[T; N], PositionError<S>>
 where
     T: Real,
+    S: Name + Copy,
 {
     let (_, _, before) = evaluate(start);
     let (Iterate { unknowns, point: (_, _, after), .. }, _) =
@@ -166,11 +167,11 @@ where
 ///
 /// # Errors
 /// Those of [`newton_group`] but [`PositionError::OtherBranch`].
-pub(crate) fn polished<T: Real, const N: usize>(
-    [mechanism, group]: [&'static str; 2],
+pub(crate) fn polished<T: Real, S: Name + Copy, const N: usize>(
+    [mechanism, group]: [S; 2],
     start: [T; N],
     evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
-) -> Result<[T; N], PositionError> {
+) -> Result<[T; N], PositionError<S>> {
     let part = Part { mechanism, group, evaluate, scalar: PhantomData };
     search(&part, Column::from(start)).map(|(found, _)| found.unknowns.into())
 }
@@ -186,6 +187,7 @@ struct Whole<'a, M: Mechanism> {
 
 impl<M: Mechanism> Constraints for Whole<'_, M> {
     type Scalar = M::Scalar;
+    type Name = &'static str;
     type N = M::U;
     type Point = M::Pose;
 
@@ -215,19 +217,21 @@ impl<M: Mechanism> Constraints for Whole<'_, M> {
 }
 
 /// One group of a mechanism.
-struct Part<T, F, const N: usize> {
-    mechanism: &'static str,
-    group: &'static str,
+struct Part<T, S, F, const N: usize> {
+    mechanism: S,
+    group: S,
     evaluate: F,
     scalar: PhantomData<T>,
 }
 
-impl<T, F, const N: usize> Constraints for Part<T, F, N>
+impl<T, S, F, const N: usize> Constraints for Part<T, S, F, N>
 where
     T: Real,
+    S: Name + Copy,
     F: Fn([T; N]) -> Evaluated<T, N>,
 {
     type Scalar = T;
+    type Name = S;
     type N = D<N>;
     type Point = Evaluated<T, N>;
 
@@ -243,7 +247,7 @@ where
         &self,
         (_, scales, columns): &Self::Point,
         right: &Column<T, D<N>>,
-    ) -> Result<Column<T, D<N>>, PositionError> {
+    ) -> Result<Column<T, D<N>>, PositionError<S>> {
         let factors = Factorization::new(self.mechanism, self.group, *columns, *scales)?;
         Ok(Column::from(factors.solve((*right).into())))
     }
@@ -256,7 +260,7 @@ where
         regularity(*columns)
     }
 
-    fn names(&self) -> (&'static str, Option<&'static str>) {
+    fn names(&self) -> (S, Option<S>) {
         (self.mechanism, Some(self.group))
     }
 }

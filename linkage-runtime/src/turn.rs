@@ -6,7 +6,7 @@
 use core::cell::Cell;
 
 use crate::scalar::{rounded, to_f64, whole};
-use crate::{InputError, PositionError, Real};
+use crate::{InputError, Name, PositionError, Real};
 
 /// A choice of turns for the angles of a mechanism, each of which has an index.
 pub trait Turn<T: Real> {
@@ -75,17 +75,17 @@ fn whole_turns<T: Real>(angle: T) -> i32 {
 ///
 /// # Errors
 /// [`PositionError::NotFinite`], [`InputError::OutOfRange`].
-pub fn countable<T: Real, const N: usize>(mechanism: &'static str, guesses: [T; N]) -> Result<(), PositionError> {
+pub fn countable<T: Real, S: Name, const N: usize>(mechanism: S, guesses: [T; N]) -> Result<(), PositionError<S>> {
     let most = f64::from(i32::MAX) * core::f64::consts::TAU;
     for guess in guesses {
         if !guess.is_finite() {
-            return Err(PositionError::NotFinite { mechanism, quantity: "the guess" });
+            return Err(PositionError::NotFinite { mechanism, quantity: S::from_static("the guess") });
         }
         let value = to_f64(guess);
         if value.abs() > most {
             return Err(InputError::OutOfRange {
                 of: Some(mechanism),
-                quantity: "the guess of an angle",
+                quantity: S::from_static("the guess of an angle"),
                 value,
                 least: -most,
                 most,

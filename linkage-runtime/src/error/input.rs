@@ -6,13 +6,13 @@ use core::fmt;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum InputError {
+pub enum InputError<N = &'static str> {
     /// A number outside the range that it may have.
     OutOfRange {
         /// The mechanism, scene or stop that the number belongs to, if any.
-        of: Option<&'static str>,
+        of: Option<N>,
         /// The name of the number.
-        quantity: &'static str,
+        quantity: N,
         /// Its value.
         value: f64,
         /// The least valid value.
@@ -23,9 +23,9 @@ pub enum InputError {
     /// A stop whose lower limit is not less than its upper limit.
     EmptyRange {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The stop.
-        stop: &'static str,
+        stop: N,
         /// The lower limit.
         lower: f64,
         /// The upper limit.
@@ -34,9 +34,9 @@ pub enum InputError {
     /// A range of a coordinate or an output whose ends are not numbers, or whose first end is not less than its second.
     EmptyJointRange {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The coordinate or the output.
-        of: &'static str,
+        of: N,
         /// The least value, minus infinity without one.
         least: f64,
         /// The largest value, infinity without one.
@@ -45,34 +45,34 @@ pub enum InputError {
     /// The mechanism does not return to its start after one turn of the input.
     NotPeriodic {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
     },
     /// The start of a motion disagrees with the drive of an input.
     Inconsistent {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The driven input.
-        coordinate: &'static str,
+        coordinate: N,
         /// The position or the rate of the input.
-        quantity: &'static str,
+        quantity: N,
         /// The difference.
         gap: f64,
     },
     /// A motion starts beyond a stop.
     BeyondStop {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The stop.
-        stop: &'static str,
+        stop: N,
         /// The distance beyond the stop, in the unit of the stopped quantity.
         gap: f64,
     },
     /// A column of a batch has another number of lanes than the others.
     ColumnLength {
         /// The mechanism.
-        mechanism: &'static str,
+        mechanism: N,
         /// The column.
-        column: &'static str,
+        column: N,
         /// Its length.
         length: usize,
         /// The number of lanes.
@@ -80,12 +80,38 @@ pub enum InputError {
     },
 }
 
-impl fmt::Display for InputError {
+impl<N> InputError<N> {
+    /// This error with other names: borrowed ones become owned.
+    pub fn map_names<M>(self, mut f: impl FnMut(N) -> M) -> InputError<M> {
+        match self {
+            Self::OutOfRange { of, quantity, value, least, most } => {
+                InputError::OutOfRange { of: of.map(&mut f), quantity: f(quantity), value, least, most }
+            }
+            Self::EmptyRange { scene, stop, lower, upper } => {
+                InputError::EmptyRange { scene: f(scene), stop: f(stop), lower, upper }
+            }
+            Self::EmptyJointRange { mechanism, of, least, most } => {
+                InputError::EmptyJointRange { mechanism: f(mechanism), of: f(of), least, most }
+            }
+            Self::NotPeriodic { mechanism } => InputError::NotPeriodic { mechanism: f(mechanism) },
+            Self::Inconsistent { scene, coordinate, quantity, gap } => {
+                InputError::Inconsistent { scene: f(scene), coordinate: f(coordinate), quantity: f(quantity), gap }
+            }
+            Self::BeyondStop { scene, stop, gap } => InputError::BeyondStop { scene: f(scene), stop: f(stop), gap },
+            Self::ColumnLength { mechanism, column, length, expected } => {
+                InputError::ColumnLength { mechanism: f(mechanism), column: f(column), length, expected }
+            }
+        }
+    }
+}
+
+impl<N: fmt::Display> fmt::Display for InputError<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfRange { of, quantity, value, least, most } => {
-                let (of, name) = of.map_or(("", ""), |name| (" of ", name));
-                write!(f, "{quantity}{of}{name} is {value:?}: it must be ")?;
+                write!(f, "{quantity}")?;
+                of.as_ref().map_or(Ok(()), |name| write!(f, " of {name}"))?;
+                write!(f, " is {value:?}: it must be ")?;
                 match (*least > f64::MIN, *most < f64::MAX) {
                     (true, true) => write!(f, "between {least:?} and {most:?}"),
                     (true, false) => write!(f, "at least {least:?}"),
@@ -116,4 +142,4 @@ impl fmt::Display for InputError {
     }
 }
 
-impl core::error::Error for InputError {}
+impl<N: fmt::Debug + fmt::Display> core::error::Error for InputError<N> {}

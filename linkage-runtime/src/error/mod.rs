@@ -3,8 +3,11 @@
 mod digits;
 mod input;
 mod inputs;
+mod name;
 mod path;
 mod position;
+#[cfg(test)]
+mod tests;
 
 use core::iter::Empty;
 
@@ -12,6 +15,7 @@ use nalgebra::SMatrix;
 
 pub use input::InputError;
 pub use inputs::InputValues;
+pub use name::Name;
 pub use path::PathError;
 pub use position::PositionError;
 
@@ -22,11 +26,11 @@ use crate::Real;
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
 #[inline]
-pub fn finite<T: Real, const N: usize>(
-    mechanism: &'static str,
-    quantity: &'static str,
+pub fn finite<T: Real, S: Name, const N: usize>(
+    mechanism: S,
+    quantity: S,
     values: [T; N],
-) -> Result<(), PositionError> {
+) -> Result<(), PositionError<S>> {
     all_finite(mechanism, quantity, values.iter())
 }
 
@@ -34,7 +38,7 @@ pub fn finite<T: Real, const N: usize>(
 ///
 /// # Errors
 /// [`PositionError::NoClosedForm`].
-pub const fn no_closed_form<P>(mechanism: &'static str, group: &'static str) -> Result<P, PositionError> {
+pub const fn no_closed_form<P, S: Name>(mechanism: S, group: S) -> Result<P, PositionError<S>> {
     Err(PositionError::NoClosedForm { mechanism, group })
 }
 
@@ -42,7 +46,7 @@ pub const fn no_closed_form<P>(mechanism: &'static str, group: &'static str) -> 
 ///
 /// # Errors
 /// [`PositionError::NoClosedForm`].
-pub const fn no_list<P>(mechanism: &'static str, group: &'static str) -> Result<Empty<P>, PositionError> {
+pub const fn no_list<P, S: Name>(mechanism: S, group: S) -> Result<Empty<P>, PositionError<S>> {
     Err(PositionError::NoClosedForm { mechanism, group })
 }
 
@@ -50,7 +54,7 @@ pub const fn no_list<P>(mechanism: &'static str, group: &'static str) -> Result<
 ///
 /// # Errors
 /// [`PositionError::TooManyBranches`].
-pub const fn too_many_branches<P>(mechanism: &'static str) -> Result<Empty<P>, PositionError> {
+pub const fn too_many_branches<P, S: Name>(mechanism: S) -> Result<Empty<P>, PositionError<S>> {
     Err(PositionError::TooManyBranches { mechanism })
 }
 
@@ -59,11 +63,11 @@ pub const fn too_many_branches<P>(mechanism: &'static str) -> Result<Empty<P>, P
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
 #[inline]
-pub fn finite_matrix<T: Real, const R: usize, const C: usize>(
-    mechanism: &'static str,
-    quantity: &'static str,
+pub fn finite_matrix<T: Real, S: Name, const R: usize, const C: usize>(
+    mechanism: S,
+    quantity: S,
     matrix: &SMatrix<T, R, C>,
-) -> Result<(), PositionError> {
+) -> Result<(), PositionError<S>> {
     all_finite(mechanism, quantity, matrix.iter())
 }
 
@@ -72,11 +76,11 @@ pub fn finite_matrix<T: Real, const R: usize, const C: usize>(
 /// # Errors
 /// [`PositionError::NotFinite`] with these names.
 #[inline]
-pub fn all_finite<'a, T: Real>(
-    mechanism: &'static str,
-    quantity: &'static str,
+pub fn all_finite<'a, T: Real, S: Name>(
+    mechanism: S,
+    quantity: S,
     values: impl Iterator<Item = &'a T> + Clone,
-) -> Result<(), PositionError> {
+) -> Result<(), PositionError<S>> {
     // A sum is finite only if all its terms are, and takes a single test; but the sum of finite terms may overflow.
     let sum = values.clone().copied().reduce(|sum, value| sum + value);
     if sum.is_none_or(|sum| sum.is_finite()) {

@@ -5,7 +5,7 @@ use crate::RangeEnd;
 /// An end of an interval of inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Limit<T> {
+pub enum Limit<T, N = &'static str> {
     /// No limit: an angle can turn fully, a length can have any value. If groups were searched, no limit was found
     /// within a turn, or within four times the sum of the lengths of all links.
     Unlimited,
@@ -16,7 +16,7 @@ pub enum Limit<T> {
         /// The last input at which the mechanism can be assembled.
         input: T,
         /// The unknowns of the group whose links are in line there.
-        group: &'static str,
+        group: N,
     },
     /// The last input before a coordinate or an output is beyond the end of its declared range: that end itself for the range
     /// of this input, else one of two neighbouring inputs between which it is.
@@ -24,7 +24,7 @@ pub enum Limit<T> {
         /// The input.
         input: T,
         /// The coordinate or the output.
-        of: &'static str,
+        of: N,
         /// The end of its range.
         end: RangeEnd,
     },
@@ -37,11 +37,11 @@ pub enum Limit<T> {
         /// An input beyond the limit at which it cannot.
         unbuildable: T,
         /// The unknowns of the group that cannot be assembled beyond the limit.
-        group: &'static str,
+        group: N,
     },
 }
 
-impl<T: Copy> Limit<T> {
+impl<T: Copy, N> Limit<T, N> {
     /// Returns the last input at which the mechanism is known to assemble; none if there is no limit.
     pub fn input(&self) -> Option<T> {
         match *self {

@@ -33,26 +33,26 @@ use crate::{Mechanism, PositionError, RangeEnd, Real, real};
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Limits<T> {
+pub struct Limits<T, N = &'static str> {
     /// The name of the input.
-    pub of: &'static str,
+    pub of: N,
     /// True if it is an angle.
     pub is_angle: bool,
     /// The end towards smaller inputs.
-    pub lower: Limit<T>,
+    pub lower: Limit<T, N>,
     /// The end towards larger inputs.
-    pub upper: Limit<T>,
+    pub upper: Limit<T, N>,
 }
 
 /// The limits and their reasons in one line, angles in degrees: `theta from 28.95502° (links of phi, psi in line) to 90° (the
 /// largest value of theta)`.
-impl<T: Real> Display for Limits<T> {
+impl<T: Real, N: Display> Display for Limits<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Self { of, is_angle, lower, upper } = *self;
-        let end = |f: &mut Formatter<'_>, word: &str, limit: &Limit<T>| {
+        let Self { of, is_angle, lower, upper } = self;
+        let end = |f: &mut Formatter<'_>, word: &str, limit: &Limit<T, N>| {
             let Some(input) = limit.input() else { return Ok(()) };
             f.write_str(word)?;
-            Shown { value: to_f64(input), is_angle }.fmt(f)?;
+            Shown { value: to_f64(input), is_angle: *is_angle }.fmt(f)?;
             match limit {
                 Limit::Unlimited => Ok(()),
                 Limit::Exact { group, .. } => write!(f, " (links of {group} in line)"),
@@ -61,9 +61,9 @@ impl<T: Real> Display for Limits<T> {
                 Limit::Bracketed { group, .. } => write!(f, " ({group}, found by search)"),
             }
         };
-        f.write_str(of)?;
-        end(f, " from ", &lower)?;
-        end(f, if lower.input().is_some() { " to " } else { " up to " }, &upper)?;
+        write!(f, "{of}")?;
+        end(f, " from ", lower)?;
+        end(f, if lower.input().is_some() { " to " } else { " up to " }, upper)?;
         f.write_str(match [lower.input(), upper.input()] {
             [None, None] => " without limits",
             [Some(_), None] => " on",
@@ -74,15 +74,15 @@ impl<T: Real> Display for Limits<T> {
 
 /// A function of an input that is not negative where a group can be assembled.
 #[derive(Debug, Clone, Copy)]
-pub enum Bound<T> {
+pub enum Bound<T, N = &'static str> {
     /// a + b cos(k v) + c sin(k v) of an input v: a, b and c, then k.
-    Angle(NamedGroup, [T; 3], T),
+    Angle(NamedGroup<N>, [T; 3], T),
     /// a + b v + c v^2 of an input v.
-    Length(NamedGroup, [T; 3]),
+    Length(NamedGroup<N>, [T; 3]),
 }
 
 /// A group: its index among the determinants, and its unknowns.
-pub type NamedGroup = (usize, &'static str);
+pub type NamedGroup<N = &'static str> = (usize, N);
 
 /// The range in which groups that have no [`Bound`] are searched for limits.
 #[derive(Debug, Clone, Copy)]
@@ -152,11 +152,11 @@ pub fn limits<M: Mechanism, const B: usize>(
 }
 
 /// The end nearer to the start, of two that may not exist.
-fn nearer<T: Copy>(
-    known: Option<(T, NamedGroup)>,
-    new: Option<(T, NamedGroup)>,
+fn nearer<T: Copy, N: Copy>(
+    known: Option<(T, NamedGroup<N>)>,
+    new: Option<(T, NamedGroup<N>)>,
     is_nearer: fn(&T, &T) -> bool,
-) -> Option<(T, NamedGroup)> {
+) -> Option<(T, NamedGroup<N>)> {
     match (known, new) {
         (Some((old, _)), Some((input, _))) if !is_nearer(&input, &old) => known,
         (_, Some(_)) => new,
@@ -164,10 +164,10 @@ fn nearer<T: Copy>(
     }
 }
 
-impl<T: Real> Bound<T> {
+impl<T: Real, N: Copy> Bound<T, N> {
     /// The nearest zeros on either side of `start`, where the function is not negative up to rounding error; none if a
     /// number is not finite. With one negative length of two both functions of a group have the other sign.
-    fn about(&self, start: T) -> Option<[Option<(T, NamedGroup)>; 2]> {
+    fn about(&self, start: T) -> Option<Ends<(T, NamedGroup<N>)>> {
         let with_sign = |coefficients: [T; 3], terms: [T; 3]| {
             let least = terms.iter().fold(T::zero(), |sum, term| sum + term.abs()) * T::default_epsilon().sqrt();
             if terms[0] + terms[1] + terms[2] < -least { coefficients.map(|part| -part) } else { coefficients }

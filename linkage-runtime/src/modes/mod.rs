@@ -22,7 +22,7 @@ pub use numbered::{AssemblyMode, Modes, most_modes};
 use search::Search;
 
 use crate::position::Evaluated;
-use crate::{PositionError, Real};
+use crate::{Name, PositionError, Real};
 
 /// The positions of one group, kept until its loops change: a list of all branches solves each group once.
 #[derive(Debug, Clone, Copy)]
@@ -49,14 +49,14 @@ impl<T: Real, const L: usize, const N: usize> Memory<T, L, N> {
     /// [`PositionError::Undetermined`] if there are infinitely many positions and none apart from them,
     /// [`PositionError::Undecided`] if rounding error hides how many positions there are, [`PositionError::NotFinite`] if a
     /// number is not finite.
-    pub fn modes(
+    pub fn modes<S: Name + Copy>(
         &mut self,
-        mechanism: &'static str,
-        group: &'static str,
+        mechanism: S,
+        group: S,
         loops: Loops<T, L, N>,
         unknowns: impl Fn([T; N]) -> [T; N],
         evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
-    ) -> Result<Modes<T, N>, PositionError> {
+    ) -> Result<Modes<T, N>, PositionError<S>> {
         let unknowns_are = [Unknown::Angle; N];
         self.modes_with_lengths(mechanism, group, loops, unknowns_are, unknowns, evaluate)
     }
@@ -67,15 +67,15 @@ impl<T: Real, const L: usize, const N: usize> Memory<T, L, N> {
     ///
     /// # Errors
     /// Those of [`modes`](Self::modes).
-    pub fn modes_with_lengths(
+    pub fn modes_with_lengths<S: Name + Copy>(
         &mut self,
-        mechanism: &'static str,
-        group: &'static str,
+        mechanism: S,
+        group: S,
         loops: Loops<T, L, N>,
         unknowns_are: [Unknown<T>; N],
         unknowns: impl Fn([T; N]) -> [T; N],
         evaluate: impl Fn([T; N]) -> Evaluated<T, N>,
-    ) -> Result<Modes<T, N>, PositionError> {
+    ) -> Result<Modes<T, N>, PositionError<S>> {
         if let Some((of, are, modes)) = &self.last
             && *of == loops
             && *are == unknowns_are

@@ -1,6 +1,6 @@
 //! The positions of a group in order, each with its number.
 
-use crate::{PositionError, Real};
+use crate::{Name, PositionError, Real};
 
 /// The number of a position of a group among all its positions at the same inputs.
 ///
@@ -64,12 +64,7 @@ impl<T: Real, const N: usize> Modes<T, N> {
     /// # Errors
     /// [`PositionError::NoMode`] if there is no position of this number, or [`PositionError::Undetermined`] if there are
     /// infinitely many besides; [`PositionError::NoClosedForm`] for [`AssemblyMode::OfGuess`].
-    pub fn take(
-        &self,
-        mechanism: &'static str,
-        group: &'static str,
-        mode: AssemblyMode,
-    ) -> Result<[T; N], PositionError> {
+    pub fn take<S: Name>(&self, mechanism: S, group: S, mode: AssemblyMode) -> Result<[T; N], PositionError<S>> {
         let AssemblyMode::Number(number) = mode else { return Err(PositionError::NoClosedForm { mechanism, group }) };
         let found = self.as_slice().get(number).copied();
         found.ok_or(match self.has_family {

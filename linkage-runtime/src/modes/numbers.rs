@@ -5,7 +5,7 @@ use super::linearized::System;
 use super::loops::{Loops, Unknown};
 use super::number::{COLUMNS, Number};
 use crate::scalar::to_f64;
-use crate::{PositionError, Real, real};
+use crate::{Name, PositionError, Real, real};
 
 /// The least length of a loop, relative to the largest: a product of six does not underflow.
 const TINIEST: f64 = 1e-45;
@@ -60,11 +60,11 @@ impl<const L: usize> Numbers<L> {
     ///
     /// # Errors
     /// [`PositionError::NotFinite`].
-    pub fn new<T: Real, const N: usize>(
-        mechanism: &'static str,
+    pub fn new<T: Real, S: Name, const N: usize>(
+        mechanism: S,
         loops: &Loops<T, L, N>,
         are: &[Unknown<T>; N],
-    ) -> Result<Self, PositionError> {
+    ) -> Result<Self, PositionError<S>> {
         let mut numbers = Self {
             rows: [[Number::default(); COLUMNS]; L],
             units: [1.0; L],
@@ -88,7 +88,7 @@ impl<const L: usize> Numbers<L> {
             let all = core::iter::once(constant).chain(of_directions.map(|(factor, _)| factor));
             row.iter_mut().zip(all).for_each(|(to, from)| *to = complex(*from));
             if !row.iter().all(|number| number.re.is_finite() && number.im.is_finite()) {
-                return Err(PositionError::NotFinite { mechanism, quantity: "a length of the loops" });
+                return Err(PositionError::NotFinite { mechanism, quantity: S::from_static("a length of the loops") });
             }
             let scale = power_of_two(row.iter().map(size).fold(0.0, f64::max));
             if scale > 0.0 {
@@ -102,7 +102,10 @@ impl<const L: usize> Numbers<L> {
             let Unknown::Length { in_loop: row, along, with } = *unknown else { continue };
             let along = complex(along);
             if !(along.re.is_finite() && along.im.is_finite()) {
-                return Err(PositionError::NotFinite { mechanism, quantity: "the direction of a guide" });
+                return Err(PositionError::NotFinite {
+                    mechanism,
+                    quantity: S::from_static("the direction of a guide"),
+                });
             }
             let scale = power_of_two(size(&along));
             numbers.has_determinant &= scale > 0.0;

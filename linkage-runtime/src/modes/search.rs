@@ -12,7 +12,7 @@ use super::numbered::{MOST, Modes, most_modes};
 use super::numbers::Numbers;
 use crate::position::{Evaluated, polished, regularity};
 use crate::scalar::{largest, to_f64};
-use crate::{PositionError, Real};
+use crate::{Name, PositionError, Real};
 
 /// At a root of the determinant that has a position, the residual of the loops is of the size of rounding error, relative
 /// to the sum of their lengths. A root whose residual is larger than this is in doubt. At 1e-2 the lists of the tests are the
@@ -31,9 +31,9 @@ const SAME: f64 = 1e-6;
 const MOST_TRIED: usize = 2;
 
 /// The search for all positions of one group.
-pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
+pub(super) struct Search<'a, T, S, F, G, const L: usize, const N: usize> {
     /// The names of the mechanism and of the group.
-    pub names: [&'static str; 2],
+    pub names: [S; 2],
     pub loops: &'a Loops<T, L, N>,
     pub are: &'a [Unknown<T>; N],
     /// The unknowns from the angles of the directions and the lengths.
@@ -42,14 +42,15 @@ pub(super) struct Search<'a, T, F, G, const L: usize, const N: usize> {
     pub evaluate: G,
 }
 
-impl<T, F, G, const L: usize, const N: usize> Search<'_, T, F, G, L, N>
+impl<T, S, F, G, const L: usize, const N: usize> Search<'_, T, S, F, G, L, N>
 where
     T: Real,
+    S: Name + Copy,
     F: Fn([T; N]) -> [T; N],
     G: Fn([T; N]) -> Evaluated<T, N>,
 {
     /// All positions.
-    pub fn run(&self) -> Result<Modes<T, N>, PositionError> {
+    pub fn run(&self) -> Result<Modes<T, N>, PositionError<S>> {
         let numbers = Numbers::new(self.names[0], self.loops, self.are)?;
         let found = match L {
             2 => self.by_determinant::<6, 7>(&numbers),
@@ -72,7 +73,7 @@ where
     }
 
     /// All positions, by cells.
-    fn by_cells(&self, numbers: &Numbers<L>) -> Result<Modes<T, N>, PositionError> {
+    fn by_cells(&self, numbers: &Numbers<L>) -> Result<Modes<T, N>, PositionError<S>> {
         let [mechanism, group] = self.names;
         let undecided = |at: &PerAngle| {
             let regularity = self.regularity(self.start(numbers, at));
