@@ -4,11 +4,14 @@ use core::marker::PhantomData;
 
 use crate::MotionError;
 use linkage_runtime::__shared::{Constraints, Factorization, all_finite, hadamard_ratio, product_of_pivots, search};
-use linkage_runtime::{Column, D, Matrix, PositionError, Real, real};
+use linkage_runtime::{Column, D, Matrix, Name, PositionError, Real, real};
 
 /// The factor on the scales of the forces in Newton's convergence test: forces inherit the rounding errors of the
 /// positions.
 const SCALE_FACTOR: f64 = 64.0;
+
+/// The quantity named in errors.
+const REST: &str = "the forces at rest";
 
 /// The generalised forces of the free inputs at a position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,13 +41,14 @@ pub struct Balance<T, const N: usize> {
 /// # Errors
 /// Those of `evaluate` at the start, [`PositionError::NotConverged`] if no equilibrium is found,
 /// [`PositionError::NotFinite`] if a number is not finite.
-pub fn equilibrium<T, Q, const N: usize>(
-    scene: &'static str,
+pub fn equilibrium<T, Q, S, const N: usize>(
+    scene: S,
     start: [T; N],
-    evaluate: impl Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError>,
-) -> Result<Q, MotionError>
+    evaluate: impl Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError<S>>,
+) -> Result<Q, MotionError<S>>
 where
     T: Real,
+    S: Name + Copy,
 {
     let (_, Balance { mut scales, slopes, .. }) = evaluate(start)?;
     // The scale includes slope * input: a single spring is slack at its equilibrium, so its own terms vanish there.
@@ -54,7 +58,7 @@ where
         }
     }
     // Relative to an infinite scale every force would be zero.
-    all_finite(scene, "the forces at rest", scales.iter())?;
+    all_finite(scene, S::from_static(REST), scales.iter())?;
     // The scale stays constant during the search, so that smaller forces always count as better.
     let scales = Column::from(scales) * real::<T>(SCALE_FACTOR);
     let forces = Forces { scene, scales, evaluate: &evaluate, position: PhantomData };
@@ -62,22 +66,23 @@ where
     found.point.map(|(q, ..)| q)
 }
 
-struct Forces<'a, T: Real, Q, F, const N: usize> {
-    scene: &'static str,
+struct Forces<'a, T: Real, S, Q, F, const N: usize> {
+    scene: S,
     scales: Column<T, D<N>>,
     evaluate: &'a F,
     position: PhantomData<Q>,
 }
 
-impl<T, Q, F, const N: usize> Constraints for Forces<'_, T, Q, F, N>
+impl<T, S, Q, F, const N: usize> Constraints for Forces<'_, T, S, Q, F, N>
 where
     T: Real,
-    F: Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError>,
+    S: Name + Copy,
+    F: Fn([T; N]) -> Result<(Q, Balance<T, N>), MotionError<S>>,
 {
     type Scalar = T;
-    type Name = &'static str;
+    type Name = S;
     type N = D<N>;
-    type Point = Result<(Q, Balance<T, N>), MotionError>;
+    type Point = Result<(Q, Balance<T, N>), MotionError<S>>;
 
     fn at(&self, inputs: &Column<T, D<N>>) -> Self::Point {
         (self.evaluate)((*inputs).into())
@@ -89,11 +94,12 @@ where
         (point.as_ref().map_or_else(|_| none(), |(_, balance)| balance.forces.into()), self.scales)
     }
 
-    fn solve(&self, point: &Self::Point, right: &Column<T, D<N>>) -> Result<Column<T, D<N>>, PositionError> {
+    fn solve(&self, point: &Self::Point, right: &Column<T, D<N>>) -> Result<Column<T, D<N>>, PositionError<S>> {
         // Not reached: no step starts at such a position.
-        let none = PositionError::NotFinite { mechanism: self.scene, quantity: "the forces at rest" };
+        let none = PositionError::NotFinite { mechanism: self.scene, quantity: S::from_static(REST) };
         let (_, balance) = point.as_ref().map_err(|_| none)?;
-        let factors = Factorization::new(self.scene, "the stiffness", balance.slopes, self.scales.into())?;
+        let factors =
+            Factorization::new(self.scene, S::from_static("the stiffness"), balance.slopes, self.scales.into())?;
         Ok(factors.solve((*right).into()).into())
     }
 
@@ -107,7 +113,7 @@ where
         })
     }
 
-    fn names(&self) -> (&'static str, Option<&'static str>) {
+    fn names(&self) -> (S, Option<S>) {
         (self.scene, None)
     }
 }

@@ -3,19 +3,19 @@
 use core::fmt;
 
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{InputError, PathError, PositionError, Real};
+use linkage_runtime::{InputError, Name, PathError, PositionError, Real};
 
 /// The reason why forces, accelerations or a motion cannot be computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum MotionError {
+pub enum MotionError<N: Name = &'static str> {
     /// The reduced mass matrix is not positive definite: an input could accelerate without a force.
     NoInertia {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The input.
-        coordinate: &'static str,
+        coordinate: N,
         /// Cholesky pivot divided by the diagonal entry of the mass matrix, from 0 (no inertia) to 1.
         share: f64,
     },
@@ -23,50 +23,50 @@ pub enum MotionError {
     /// contradict each other.
     NoContactForces {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// A contact that is involved.
-        contact: &'static str,
+        contact: N,
     },
     /// No acceleration satisfies the law of every contact, as in Painleve's paradox.
     NoMotion {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The friction by a reaction that is involved.
-        contact: &'static str,
+        contact: N,
         /// The time, in a simulation.
         t: Option<f64>,
     },
     /// Several accelerations satisfy the law of every contact, as in Painleve's paradox.
     SeveralMotions {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// A friction that differs between them.
-        contact: &'static str,
+        contact: N,
         /// The time, in a simulation.
         t: Option<f64>,
     },
     /// The number of accelerations that satisfy the law of every contact was not found.
     UndecidedMotion {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The friction by a reaction that is involved.
-        contact: &'static str,
+        contact: N,
         /// The time, in a simulation.
         t: Option<f64>,
     },
     /// A scene with frictions or stops is simulated backwards in time: dissipated energy cannot be recovered.
     Irreversible {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The first of its frictions and stops.
-        contact: &'static str,
+        contact: N,
     },
     /// s is not on the stop on which it rests: its position has jumped.
     LeftStop {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The stop.
-        stop: &'static str,
+        stop: N,
         /// s minus the position of the stop.
         gap: f64,
         /// The time.
@@ -75,25 +75,25 @@ pub enum MotionError {
     /// The law of a drive jumps in position.
     DriveJumps {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The driven input.
-        coordinate: &'static str,
+        coordinate: N,
         /// The time.
         t: f64,
     },
     /// The law of an effect has kinks without end: at this time, or ever closer together.
     KinksWithoutEnd {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The effect, or the driven input.
-        effect: &'static str,
+        effect: N,
         /// The time.
         t: f64,
     },
     /// A number became infinite or NaN during an integration.
     NotFinite {
         /// The quantity that is not finite.
-        quantity: &'static str,
+        quantity: N,
         /// The time.
         t: f64,
     },
@@ -131,47 +131,104 @@ pub enum MotionError {
     /// errors.
     ChangePoint {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The unknowns of the group that is singular; of several the one nearest to a singularity.
-        group: &'static str,
+        group: N,
         /// The rates along the motions that cross, if there are two of one input.
-        crossing: Option<CrossingRates>,
+        crossing: Option<CrossingRates<N>>,
     },
     /// Forces in joints, or frictions that depend on them, are infinite or undetermined at a change point.
     UndeterminedReactions {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The unknowns of the group that is singular.
-        group: &'static str,
+        group: N,
     },
     /// A friction or a stop changes without end at the same time: for example, a body hits two stops that meet in turn.
     ContactWithoutEnd {
         /// The scene.
-        scene: &'static str,
+        scene: N,
         /// The friction or stop that changed last.
-        contact: &'static str,
+        contact: N,
         /// The time that was reached.
         t: f64,
     },
     /// A position during the motion could not be computed.
-    Position(PositionError),
+    Position(PositionError<N>),
     /// An error of path following, from the user's own functions.
-    Path(PathError),
+    Path(PathError<N>),
     /// An argument is invalid.
-    Input(InputError),
+    Input(InputError<N>),
 }
 
 /// The rates of two coordinates along the two motions that cross at a change point, each pair up to a factor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct CrossingRates {
+pub struct CrossingRates<N = &'static str> {
     /// The names of the coordinates.
-    pub coordinates: [&'static str; 2],
+    pub coordinates: [N; 2],
     /// Their rates along each motion; the larger one is 1.
     pub rates: [[f64; 2]; 2],
 }
 
-impl MotionError {
+// A list of names need not be `Copy` where a name is.
+impl<N: Name<List: Copy> + Copy> Copy for MotionError<N> {}
+
+impl<N> CrossingRates<N> {
+    /// These rates with other names.
+    pub fn map_names<M>(self, f: impl FnMut(N) -> M) -> CrossingRates<M> {
+        let Self { coordinates, rates } = self;
+        CrossingRates { coordinates: coordinates.map(f), rates }
+    }
+}
+
+impl<N: Name> MotionError<N> {
+    /// This error with other names: borrowed ones become owned.
+    pub fn map_names<M: Name<List: FromIterator<M>>>(self, mut f: impl FnMut(N) -> M) -> MotionError<M> {
+        match self {
+            Self::NoInertia { scene, coordinate, share } => {
+                MotionError::NoInertia { scene: f(scene), coordinate: f(coordinate), share }
+            }
+            Self::NoContactForces { scene, contact } => {
+                MotionError::NoContactForces { scene: f(scene), contact: f(contact) }
+            }
+            Self::NoMotion { scene, contact, t } => MotionError::NoMotion { scene: f(scene), contact: f(contact), t },
+            Self::SeveralMotions { scene, contact, t } => {
+                MotionError::SeveralMotions { scene: f(scene), contact: f(contact), t }
+            }
+            Self::UndecidedMotion { scene, contact, t } => {
+                MotionError::UndecidedMotion { scene: f(scene), contact: f(contact), t }
+            }
+            Self::Irreversible { scene, contact } => MotionError::Irreversible { scene: f(scene), contact: f(contact) },
+            Self::LeftStop { scene, stop, gap, t } => MotionError::LeftStop { scene: f(scene), stop: f(stop), gap, t },
+            Self::DriveJumps { scene, coordinate, t } => {
+                MotionError::DriveJumps { scene: f(scene), coordinate: f(coordinate), t }
+            }
+            Self::KinksWithoutEnd { scene, effect, t } => {
+                MotionError::KinksWithoutEnd { scene: f(scene), effect: f(effect), t }
+            }
+            Self::NotFinite { quantity, t } => MotionError::NotFinite { quantity: f(quantity), t },
+            Self::StepTooSmall { t, step } => MotionError::StepTooSmall { t, step },
+            Self::TooManySteps { t, steps } => MotionError::TooManySteps { t, steps },
+            Self::Stiff { t, product } => MotionError::Stiff { t, product },
+            Self::EventsWithoutEnd { t, event } => MotionError::EventsWithoutEnd { t, event },
+            Self::ChangePoint { scene, group, crossing } => MotionError::ChangePoint {
+                scene: f(scene),
+                group: f(group),
+                crossing: crossing.map(|rates| rates.map_names(f)),
+            },
+            Self::UndeterminedReactions { scene, group } => {
+                MotionError::UndeterminedReactions { scene: f(scene), group: f(group) }
+            }
+            Self::ContactWithoutEnd { scene, contact, t } => {
+                MotionError::ContactWithoutEnd { scene: f(scene), contact: f(contact), t }
+            }
+            Self::Position(error) => MotionError::Position(error.map_names(f)),
+            Self::Path(error) => MotionError::Path(error.map_names(f)),
+            Self::Input(error) => MotionError::Input(error.map_names(f)),
+        }
+    }
+
     /// Adds the time of a simulation to an error of contacts that has none.
     pub(crate) fn at<T: Real>(mut self, now: T) -> Self {
         if let Self::NoMotion { t, .. } | Self::SeveralMotions { t, .. } | Self::UndecidedMotion { t, .. } = &mut self
@@ -192,7 +249,7 @@ impl fmt::Display for At {
     }
 }
 
-impl fmt::Display for MotionError {
+impl<N: Name> fmt::Display for MotionError<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoInertia { scene, coordinate, share } => write!(
@@ -284,16 +341,16 @@ impl fmt::Display for MotionError {
     }
 }
 
-impl core::error::Error for MotionError {}
+impl<N: Name> core::error::Error for MotionError<N> {}
 
-impl From<InputError> for MotionError {
-    fn from(error: InputError) -> Self {
+impl<N: Name> From<InputError<N>> for MotionError<N> {
+    fn from(error: InputError<N>) -> Self {
         Self::Input(error)
     }
 }
 
-impl From<PositionError> for MotionError {
-    fn from(error: PositionError) -> Self {
+impl<N: Name> From<PositionError<N>> for MotionError<N> {
+    fn from(error: PositionError<N>) -> Self {
         match error {
             PositionError::Input(error) => Self::Input(error),
             error => Self::Position(error),
@@ -301,12 +358,82 @@ impl From<PositionError> for MotionError {
     }
 }
 
-impl From<PathError> for MotionError {
-    fn from(error: PathError) -> Self {
+impl<N: Name> From<PathError<N>> for MotionError<N> {
+    fn from(error: PathError<N>) -> Self {
         match error {
             PathError::Input(error) => Self::Input(error),
             PathError::Position(error) => Self::Position(error),
             error => Self::Path(error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CrossingRates, MotionError};
+    use linkage_runtime::{InputError, Name, PathError, PositionError};
+
+    /// An error of each variant of an enum. A variant that is not in the list is not matched, and does not compile.
+    macro_rules! each {
+        ($name:ident: $($variant:ident $fields:tt)*) => {{
+            let errors = vec![$($name::$variant $fields),*];
+            for error in &errors {
+                match error {
+                    $($name::$variant { .. } => (),)*
+                }
+            }
+            errors
+        }};
+    }
+
+    fn errors<N: Name>(n: impl Fn(&'static str) -> N) -> Vec<MotionError<N>> {
+        let (e, c, g) = (|| n("drop"), || n("friction on phi"), || n("phi, psi"));
+        let crossing = || CrossingRates { coordinates: [n("phi"), n("psi")], rates: [[1.0, 0.5], [-0.5, 1.0]] };
+        let t = 2.5;
+        let all = each! { MotionError:
+            NoInertia { scene: e(), coordinate: n("theta"), share: 0.25 }
+            NoContactForces { scene: e(), contact: c() }
+            NoMotion { scene: e(), contact: c(), t: Some(t) }
+            SeveralMotions { scene: e(), contact: c(), t: Some(t) }
+            UndecidedMotion { scene: e(), contact: c(), t: Some(t) }
+            Irreversible { scene: e(), contact: c() }
+            LeftStop { scene: e(), stop: n("stop on s"), gap: 0.1, t }
+            DriveJumps { scene: e(), coordinate: n("theta"), t }
+            KinksWithoutEnd { scene: e(), effect: n("drive theta"), t }
+            NotFinite { quantity: n("speed"), t }
+            StepTooSmall { t, step: 0.1 }
+            TooManySteps { t, steps: 7 }
+            Stiff { t, product: 3.5 }
+            EventsWithoutEnd { t, event: 1 }
+            ChangePoint { scene: e(), group: g(), crossing: Some(crossing()) }
+            UndeterminedReactions { scene: e(), group: g() }
+            ContactWithoutEnd { scene: e(), contact: c(), t }
+            Position (PositionError::Undetermined { mechanism: n("FourBar"), group: g() })
+            Path (PathError::NoDirection { mechanism: n("FourBar") })
+            Input (InputError::NotPeriodic { mechanism: n("FourBar") })
+        };
+        let timeless = [
+            MotionError::NoMotion { scene: e(), contact: c(), t: None },
+            MotionError::ChangePoint { scene: e(), group: g(), crossing: None },
+        ];
+        all.into_iter().chain(timeless).collect()
+    }
+
+    /// Names borrowed from a text that ends with the test, and owned ones, have the texts of static ones.
+    #[test]
+    fn names_of_any_type_have_the_same_text() {
+        let text = "FourBar drop friction on phi, psi stop on s drive theta speed".to_owned();
+        let borrowed = |name: &'static str| -> &str {
+            let start = text.find(name).expect(name);
+            &text[start..start + name.len()]
+        };
+        let fixed = errors(|name| name);
+        let of_borrowed = errors(borrowed);
+        assert_eq!(fixed, of_borrowed);
+        let owned: Vec<MotionError<String>> = of_borrowed.iter().map(|error| error.map_names(String::from)).collect();
+        for (fixed, (borrowed, owned)) in fixed.iter().zip(of_borrowed.iter().zip(&owned)) {
+            assert_eq!([borrowed.to_string(), owned.to_string()], [fixed.to_string(), fixed.to_string()]);
+            assert_eq!([format!("{borrowed:?}"), format!("{owned:?}")], [format!("{fixed:?}"), format!("{fixed:?}")]);
         }
     }
 }

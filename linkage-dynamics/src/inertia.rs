@@ -2,7 +2,7 @@
 
 use crate::MotionError;
 use linkage_runtime::__shared::{Definite, greatest, to_f64};
-use linkage_runtime::{Column, D, Dim, Matrix, PositionError, Real, real};
+use linkage_runtime::{Column, D, Dim, Matrix, Name, PositionError, Real, real};
 
 /// A pivot below this many ulps of its diagonal entry counts as zero: it is rounding error.
 const LEAST_PIVOT_ULPS: f64 = 4.0;
@@ -17,16 +17,16 @@ impl<T: Real, N: Dim> Inertia<T, N> {
     /// # Errors
     /// Those of [`reduced`].
     #[inline]
-    pub(crate) fn new(
-        scene: &'static str,
-        coordinates: &Column<&'static str, N>,
+    pub(crate) fn new<S: Name + Copy>(
+        scene: S,
+        coordinates: &Column<S, N>,
         mass: &Matrix<T, N, N>,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, MotionError<S>> {
         let factors = Definite::new(mass, |k, pivot, entry| {
             if pivot > real::<T>(LEAST_PIVOT_ULPS) * T::default_epsilon() * entry && pivot <= greatest() {
                 return Ok(());
             }
-            let coordinate = coordinates.as_slice().get(k).copied().unwrap_or_default();
+            let coordinate = coordinates.as_slice().get(k).copied().unwrap_or_else(|| S::from_static(""));
             Err(without_inertia(scene, coordinate, pivot, entry))
         })?;
         Ok(Self { factors })
@@ -45,20 +45,20 @@ impl<T: Real, N: Dim> Inertia<T, N> {
 /// [`MotionError::NoInertia`] with the name of the first coordinate whose pivot is not positive,
 /// [`PositionError::NotFinite`] if it is NaN or infinite.
 #[inline]
-pub fn reduced<T: Real, const N: usize>(
-    scene: &'static str,
-    coordinates: [&'static str; N],
+pub fn reduced<T: Real, S: Name + Copy, const N: usize>(
+    scene: S,
+    coordinates: [S; N],
     columns: [[T; N]; N],
     forces: [T; N],
-) -> Result<[T; N], MotionError> {
+) -> Result<[T; N], MotionError<S>> {
     let inertia = Inertia::<T, D<N>>::new(scene, &coordinates.into(), &columns.into())?;
     Ok(inertia.solve(&forces.into()).into())
 }
 
 #[cold]
-fn without_inertia<T: Real>(scene: &'static str, coordinate: &'static str, pivot: T, entry: T) -> MotionError {
+fn without_inertia<T: Real, S: Name>(scene: S, coordinate: S, pivot: T, entry: T) -> MotionError<S> {
     if !pivot.is_finite() {
-        return PositionError::NotFinite { mechanism: scene, quantity: "the mass matrix" }.into();
+        return PositionError::NotFinite { mechanism: scene, quantity: S::from_static("the mass matrix") }.into();
     }
     let share = if entry > T::zero() { to_f64(pivot / entry) } else { 0.0 };
     MotionError::NoInertia { scene, coordinate, share }

@@ -6,7 +6,9 @@ use crate::{Bearing, Contact, ContactLaw, Energy, Equations, MotionError, Unredu
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
-use linkage_runtime::{Column, Dim, InputError, JointForces, Mechanism, PerInput, PositionError, Real, newton, real};
+use linkage_runtime::{
+    Column, Dim, InputError, JointForces, Mechanism, Name, PerInput, PositionError, Real, newton, real,
+};
 
 /// Values shared by the functions of a scene, at one position and one set of input rates.
 #[derive(Debug, Clone, Copy)]
@@ -421,10 +423,10 @@ linkage_runtime::__by_fields!([S: Scene] Loads<S> { contacts, are_unique, drives
 ///
 /// # Errors
 /// [`InputError::OutOfRange`] or [`PositionError::NotFinite`] with the name of the first.
-pub fn not_negative<T: Real, const N: usize>(
-    scene: &'static str,
-    values: [(&'static str, T); N],
-) -> Result<(), MotionError> {
+pub fn not_negative<T: Real, S: Name + Copy>(
+    scene: S,
+    values: impl IntoIterator<Item = (S, T)>,
+) -> Result<(), MotionError<S>> {
     for (quantity, value) in values {
         if !value.is_finite() {
             return Err(PositionError::NotFinite { mechanism: scene, quantity }.into());
@@ -437,7 +439,7 @@ pub fn not_negative<T: Real, const N: usize>(
 }
 
 /// The error for a negative number.
-pub(crate) fn negative<T: Real>(scene: &'static str, quantity: &'static str, value: T) -> InputError {
+pub(crate) fn negative<T: Real, S>(scene: S, quantity: S, value: T) -> InputError<S> {
     InputError::OutOfRange { of: Some(scene), quantity, value: to_f64(value), least: 0.0, most: f64::MAX }
 }
 
@@ -445,10 +447,7 @@ pub(crate) fn negative<T: Real>(scene: &'static str, quantity: &'static str, val
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] with the name of the first that is not.
-pub fn finite_each<T: Real, const N: usize>(
-    scene: &'static str,
-    values: [(&'static str, T); N],
-) -> Result<(), MotionError> {
+pub fn finite_each<T: Real, S: Name, const N: usize>(scene: S, values: [(S, T); N]) -> Result<(), MotionError<S>> {
     values
         .into_iter()
         .find(|(_, value)| !value.is_finite())

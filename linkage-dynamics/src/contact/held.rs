@@ -39,7 +39,7 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
         is_requested: impl Fn(usize) -> bool,
     ) -> Result<Self, MotionError> {
         let ReducedEquations { scene, coordinates, mass, contacts, .. } = equations;
-        let inertia = Inertia::new(scene, coordinates, mass)?;
+        let inertia = Inertia::new(*scene, coordinates, mass)?;
         let (mut side, mut size) = (equations.forces, equations.forces.abs());
         for (contact, &force) in contacts.iter().zip(forces) {
             side += contact.row * force;

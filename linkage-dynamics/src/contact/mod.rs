@@ -67,10 +67,14 @@ pub struct ContactCoordinate<T: Real, U: Dim, V: Dim> {
 
 /// A friction or a stop, evaluated at one state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound(serialize = "T: serde::Serialize")))]
-pub struct Contact<T: Real, U: Dim, V: Dim> {
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(serialize = "T: serde::Serialize, N: serde::Serialize"))
+)]
+pub struct Contact<T: Real, U: Dim, V: Dim, N = &'static str> {
     /// The name used in errors: `friction on theta3`.
-    pub name: &'static str,
+    pub name: N,
     /// The scalar along which it acts.
     pub along: ContactCoordinate<T, U, V>,
     /// The law of its force.

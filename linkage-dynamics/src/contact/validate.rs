@@ -4,16 +4,19 @@ use super::{Contact, ContactCoordinate, ContactLaw};
 use crate::MotionError;
 use crate::scene::negative;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Dim, InputError, PositionError, Real};
+use linkage_runtime::{Dim, InputError, Name, PositionError, Real};
+
+/// The contacts of a scene.
+type Each<T, U, V, S, const C: usize> = [Contact<T, U, V, S>; C];
 
 /// Returns the contacts if their numbers are finite and no friction limit or factor is negative.
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] or [`InputError::OutOfRange`] with the name of the first that is invalid.
-pub fn validate_contacts<T: Real, U: Dim, V: Dim, const C: usize>(
-    scene: &'static str,
-    contacts: [Contact<T, U, V>; C],
-) -> Result<[Contact<T, U, V>; C], MotionError> {
+pub fn validate_contacts<T: Real, U: Dim, V: Dim, S: Name + Copy, const C: usize>(
+    scene: S,
+    contacts: Each<T, U, V, S, C>,
+) -> Result<Each<T, U, V, S, C>, MotionError<S>> {
     for Contact { name, along, law } in &contacts {
         let ContactCoordinate { value, unknowns, inputs, bias } = along;
         let [a, b, c] = match *law {
@@ -23,12 +26,12 @@ pub fn validate_contacts<T: Real, U: Dim, V: Dim, const C: usize>(
         let mut all =
             [*value, *bias, a, b, c].into_iter().chain(unknowns.iter().copied()).chain(inputs.iter().copied());
         if !all.all(|number| number.is_finite()) {
-            return Err(PositionError::NotFinite { mechanism: scene, quantity: name }.into());
+            return Err(PositionError::NotFinite { mechanism: scene, quantity: *name }.into());
         }
         if let ContactLaw::Friction { limit } | ContactLaw::Bearing { factor: limit } = *law
             && limit < T::zero()
         {
-            return Err(negative(scene, name, limit).into());
+            return Err(negative(scene, *name, limit).into());
         }
     }
     Ok(contacts)
@@ -39,10 +42,10 @@ pub fn validate_contacts<T: Real, U: Dim, V: Dim, const C: usize>(
 /// # Errors
 /// [`InputError::EmptyRange`], [`InputError::OutOfRange`] or [`PositionError::NotFinite`] with the name of the first
 /// stop that is invalid.
-pub fn validate_stops<T: Real, const N: usize>(
-    scene: &'static str,
-    stops: [(&'static str, T, T, T); N],
-) -> Result<(), MotionError> {
+pub fn validate_stops<T: Real, S: Name + Copy, const N: usize>(
+    scene: S,
+    stops: [(S, T, T, T); N],
+) -> Result<(), MotionError<S>> {
     for (stop, lower, upper, restitution) in stops {
         if ![lower, upper, restitution].iter().all(T::is_finite) {
             return Err(PositionError::NotFinite { mechanism: scene, quantity: stop }.into());
@@ -51,7 +54,7 @@ pub fn validate_stops<T: Real, const N: usize>(
             return Err(InputError::EmptyRange { scene, stop, lower: to_f64(lower), upper: to_f64(upper) }.into());
         }
         if restitution < T::zero() || restitution > T::one() {
-            let (quantity, value) = ("the restitution", to_f64(restitution));
+            let (quantity, value) = (S::from_static("the restitution"), to_f64(restitution));
             return Err(InputError::OutOfRange { of: Some(stop), quantity, value, least: 0.0, most: 1.0 }.into());
         }
     }
