@@ -105,6 +105,12 @@ impl Diagnostics {
         self.errors.iter().map(ToString::to_string).collect()
     }
 
+    /// The messages with their tokens, in order.
+    #[cfg(feature = "text")]
+    pub(crate) fn errors(&self) -> &[syn::Error] {
+        &self.errors
+    }
+
     /// One `compile_error!` for each message.
     #[must_use]
     pub fn to_tokens(&self) -> TokenStream {

@@ -21,6 +21,8 @@ pub mod model;
 pub mod program;
 pub mod structure;
 pub mod syntax;
+#[cfg(feature = "text")]
+pub mod text;
 
 use std::collections::BTreeMap;
 
@@ -48,22 +50,47 @@ pub fn expand(input: TokenStream, root: &TokenStream) -> TokenStream {
 /// Expands one `linkage!` invocation within a budget of work.
 #[must_use]
 pub fn expand_within(input: TokenStream, facade: &Facade, budget: &Budget) -> TokenStream {
-    let mut outside = Diagnostics::default();
-    let trees = syntax::parse(input, &mut outside);
-    let mut resolved: Vec<_> = trees.into_iter().map(|tree| resolved(tree, facade, budget)).collect();
-    let clashing = clash::find(resolved.iter().map(|(mechanism, _)| mechanism), &mut outside);
+    let Invocation { outside, mechanisms } = Invocation::read(input, facade, budget);
     let (mut errors, mut items) = (outside.to_tokens(), TokenStream::new());
-    for (index, (mechanism, diagnostics)) in resolved.iter_mut().enumerate() {
-        if !clashing.contains(&index) {
-            items.extend(emitted(mechanism, &facade.path, diagnostics));
+    for mut checked in mechanisms {
+        if !checked.is_clashing {
+            items.extend(emitted(&mut checked, &facade.path));
         }
-        errors.extend(diagnostics.to_tokens());
+        errors.extend(checked.diagnostics.to_tokens());
     }
     quote! { #errors #items }
 }
 
+/// The mechanisms of one invocation after the checks that need no derivatives.
+struct Invocation {
+    /// The mistakes outside of all mechanisms.
+    outside: Diagnostics,
+    mechanisms: Vec<Checked>,
+}
+
+/// A mechanism with its mistakes.
+struct Checked {
+    mechanism: Mechanism,
+    diagnostics: Diagnostics,
+    /// True if another mechanism has a type of its names.
+    is_clashing: bool,
+}
+
+impl Invocation {
+    fn read(input: TokenStream, facade: &Facade, budget: &Budget) -> Self {
+        let mut outside = Diagnostics::default();
+        let trees = syntax::parse(input, &mut outside);
+        let mut mechanisms: Vec<_> = trees.into_iter().map(|tree| resolved(tree, facade, budget)).collect();
+        let clashing = clash::find(mechanisms.iter().map(|checked| &checked.mechanism), &mut outside);
+        for index in clashing {
+            mechanisms[index].is_clashing = true;
+        }
+        Self { outside, mechanisms }
+    }
+}
+
 /// Resolves a mechanism, and makes the checks that need no derivatives.
-fn resolved(tree: syntax::Mechanism, facade: &Facade, budget: &Budget) -> (Mechanism, Diagnostics) {
+fn resolved(tree: syntax::Mechanism, facade: &Facade, budget: &Budget) -> Checked {
     let before = budget.check();
     let (mut mechanism, mut diagnostics) = model::resolve(tree, budget);
     facade.check(&mut mechanism, &mut diagnostics);
@@ -75,25 +102,33 @@ fn resolved(tree: syntax::Mechanism, facade: &Facade, budget: &Budget) -> (Mecha
             too_much(&mechanism, &mut diagnostics);
         }
     }
-    (mechanism, diagnostics)
+    Checked { mechanism, diagnostics, is_clashing: false }
+}
+
+impl Checked {
+    /// Applies a function to each driver; `None` after a mistake, and if the budget is spent.
+    fn drivers<R>(&mut self, f: impl FnMut(Lowered) -> R) -> Option<Vec<R>> {
+        let is_right = self.diagnostics.is_empty() && self.mechanism.graph.budget().check().is_ok();
+        if is_right { of_drivers(&self.mechanism, &mut self.diagnostics, f) } else { None }
+    }
 }
 
 /// The items of a mechanism: complete, or after mistakes those of a stub.
-fn emitted(mechanism: &Mechanism, root: &TokenStream, diagnostics: &mut Diagnostics) -> TokenStream {
-    if diagnostics.is_empty()
-        && mechanism.graph.budget().check().is_ok()
-        && let Some(drivers) =
-            of_drivers(mechanism, diagnostics, |of| emit::driver(&of.program, Some(&of.derivation), root))
-    {
-        return emit::mechanism(mechanism, drivers, root);
+fn emitted(checked: &mut Checked, root: &TokenStream) -> TokenStream {
+    let drivers = checked.drivers(|of| emit::driver(&of.program, Some(&of.derivation), root));
+    let mechanism = &checked.mechanism;
+    match drivers {
+        Some(drivers) => emit::mechanism(mechanism, drivers, root),
+        None if mechanism.is_well_named() => emit::stub(mechanism, root),
+        None => TokenStream::new(),
     }
-    if mechanism.is_well_named() { emit::stub(mechanism, root) } else { TokenStream::new() }
 }
 
-/// A driver with its mathematics and its functions.
-struct Lowered<'m> {
-    derivation: Derivation,
-    program: Program<'m, Code>,
+/// A driver with its mathematics and its functions: what all stages but the printers make of it.
+pub struct Lowered<'m> {
+    pub derivation: Derivation,
+    /// Its functions as operations; `signatures` has the mechanism and the driver.
+    pub program: Program<'m, Code>,
 }
 
 /// Derives, checks, plans and lowers one driver; `None` after a mistake.

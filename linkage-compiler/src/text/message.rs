@@ -1,0 +1,82 @@
+//! A mistake in a text, as data.
+
+use std::fmt::{self, Display};
+
+use proc_macro2::Span;
+
+use crate::diagnostics::Diagnostics;
+
+/// A mistake in a text. Messages are ordered by their places.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Message {
+    /// The line of the marked tokens, from 1.
+    pub line: usize,
+    /// The column of their first character, from 1; each character counts as one, as in rustc's messages.
+    pub column: usize,
+    /// The number of characters that are marked in this line; marked tokens that go on in the next line end with this one.
+    /// It is 0 if the mistake is that something is missing from the whole text.
+    pub length: usize,
+    /// The first line of the macro's message.
+    pub text: String,
+    /// The other lines of the macro's message: what can be written instead, or what there is to choose from. Most messages
+    /// say this in their first line.
+    pub help: Option<String>,
+}
+
+impl Message {
+    /// A message that marks one line.
+    pub(super) fn new((line, column): (usize, usize), length: usize, message: &str) -> Self {
+        let (text, help) = match message.split_once('\n') {
+            Some((first, rest)) => (first.to_owned(), Some(rest.to_owned())),
+            None => (message.to_owned(), None),
+        };
+        Self { line, column, length, text, help }
+    }
+}
+
+impl Display for Message {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "{}:{}: {}", self.line, self.column, self.text)
+    }
+}
+
+impl std::error::Error for Message {}
+
+/// The places of tokens in one text; they are asked for while its spans are valid.
+pub(super) struct Places {
+    /// What `proc-macro2` calls the text.
+    name: String,
+    /// The number of characters of each line, without blanks at its end.
+    lines: Vec<usize>,
+}
+
+impl Places {
+    /// The places of the text that this is a span of.
+    pub(super) fn new(text: &str, of: Span) -> Self {
+        Self { name: of.file(), lines: text.split('\n').map(|line| line.trim_end().chars().count()).collect() }
+    }
+
+    /// The messages of one stage.
+    pub(super) fn messages(&self, diagnostics: &Diagnostics) -> Vec<Message> {
+        let of = |error: &syn::Error| {
+            let (place, length) = self.region(error.span());
+            Message::new(place, length, &error.to_string())
+        };
+        diagnostics.errors().iter().map(of).collect()
+    }
+
+    /// The line and the column of a span, and the number of its characters in that line.
+    fn region(&self, span: Span) -> ((usize, usize), usize) {
+        // A token that is not of the text stands for all of it.
+        if span.file() != self.name {
+            return ((1, 1), 0);
+        }
+        let (start, end) = (span.start(), span.end());
+        let last = if start.line == end.line { end.column } else { self.of_line(start.line) };
+        ((start.line, start.column + 1), last.saturating_sub(start.column))
+    }
+
+    fn of_line(&self, line: usize) -> usize {
+        line.checked_sub(1).and_then(|index| self.lines.get(index)).copied().unwrap_or_default()
+    }
+}
