@@ -4,6 +4,7 @@
 //! Each mistake has a snapshot: the text between `«` and `»` is the token.
 
 mod mistakes;
+mod text;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -106,6 +107,45 @@ fn entry((name, from, to): &Mistake, program: &str, messages: &[Message]) -> Str
     entry
 }
 
+/// A program with a mistake planted in it.
+struct Planted {
+    /// The name of the program.
+    list: &'static str,
+    mistake: &'static Mistake,
+    program: String,
+    /// The tokens of its messages.
+    marks: Vec<(Place, Place)>,
+}
+
+impl Planted {
+    /// The name of its file.
+    fn file(&self) -> String {
+        format!("{}_{}", self.list, self.mistake.0)
+    }
+}
+
+/// The programs by their names, with their mistakes.
+fn lists() -> [(&'static str, String, &'static [Mistake]); 4] {
+    [
+        ("four_bar", readme(), FOUR_BAR),
+        ("press", include_str!("programs/press.rs").to_owned(), PRESS),
+        ("engine", include_str!("programs/engine.rs").to_owned(), ENGINE),
+        ("pendulum", include_str!("programs/pendulum.rs").to_owned(), PENDULUM),
+    ]
+}
+
+/// All mistakes, each planted in its program.
+fn planted() -> Vec<Planted> {
+    let of_list = |(list, program, mistakes): (&'static str, String, &'static [Mistake])| {
+        let of_mistake = move |mistake: &'static Mistake| {
+            let (program, marks) = unmarked(&with(&program, mistake.1, mistake.2));
+            Planted { list, mistake, program, marks }
+        };
+        mistakes.iter().map(of_mistake)
+    };
+    lists().into_iter().flat_map(of_list).collect()
+}
+
 /// The programs are modules of one crate, so that one run of rustc checks them all; a mistake in `main` shows that
 /// rustc goes on after the messages of the macro.
 #[test]
@@ -117,43 +157,35 @@ fn one_mistake_is_one_message() {
         library += &format!("pub mod {name};\n");
     };
     let readme = readme();
-    let lists = [
-        ("four_bar", readme.as_str(), FOUR_BAR),
-        ("press", include_str!("programs/press.rs"), PRESS),
-        ("engine", include_str!("programs/engine.rs"), ENGINE),
-        ("pendulum", include_str!("programs/pendulum.rs"), PENDULUM),
-    ];
     let also_in_main = with(&readme, "l3@theta3 + l4@", "l3@thta3 + l4@");
     write("also_in_main", &with(&also_in_main, "four_bar.velocity_ratios", "four_bar.velocity_rations"));
-    let mut planted = Vec::new();
-    for (list, program, mistakes) in lists {
+    let (lists, planted) = (lists(), planted());
+    for (list, program, _) in &lists {
         write(list, program);
-        for mistake @ (name, from, to) in mistakes {
-            let (program, marks) = unmarked(&with(program, from, to));
-            let file = format!("{list}_{name}");
-            write(&file, &program);
-            planted.push((list, file, mistake, program, marks));
-        }
+    }
+    for one in &planted {
+        write(&one.file(), &one.program);
     }
     files.push(("src/lib.rs".to_owned(), library));
     let found = messages(&package("one_message", files));
     let none = Vec::new();
     let of = |name: &str| found.get(name).unwrap_or(&none).as_slice();
-    for (list, ..) in lists {
+    for (list, ..) in &lists {
         assert!(of(list).is_empty(), "{:?}", of(list));
     }
     let [first, second] = of("also_in_main") else { panic!("{:?}", of("also_in_main")) };
     assert!(first.text.starts_with("unknown name"), "{first:?}");
     assert_eq!(second.code.as_deref(), Some("E0599"), "{second:?}");
     let (mut entries, mut wrong) = (BTreeMap::<&str, Vec<(String, String)>>::new(), Vec::new());
-    for (list, file, mistake, program, marks) in &planted {
-        let entry = entry(mistake, program, of(file));
-        let mut places: Vec<_> = of(file).iter().map(|message| (message.from, message.to)).collect();
+    for one in &planted {
+        let file = one.file();
+        let entry = entry(one.mistake, &one.program, of(&file));
+        let mut places: Vec<_> = of(&file).iter().map(|message| (message.from, message.to)).collect();
         places.sort_unstable();
-        if places != *marks {
+        if places != one.marks {
             wrong.push(entry.clone());
         }
-        entries.entry(list).or_default().push((mistake.0.to_owned(), entry));
+        entries.entry(one.list).or_default().push((one.mistake.0.to_owned(), entry));
     }
     for (list, entries) in &entries {
         compare(list, entries);

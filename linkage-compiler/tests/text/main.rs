@@ -1,0 +1,3 @@
+//! Texts at run time, those of strangers among them: messages, bounded work, no panic.
+
+mod strangers;
