@@ -7,8 +7,9 @@ use syn::parse::discouraged::Speculative;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 use syn::token::Bracket;
-use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Path, Token};
+use syn::{AttrStyle, Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Path, Token};
 
+use super::DEEPEST_NESTING;
 use super::kind::{Bearer, at_keyword};
 use crate::diagnostics::Diagnostics;
 
@@ -25,9 +26,13 @@ pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<At
             continue;
         }
         let ahead = stream.fork();
-        match ahead.call(Attribute::parse_outer) {
-            Ok(mut read) => {
-                attributes.append(&mut read);
+        let read = match long_value(stream) {
+            Some(error) => Err(error),
+            None => one(&ahead),
+        };
+        match read {
+            Ok(attribute) => {
+                attributes.push(attribute);
                 stream.advance_to(&ahead);
             }
             Err(error) => {
@@ -42,6 +47,40 @@ pub(super) fn read(stream: ParseStream, diagnostics: &mut Diagnostics) -> Vec<At
         }
     }
     attributes
+}
+
+/// Parses one attribute. After one with a mistake the others are not read again.
+fn one(stream: ParseStream) -> syn::Result<Attribute> {
+    let content;
+    Ok(Attribute {
+        pound_token: stream.parse()?,
+        style: AttrStyle::Outer,
+        bracket_token: syn::bracketed!(content in stream),
+        meta: content.parse()?,
+    })
+}
+
+/// The message of an attribute whose value, after `=`, has more tokens than nested parentheses may have levels: `syn` reads it
+/// as an expression, and may take a level of the stack for each token.
+fn long_value(stream: ParseStream) -> Option<syn::Error> {
+    let ahead = stream.fork();
+    ahead.parse::<TokenTree>().ok()?;
+    let Ok(TokenTree::Group(group)) = ahead.parse::<TokenTree>() else { return None };
+    let is_equality = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == '=');
+    let value = group.stream().into_iter().skip_while(|token| !is_equality(token)).skip(1);
+    let mut levels: Vec<TokenTree> = value.collect();
+    let first = levels.first()?.span();
+    let mut count = 0;
+    while let Some(token) = levels.pop() {
+        count += 1;
+        if count > DEEPEST_NESTING {
+            return Some(syn::Error::new(first, "the value of an attribute is one text or one macro"));
+        }
+        if let TokenTree::Group(group) = token {
+            levels.extend(group.stream());
+        }
+    }
+    None
 }
 
 /// The reason why the types of a mechanism derive no `Default`.
@@ -84,7 +123,9 @@ pub(super) fn meant(mut attributes: Vec<Attribute>, on: Bearer, diagnostics: &mu
 
 /// Reports and removes `Default` in a list of traits to derive: the emitted one has the default values of the parameters.
 fn without_default(derive: &mut Attribute, diagnostics: &mut Diagnostics) {
-    let traits = derive.parse_args_with(Punctuated::<Path, Token![,]>::parse_terminated);
+    let paths =
+        |stream: ParseStream| Punctuated::<Path, Token![,]>::parse_terminated_with(stream, Path::parse_mod_style);
+    let traits = derive.parse_args_with(paths);
     let (Meta::List(list), Ok(traits)) = (&mut derive.meta, traits) else { return };
     let is_default = |of: &&Path| of.segments.last().is_some_and(|last| last.ident == "Default");
     let (defaults, others): (Vec<&Path>, Vec<&Path>) = traits.iter().partition(is_default);

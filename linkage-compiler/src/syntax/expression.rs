@@ -126,6 +126,8 @@ pub struct Expressions {
     nodes: Vec<(Expression, Region)>,
     /// True after `@`: a second `@` belongs to another vector.
     pub(super) is_angle: bool,
+    /// The number of `|` before the expression that is being read.
+    pub(super) open_bars: usize,
     /// Mistakes that are read as what is meant.
     slips: Vec<syn::Error>,
     /// The suffixes of numbers that are no units.

@@ -96,41 +96,49 @@ fn items<V>(stream: ParseStream, expressions: &mut Expressions, item: Item<V>) -
 
 /// Parses what separates two items; a missing comma, or one too many, is reported.
 fn goes_on(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<bool> {
-    let found = stream.span();
-    if stream.parse::<Option<Token![,]>>()?.is_none() {
-        let begins = at_keyword(stream) || at_word(stream, &EFFECTS) || at_word(stream, &PROPERTIES);
-        let is_name = stream.peek(syn::Ident) && !begins;
-        if is_name {
-            let and = stream.peek2(syn::Ident) && stream.fork().call(Ident::parse_any).is_ok_and(|word| word == "and");
-            if and {
-                stream.parse::<Ident>()?;
-                expressions.slip(found, "expected `,`, found `and`");
-            } else {
-                expressions.slip(found, "expected `,` before this");
-            }
+    loop {
+        let found = stream.span();
+        if stream.parse::<Option<Token![,]>>()?.is_none() {
+            return without_comma(stream, expressions);
         }
-        return Ok(is_name);
+        if at_keyword(stream) && stream.peek2(syn::Ident) {
+            return Err(syn::Error::new(found, "expected `;`, found `,`: a keyword follows"));
+        }
+        while stream.peek(Token![,]) {
+            let again = stream.span();
+            stream.parse::<Token![,]>()?;
+            expressions.slip(again, "expected a name: remove this `,`");
+        }
+        // A decimal comma: after its digits the list goes on.
+        if let Ok(literal) = stream.fork().parse::<syn::LitInt>() {
+            stream.parse::<TokenTree>()?;
+            expressions.slip(literal.span(), "expected a name: a decimal point is `.`, as in `80.5`");
+            continue;
+        }
+        let ends = stream.is_empty() || stream.peek(Token![;]);
+        if ends {
+            let at = if stream.is_empty() { found } else { stream.span() };
+            expressions.slip(at, "expected a name after `,`");
+        }
+        return Ok(!ends);
     }
-    if at_keyword(stream) && stream.peek2(syn::Ident) {
-        return Err(syn::Error::new(found, "expected `;`, found `,`: a keyword follows"));
+}
+
+/// True if another item follows without a comma, which is reported.
+fn without_comma(stream: ParseStream, expressions: &mut Expressions) -> syn::Result<bool> {
+    let found = stream.span();
+    let begins = at_keyword(stream) || at_word(stream, &EFFECTS) || at_word(stream, &PROPERTIES);
+    let is_name = stream.peek(syn::Ident) && !begins;
+    if is_name {
+        let and = stream.peek2(syn::Ident) && stream.fork().call(Ident::parse_any).is_ok_and(|word| word == "and");
+        if and {
+            stream.parse::<Ident>()?;
+            expressions.slip(found, "expected `,`, found `and`");
+        } else {
+            expressions.slip(found, "expected `,` before this");
+        }
     }
-    while stream.peek(Token![,]) {
-        let again = stream.span();
-        stream.parse::<Token![,]>()?;
-        expressions.slip(again, "expected a name: remove this `,`");
-    }
-    // A decimal comma.
-    if let Ok(literal) = stream.fork().parse::<syn::LitInt>() {
-        stream.parse::<TokenTree>()?;
-        expressions.slip(literal.span(), "expected a name: a decimal point is `.`, as in `80.5`");
-        return goes_on(stream, expressions);
-    }
-    let ends = stream.is_empty() || stream.peek(Token![;]);
-    if ends {
-        let at = if stream.is_empty() { found } else { stream.span() };
-        expressions.slip(at, "expected a name after `,`");
-    }
-    Ok(!ends)
+    Ok(is_name)
 }
 
 /// Reports a type after a name.

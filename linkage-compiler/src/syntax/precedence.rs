@@ -5,6 +5,7 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token};
 
+use super::DEEPEST_NESTING;
 use super::expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit};
 use super::foreign;
 use super::identifier::plain;
@@ -191,6 +192,9 @@ fn comma(stream: ParseStream) -> syn::Result<()> {
 }
 
 fn primary(stream: ParseStream, arena: &mut Expressions) -> syn::Result<ExpressionId> {
+    while let Some((region, message)) = SIGNS.iter().find_map(|(sign, message)| Some((take(stream, sign)?, message))) {
+        arena.slip(region, message);
+    }
     let start = stream.span();
     let missing =
         || syn::Error::new(start, "expected an expression: a number, a name, `r@phi`, `(x, y)` or a function");
@@ -266,20 +270,15 @@ fn number(stream: ParseStream, literal: &Lit, arena: &mut Expressions) -> syn::R
     Ok(arena.push(Expression::Number { digits, unit }, region))
 }
 
-/// Parses a sign before a factor, or another notation of it.
+/// Signs before a factor that have no meaning, and what is said of them.
+const SIGNS: [(&str, &str); 3] = [
+    ("+", "remove this `+`: a term needs no sign `+`"),
+    ("&", "remove this `&`: a value has no reference"),
+    ("...", "remove this `...`: a statement ends with `;` only"),
+];
+
+/// Parses another notation of a factor.
 fn other_notation(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
-    if let Some(region) = take(stream, "+") {
-        arena.slip(region, "remove this `+`: a term needs no sign `+`");
-        return postfix(stream, arena).map(Some);
-    }
-    if let Some(region) = take(stream, "&") {
-        arena.slip(region, "remove this `&`: a value has no reference");
-        return postfix(stream, arena).map(Some);
-    }
-    if let Some(region) = take(stream, "...") {
-        arena.slip(region, "remove this `...`: a statement ends with `;` only");
-        return postfix(stream, arena).map(Some);
-    }
     if stream.peek(syn::token::Bracket) || stream.peek(syn::token::Brace) {
         return group(stream, arena).map(Some);
     }
@@ -322,13 +321,18 @@ fn group(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Expression
     }
 }
 
-/// `|x|`.
+/// `|x|`. Each bar may begin one: they nest no deeper than parentheses.
 fn bars(stream: ParseStream, arena: &mut Expressions) -> syn::Result<Option<ExpressionId>> {
+    if arena.open_bars == DEEPEST_NESTING {
+        return Ok(None);
+    }
     let start = Region::from(stream.span());
     let ahead = stream.fork();
     ahead.parse::<Token![|]>()?;
     let before = arena.len();
+    arena.open_bars += 1;
     let inner = parse(&ahead, arena);
+    arena.open_bars -= 1;
     let end = Region::from(ahead.span());
     if inner.is_err() || !ahead.peek(Token![|]) {
         arena.truncate(before);

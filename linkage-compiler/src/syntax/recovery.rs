@@ -26,7 +26,6 @@ fn ahead(stream: ParseStream) -> Vec<TokenTree> {
 pub(super) fn fits(keyword: &str, is_only: bool, stream: ParseStream) -> bool {
     let tokens = ahead(stream);
     let has_at = || tokens.iter().any(|token| is_punct(Some(token), '@'));
-    let is_word = |token: &TokenTree, text: &str| matches!(token, TokenTree::Ident(word) if word == text);
     match keyword {
         "let" | "point" | "output" => tokens.iter().any(|token| is_punct(Some(token), '=')),
         "loop" => is_only || has_at(),
@@ -97,6 +96,8 @@ fn begins_with_number(tokens: &[TokenTree]) -> bool {
 /// Guesses a statement with a syntax error from its keyword and the tokens after it.
 pub(super) fn of_keyword(keyword: &Ident, rest: &[TokenTree], expressions: &mut Expressions) -> StatementKind {
     if keyword == "implied" {
+        // Several of them say no more than one.
+        let rest = &rest[rest.iter().take_while(|token| is_word(token, "implied")).count()..];
         let [TokenTree::Ident(what), rest @ ..] = rest else { return unread(rest) };
         return match of_keyword(what, rest, expressions) {
             StatementKind::Loop { left, right, .. } => StatementKind::Loop { left, right, is_implied: true },
@@ -223,6 +224,10 @@ fn name(token: &TokenTree) -> Option<Ident> {
         }
         _ => None,
     }
+}
+
+fn is_word(token: &TokenTree, text: &str) -> bool {
+    matches!(token, TokenTree::Ident(word) if word == text)
 }
 
 fn is_punct(token: Option<&TokenTree>, sign: char) -> bool {

@@ -5,8 +5,9 @@
 use std::time::{Duration, Instant};
 use std::{env, thread};
 
-use linkage_compiler::budget::Budget;
-use linkage_compiler::text;
+use linkage_compiler::budget::{Budget, MOST_STEPS};
+use linkage_compiler::{syntax, text};
+use proc_macro2::{TokenStream, TokenTree};
 
 /// The stack of a thread of Rust, in KiB.
 const STACK: usize = 2048;
@@ -37,9 +38,9 @@ fn each(count: usize, part: impl Fn(usize) -> String) -> String {
 fn chain_of(kind: &str, count: usize, is_reacting: bool) -> String {
     let links = each(count, |index| match index {
         0 => format!("{kind} P0 = a@v;"),
-        _ => format!("{kind} P{index} = P{} + a@(v + {index});", index - 1),
+        _ => format!("{kind} P{index} = P{} + a@({index}*v);", index - 1),
     });
-    let body = format!("body b {{ mass 1; center P{}; }}", count.saturating_sub(1));
+    let body = format!("body b {{ mass 1; inertia 1; center P{}; angle v; }}", count.saturating_sub(1));
     let reaction = if is_reacting { "reactions;" } else { "" };
     format!("mechanism M {{ param a = 2; input v; {links} {body} scene S {{ inertia; {reaction} }} }}")
 }
@@ -154,7 +155,7 @@ const SHAPES: &[Shape] = &[
     ("reactions of other names", |n| {
         let names = each(n, |i| format!("let n{} = n{i};", i + 1));
         format!(
-            "mechanism M {{ param a = 2; input v; let n0 = a@v; {names} body b {{ mass 1; center n{n}; angle v; }} \
+            "mechanism M {{ param a = 2; input v; let n0 = a@v; {names} body b {{ mass 1; inertia 1; center n{n}; angle v; }} \
              scene S {{ inertia; reactions; }} }}"
         )
     }),
@@ -255,17 +256,32 @@ const SHAPES: &[Shape] = &[
 ];
 
 /// The sizes of each shape: the largest that fits, and fractions of it.
-const FRACTIONS: [usize; 5] = [1, 4, 16, 64, 1024];
+const FRACTIONS: [usize; 6] = [1000, 100, 30, 10, 3, 1];
 
-/// The largest number of repetitions with which a shape has as many tokens and bytes as a text may have, about.
+/// The number of tokens of a text; 0 if it is none.
+fn tokens(text: &str) -> usize {
+    let Ok(tokens) = text.parse::<TokenStream>() else { return 0 };
+    let (mut levels, mut count) = (vec![tokens], 0);
+    while let Some(level) = levels.pop() {
+        for token in level {
+            count += 1;
+            if let TokenTree::Group(group) = token {
+                levels.push(group.stream());
+            }
+        }
+    }
+    count
+}
+
+/// The largest number of repetitions with which a shape has no more tokens and bytes than a text may have.
 fn largest(shape: fn(usize) -> String) -> usize {
-    const SOME: usize = 64;
-    let tokens = |n: usize| {
-        let words = shape(n).chars().filter(|letter| !letter.is_whitespace()).count();
-        words.max(1)
-    };
-    let of_one = (tokens(2 * SOME) - tokens(SOME)).max(SOME / 2) as f64 / SOME as f64;
-    ((text::LONGEST - 1000) as f64 / of_one) as usize
+    // Numbers in names have as many digits as in the largest texts.
+    const SOME: usize = 2000;
+    let (some, more) = (shape(SOME), shape(2 * SOME));
+    let bytes = (more.len() - some.len()).max(1);
+    let tokens = (tokens(&more) - tokens(&some)).max(1);
+    let of = |most: usize, of_some: usize| (most as f64 * 0.98 * SOME as f64 / of_some as f64) as usize;
+    of(text::LONGEST, bytes).min(of(syntax::LONGEST, tokens)).max(SOME)
 }
 
 fn setting(name: &str) -> Option<String> {
@@ -273,12 +289,12 @@ fn setting(name: &str) -> Option<String> {
 }
 
 /// The time that a text takes on a thread with little stack.
-fn time_of(name: &str, text: String, stack: usize) -> (Duration, Result<usize, Vec<text::Message>>) {
+fn time_of(name: &str, text: String, stack: usize) -> (Duration, usize, Result<usize, Vec<text::Message>>) {
     let work = move || {
         let start = Instant::now();
         let budget = Budget::default();
         let found = text::compile(&text, &budget, |_| ()).map(|compiled| compiled.len());
-        (start.elapsed(), found)
+        (start.elapsed(), MOST_STEPS - budget.left(), found)
     };
     let thread = thread::Builder::new().name(name.to_owned()).stack_size(stack << 10);
     thread.spawn(work).unwrap().join().unwrap_or_else(|_| panic!("{name} panics"))
@@ -288,7 +304,7 @@ fn time_of(name: &str, text: String, stack: usize) -> (Duration, Result<usize, V
 fn texts_of_every_shape_end_on_a_small_stack() {
     let stack = setting("STRANGERS_STACK").map_or(STACK, |text| text.parse().unwrap());
     let chosen = setting("STRANGERS").unwrap_or_default();
-    for (name, shape) in SHAPES.iter().filter(|(name, _)| name.contains(&chosen)) {
+    for (name, shape) in SHAPES.iter().filter(|(name, _)| format!("={name}=").contains(&chosen)) {
         let most = largest(*shape);
         for fraction in FRACTIONS {
             let count = most / fraction;
@@ -297,7 +313,7 @@ fn texts_of_every_shape_end_on_a_small_stack() {
                 continue;
             }
             let bytes = text.len();
-            let (time, found) = time_of(&format!("{name} {count}"), text, stack);
+            let (time, steps, found) = time_of(&format!("{name} {count}"), text, stack);
             let said = match &found {
                 Ok(count) => format!("{count} mechanisms"),
                 Err(messages) => {
@@ -305,7 +321,7 @@ fn texts_of_every_shape_end_on_a_small_stack() {
                     format!("{} messages: {first}", messages.len())
                 }
             };
-            println!("{:8.3} s {bytes:8} bytes, {name} {count}: {said}", time.as_secs_f64());
+            println!("{:8.3} s {bytes:8} bytes {steps:9} steps, {name} {count}: {said}", time.as_secs_f64());
         }
     }
 }
