@@ -16,22 +16,25 @@ pub(crate) fn find<'a>(
         .enumerate()
         .filter(|(_, mechanism)| !mechanism.everywhere.iter().any(|attribute| attribute.path().is_ident("cfg")))
         .collect();
-    let types: Vec<BTreeSet<String>> =
-        all.iter().map(|(_, mechanism)| emitted_types(mechanism).into_values().flatten().collect()).collect();
+    // The mechanisms that emit a type of each name, in order.
+    let mut emitting: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (own, (_, mechanism)) in all.iter().enumerate() {
+        let names: BTreeSet<String> = emitted_types(mechanism).into_values().flatten().collect();
+        names.into_iter().for_each(|name| emitting.entry(name).or_default().push(own));
+    }
+    let declared_by: Vec<BTreeSet<String>> =
+        all.iter().map(|(_, mechanism)| declared(mechanism).into_iter().map(ToString::to_string).collect()).collect();
     let mut clashing = BTreeSet::new();
     for (own, (place, mechanism)) in all.iter().enumerate() {
         for name in declared(mechanism) {
             let text = name.to_string();
-            let other = all.iter().enumerate().find(|(other, (other_place, other_mechanism))| {
+            let other = emitting.get(&text).into_iter().flatten().copied().find(|&other| {
                 // Of two declarations, the later clashes.
-                let is_declared = declared(other_mechanism).iter().any(|declared| **declared == *text);
-                *other != own
-                    && !clashing.contains(other_place)
-                    && types[*other].contains(&text)
-                    && (!is_declared || *other < own)
+                let is_declared = declared_by[other].contains(&text);
+                other != own && !clashing.contains(&all[other].0) && (!is_declared || other < own)
             });
-            if let Some((_, (_, other))) = other {
-                report(name, &other.name, diagnostics);
+            if let Some(other) = other {
+                report(name, &all[other].1.name, diagnostics);
                 clashing.insert(*place);
                 break;
             }

@@ -77,7 +77,7 @@ impl Diagnostics {
     }
 
     /// Removes the messages with these indices.
-    pub fn remove(&mut self, indices: &[usize]) {
+    pub fn remove(&mut self, indices: &BTreeSet<usize>) {
         let mut index = 0;
         self.errors.retain(|_| {
             index += 1;
@@ -124,22 +124,41 @@ pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>)
     nearest(name, candidates).map_or_else(String::new, |candidate| format!(", did you mean `{candidate}`?"))
 }
 
+/// The longest name that is compared with others letter by letter, in letters.
+const LONGEST_COMPARED: usize = 64;
+
 /// Returns the candidate with the smallest edit distance to `name`, up to half of its letters and 3; equal but for case
 /// comes first. One letter resembles nothing else, and a numbered name no other number.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let length = name.chars().count();
+    let (length, lower) = (name.chars().count(), name.to_lowercase());
     // Half the letters may differ, at most three.
     let limit = (length / 2).min(3);
-    let stem = |text: &str| text.trim_end_matches(|letter: char| letter.is_ascii_digit()).to_owned();
-    let distance = |candidate: &str| match name.to_lowercase() == candidate.to_lowercase() {
+    let stem = stem(name);
+    let distance = |candidate: &str| match lower == candidate.to_lowercase() {
         true => 0,
         false if candidate.chars().count() == 1 => usize::MAX,
         // `theta3` is meant when it is written, and so is `l3`.
-        false if stem(name) == stem(candidate) && stem(name).len() < name.len() => usize::MAX,
-        false if stem(name).chars().count() <= 1 => usize::MAX,
+        false if stem == self::stem(candidate) && stem.len() < name.len() => usize::MAX,
+        false if stem.chars().count() <= 1 => usize::MAX,
+        false if length > LONGEST_COMPARED => usize::MAX,
         false => strsim::osa_distance(name, candidate),
     };
-    let distances = candidates.into_iter().map(|candidate| (distance(candidate), candidate));
+    // Each letter more or less is an edit.
+    let may_be_near = |candidate: &&str| candidate.chars().take(length + limit + 1).count().abs_diff(length) <= limit;
+    let candidates = candidates.into_iter().filter(may_be_near);
+    let distances = candidates.map(|candidate| (distance(candidate), candidate));
     let near = distances.filter(|(distance, _)| *distance <= limit);
     near.min_by_key(|(distance, _)| *distance).map(|(_, candidate)| candidate)
+}
+
+/// True if two names differ by one letter at most.
+pub fn is_near(name: &str, other: &str) -> bool {
+    let [length, of_other] = [name, other].map(|text| text.chars().count());
+    length.abs_diff(of_other) <= 1
+        && (name == other || length.max(of_other) <= LONGEST_COMPARED && strsim::osa_distance(name, other) <= 1)
+}
+
+/// A name without the number at its end.
+fn stem(name: &str) -> &str {
+    name.trim_end_matches(|letter: char| letter.is_ascii_digit())
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::Ident;
 
 use super::functions::VECTOR_FUNCTIONS;
-use crate::diagnostics::{Diagnostics, Region, nearest};
+use crate::diagnostics::{Diagnostics, Region, is_near, nearest};
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 
 /// The value of an expression; `Poison` stands for one with a reported mistake.
@@ -54,8 +54,10 @@ pub(super) struct Scope {
     pub(super) has_unread_functions: bool,
     /// The undeclared names, each once.
     undeclared: Vec<Undeclared>,
+    /// The place of each undeclared name.
+    missed: BTreeMap<String, usize>,
     /// The names that are declared again.
-    duplicates: Vec<String>,
+    duplicates: BTreeSet<String>,
     /// The names of values that are looked up.
     values: BTreeSet<String>,
     /// True if `t` is time, since there are scenes.
@@ -90,7 +92,7 @@ impl Scope {
         }
         if self.entries.contains_key(&text) {
             diagnostics.error(name.span(), format_args!("the name `{text}` is already in use: choose another one"));
-            self.duplicates.push(text);
+            self.duplicates.insert(text);
             return false;
         }
         self.entries.insert(text, Entry::Later);
@@ -125,7 +127,7 @@ impl Scope {
 
     /// True if a similar name is declared twice: one of the two is meant.
     pub(super) fn may_be_duplicate(&self, name: &str) -> bool {
-        self.duplicates.iter().any(|other| strsim::osa_distance(other, name) <= 1)
+        self.duplicates.iter().any(|other| is_near(other, name))
     }
 
     /// True if a value is used.
@@ -172,16 +174,18 @@ impl Scope {
 
     /// Records the use of an undeclared name, with a message at the first.
     pub(super) fn miss(&mut self, name: &Ident, diagnostics: &mut Diagnostics) {
-        if let Some(undeclared) = self.undeclared.iter_mut().find(|other| other.name == *name) {
+        let text = name.to_string();
+        if let Some(undeclared) = self.missed.get(&text).and_then(|&place| self.undeclared.get_mut(place)) {
             undeclared.uses += 1;
             return;
         }
-        let is_excused = self.is_excused(&name.to_string()) || self.may_be_duplicate(&name.to_string());
+        let is_excused = self.is_excused(&text) || self.may_be_duplicate(&text);
         let message = (!is_excused).then(|| {
             // It is completed when all names are known.
             diagnostics.error(name.span(), format_args!("unknown name `{name}`"));
             diagnostics.len() - 1
         });
+        self.missed.insert(text, self.undeclared.len());
         self.undeclared.push(Undeclared { name: name.clone(), uses: 1, message });
     }
 

@@ -1,6 +1,8 @@
 //! The messages of undeclared names, when all declarations are known: a line of declarations that is missing is one
 //! mistake.
 
+use std::collections::BTreeSet;
+
 use super::kind::Kind;
 use super::resolver::Resolver;
 use super::scope::Undeclared;
@@ -10,12 +12,13 @@ use crate::syntax::{Statement, StatementKind, constant_of_rust};
 impl Resolver<'_> {
     /// Completes the messages of undeclared names.
     pub(super) fn report_undeclared(&mut self, statements: &[Statement]) {
-        let is_angle =
-            |name: &str| self.assumed.kinds.iter().any(|(other, kind)| other == name && *kind == Kind::Angle);
-        let known: Vec<&str> = self.scope.names().collect();
+        let angles = self.assumed.kinds.iter().filter(|(_, kind)| *kind == Kind::Angle);
+        let angles: BTreeSet<&str> = angles.map(|(name, _)| name.as_str()).collect();
+        let is_angle = |name: &str| angles.contains(name);
+        let known: BTreeSet<&str> = self.scope.names().collect();
         let reported: Vec<&Undeclared> =
             self.scope.undeclared().iter().filter(|undeclared| undeclared.message.is_some()).collect();
-        let (mut messages, mut removed) = (Vec::new(), Vec::new());
+        let (mut messages, mut removed) = (Vec::new(), BTreeSet::new());
         let mut single = |undeclared: &Undeclared| {
             let name = undeclared.name.to_string();
             let advice = advice(&name, &known, is_angle(&name));
@@ -46,7 +49,7 @@ impl Resolver<'_> {
 }
 
 /// The advice for one undeclared name.
-fn advice(name: &str, known: &[&str], is_angle: bool) -> String {
+fn advice(name: &str, known: &BTreeSet<&str>, is_angle: bool) -> String {
     if let Some(constant) = constant_of_rust(name) {
         return format!(": write `{constant}`");
     }
@@ -56,8 +59,7 @@ fn advice(name: &str, known: &[&str], is_angle: bool) -> String {
     if name == "time" {
         return ": time is `t`, in the laws of a scene".to_owned();
     }
-    let of = known.iter().find(|other| rates_of(other).any(|rate| rate == name));
-    if let Some(of) = of {
+    if let Some(of) = of_rate(name).filter(|of| known.contains(of)).min() {
         return format!(": write `rate({of})`, in the laws of a scene");
     }
     match suggestion(name, known.iter().copied()) {
@@ -67,9 +69,10 @@ fn advice(name: &str, known: &[&str], is_angle: bool) -> String {
     }
 }
 
-/// Names that are given to the rate of a coordinate.
-fn rates_of(name: &str) -> impl Iterator<Item = String> {
-    ["{}_dot", "{}dot", "d{}", "{}_rate", "{}_velocity", "{}_p"].into_iter().map(move |form| form.replace("{}", name))
+/// The names of coordinates whose rate may have a name.
+fn of_rate(name: &str) -> impl Iterator<Item = &str> {
+    let ends = ["_dot", "dot", "_rate", "_velocity", "_p"];
+    ends.into_iter().map(|end| name.strip_suffix(end)).chain([name.strip_prefix('d')]).flatten()
 }
 
 /// The lines of declarations that a mechanism lacks.
@@ -112,11 +115,8 @@ impl Lines {
     fn message(&self, names: &[String], is_angle: &dyn Fn(&str) -> bool) -> String {
         let all = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
         let plural = if names.len() == 1 { "" } else { "s" };
-        let coordinates: Vec<&String> = match self.param {
-            true => names.iter().filter(|name| is_angle(name)).collect(),
-            false => names.iter().collect(),
-        };
-        let parameters = names.iter().filter(|name| !coordinates.contains(name));
+        let (coordinates, parameters): (Vec<&String>, Vec<&String>) =
+            names.iter().partition(|name| !self.param || is_angle(name));
         let inputs = match (self.input, self.unknown) {
             (true, true) => coordinates.len().saturating_sub(self.rows),
             (true, false) => coordinates.len(),
@@ -124,7 +124,7 @@ impl Lines {
         };
         let (inputs, unknowns) = coordinates.split_at(inputs);
         let lists = [
-            ("param", parameters.collect::<Vec<_>>()),
+            ("param", parameters),
             ("input", inputs.to_vec()),
             (if self.coordinate { "coordinate" } else { "unknown" }, unknowns.to_vec()),
         ];

@@ -9,8 +9,8 @@ use syn::spanned::Spanned;
 use syn::token::Bracket;
 use syn::{AttrStyle, Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Path, Token};
 
-use super::DEEPEST_NESTING;
 use super::kind::{Bearer, at_keyword};
+use super::limits::DEEPEST_NESTING;
 use crate::diagnostics::Diagnostics;
 
 /// Parses the attributes before a construct; one with a syntax error is reported and skipped.

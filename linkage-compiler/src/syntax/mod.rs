@@ -11,6 +11,7 @@ mod head;
 mod identifier;
 mod items;
 mod kind;
+mod limits;
 mod list;
 mod precedence;
 mod punctuation;
@@ -31,29 +32,16 @@ pub(crate) use foreign::constant_of_rust;
 pub use head::Mechanism;
 pub(crate) use identifier::{KEYWORD_AS_NAME, can_be_name, identifier, is_keyword};
 pub use kind::{Declared, KEYWORDS, Range, StatementKind};
+pub(crate) use limits::excess;
+pub use limits::{DEEPEST_NESTING, LONGEST};
 pub use scene::{Attachment, Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Scene};
 pub use statement::Statement;
 
-/// The largest nesting of parentheses; it bounds the recursion of the parser.
-pub const DEEPEST_NESTING: usize = 64;
-
-/// The largest number of tokens of an invocation; it bounds the time of parsing.
-pub const LONGEST: usize = 100_000;
-
 /// Reads every mechanism of one invocation; `diagnostics` are the mistakes outside of all mechanisms.
 pub fn parse(input: TokenStream, diagnostics: &mut Diagnostics) -> Vec<Mechanism> {
-    match measure(input.clone()) {
-        Some(Excess::Depth(token)) => {
-            let advice = format_args!("nested deeper than {DEEPEST_NESTING} levels; name the inner parts with `let`");
-            diagnostics.error(token.span(), advice);
-            return Vec::new();
-        }
-        Some(Excess::Length(token)) => {
-            let advice = format_args!("more than {LONGEST} tokens; split the invocation");
-            diagnostics.error(token.span(), advice);
-            return Vec::new();
-        }
-        None => {}
+    if let Some((at, advice)) = excess(&input, LONGEST) {
+        diagnostics.error(at, advice);
+        return Vec::new();
     }
     let input = fragments::visible(input);
     let mut mechanisms: Vec<Mechanism> = Vec::new();
@@ -86,30 +74,4 @@ fn skip_to_brace(stream: ParseStream) {
             return;
         }
     }
-}
-
-/// The first token beyond a limit.
-enum Excess {
-    Depth(TokenTree),
-    Length(TokenTree),
-}
-
-fn measure(input: TokenStream) -> Option<Excess> {
-    let mut levels = vec![input.into_iter()];
-    let mut count = 0;
-    while let Some(level) = levels.last_mut() {
-        match level.next() {
-            None => drop(levels.pop()),
-            // The braces of the mechanism are a level of their own.
-            Some(token) if levels.len() > DEEPEST_NESTING + 1 => return Some(Excess::Depth(token)),
-            Some(token) if count == LONGEST => return Some(Excess::Length(token)),
-            Some(token) => {
-                count += 1;
-                if let TokenTree::Group(group) = token {
-                    levels.push(group.stream().into_iter());
-                }
-            }
-        }
-    }
-    None
 }

@@ -5,10 +5,10 @@ use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
 use syn::{Lit, Token};
 
-use super::DEEPEST_NESTING;
 use super::expression::{Expression, ExpressionId, Expressions, Operator, Suffix, Unit};
 use super::foreign;
 use super::identifier::plain;
+use super::limits::DEEPEST_NESTING;
 use super::tokens::take;
 use crate::diagnostics::Region;
 

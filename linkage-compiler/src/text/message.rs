@@ -58,11 +58,13 @@ impl Places {
 
     /// The messages of one stage.
     pub(super) fn messages(&self, diagnostics: &Diagnostics) -> Vec<Message> {
-        let of = |error: &syn::Error| {
-            let (place, length) = self.region(error.span());
-            Message::new(place, length, &error.to_string())
-        };
-        diagnostics.errors().iter().map(of).collect()
+        diagnostics.errors().iter().map(|error| self.message(error.span(), &error.to_string())).collect()
+    }
+
+    /// A message on a token.
+    pub(super) fn message(&self, at: Span, message: &str) -> Message {
+        let (place, length) = self.region(at);
+        Message::new(place, length, message)
     }
 
     /// The line and the column of a span, and the number of its characters in that line.

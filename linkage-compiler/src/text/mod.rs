@@ -1,8 +1,9 @@
 //! Mechanisms from text at run time: the inside of one `linkage! { … }`, with the macro's own messages as data.
 //!
 //! [`read`] makes the checks that need no derivatives, [`compile`] runs all stages. Both take any text, also that of a
-//! stranger: it has at most [`LONGEST`] bytes, [`syntax::LONGEST`](crate::syntax::LONGEST) tokens and [`syntax::DEEPEST_NESTING`](crate::syntax::DEEPEST_NESTING) levels of brackets,
-//! and all further work is counted by a [`Budget`]. Nothing is kept between texts.
+//! stranger: it has at most [`LONGEST`] bytes, [`MOST_TOKENS`] tokens and
+//! [`DEEPEST_NESTING`](crate::syntax::DEEPEST_NESTING) levels of brackets, and all further work is counted by a [`Budget`].
+//! Nothing is kept between texts.
 //!
 //! What is addressed to Rust has no effect: `pub`, attributes such as `#[derive(Clone)]`, `derive serde`. `#[cfg(…)]` is a
 //! mistake, since a text has no configuration. An `extern fn` is declared and has no value here.
@@ -21,12 +22,16 @@ pub use message::Message;
 
 use crate::budget::Budget;
 use crate::model::Mechanism;
-use crate::{Checked, Facade, Invocation, Lowered};
+use crate::{Checked, Facade, Invocation, Lowered, syntax};
 use message::Places;
 use spans::Spans;
 
-/// The largest number of bytes of a text. One of [`syntax::LONGEST`](crate::syntax::LONGEST) tokens has about half as many.
-pub const LONGEST: usize = 1 << 20;
+/// The largest number of bytes of a text, comments among them.
+pub const LONGEST: usize = 1 << 18;
+
+/// The largest number of tokens of a text: seventy of Jansen's legs. The macro takes five times as many from those who pay for
+/// the time; where each token is a mistake of its own, time and memory grow as their square.
+pub const MOST_TOKENS: usize = 20_000;
 
 /// A mechanism of a text.
 pub struct Compiled<R> {
@@ -78,6 +83,9 @@ fn within<R>(
         return Err(vec![Message::new((1, 1), 0, "the text has no mechanism: write `mechanism NAME { … }`")]);
     };
     let places = Places::new(text, first.span());
+    if let Some((at, message)) = syntax::excess(&tokens, MOST_TOKENS) {
+        return Err(vec![places.message(at, &message)]);
+    }
     let Invocation { outside, mechanisms } = Invocation::read(tokens, &Facade::complete(&TokenStream::new()), budget);
     let mut messages = places.messages(&outside);
     let mut results = Vec::new();

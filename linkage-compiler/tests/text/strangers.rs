@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use std::{env, thread};
 
 use linkage_compiler::budget::{Budget, MOST_STEPS};
-use linkage_compiler::{syntax, text};
+use linkage_compiler::text;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// The stack of a thread of Rust, in KiB.
@@ -281,7 +281,7 @@ fn largest(shape: fn(usize) -> String) -> usize {
     let bytes = (more.len() - some.len()).max(1);
     let tokens = (tokens(&more) - tokens(&some)).max(1);
     let of = |most: usize, of_some: usize| (most as f64 * 0.98 * SOME as f64 / of_some as f64) as usize;
-    of(text::LONGEST, bytes).min(of(syntax::LONGEST, tokens)).max(SOME)
+    of(text::LONGEST, bytes).min(of(text::MOST_TOKENS, tokens)).max(SOME)
 }
 
 fn setting(name: &str) -> Option<String> {
