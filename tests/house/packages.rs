@@ -92,3 +92,17 @@ fn serde_is_built_on_request_only() {
     assert!(!has_serde(&tree("--features=std,dynamics,drawing,sheet,double-double,rounding,simd")));
     assert!(has_serde(&tree("--features=std,serde")));
 }
+
+/// The places of tokens in a text cost each expansion; only those who read texts at run time ask for them.
+#[test]
+fn places_of_tokens_are_built_on_request_only() {
+    let keeps_places = |of: &[&str]| {
+        let tree = cargo(&[&["tree", "--edges=features,no-dev", "--prefix=none"], of].concat());
+        assert!(tree.contains("proc-macro2 feature"), "{tree}");
+        tree.contains("span-locations") || tree.contains("linkage-compiler feature \"text\"")
+    };
+    for name in ["linkage", "linkage-macros", "linkage-sweep"] {
+        assert!(!keeps_places(&["--package", name, "--all-features"]), "{name}");
+    }
+    assert!(keeps_places(&["--package=linkage-compiler", "--features=text"]));
+}

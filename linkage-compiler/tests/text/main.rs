@@ -1,4 +1,5 @@
 //! Texts at run time, those of strangers among them: messages, bounded work, no panic.
 
+mod messages;
 mod mutants;
 mod strangers;
