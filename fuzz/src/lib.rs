@@ -3,12 +3,13 @@
 //! ```text
 //! cargo +nightly fuzz run --sanitizer none expand -- -len_control=0 -max_total_time=600
 //! cargo +nightly fuzz run --sanitizer none poses -- -len_control=0 -max_total_time=600
+//! cargo +nightly fuzz run --sanitizer none texts -- -max_total_time=600
 //! ```
 //!
 //! Without `-len_control=0` the fuzzer waits for many runs before it makes inputs longer than a few bytes.
 //!
 //! `expand` makes the mutants of `tests/mutants.rs`, `poses` the calls of `tests/input/invalid_numbers`, with the choices
-//! made by the fuzzer instead of a seeded generator. No crate here has unsafe code, so a sanitizer has nothing to look
+//! made by the fuzzer instead of a seeded generator; `texts` compiles the bytes as they are. No crate here has unsafe code, so a sanitizer has nothing to look
 //! for.
 
 use rand::rngs::SmallRng;

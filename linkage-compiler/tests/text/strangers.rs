@@ -1,16 +1,20 @@
 //! The largest texts of each shape, and smaller ones, on a small stack: they end with mechanisms or messages.
 //!
-//! `STRANGERS_STACK` is another number of KiB of stack, `STRANGERS` chooses shapes by a part of their names.
+//! `STRANGERS_STACK` is another number of KiB of stack, `STRANGERS_STEPS` another budget, `STRANGERS` chooses shapes by a part of
+//! their names between two `=`.
 
 use std::time::{Duration, Instant};
 use std::{env, thread};
 
-use linkage_compiler::budget::{Budget, MOST_STEPS};
+use linkage_compiler::budget::Budget;
 use linkage_compiler::text;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// The stack of a thread of Rust, in KiB.
 const STACK: usize = 2048;
+
+/// The budget of each text.
+const STEPS: usize = 200_000;
 
 /// A shape of texts: its name, and the text of a size.
 type Shape = (&'static str, fn(usize) -> String);
@@ -256,7 +260,7 @@ const SHAPES: &[Shape] = &[
 ];
 
 /// The sizes of each shape: the largest that fits, and fractions of it.
-const FRACTIONS: [usize; 6] = [1000, 100, 30, 10, 3, 1];
+const FRACTIONS: [usize; 6] = [1000, 30, 4, 1];
 
 /// The number of tokens of a text; 0 if it is none.
 fn tokens(text: &str) -> usize {
@@ -284,17 +288,22 @@ fn largest(shape: fn(usize) -> String) -> usize {
     of(text::LONGEST, bytes).min(of(text::MOST_TOKENS, tokens)).max(SOME)
 }
 
-fn setting(name: &str) -> Option<String> {
-    env::var(name).ok()
+fn setting(name: &str, usual: usize) -> usize {
+    env::var(name).map_or(usual, |text| text.parse().unwrap())
 }
 
-/// The time that a text takes on a thread with little stack.
-fn time_of(name: &str, text: String, stack: usize) -> (Duration, usize, Result<usize, Vec<text::Message>>) {
+/// The time and the steps that a text takes on a thread with little stack, and its mechanisms or messages.
+fn time_of(
+    name: &str,
+    text: String,
+    stack: usize,
+    steps: usize,
+) -> (Duration, usize, Result<usize, Vec<text::Message>>) {
     let work = move || {
         let start = Instant::now();
-        let budget = Budget::default();
+        let budget = Budget::new(steps);
         let found = text::compile(&text, &budget, |_| ()).map(|compiled| compiled.len());
-        (start.elapsed(), MOST_STEPS - budget.left(), found)
+        (start.elapsed(), steps - budget.left(), found)
     };
     let thread = thread::Builder::new().name(name.to_owned()).stack_size(stack << 10);
     thread.spawn(work).unwrap().join().unwrap_or_else(|_| panic!("{name} panics"))
@@ -302,8 +311,8 @@ fn time_of(name: &str, text: String, stack: usize) -> (Duration, usize, Result<u
 
 #[test]
 fn texts_of_every_shape_end_on_a_small_stack() {
-    let stack = setting("STRANGERS_STACK").map_or(STACK, |text| text.parse().unwrap());
-    let chosen = setting("STRANGERS").unwrap_or_default();
+    let (stack, steps) = (setting("STRANGERS_STACK", STACK), setting("STRANGERS_STEPS", STEPS));
+    let chosen = env::var("STRANGERS").unwrap_or_default();
     for (name, shape) in SHAPES.iter().filter(|(name, _)| format!("={name}=").contains(&chosen)) {
         let most = largest(*shape);
         for fraction in FRACTIONS {
@@ -313,7 +322,7 @@ fn texts_of_every_shape_end_on_a_small_stack() {
                 continue;
             }
             let bytes = text.len();
-            let (time, steps, found) = time_of(&format!("{name} {count}"), text, stack);
+            let (time, spent, found) = time_of(&format!("{name} {count}"), text, stack, steps);
             let said = match &found {
                 Ok(count) => format!("{count} mechanisms"),
                 Err(messages) => {
@@ -321,7 +330,7 @@ fn texts_of_every_shape_end_on_a_small_stack() {
                     format!("{} messages: {first}", messages.len())
                 }
             };
-            println!("{:8.3} s {bytes:8} bytes {steps:9} steps, {name} {count}: {said}", time.as_secs_f64());
+            println!("{:8.3} s {bytes:8} bytes {spent:9} steps, {name} {count}: {said}", time.as_secs_f64());
         }
     }
 }
