@@ -90,7 +90,7 @@ fn within<R>(
     let mut messages = places.messages(&outside);
     let mut results = Vec::new();
     for mut checked in mechanisms {
-        refuse_configuration(&mut checked);
+        report_configuration(&mut checked);
         let result = if checked.is_clashing { None } else { f(&mut checked) };
         messages.extend(places.messages(&checked.diagnostics));
         results.extend(result.map(|result| (checked.mechanism, result)));
@@ -105,7 +105,7 @@ fn within<R>(
 }
 
 /// Reports `#[cfg(…)]` before a mechanism.
-fn refuse_configuration(checked: &mut Checked) {
+fn report_configuration(checked: &mut Checked) {
     let configures = checked.mechanism.everywhere.iter().find(|attribute| attribute.path().is_ident("cfg"));
     if let Some(attribute) = configures {
         let message = "`cfg` has no meaning in a text, which is compiled for one machine: remove it";

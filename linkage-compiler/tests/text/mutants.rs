@@ -12,7 +12,7 @@ use linkage_compiler::text;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-/// What strangers write.
+/// Pieces of texts, right and wrong.
 const PIECES: [&str; 48] = [
     "(",
     ")",
