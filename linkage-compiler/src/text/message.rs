@@ -44,7 +44,7 @@ impl std::error::Error for Message {}
 
 /// The places of tokens in one text; they are asked for while its spans are valid.
 pub(super) struct Places {
-    /// What `proc-macro2` calls the text.
+    /// The name of the text in `proc-macro2`.
     name: String,
     /// The number of characters of each line, without blanks at its end.
     lines: Vec<usize>,

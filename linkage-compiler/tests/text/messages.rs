@@ -95,7 +95,7 @@ fn help_is_the_rest_of_a_message() {
     assert!(found[0].help.as_ref().is_some_and(|help| help.starts_with("keywords: limits")), "{found:?}");
 }
 
-/// What Rust alone understands is read and has no effect, except `cfg`.
+/// Words that Rust alone understands are read and have no effect, except `cfg`.
 #[test]
 fn words_for_rust_have_no_effect() {
     let of_rust = format!("/// A crank.\n#[derive(Debug, Clone)]\n#[allow(dead_code)]\npub(crate) {CRANK}");
