@@ -260,7 +260,7 @@ const SHAPES: &[Shape] = &[
 ];
 
 /// The sizes of each shape: the largest that fits, and fractions of it.
-const FRACTIONS: [usize; 6] = [1000, 30, 4, 1];
+const FRACTIONS: [usize; 4] = [1000, 30, 4, 1];
 
 /// The number of tokens of a text; 0 if it is none.
 fn tokens(text: &str) -> usize {
