@@ -304,6 +304,9 @@ impl Links {
     pub(super) fn pins_of_angle(&self, graph: &mut Graph, angle: NodeId) -> Vec<Site> {
         let mut pins = Vec::new();
         for (index, link) in self.links.iter().enumerate().filter(|(_, link)| link.direction > 0) {
+            if graph.budget().check().is_err() {
+                break;
+            }
             for (_, other) in self.links.iter().enumerate().filter(|(other, _)| *other != index) {
                 let mut rest = graph.subtract(angle, self.directions[link.direction - 1]);
                 if let Some(at) = other.direction.checked_sub(1) {

@@ -27,7 +27,12 @@ pub(super) struct Opening<'o> {
     pub(super) definitions: BTreeMap<String, (ExpressionId, bool)>,
     /// The link of the body whose centre is displaced.
     owner: Option<usize>,
+    /// The number of names that lead to the expression that is being displaced.
+    names: usize,
 }
+
+/// The largest number of names that lead to an expression, each defined by the next; it bounds the recursion.
+const LONGEST: usize = 256;
 
 /// A path over links from the origin.
 #[derive(Debug, Clone)]
@@ -58,7 +63,7 @@ impl<'o> Opening<'o> {
             };
             definitions.insert(name.to_string(), (value, is_point));
         }
-        Self { graph, expressions, links, sites, plain, definitions, owner: None }
+        Self { graph, expressions, links, sites, plain, definitions, owner: None, names: 0 }
     }
 
     /// The displacement of a vector that begins at the origin and, for the centre of a body, ends on the link of the body;
@@ -115,7 +120,7 @@ impl<'o> Opening<'o> {
             }
             Expression::Name(name) => {
                 let (definition, _) = *self.definitions.get(&name.to_string())?;
-                self.shift(definition)
+                self.behind(|opening| opening.shift(definition))
             }
             _ => {
                 let path = self.start();
@@ -172,7 +177,7 @@ impl<'o> Opening<'o> {
                 if is_point && (is_reversed || !path.is_fresh) {
                     return None;
                 }
-                self.follow(definition, is_reversed, path)
+                self.behind(|opening| opening.follow(definition, is_reversed, path))
             }
             _ => {
                 let (plain, zero) = (self.plain, self.graph.zero());
@@ -186,6 +191,17 @@ impl<'o> Opening<'o> {
                 Some(path)
             }
         }
+    }
+
+    /// Reads the definition of a name; `None` behind too many names, and once the budget is spent.
+    fn behind<R>(&mut self, read: impl FnOnce(&mut Self) -> Option<R>) -> Option<R> {
+        if self.names == LONGEST || self.graph.budget().check().is_err() {
+            return None;
+        }
+        self.names += 1;
+        let read = read(self);
+        self.names -= 1;
+        read
     }
 
     /// Continues a path by a leg.

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display};
 
-use proc_macro2::Span;
+use proc_macro2::{Span, TokenStream, TokenTree};
 
 use crate::diagnostics::Diagnostics;
 
@@ -14,7 +14,7 @@ pub struct Message {
     /// The column of their first character, from 1; each character counts as one, as in rustc's messages.
     pub column: usize,
     /// The number of characters that are marked in this line; marked tokens that go on in the next line end with this one.
-    /// It is 0 if the mistake is that something is missing from the whole text.
+    /// It is 0 if no tokens are marked: the text has none, or is too long.
     pub length: usize,
     /// The first line of the macro's message.
     pub text: String,
@@ -48,12 +48,19 @@ pub(super) struct Places {
     name: String,
     /// The number of characters of each line, without blanks at its end.
     lines: Vec<usize>,
+    /// The last token.
+    last: Span,
 }
 
 impl Places {
-    /// The places of the text that this is a span of.
-    pub(super) fn new(text: &str, of: Span) -> Self {
-        Self { name: of.file(), lines: text.split('\n').map(|line| line.trim_end().chars().count()).collect() }
+    /// The places of the tokens of a text; `None` if it has none.
+    pub(super) fn new(text: &str, tokens: &TokenStream) -> Option<Self> {
+        let last = match tokens.clone().into_iter().last()? {
+            TokenTree::Group(group) => group.span_close(),
+            other => other.span(),
+        };
+        let lines = text.split('\n').map(|line| line.trim_end().chars().count()).collect();
+        Some(Self { name: last.file(), lines, last })
     }
 
     /// The messages of one stage.
@@ -69,10 +76,8 @@ impl Places {
 
     /// The line and the column of a span, and the number of its characters in that line.
     fn region(&self, span: Span) -> ((usize, usize), usize) {
-        // A token that is not of the text stands for all of it.
-        if span.file() != self.name {
-            return ((1, 1), 0);
-        }
+        // The end of the input is no token: there something is missing after the last one.
+        let span = if span.file() == self.name { span } else { self.last };
         let (start, end) = (span.start(), span.end());
         let last = if start.line == end.line { end.column } else { self.of_line(start.line) };
         ((start.line, start.column + 1), last.saturating_sub(start.column))

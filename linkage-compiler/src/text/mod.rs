@@ -79,10 +79,9 @@ fn within<R>(
     }
     let _spans = Spans::begin();
     let tokens = lexing::tokens(text).map_err(|message| vec![message])?;
-    let Some(first) = tokens.clone().into_iter().next() else {
+    let Some(places) = Places::new(text, &tokens) else {
         return Err(vec![Message::new((1, 1), 0, "the text has no mechanism: write `mechanism NAME { … }`")]);
     };
-    let places = Places::new(text, first.span());
     if let Some((at, message)) = syntax::excess(&tokens, MOST_TOKENS) {
         return Err(vec![places.message(at, &message)]);
     }

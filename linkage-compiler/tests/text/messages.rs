@@ -52,7 +52,7 @@ fn what_is_no_tokens_is_one_message() {
         ("// θ\nθ \u{2212} 1", "2:3", 1, "`\u{2212}` (U+2212) is no character of the language", Some("write `-`")),
         ("20\u{b0}", "1:3", 1, "`\u{b0}` (U+00B0) is no character of the language", Some("write `deg`")),
         ("x\u{2032}", "1:2", 1, "`\u{2032}` (U+2032) is no character of the language", Some("write another name")),
-        ("a\u{0}b", "1:2", 1, "`\\u{0}` (U+0000) is no character of the language", None),
+        ("a\u{0}b", "1:2", 1, "`\\0` (U+0000) is no character of the language", None),
         ("a \\ b", "1:3", 1, "`\\\\` (U+005C) is no character of the language", None),
     ] {
         let found = message(text);
@@ -63,10 +63,12 @@ fn what_is_no_tokens_is_one_message() {
 
 #[test]
 fn places_are_those_of_an_editor() {
-    // Lines that end as on another system, a mark at the beginning, letters of several bytes.
+    // What is missing at the end is missing after the last token. Lines that end as on another system, a mark at the beginning, letters of several bytes.
     for (text, place, length) in [
+        ("/// Said of nothing.\n", "1:1", 20),
+        ("mechanism A { input v; output o = v; }\n#[derive(Debug)]", "2:16", 1),
         ("mechanism A {\r\n    input θ;\r\n    output ω = θ * ψψ;\r\n}", "3:20", 2),
-        ("\u{feff}mechanism A { input θ; output ω = θ * ψψ; }", "1:38", 2),
+        ("\u{feff}mechanism A { input θ; output ω = θ * ψψ; }", "1:39", 2),
         ("mechanism A { input v;\n /* one\n two */ output o = v * xy; }", "3:24", 2),
         // A region ends with its first line.
         ("mechanism A { input v; output o = v + hypot(v,\n  v, v); }", "1:39", 8),
