@@ -65,7 +65,7 @@ fn what_is_no_tokens_is_one_message() {
 fn places_are_those_of_an_editor() {
     // What is missing at the end is missing after the last token. Lines that end as on another system, a mark at the beginning, letters of several bytes.
     for (text, place, length) in [
-        ("/// Said of nothing.\n", "1:1", 20),
+        ("/// Said of nothing.\n", "1:20", 1),
         ("mechanism A { input v; output o = v; }\n#[derive(Debug)]", "2:16", 1),
         ("mechanism A {\r\n    input θ;\r\n    output ω = θ * ψψ;\r\n}", "3:20", 2),
         ("\u{feff}mechanism A { input θ; output ω = θ * ψψ; }", "1:39", 2),

@@ -1,6 +1,6 @@
 //! The names of a mechanism with mistakes: undeclared coordinates, and declarations that a slip renames.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::Ident;
 
@@ -160,7 +160,7 @@ fn order(mechanism: &mut Mechanism, rows: usize) {
     }
 }
 
-/// Adds underscores to field names until they are unique.
+/// Adds an underscore to a field name that is taken or a keyword, and a number if that is taken too.
 fn distinguish(mechanism: &mut Mechanism) {
     let Mechanism { parameters, scene_parameters, coordinates, points, outputs, .. } = mechanism;
     let parameters = parameters.iter_mut().chain(scene_parameters.iter_mut()).map(|parameter| &mut parameter.name);
@@ -168,10 +168,16 @@ fn distinguish(mechanism: &mut Mechanism) {
     let points = points.iter_mut().map(|point| &mut point.name);
     let outputs = outputs.iter_mut().map(|output| &mut output.name);
     for names in [symbols.collect::<Vec<_>>(), points.collect(), outputs.collect()] {
-        let mut taken = BTreeSet::new();
+        let (mut taken, mut repeated) = (BTreeSet::new(), BTreeMap::<String, usize>::new());
         for name in names {
-            while is_keyword(&name.field) || !taken.insert(name.field.clone()) {
+            if is_keyword(&name.field) {
                 name.field.push('_');
+            }
+            let written = name.field.clone();
+            while !taken.insert(name.field.clone()) {
+                let count = repeated.entry(written.clone()).or_default();
+                *count += 1;
+                name.field = if *count == 1 { format!("{written}_") } else { format!("{written}_{count}") };
             }
         }
     }
