@@ -121,7 +121,12 @@ impl Diagnostics {
 
 /// Returns ", did you mean `…`?" if a candidate resembles `name`, else nothing.
 pub fn suggestion<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
-    nearest(name, candidates).map_or_else(String::new, |candidate| format!(", did you mean `{candidate}`?"))
+    nearest(name, candidates).map_or_else(String::new, did_you_mean)
+}
+
+/// The advice to write a similar name.
+pub fn did_you_mean(candidate: &str) -> String {
+    format!(", did you mean `{candidate}`?")
 }
 
 /// The longest name that is compared with others letter by letter, in letters.

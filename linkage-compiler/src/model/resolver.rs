@@ -75,7 +75,7 @@ impl<'a> Resolver<'a> {
     pub(super) fn new(expressions: &'a Expressions, budget: &Budget, diagnostics: &'a mut Diagnostics) -> Self {
         Self {
             graph: Graph::within(budget),
-            scope: Scope::default(),
+            scope: Scope::within(budget),
             expressions,
             values: Vec::new(),
             mode: Mode::Plain,

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use proc_macro2::Ident;
 
 use super::functions::VECTOR_FUNCTIONS;
+use crate::budget::Budget;
 use crate::diagnostics::{Diagnostics, Region, is_near, nearest};
 use crate::graph::{ExternalId, Function, NodeId, SymbolId};
 
@@ -44,6 +45,8 @@ enum Entry {
 
 #[derive(Debug, Default)]
 pub(super) struct Scope {
+    /// The budget of the invocation: a name is compared with all others to find a similar one.
+    budget: Budget,
     entries: BTreeMap<String, Entry>,
     used: BTreeSet<SymbolId>,
     /// The symbols of the names that are looked up, in order.
@@ -78,6 +81,11 @@ pub(super) struct Undeclared {
 }
 
 impl Scope {
+    /// A scope without names.
+    pub(super) fn within(budget: &Budget) -> Self {
+        Self { budget: budget.clone(), ..Self::default() }
+    }
+
     /// Declares a name; returns false and reports an error if it is a keyword or already declared.
     pub(super) fn claim(&mut self, name: &Ident, diagnostics: &mut Diagnostics) -> bool {
         let text = name.to_string();
@@ -127,7 +135,7 @@ impl Scope {
 
     /// True if a similar name is declared twice: one of the two is meant.
     pub(super) fn may_be_duplicate(&self, name: &str) -> bool {
-        self.duplicates.iter().any(|other| is_near(other, name))
+        self.budget.spend(self.duplicates.len()).is_ok() && self.duplicates.iter().any(|other| is_near(other, name))
     }
 
     /// True if a value is used.
@@ -135,10 +143,15 @@ impl Scope {
         self.values.contains(name)
     }
 
+    /// The declared name that is most similar.
+    pub(super) fn nearest(&self, name: &str) -> Option<&str> {
+        self.budget.spend(self.entries.len()).ok()?;
+        nearest(name, self.names())
+    }
+
     /// The value of a similar name, which may be meant by an undeclared one.
     fn meant(&self, name: &str) -> Value {
-        let meant = nearest(name, self.entries.keys().map(String::as_str)).and_then(|near| self.entries.get(near));
-        match meant {
+        match self.nearest(name).and_then(|near| self.entries.get(near)) {
             Some(Entry::Symbol(_, node)) => Value::Scalar(*node),
             Some(Entry::Value(value)) => *value,
             _ => Value::Poison,
@@ -191,7 +204,11 @@ impl Scope {
 
     /// True if a name is declared.
     pub(super) fn is_declared(&self, name: &Ident) -> bool {
-        self.entries.contains_key(&name.to_string())
+        self.is_known(&name.to_string())
+    }
+
+    pub(super) fn is_known(&self, name: &str) -> bool {
+        self.entries.contains_key(name)
     }
 
     /// True for the name of a parameter or a coordinate.

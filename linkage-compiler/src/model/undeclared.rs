@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 
 use super::kind::Kind;
 use super::resolver::Resolver;
-use super::scope::Undeclared;
-use crate::diagnostics::{nearest, suggestion};
+use super::scope::{Scope, Undeclared};
+use crate::diagnostics::did_you_mean;
 use crate::syntax::{Statement, StatementKind, constant_of_rust};
 
 impl Resolver<'_> {
@@ -15,18 +15,17 @@ impl Resolver<'_> {
         let angles = self.assumed.kinds.iter().filter(|(_, kind)| *kind == Kind::Angle);
         let angles: BTreeSet<&str> = angles.map(|(name, _)| name.as_str()).collect();
         let is_angle = |name: &str| angles.contains(name);
-        let known: BTreeSet<&str> = self.scope.names().collect();
         let reported: Vec<&Undeclared> =
             self.scope.undeclared().iter().filter(|undeclared| undeclared.message.is_some()).collect();
         let (mut messages, mut removed) = (Vec::new(), BTreeSet::new());
         let mut single = |undeclared: &Undeclared| {
             let name = undeclared.name.to_string();
-            let advice = advice(&name, &known, is_angle(&name));
+            let advice = advice(&name, &self.scope, is_angle(&name));
             messages.push((undeclared.message, undeclared.name.span(), format!("unknown name `{name}`{advice}")));
         };
         let is_similar = |undeclared: &&Undeclared| {
             let name = undeclared.name.to_string();
-            name == "t" || constant_of_rust(&name).is_some() || nearest(&name, known.iter().copied()).is_some()
+            name == "t" || constant_of_rust(&name).is_some() || self.scope.nearest(&name).is_some()
         };
         let lines = Lines::of(statements);
         let (similar, new): (Vec<&Undeclared>, Vec<&Undeclared>) = reported.into_iter().partition(is_similar);
@@ -49,7 +48,7 @@ impl Resolver<'_> {
 }
 
 /// The advice for one undeclared name.
-fn advice(name: &str, known: &BTreeSet<&str>, is_angle: bool) -> String {
+fn advice(name: &str, scope: &Scope, is_angle: bool) -> String {
     if let Some(constant) = constant_of_rust(name) {
         return format!(": write `{constant}`");
     }
@@ -59,13 +58,13 @@ fn advice(name: &str, known: &BTreeSet<&str>, is_angle: bool) -> String {
     if name == "time" {
         return ": time is `t`, in the laws of a scene".to_owned();
     }
-    if let Some(of) = of_rate(name).filter(|of| known.contains(of)).min() {
+    if let Some(of) = of_rate(name).filter(|of| scope.is_known(of)).min() {
         return format!(": write `rate({of})`, in the laws of a scene");
     }
-    match suggestion(name, known.iter().copied()) {
-        hint if !hint.is_empty() => hint,
-        _ if is_angle => ": declare it with `input`, `unknown` or `param`".to_owned(),
-        _ => ": declare it with `param`, `input`, `unknown` or `let`".to_owned(),
+    match scope.nearest(name) {
+        Some(near) => did_you_mean(near),
+        None if is_angle => ": declare it with `input`, `unknown` or `param`".to_owned(),
+        None => ": declare it with `param`, `input`, `unknown` or `let`".to_owned(),
     }
 }
 

@@ -8,7 +8,10 @@ pub const DEEPEST_NESTING: usize = 64;
 /// The largest number of tokens of an invocation; it bounds the time of parsing.
 pub const LONGEST: usize = 100_000;
 
-/// The first token that is nested too deep or beyond the largest number of tokens, and its message.
+/// The largest number of letters of a name or a number; it bounds the time in which a number is read and two names are compared.
+pub const LONGEST_WORD: usize = 256;
+
+/// The first token that is nested too deep, too long or beyond the largest number of tokens, and its message.
 pub(crate) fn excess(input: &TokenStream, longest: usize) -> Option<(Span, String)> {
     let mut levels = vec![input.clone().into_iter()];
     let mut count = 0;
@@ -23,6 +26,10 @@ pub(crate) fn excess(input: &TokenStream, longest: usize) -> Option<(Span, Strin
             Some(token) if count == longest => {
                 return Some((token.span(), format!("more than {longest} tokens; split the invocation")));
             }
+            Some(token) if is_long(&token) => {
+                let advice = format!("a name or a number has at most {LONGEST_WORD} letters");
+                return Some((token.span(), advice));
+            }
             Some(token) => {
                 count += 1;
                 if let TokenTree::Group(group) = token {
@@ -32,4 +39,16 @@ pub(crate) fn excess(input: &TokenStream, longest: usize) -> Option<(Span, Strin
         }
     }
     None
+}
+
+/// True for a long name and a long number; a text may be long, as in a doc comment.
+fn is_long(token: &TokenTree) -> bool {
+    let text = match token {
+        TokenTree::Ident(name) => name.to_string(),
+        TokenTree::Literal(literal) => literal.to_string(),
+        TokenTree::Group(_) | TokenTree::Punct(_) => return false,
+    };
+    let is_word =
+        text.starts_with(|first: char| first.is_alphanumeric() || first == '_') && !text.ends_with(['"', '#']);
+    is_word && text.chars().count() > LONGEST_WORD
 }

@@ -33,7 +33,7 @@ pub use head::Mechanism;
 pub(crate) use identifier::{KEYWORD_AS_NAME, can_be_name, identifier, is_keyword};
 pub use kind::{Declared, KEYWORDS, Range, StatementKind};
 pub(crate) use limits::excess;
-pub use limits::{DEEPEST_NESTING, LONGEST};
+pub use limits::{DEEPEST_NESTING, LONGEST, LONGEST_WORD};
 pub use scene::{Attachment, Body, EFFECTS, Effect, EffectKind, Joint, PROPERTIES, Scene};
 pub use statement::Statement;
 

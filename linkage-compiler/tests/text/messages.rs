@@ -119,6 +119,11 @@ fn texts_beyond_a_bound_are_one_message_with_the_bound() {
     assert_eq!((found.line, found.column), (1, 15 + 2 * (text::MOST_TOKENS - 3)));
     let deep = format!("mechanism A {{ let a = {}1{}; }}", "(".repeat(1000), ")".repeat(1000));
     assert!(message(&deep).text.starts_with("nested deeper than 64 levels"));
+    for word in ["a".repeat(257), "1".repeat(257), format!("0x{}", "f".repeat(255))] {
+        let found = message(&format!("mechanism A {{ let b = 1;\nlet c = {word}; }}"));
+        assert_eq!((found.line, found.column, found.length), (2, 9, 257));
+        assert_eq!(found.text, "a name or a number has at most 256 letters");
+    }
     let messages = text::compile(CRANK, &Budget::new(10), |_| ()).err().unwrap_or_default();
     assert!(matches!(messages.as_slice(), [one] if one.text.contains("budget of work")), "{messages:?}");
 }
