@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use linkage_compiler::model::Request;
+use linkage_lent::Lender;
 use linkage_report::Notation;
 use linkage_runtime::derivation::{Kernel, KernelCode};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
@@ -109,13 +110,14 @@ fn write(body: TokenStream, texts: &mut BTreeMap<&'static str, String>) {
     for mechanism in linkage_compiler::read(body).unwrap() {
         add(texts, "stub", &linkage_compiler::emit::stub(&mechanism, &root));
         *texts.entry("program").or_default() += &linkage_compiler::programs(&mechanism).unwrap().concat();
+        let lender = Lender::default();
         let (documents, scenes) = linkage_compiler::documents(&mechanism).unwrap();
         let fpcore = texts.entry("fpcore").or_default();
         for document in &documents {
-            let derivation = linkage_lent::derivation(document);
+            let derivation = lender.derivation(document).unwrap();
             code(fpcore, derivation.mechanism, derivation.kernels);
             for scene in scenes.iter().filter(|scene| scene.mechanism == document.mechanism) {
-                let scene = linkage_lent::scene(scene);
+                let scene = lender.scene(scene).unwrap();
                 code(fpcore, scene.scene, scene.kernels);
             }
         }

@@ -6,6 +6,7 @@ use linkage::sheet::Values;
 use linkage_gallery::checks::each;
 use linkage_gallery::listed::{Analysed, ByHand, analysed};
 use linkage_gallery::source;
+use linkage_lent::Lender;
 use linkage_oracle::Oracle;
 use nalgebra::DMatrix;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -73,7 +74,8 @@ fn formulas_give_the_numbers() {
             return;
         };
         let document = documents.iter().find(|document| document.mechanism == of.name()).unwrap();
-        let sheet = linkage_lent::sheet(document);
+        let lender = Lender::default();
+        let sheet = lender.sheet(document).unwrap();
         let oracle = Oracle::of(of);
         for sample in oracle.samples(POSES) {
             let pick = |list: &[f64]| -> Vec<f64> {

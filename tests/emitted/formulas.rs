@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 
 use linkage_compiler::document::{Document, Number, SceneDocument, Table};
 use linkage_gallery::{FILES, source};
+use linkage_lent::Lender;
 
 /// The documents of a file of the gallery.
 fn documents(file: &str) -> (Vec<Document>, Vec<SceneDocument>) {
@@ -14,7 +15,8 @@ fn documents(file: &str) -> (Vec<Document>, Vec<SceneDocument>) {
 
 /// Formulas in Unicode.
 fn texts(table: &Table, numbers: &[Number]) -> Vec<String> {
-    let table = linkage_lent::table(table);
+    let lender = Lender::default();
+    let table = lender.table(table).unwrap();
     numbers.iter().map(|number| table.get(number.get()).unwrap().to_string()).collect()
 }
 

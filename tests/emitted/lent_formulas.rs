@@ -7,18 +7,21 @@ use linkage::{Document, sheet::Sheet};
 use linkage_gallery::checks::each;
 use linkage_gallery::listed::all;
 use linkage_gallery::{five_bar_scenes, four_bar_effects, slider_crank_scenes, source};
+use linkage_lent::Lender;
 
 /// The functions without their code, which these files do not request.
-fn without_code(kernels: &[Kernel<'static>]) -> &'static [Kernel<'static>] {
-    kernels.iter().map(|kernel| Kernel { code: KernelCode::NONE, ..*kernel }).collect::<Vec<_>>().leak()
+fn without_code<'a>(kernels: &[Kernel<'a>]) -> Vec<Kernel<'a>> {
+    kernels.iter().map(|kernel| Kernel { code: KernelCode::NONE, ..*kernel }).collect()
 }
 
 fn is_lent(file: &str, emitted: &Derivation) {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
     let (documents, _) = linkage_compiler::documents(&mechanism).unwrap();
     let document = documents.iter().find(|document| document.mechanism == emitted.mechanism).unwrap();
-    let lent = linkage_lent::derivation(document);
-    let lent = Derivation { kernels: without_code(lent.kernels), ..lent };
+    let lender = Lender::default();
+    let lent = lender.derivation(document).unwrap();
+    let kernels = without_code(lent.kernels);
+    let lent = Derivation { kernels: &kernels, ..lent };
     assert_eq!(*emitted, lent);
     assert_eq!(emitted.to_text(), lent.to_text());
     assert_eq!(emitted.to_latex(), lent.to_latex());
@@ -41,8 +44,10 @@ fn scenes() {
         let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
         let (_, documents) = linkage_compiler::documents(&mechanism).unwrap();
         let document = documents.iter().find(|document| document.scene == emitted.scene).unwrap();
-        let lent = linkage_lent::scene(document);
-        let lent = SceneDerivation { kernels: without_code(lent.kernels), ..lent };
+        let lender = Lender::default();
+        let lent = lender.scene(document).unwrap();
+        let kernels = without_code(lent.kernels);
+        let lent = SceneDerivation { kernels: &kernels, ..lent };
         assert_eq!(*emitted, lent);
         assert_eq!(emitted.to_latex(), lent.to_latex());
     }
@@ -79,7 +84,8 @@ fn sheets() {
         [(Crank::<f64>::DERIVATION, Crank::<f64>::SHEET), (Piston::<f64>::DERIVATION, Piston::<f64>::SHEET)];
     assert_eq!(documents.len(), emitted.len());
     for (document, (derivation, emitted)) in documents.iter().zip(emitted) {
-        let lent = linkage_lent::sheet(document);
+        let lender = Lender::default();
+        let lent = lender.sheet(document).unwrap();
         assert_eq!(*emitted, lent);
         assert_eq!((emitted.to_text(), emitted.to_latex()), (lent.to_text(), lent.to_latex()));
         let pages = [emitted, &lent].map(|sheet| Sheet::new(derivation).by_hand(sheet).to_html());

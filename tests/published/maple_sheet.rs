@@ -11,6 +11,7 @@ use linkage::sheet::Values;
 use linkage::{Document, PointMotion, position};
 
 use linkage_gallery::four_bar::*;
+use linkage_lent::Lender;
 
 /// Relative error of a result against exact arithmetic.
 const EXACT: f64 = 1e-13;
@@ -187,7 +188,8 @@ fn derivatives_of_the_jacobian_and_both_accelerations() {
 
     // The same by formulas.
     let mechanism = linkage_compiler::read(linkage_gallery::source::tokens_of("four_bar")).unwrap().remove(0);
-    let sheet = linkage_lent::sheet(&linkage_compiler::sheets(&mechanism).unwrap()[0]);
+    let lender = Lender::default();
+    let sheet = lender.sheet(&linkage_compiler::sheets(&mechanism).unwrap()[0]).unwrap();
     let names = FourBar::<f64>::PARAMETERS.into_iter().zip(<[f64; 4]>::from(m.clone()));
     let values = Values::of::<FourBar>(FourBar::DERIVATION, names, &q, &at);
     let numbers = |matrix: &FormulaMatrix<'_>| -> Vec<f64> {
@@ -213,7 +215,8 @@ fn derivatives_of_the_jacobian_and_both_accelerations() {
 #[test]
 fn formulas_of_the_sheet() {
     let mechanism = linkage_compiler::read(linkage_gallery::source::tokens_of("four_bar")).unwrap().remove(0);
-    let sheet = linkage_lent::sheet(&linkage_compiler::sheets(&mechanism).unwrap()[0]);
+    let lender = Lender::default();
+    let sheet = lender.sheet(&linkage_compiler::sheets(&mechanism).unwrap()[0]).unwrap();
     let text = sheet.to_text();
     for line in [
         "J̇[1, 1] = −l₃·θ̇₃·cos(θ₃)",

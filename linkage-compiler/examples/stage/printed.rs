@@ -3,6 +3,7 @@
 use linkage_compiler::model::Mechanism;
 use linkage_compiler::program::Function;
 use linkage_compiler::{documents, emit, lower};
+use linkage_lent::{Lender, Unsound};
 use linkage_report::{Document, FpCore};
 use quote::{ToTokens, quote};
 use syn::{Expr, File, ImplItem, ImplItemFn, Item, ItemFn, ItemImpl, Stmt, parse_quote};
@@ -12,8 +13,10 @@ use super::{Part, each_function, lowered};
 /// The derivation for readers, with those of scenes.
 pub fn document(mechanism: &Mechanism) -> Result<String, String> {
     let (drivers, scenes) = documents(mechanism).map_err(|messages| messages.join("\n"))?;
-    let drivers = drivers.iter().map(|document| linkage_lent::derivation(document).to_text());
-    Ok(drivers.chain(scenes.iter().map(|document| linkage_lent::scene(document).to_text())).collect())
+    let lender = Lender::default();
+    let drivers = drivers.iter().map(|document| Ok(lender.derivation(document)?.to_text()));
+    let scenes = scenes.iter().map(|document| Ok(lender.scene(document)?.to_text()));
+    drivers.chain(scenes).collect::<Result<_, Unsound>>().map_err(|error| error.to_string())
 }
 
 /// The lowered functions as text.
@@ -99,7 +102,12 @@ pub fn fpcore(mechanism: &Mechanism) -> Result<Vec<Part>, String> {
             Part { of: of.to_owned(), name, text: core.to_string() }
         }));
     };
-    drivers.iter().for_each(|document| add(linkage_lent::derivation(document).fpcore()));
-    scenes.iter().for_each(|document| add(linkage_lent::scene(document).fpcore()));
+    let (lender, unsound) = (Lender::default(), |error: Unsound| error.to_string());
+    for document in &drivers {
+        add(lender.derivation(document).map_err(unsound)?.fpcore());
+    }
+    for document in &scenes {
+        add(lender.scene(document).map_err(unsound)?.fpcore());
+    }
     Ok(parts)
 }

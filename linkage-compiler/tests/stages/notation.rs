@@ -2,6 +2,7 @@
 
 use linkage_compiler::document::{self, LONGEST, Layout, Name};
 use linkage_compiler::graph::{Condition, External, Function, Graph, NodeId, Number, SymbolId, written};
+use linkage_lent::Lender;
 use linkage_report::Notation;
 
 /// A formula in all notations.
@@ -13,7 +14,8 @@ struct Formula {
 
 impl Formula {
     fn of(table: &document::Table, number: document::Number) -> Self {
-        let table = linkage_lent::table(table);
+        let lender = Lender::default();
+        let table = lender.table(table).unwrap();
         let formula = table.get(number.get()).unwrap();
         Self { text: formula.to_string(), latex: formula.to_latex(), mathml: formula.to_mathml() }
     }

@@ -14,6 +14,7 @@ use linkage::derivation::Derivation;
 use linkage_gallery::checks::each;
 use linkage_gallery::listed::{Listed, all};
 use linkage_gallery::source;
+use linkage_lent::Lender;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -26,11 +27,11 @@ const POSES: usize = 20;
 const WITHOUT: [&str; 2] = ["ThreeTogether", "Block"];
 
 /// The derivation of a file as `derive fpcore` makes it, from that without.
-fn with_code(file: &str, derivation: &Derivation) -> Derivation<'static> {
+fn with_code<'a>(lender: &'a Lender, file: &str, derivation: &Derivation) -> Derivation<'a> {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
     let (documents, _) = linkage_compiler::documents(&mechanism).unwrap();
     let document = documents.iter().find(|document| document.mechanism == derivation.mechanism).unwrap();
-    linkage_lent::derivation(document)
+    lender.derivation(document).unwrap()
 }
 
 /// The formulas of a mechanism by name, each as it was read.
@@ -79,7 +80,8 @@ fn the_texts_have_the_bits_of_the_functions() {
 
 fn agrees(listed: &dyn Listed<f64>) {
     let derivation = listed.derivation();
-    let (of, cores) = (listed.name(), cores(&with_code(listed.file(), derivation)));
+    let lender = Lender::default();
+    let (of, cores) = (listed.name(), cores(&with_code(&lender, listed.file(), derivation)));
     let (names, defaults) = (coordinates(listed), listed.defaults());
     let branches: Vec<_> = listed.branches().iter().map(|branch| sides(branch)).collect();
     let parameters: Vec<String> = derivation.parameters.iter().map(|symbol| symbol.name.to_lowercase()).collect();

@@ -1,0 +1,66 @@
+//! The derivation of a driver.
+
+use linkage_compiler::document::{self, Document};
+use linkage_runtime::derivation::{ChainJoint, ChainLink, Derivation, KinematicChain, Sensitivity};
+
+use crate::formulas::Formulas;
+use crate::{Lender, Unsound};
+
+pub(crate) fn lent<'a>(lender: &'a Lender, document: &Document) -> Result<Derivation<'a>, Unsound> {
+    let formulas = Formulas::of(lender, &document.table)?;
+    Ok(Derivation {
+        mechanism: lender.text(&document.mechanism),
+        parameters: lender.list(&document.parameters, |symbol| formulas.symbol(symbol))?,
+        inputs: lender.list(&document.inputs, |symbol| formulas.symbol(symbol))?,
+        unknowns: lender.list(&document.unknowns, |symbol| formulas.symbol(symbol))?,
+        residual: formulas.equations(&document.residual)?,
+        implied: formulas.equations(&document.implied)?,
+        jacobian_unknowns: formulas.matrix(&document.jacobian_unknowns)?,
+        jacobian_inputs: formulas.matrix(&document.jacobian_inputs)?,
+        groups: lender.list(&document.groups, |group| {
+            places("equations", &group.equations, document.residual.len())?;
+            formulas.group(group)
+        })?,
+        determinant: document.determinant.map(|equation| formulas.equation(equation)).transpose()?,
+        ratios: formulas.equations(&document.ratios)?,
+        ratio_derivatives: document.ratio_derivatives.as_deref().map(|all| formulas.equations(all)).transpose()?,
+        gamma: formulas.equations(&document.gamma)?,
+        jerk: document.jerk.as_deref().map(|all| formulas.equations(all)).transpose()?,
+        sensitivity: document
+            .sensitivity
+            .as_ref()
+            .map(|sensitivity| of_parameters(formulas, sensitivity))
+            .transpose()?,
+        points: lender.list(&document.points, |quantity| formulas.quantity(quantity))?,
+        outputs: lender.list(&document.outputs, |quantity| formulas.quantity(quantity))?,
+        conditions: formulas.all(&document.conditions)?,
+        chain: document.chain.as_ref().map(|chain| chained(lender, chain)).transpose()?,
+        kernels: lender.list(&document.kernels, |kernel| formulas.kernel(kernel))?,
+    })
+}
+
+/// An error if a list of this length has not all of these places.
+pub(crate) fn places(list: &'static str, places: &[usize], length: usize) -> Result<(), Unsound> {
+    let outside = places.iter().copied().find(|place| *place >= length);
+    outside.map_or(Ok(()), |place| Err(Unsound::Place { list, place }))
+}
+
+fn of_parameters<'a>(
+    formulas: Formulas<'a>,
+    document::Sensitivity { jacobian, formulas: all }: &document::Sensitivity,
+) -> Result<Sensitivity<'a>, Unsound> {
+    Ok(Sensitivity { jacobian: formulas.matrix(jacobian)?, formulas: formulas.equations(all)? })
+}
+
+fn chained<'a>(lender: &'a Lender, chain: &document::Chain) -> Result<KinematicChain<'a>, Unsound> {
+    Ok(KinematicChain {
+        links: lender.list(&chain.links, |(name, turns_with)| {
+            Ok(ChainLink { name: lender.text(name), turns_with: lender.texts(turns_with) })
+        })?,
+        joints: lender.list(&chain.joints, |(links, slides_along)| {
+            places("links", links, chain.links.len())?;
+            Ok(ChainJoint { links: *links, slides_along: slides_along.as_deref().map(|name| lender.text(name)) })
+        })?,
+        conditions: chain.conditions,
+    })
+}

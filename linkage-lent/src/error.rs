@@ -1,0 +1,38 @@
+//! The mistakes of a document.
+
+use std::fmt;
+
+/// A document refers to what it does not have. Those that the compiler makes are sound.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Unsound {
+    /// A node of the table does not refer to nodes before it, or to a name where a derivative needs one.
+    Table,
+    /// The table is longer than its numbers reach.
+    TooLong,
+    /// The table has no node with this number.
+    Formula(u32),
+    /// A list has no item at this place, counted from 0.
+    Place {
+        /// The name of the list.
+        list: &'static str,
+        /// The place.
+        place: usize,
+    },
+    /// No check of a function has this name and as many numbers.
+    Check(String),
+}
+
+impl fmt::Display for Unsound {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Table => f.write_str("a formula of the document refers to one that is not before it"),
+            Self::TooLong => f.write_str("the document has more formulas than their numbers reach"),
+            Self::Formula(number) => write!(f, "the document has no formula {number}"),
+            Self::Place { list, place } => write!(f, "the document has no item {place} in its list of {list}"),
+            Self::Check(name) => write!(f, "the document has a check `{name}` that no function makes"),
+        }
+    }
+}
+
+impl std::error::Error for Unsound {}

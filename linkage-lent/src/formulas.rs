@@ -1,0 +1,134 @@
+//! The formulas of one table, and what is made of them.
+
+use linkage_compiler::document::{self, Number};
+use linkage_compiler::program;
+use linkage_compiler::structure::GroupKind;
+use linkage_runtime::derivation::{
+    Entry, Equation, Formula, FormulaMatrix, FormulaTable, Group, GroupForm, GroupMethod, Kernel, KernelCheck,
+    KernelCode, KernelResult, Operations, Quantity, Root, Symbol,
+};
+
+use crate::{Lender, Unsound};
+
+/// The formulas of a table, by their numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Formulas<'a> {
+    lender: &'a Lender,
+    table: &'a FormulaTable<'a>,
+}
+
+impl<'a> Formulas<'a> {
+    pub(crate) fn of(lender: &'a Lender, table: &document::Table) -> Result<Self, Unsound> {
+        Ok(Self { lender, table: lender.table(table)? })
+    }
+
+    pub(crate) fn lender(self) -> &'a Lender {
+        self.lender
+    }
+
+    pub(crate) fn one(self, number: Number) -> Result<Formula<'a>, Unsound> {
+        self.table.get(number.get()).ok_or(Unsound::Formula(number.get()))
+    }
+
+    pub(crate) fn all(self, numbers: &[Number]) -> Result<&'a [Formula<'a>], Unsound> {
+        self.lender.list(numbers, |number| self.one(*number))
+    }
+
+    pub(crate) fn equation(self, [left, right]: document::Equation) -> Result<Equation<'a>, Unsound> {
+        Ok(Equation { left: self.one(left)?, right: self.one(right)? })
+    }
+
+    pub(crate) fn equations(self, all: &[document::Equation]) -> Result<&'a [Equation<'a>], Unsound> {
+        self.lender.list(all, |equation| self.equation(*equation))
+    }
+
+    pub(crate) fn symbol(self, symbol: &document::Symbol) -> Result<Symbol<'a>, Unsound> {
+        Ok(Symbol { name: self.lender.text(&symbol.name), formula: self.one(symbol.formula)? })
+    }
+
+    pub(crate) fn matrix(self, matrix: &document::Matrix) -> Result<FormulaMatrix<'a>, Unsound> {
+        Ok(FormulaMatrix {
+            name: self.one(matrix.name)?,
+            factor: matrix.factor.map(|factor| self.one(factor)).transpose()?,
+            rows: matrix.rows,
+            columns: matrix.columns,
+            entries: self
+                .lender
+                .list(&matrix.entries, |&([row, column], value)| Ok(Entry { row, column, value: self.one(value)? }))?,
+        })
+    }
+
+    pub(crate) fn group(self, group: &document::Group) -> Result<Group<'a>, Unsound> {
+        let root =
+            group.root.as_ref().map(|root| Ok(Root { formula: self.one(root.formula)?, branches: root.branches }));
+        Ok(Group {
+            unknowns: self.all(&group.unknowns)?,
+            equations: self.lender.copied(&group.equations),
+            kind: self.lender.text(&group.kind.description()),
+            form: form(&group.kind),
+            position: self.equations(&group.position)?,
+            root: root.transpose()?,
+            method: match group.method {
+                document::Method::ClosedForm => GroupMethod::ClosedForm,
+                document::Method::Factorization => GroupMethod::Factorization,
+            },
+            determinant: group.determinant.map(|equation| self.equation(equation)).transpose()?,
+            inverse: group.inverse.as_ref().map(|inverse| self.matrix(inverse)).transpose()?,
+        })
+    }
+
+    pub(crate) fn quantity(self, quantity: &document::Quantity) -> Result<Quantity<'a>, Unsound> {
+        Ok(Quantity {
+            name: self.lender.text(&quantity.name),
+            value: self.equations(&quantity.value)?,
+            ratios: self.equations(&quantity.ratios)?,
+            ratio_derivatives: self.equations(&quantity.ratio_derivatives)?,
+            sensitivities: self.equations(&quantity.sensitivities)?,
+        })
+    }
+
+    pub(crate) fn kernel(self, kernel: &document::Kernel) -> Result<Kernel<'a>, Unsound> {
+        let document::Kernel { function, operations, code } = kernel;
+        let program::Operations { functions, divisions, multiplications, additions } = *operations;
+        Ok(Kernel {
+            function: self.lender.text(function),
+            operations: Operations { functions, divisions, multiplications, additions },
+            code: KernelCode {
+                steps: self.equations(&code.steps)?,
+                checks: self.lender.list(&code.checks, |(name, of)| self.check(name, of))?,
+                results: self.lender.list(&code.results, |(place, value)| {
+                    Ok(KernelResult { place: self.lender.text(place), value: self.one(*value)? })
+                })?,
+            },
+        })
+    }
+
+    fn check(self, name: &str, of: &[Number]) -> Result<KernelCheck<'a>, Unsound> {
+        let of = self.all(of)?;
+        let check = match name {
+            "regular" => of.try_into().map(KernelCheck::Regular).ok(),
+            "nonzero" => of.try_into().map(KernelCheck::Nonzero).ok(),
+            "positive" => of.try_into().map(KernelCheck::Positive).ok(),
+            "apart" => of.try_into().map(KernelCheck::Apart).ok(),
+            "moderate" => of.try_into().map(KernelCheck::Moderate).ok(),
+            "open" => of.try_into().map(KernelCheck::Open).ok(),
+            _ => None,
+        };
+        check.ok_or_else(|| Unsound::Check(name.to_owned()))
+    }
+}
+
+fn form(kind: &GroupKind) -> GroupForm {
+    match kind {
+        GroupKind::Rrr => GroupForm::TwoAngles,
+        GroupKind::Rrp => GroupForm::AngleAndLength,
+        GroupKind::Rpr => GroupForm::AngleAndTurningLength,
+        GroupKind::Sliders => GroupForm::TwoLengths,
+        GroupKind::Circles => GroupForm::TwoDistances,
+        GroupKind::LinkToCircle => GroupForm::AngleAndDistance,
+        GroupKind::SliderToCircle => GroupForm::LengthAndDistance,
+        GroupKind::Angle => GroupForm::OneAngle,
+        GroupKind::Linear => GroupForm::OneLinear,
+        GroupKind::Scalar | GroupKind::Pair | GroupKind::Loops(_) | GroupKind::Irreducible(..) => GroupForm::Other,
+    }
+}
