@@ -1,0 +1,52 @@
+//! `linkage check`: the mistakes of all files, or a line for each mechanism.
+
+use linkage_compiler::model::Mechanism;
+
+use super::compiled;
+use crate::arguments::{Check, MessageFormat};
+use crate::failure::Failure;
+use crate::messages::{Item, Mistakes};
+use crate::output;
+use crate::source::Source;
+
+pub fn run(arguments: &Check) -> Result<(), Failure> {
+    let (mut right, mut wrong) = (String::new(), Vec::new());
+    for file in &arguments.files {
+        match checked(file) {
+            Ok(lines) => right += &lines,
+            Err(mistakes) => wrong.push(mistakes),
+        }
+    }
+    match arguments.format {
+        MessageFormat::Json => {
+            let items: Vec<Item<'_>> = wrong.iter().flat_map(Mistakes::items).collect();
+            let json = serde_json::to_string_pretty(&items).map_err(|error| Failure::Outside(error.to_string()))?;
+            output::print(format!("{json}\n").as_bytes())?;
+            if wrong.is_empty() { Ok(()) } else { Err(Failure::Reported) }
+        }
+        MessageFormat::Text => {
+            output::print(right.as_bytes())?;
+            if wrong.is_empty() { Ok(()) } else { Err(Failure::Mistakes(wrong)) }
+        }
+    }
+}
+
+/// A line for each mechanism of a file.
+fn checked(file: &std::path::Path) -> Result<String, Mistakes> {
+    let source = Source::read(file)?;
+    let compiled = compiled(&source, |_| ())?;
+    Ok(compiled.iter().map(|of| format!("{}: {}\n", source.name, summary(&of.mechanism))).collect())
+}
+
+/// A mechanism in one line.
+fn summary(mechanism: &Mechanism) -> String {
+    let drivers = mechanism.drivers.iter().map(|driver| driver.name.to_string()).collect::<Vec<_>>().join(", ");
+    let count = |number: usize, of: &str| format!("{number} {of}{}", if number == 1 { "" } else { "s" });
+    let freedom = mechanism.drivers.iter().next().map_or(0, |driver| driver.inputs.len());
+    format!(
+        "{drivers} is right: {} of freedom, {}, {}",
+        if freedom == 1 { "1 degree".to_owned() } else { format!("{freedom} degrees") },
+        count(mechanism.points.len(), "point"),
+        count(mechanism.outputs.len(), "output"),
+    )
+}

@@ -1,0 +1,15 @@
+//! `linkage fpcore`: the formulas of functions for tools that analyse rounding errors.
+
+use super::documents::Documents;
+use super::of_drivers;
+use crate::arguments::Code;
+use crate::failure::Failure;
+use crate::output;
+
+pub fn run(arguments: &Code) -> Result<(), Failure> {
+    let mut cores = Vec::new();
+    for (_, one) in of_drivers(&arguments.source, Documents::of)? {
+        one.each(|document| cores.extend(document.fpcore().iter().map(ToString::to_string)))?;
+    }
+    output::write(&arguments.output, (cores.join("\n\n") + "\n").as_bytes())
+}

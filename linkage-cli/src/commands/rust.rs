@@ -1,0 +1,30 @@
+//! `linkage rust`: the expansion, formatted.
+
+use linkage_compiler::emit;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::{compiled, unknown};
+use crate::arguments::Code;
+use crate::failure::Failure;
+use crate::output;
+use crate::source::Source;
+
+pub fn run(arguments: &Code) -> Result<(), Failure> {
+    let source = Source::read(&arguments.source.file)?;
+    let root = quote!(::linkage);
+    let compiled = compiled(&source, |of| emit::driver(&of.program, Some(&of.derivation), &root))?;
+    let names: Vec<String> = compiled.iter().map(|of| of.mechanism.name.to_string()).collect();
+    let is_asked = |name: &String| arguments.source.mechanism.as_ref().is_none_or(|asked| asked == name);
+    let asked = compiled.into_iter().zip(&names).filter(|(_, name)| is_asked(name));
+    let items: Vec<TokenStream> = asked.map(|(of, _)| emit::mechanism(&of.mechanism, of.drivers, &root)).collect();
+    match &arguments.source.mechanism {
+        Some(asked) if items.is_empty() => Err(unknown(&source, asked, &names)),
+        _ => output::write(&arguments.output, formatted(quote!(#(#items)*))?.as_bytes()),
+    }
+}
+
+fn formatted(items: TokenStream) -> Result<String, Failure> {
+    let file = syn::parse2(items).map_err(|error| Failure::Outside(format!("the code is not read: {error}")))?;
+    Ok(prettyplease::unparse(&file))
+}

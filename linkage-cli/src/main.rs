@@ -1,0 +1,30 @@
+//! The program `linkage`: what `linkage!` does, for mechanisms in files of their own and without a Rust project.
+//!
+//! Each command is a file of `commands/`. They share four things: a [`source`] is read within bounds, [`messages`] show its
+//! mistakes, [`output`] writes a file beside the old one and renames it, and a [`failure`] becomes the exit code.
+
+mod arguments;
+mod commands;
+mod failure;
+mod interrupt;
+mod messages;
+mod output;
+mod progress;
+mod source;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::Arguments;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    if let Err(error) = interrupt::install() {
+        anstream::eprintln!("interrupts are not noticed: {error}");
+    }
+    match commands::run(arguments.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

@@ -1,0 +1,96 @@
+//! Mistakes for readers, with the marked line, and for editors, as JSON.
+
+use std::fmt::Write;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use linkage_compiler::text::Message;
+use serde::Serialize;
+
+use crate::source::Source;
+
+/// A mistake in a text, or of the file itself, which has no place.
+#[derive(Debug, Clone)]
+pub enum Mistake {
+    Text(Message),
+    File(String),
+}
+
+/// The mistakes of one text, in the order of their places.
+#[derive(Debug, Clone)]
+pub struct Mistakes {
+    pub source: Source,
+    pub all: Vec<Mistake>,
+}
+
+impl Mistakes {
+    /// The mistakes that the compiler found.
+    pub fn of(source: &Source, messages: Vec<Message>) -> Self {
+        Self { source: source.clone(), all: messages.into_iter().map(Mistake::Text).collect() }
+    }
+
+    /// Writes them for readers: `file:line:column: message`, and the line with the marked token.
+    pub fn to_text(&self) -> String {
+        let name = &self.source.name;
+        let mut text = String::new();
+        for mistake in &self.all {
+            text += &match mistake {
+                Mistake::Text(message) => {
+                    format!("{BOLD}{name}:{message}{BOLD:#}\n{}\n", marked(&self.source.text, message))
+                }
+                Mistake::File(message) => format!("{BOLD}{name}: {message}{BOLD:#}\n"),
+            };
+        }
+        text
+    }
+
+    /// The mistakes as items of the array for editors.
+    pub fn items(&self) -> impl Iterator<Item = Item<'_>> {
+        let file = self.source.name.as_str();
+        self.all.iter().map(move |mistake| match mistake {
+            Mistake::Text(message) => Item {
+                file,
+                line: Some(message.line),
+                column: Some(message.column),
+                length: Some(message.length),
+                text: &message.text,
+                help: message.help.as_deref(),
+            },
+            Mistake::File(text) => Item { file, line: None, column: None, length: None, text, help: None },
+        })
+    }
+}
+
+const BOLD: anstyle::Style = anstyle::Style::new().bold();
+
+/// A mistake as an editor reads it; a file that cannot be read has no place.
+#[derive(Serialize)]
+pub struct Item<'a> {
+    file: &'a str,
+    line: Option<usize>,
+    column: Option<usize>,
+    length: Option<usize>,
+    text: &'a str,
+    help: Option<&'a str>,
+}
+
+/// The line of a message with its marked characters, and its help.
+fn marked(text: &str, message: &Message) -> String {
+    let mut shown = String::new();
+    let line = text.strip_prefix('\u{feff}').unwrap_or(text).lines().nth(message.line.saturating_sub(1));
+    if let Some(line) = line.filter(|line| !line.trim().is_empty()) {
+        let from = byte_of(line, message.column.saturating_sub(1));
+        let to = byte_of(line, message.column.saturating_sub(1) + message.length.max(1));
+        let snippet = Snippet::source(line).line_start(message.line).annotation(AnnotationKind::Primary.span(from..to));
+        shown += &Renderer::styled().render(&[Group::with_level(Level::ERROR).element(snippet)]);
+        shown.push('\n');
+    }
+    for help in message.help.iter().flat_map(|help| help.lines()) {
+        let _ = writeln!(shown, "  {BOLD}help:{BOLD:#} {}", help.trim_start_matches("help: "));
+    }
+    shown
+}
+
+/// The byte at which a character of a line begins.
+fn byte_of(line: &str, character: usize) -> usize {
+    line.char_indices().nth(character).map_or(line.len(), |(byte, _)| byte)
+}
