@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use linkage_lent::Unsound;
 
-use crate::messages::Mistakes;
+use crate::mistakes::Mistakes;
 
 /// The exit code of wrong arguments, that of clap.
 const ARGUMENTS: u8 = 2;

@@ -1,13 +1,14 @@
 //! The program `linkage`: what `linkage!` does, for mechanisms in files of their own and without a Rust project.
 //!
 //! Each command is a file of `commands/`. They share four things: a [`source`] is read within bounds, [`messages`] show its
-//! mistakes, [`output`] writes a file beside the old one and renames it, and a [`failure`] becomes the exit code.
+//! mistakes, [`output`] writes a file next to the old one and renames it, and a [`failure`] becomes the exit code.
 
 mod arguments;
 mod commands;
 mod failure;
 mod interrupt;
 mod messages;
+mod mistakes;
 mod output;
 mod progress;
 mod source;

@@ -6,28 +6,9 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use linkage_compiler::text::Message;
 use serde::Serialize;
 
-use crate::source::Source;
-
-/// A mistake in a text, or of the file itself, which has no place.
-#[derive(Debug, Clone)]
-pub enum Mistake {
-    Text(Message),
-    File(String),
-}
-
-/// The mistakes of one text, in the order of their places.
-#[derive(Debug, Clone)]
-pub struct Mistakes {
-    pub source: Source,
-    pub all: Vec<Mistake>,
-}
+use crate::mistakes::{Mistake, Mistakes};
 
 impl Mistakes {
-    /// The mistakes that the compiler found.
-    pub fn of(source: &Source, messages: Vec<Message>) -> Self {
-        Self { source: source.clone(), all: messages.into_iter().map(Mistake::Text).collect() }
-    }
-
     /// Writes them for readers: `file:line:column: message`, and the line with the marked token.
     pub fn to_text(&self) -> String {
         let name = &self.source.name;

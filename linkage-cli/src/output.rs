@@ -1,4 +1,4 @@
-//! Files are written beside the old ones and renamed, so that a failure loses nothing.
+//! Files are written next to the old ones and renamed, so that a failure loses nothing.
 
 use std::fs::{self, Permissions};
 use std::io::{self, ErrorKind, Write};

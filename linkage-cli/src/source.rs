@@ -7,38 +7,29 @@ use std::path::{Path, PathBuf};
 use linkage_compiler::diagnostics::suggestion;
 use linkage_compiler::text::{LONGEST, Message};
 
-use crate::messages::{Mistake, Mistakes};
-
-/// A text and the name of its file.
-#[derive(Debug, Clone)]
-pub struct Source {
-    pub name: String,
-    pub text: String,
-}
+use crate::mistakes::{Mistake, Mistakes, Source};
 
 /// True for the name of standard input and output.
 pub fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-impl Source {
-    /// Reads a file, or standard input for `-`.
-    pub fn read(path: &Path) -> Result<Self, Mistakes> {
-        let name = if is_standard(path) { "<stdin>".to_owned() } else { path.display().to_string() };
-        let bytes = match bytes(path) {
-            Ok(bytes) => bytes,
-            Err(message) => {
-                let source = Self { name, text: String::new() };
-                return Err(Mistakes { source, all: vec![Mistake::File(message)] });
-            }
-        };
-        match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self { name, text }),
-            Err(error) => {
-                let message = not_utf8(error.as_bytes(), error.utf8_error().valid_up_to());
-                let source = Self { name, text: String::from_utf8_lossy(error.as_bytes()).into_owned() };
-                Err(Mistakes { source, all: vec![Mistake::Text(message)] })
-            }
+/// Reads a file, or standard input for `-`.
+pub fn read(path: &Path) -> Result<Source, Mistakes> {
+    let name = if is_standard(path) { "<stdin>".to_owned() } else { path.display().to_string() };
+    let bytes = match bytes(path) {
+        Ok(bytes) => bytes,
+        Err(message) => {
+            let source = Source { name, text: String::new() };
+            return Err(Mistakes { source, all: vec![Mistake::File(message)] });
+        }
+    };
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(Source { name, text }),
+        Err(error) => {
+            let message = not_utf8(error.as_bytes(), error.utf8_error().valid_up_to());
+            let source = Source { name, text: String::from_utf8_lossy(error.as_bytes()).into_owned() };
+            Err(Mistakes { source, all: vec![Mistake::Text(message)] })
         }
     }
 }

@@ -3,21 +3,22 @@
 use linkage_compiler::document::{self, Document};
 use linkage_runtime::derivation::{ChainJoint, ChainLink, Derivation, KinematicChain, Sensitivity};
 
+use crate::arena::Arena;
+use crate::error::Unsound;
 use crate::formulas::Formulas;
-use crate::{Lender, Unsound};
 
-pub(crate) fn lent<'a>(lender: &'a Lender, document: &Document) -> Result<Derivation<'a>, Unsound> {
-    let formulas = Formulas::of(lender, &document.table)?;
+pub(crate) fn lent<'a>(arena: &'a Arena, document: &Document) -> Result<Derivation<'a>, Unsound> {
+    let formulas = Formulas::of(arena, &document.table)?;
     Ok(Derivation {
-        mechanism: lender.text(&document.mechanism),
-        parameters: lender.list(&document.parameters, |symbol| formulas.symbol(symbol))?,
-        inputs: lender.list(&document.inputs, |symbol| formulas.symbol(symbol))?,
-        unknowns: lender.list(&document.unknowns, |symbol| formulas.symbol(symbol))?,
+        mechanism: arena.text(&document.mechanism),
+        parameters: arena.list(&document.parameters, |symbol| formulas.symbol(symbol))?,
+        inputs: arena.list(&document.inputs, |symbol| formulas.symbol(symbol))?,
+        unknowns: arena.list(&document.unknowns, |symbol| formulas.symbol(symbol))?,
         residual: formulas.equations(&document.residual)?,
         implied: formulas.equations(&document.implied)?,
         jacobian_unknowns: formulas.matrix(&document.jacobian_unknowns)?,
         jacobian_inputs: formulas.matrix(&document.jacobian_inputs)?,
-        groups: lender.list(&document.groups, |group| {
+        groups: arena.list(&document.groups, |group| {
             places("equations", &group.equations, document.residual.len())?;
             formulas.group(group)
         })?,
@@ -31,11 +32,11 @@ pub(crate) fn lent<'a>(lender: &'a Lender, document: &Document) -> Result<Deriva
             .as_ref()
             .map(|sensitivity| of_parameters(formulas, sensitivity))
             .transpose()?,
-        points: lender.list(&document.points, |quantity| formulas.quantity(quantity))?,
-        outputs: lender.list(&document.outputs, |quantity| formulas.quantity(quantity))?,
+        points: arena.list(&document.points, |quantity| formulas.quantity(quantity))?,
+        outputs: arena.list(&document.outputs, |quantity| formulas.quantity(quantity))?,
         conditions: formulas.all(&document.conditions)?,
-        chain: document.chain.as_ref().map(|chain| chained(lender, chain)).transpose()?,
-        kernels: lender.list(&document.kernels, |kernel| formulas.kernel(kernel))?,
+        chain: document.chain.as_ref().map(|chain| chained(arena, chain)).transpose()?,
+        kernels: arena.list(&document.kernels, |kernel| formulas.kernel(kernel))?,
     })
 }
 
@@ -52,14 +53,14 @@ fn of_parameters<'a>(
     Ok(Sensitivity { jacobian: formulas.matrix(jacobian)?, formulas: formulas.equations(all)? })
 }
 
-fn chained<'a>(lender: &'a Lender, chain: &document::Chain) -> Result<KinematicChain<'a>, Unsound> {
+fn chained<'a>(arena: &'a Arena, chain: &document::Chain) -> Result<KinematicChain<'a>, Unsound> {
     Ok(KinematicChain {
-        links: lender.list(&chain.links, |(name, turns_with)| {
-            Ok(ChainLink { name: lender.text(name), turns_with: lender.texts(turns_with) })
+        links: arena.list(&chain.links, |(name, turns_with)| {
+            Ok(ChainLink { name: arena.text(name), turns_with: arena.texts(turns_with) })
         })?,
-        joints: lender.list(&chain.joints, |(links, slides_along)| {
+        joints: arena.list(&chain.joints, |(links, slides_along)| {
             places("links", links, chain.links.len())?;
-            Ok(ChainJoint { links: *links, slides_along: slides_along.as_deref().map(|name| lender.text(name)) })
+            Ok(ChainJoint { links: *links, slides_along: slides_along.as_deref().map(|name| arena.text(name)) })
         })?,
         conditions: chain.conditions,
     })

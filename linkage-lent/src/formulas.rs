@@ -8,22 +8,24 @@ use linkage_runtime::derivation::{
     KernelCode, KernelResult, Operations, Quantity, Root, Symbol,
 };
 
-use crate::{Lender, Unsound};
+use crate::arena::Arena;
+use crate::error::Unsound;
+use crate::nodes;
 
 /// The formulas of a table, by their numbers.
 #[derive(Clone, Copy)]
 pub(crate) struct Formulas<'a> {
-    lender: &'a Lender,
+    arena: &'a Arena,
     table: &'a FormulaTable<'a>,
 }
 
 impl<'a> Formulas<'a> {
-    pub(crate) fn of(lender: &'a Lender, table: &document::Table) -> Result<Self, Unsound> {
-        Ok(Self { lender, table: lender.table(table)? })
+    pub(crate) fn of(arena: &'a Arena, table: &document::Table) -> Result<Self, Unsound> {
+        Ok(Self { arena, table: nodes::lent(arena, table)? })
     }
 
-    pub(crate) fn lender(self) -> &'a Lender {
-        self.lender
+    pub(crate) fn arena(self) -> &'a Arena {
+        self.arena
     }
 
     pub(crate) fn one(self, number: Number) -> Result<Formula<'a>, Unsound> {
@@ -31,7 +33,7 @@ impl<'a> Formulas<'a> {
     }
 
     pub(crate) fn all(self, numbers: &[Number]) -> Result<&'a [Formula<'a>], Unsound> {
-        self.lender.list(numbers, |number| self.one(*number))
+        self.arena.list(numbers, |number| self.one(*number))
     }
 
     pub(crate) fn equation(self, [left, right]: document::Equation) -> Result<Equation<'a>, Unsound> {
@@ -39,11 +41,11 @@ impl<'a> Formulas<'a> {
     }
 
     pub(crate) fn equations(self, all: &[document::Equation]) -> Result<&'a [Equation<'a>], Unsound> {
-        self.lender.list(all, |equation| self.equation(*equation))
+        self.arena.list(all, |equation| self.equation(*equation))
     }
 
     pub(crate) fn symbol(self, symbol: &document::Symbol) -> Result<Symbol<'a>, Unsound> {
-        Ok(Symbol { name: self.lender.text(&symbol.name), formula: self.one(symbol.formula)? })
+        Ok(Symbol { name: self.arena.text(&symbol.name), formula: self.one(symbol.formula)? })
     }
 
     pub(crate) fn matrix(self, matrix: &document::Matrix) -> Result<FormulaMatrix<'a>, Unsound> {
@@ -53,7 +55,7 @@ impl<'a> Formulas<'a> {
             rows: matrix.rows,
             columns: matrix.columns,
             entries: self
-                .lender
+                .arena
                 .list(&matrix.entries, |&([row, column], value)| Ok(Entry { row, column, value: self.one(value)? }))?,
         })
     }
@@ -63,8 +65,8 @@ impl<'a> Formulas<'a> {
             group.root.as_ref().map(|root| Ok(Root { formula: self.one(root.formula)?, branches: root.branches }));
         Ok(Group {
             unknowns: self.all(&group.unknowns)?,
-            equations: self.lender.copied(&group.equations),
-            kind: self.lender.text(&group.kind.description()),
+            equations: self.arena.copied(&group.equations),
+            kind: self.arena.text(&group.kind.description()),
             form: form(&group.kind),
             position: self.equations(&group.position)?,
             root: root.transpose()?,
@@ -79,7 +81,7 @@ impl<'a> Formulas<'a> {
 
     pub(crate) fn quantity(self, quantity: &document::Quantity) -> Result<Quantity<'a>, Unsound> {
         Ok(Quantity {
-            name: self.lender.text(&quantity.name),
+            name: self.arena.text(&quantity.name),
             value: self.equations(&quantity.value)?,
             ratios: self.equations(&quantity.ratios)?,
             ratio_derivatives: self.equations(&quantity.ratio_derivatives)?,
@@ -91,13 +93,13 @@ impl<'a> Formulas<'a> {
         let document::Kernel { function, operations, code } = kernel;
         let program::Operations { functions, divisions, multiplications, additions } = *operations;
         Ok(Kernel {
-            function: self.lender.text(function),
+            function: self.arena.text(function),
             operations: Operations { functions, divisions, multiplications, additions },
             code: KernelCode {
                 steps: self.equations(&code.steps)?,
-                checks: self.lender.list(&code.checks, |(name, of)| self.check(name, of))?,
-                results: self.lender.list(&code.results, |(place, value)| {
-                    Ok(KernelResult { place: self.lender.text(place), value: self.one(*value)? })
+                checks: self.arena.list(&code.checks, |(name, of)| self.check(name, of))?,
+                results: self.arena.list(&code.results, |(place, value)| {
+                    Ok(KernelResult { place: self.arena.text(place), value: self.one(*value)? })
                 })?,
             },
         })

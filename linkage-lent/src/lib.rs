@@ -19,6 +19,7 @@
 
 #![warn(missing_docs)]
 
+mod arena;
 mod derivation;
 mod error;
 mod formulas;
@@ -26,16 +27,16 @@ mod nodes;
 mod scene;
 mod sheet;
 
-use bumpalo::Bump;
 use linkage_compiler::document::{Document, SceneDocument, SheetDocument, Table};
 use linkage_runtime::derivation::{Derivation, FormulaTable, SceneDerivation, SheetDerivation};
 
+use arena::Arena;
 pub use error::Unsound;
 
 /// The owner of derivations: it lends them, and frees all of them at its end.
 #[derive(Debug, Default)]
 pub struct Lender {
-    arena: Bump,
+    arena: Arena,
 }
 
 impl Lender {
@@ -44,7 +45,7 @@ impl Lender {
     /// # Errors
     /// [`Unsound`] if the document refers to what it does not have.
     pub fn derivation(&self, document: &Document) -> Result<Derivation<'_>, Unsound> {
-        derivation::lent(self, document)
+        derivation::lent(&self.arena, document)
     }
 
     /// Lends the equations of motion of a document.
@@ -52,7 +53,7 @@ impl Lender {
     /// # Errors
     /// [`Unsound`] if the document refers to what it does not have.
     pub fn scene(&self, document: &SceneDocument) -> Result<SceneDerivation<'_>, Unsound> {
-        scene::lent(self, document)
+        scene::lent(&self.arena, document)
     }
 
     /// Lends the analysis by hand of a document.
@@ -60,7 +61,7 @@ impl Lender {
     /// # Errors
     /// [`Unsound`] if the document refers to what it does not have.
     pub fn sheet(&self, document: &SheetDocument) -> Result<SheetDerivation<'_>, Unsound> {
-        sheet::lent(self, document)
+        sheet::lent(&self.arena, document)
     }
 
     /// Lends the nodes of a table.
@@ -68,26 +69,6 @@ impl Lender {
     /// # Errors
     /// [`Unsound`] if a node refers to what is not before it.
     pub fn table(&self, table: &Table) -> Result<&FormulaTable<'_>, Unsound> {
-        nodes::lent(self, table)
-    }
-
-    fn text(&self, text: &str) -> &str {
-        self.arena.alloc_str(text)
-    }
-
-    fn copied<T: Copy>(&self, all: &[T]) -> &[T] {
-        self.arena.alloc_slice_copy(all)
-    }
-
-    /// The converted items of a list, or the first mistake.
-    fn list<A, B>(&self, all: &[A], convert: impl FnMut(&A) -> Result<B, Unsound>) -> Result<&[B], Unsound>
-    where
-        B: Copy,
-    {
-        Ok(self.arena.alloc_slice_try_fill_iter(all.iter().map(convert))?)
-    }
-
-    fn texts(&self, all: &[String]) -> &[&str] {
-        self.arena.alloc_slice_fill_iter(all.iter().map(|text| self.text(text)))
+        nodes::lent(&self.arena, table)
     }
 }

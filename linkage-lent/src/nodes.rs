@@ -4,19 +4,20 @@ use linkage_compiler::document::{Node, Number, Table};
 use linkage_compiler::graph::Function;
 use linkage_runtime::derivation::{ElementaryFunction, FormulaNode, FormulaTable};
 
-use crate::{Lender, Unsound};
+use crate::arena::Arena;
+use crate::error::Unsound;
 
-pub(crate) fn lent<'a>(lender: &'a Lender, table: &Table) -> Result<&'a FormulaTable<'a>, Unsound> {
-    let mut lists = Lists { lender, names: Vec::new(), parts: Vec::new() };
+pub(crate) fn lent<'a>(arena: &'a Arena, table: &Table) -> Result<&'a FormulaTable<'a>, Unsound> {
+    let mut lists = Lists { arena, names: Vec::new(), parts: Vec::new() };
     let nodes: Result<Vec<FormulaNode>, Unsound> = table.nodes().map(|node| lists.node(node)).collect();
-    let (nodes, names, parts) = (lender.copied(&nodes?), lender.copied(&lists.names), lender.copied(&lists.parts));
+    let (nodes, names, parts) = (arena.copied(&nodes?), arena.copied(&lists.names), arena.copied(&lists.parts));
     let table = FormulaTable::checked(nodes, names, parts).ok_or(Unsound::Table)?;
-    Ok(lender.arena.alloc(table))
+    Ok(arena.one(table))
 }
 
 /// The lists that nodes refer to.
 struct Lists<'a> {
-    lender: &'a Lender,
+    arena: &'a Arena,
     names: Vec<&'a str>,
     parts: Vec<i32>,
 }
@@ -65,7 +66,7 @@ impl Lists<'_> {
 
     /// Adds a name; returns its place.
     fn named(&mut self, name: &str) -> Result<u32, Unsound> {
-        self.names.push(self.lender.text(name));
+        self.names.push(self.arena.text(name));
         short(self.names.len() - 1)
     }
 

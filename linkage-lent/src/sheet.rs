@@ -3,34 +3,35 @@
 use linkage_compiler::document::{self, SheetDocument};
 use linkage_runtime::derivation::{ChainVector, DriverChoice, FormulaMatrix, PointVectors, SheetDerivation, Turning};
 
+use crate::arena::Arena;
 use crate::derivation::places;
+use crate::error::Unsound;
 use crate::formulas::Formulas;
-use crate::{Lender, Unsound};
 
-pub(crate) fn lent<'a>(lender: &'a Lender, document: &SheetDocument) -> Result<SheetDerivation<'a>, Unsound> {
-    let formulas = Formulas::of(lender, &document.table)?;
+pub(crate) fn lent<'a>(arena: &'a Arena, document: &SheetDocument) -> Result<SheetDerivation<'a>, Unsound> {
+    let formulas = Formulas::of(arena, &document.table)?;
     let [by_ratios, by_rates] = &document.accelerations;
     Ok(SheetDerivation {
-        mechanism: lender.text(&document.mechanism),
+        mechanism: arena.text(&document.mechanism),
         jacobian_rates: matrices(formulas, &document.jacobian_rates)?,
         jacobians_of_rates: matrices(formulas, &document.jacobians_of_rates)?,
         terms: matrices(formulas, &document.terms)?,
         gamma: matrices(formulas, &document.gamma)?,
         accelerations: [formulas.equations(by_ratios)?, formulas.equations(by_rates)?],
-        choices: lender.list(&document.choices, |choice| {
+        choices: arena.list(&document.choices, |choice| {
             let determinant = choice.determinant.map(|equation| formulas.equation(equation)).transpose()?;
             Ok(DriverChoice { inputs: formulas.all(&choice.inputs)?, determinant })
         })?,
-        turning: lender.list(&document.turning, |turning| {
+        turning: arena.list(&document.turning, |turning| {
             let [rate, acceleration] = [&turning.rate, &turning.acceleration].map(|matrix| formulas.matrix(matrix));
-            Ok(Turning { with: lender.texts(&turning.with), rate: rate?, acceleration: acceleration? })
+            Ok(Turning { with: arena.texts(&turning.with), rate: rate?, acceleration: acceleration? })
         })?,
-        vectors: lender.list(&document.vectors, |vector| chained(formulas, vector))?,
-        points: lender.list(&document.points, |point| {
+        vectors: arena.list(&document.vectors, |vector| chained(formulas, vector))?,
+        points: arena.list(&document.points, |point| {
             places("vectors", &point.vectors, document.vectors.len())?;
             let [position, velocity, acceleration] = point.sums.map(|equation| formulas.equation(equation));
             let sums = [position?, velocity?, acceleration?];
-            Ok(PointVectors { name: lender.text(&point.name), vectors: lender.copied(&point.vectors), sums })
+            Ok(PointVectors { name: arena.text(&point.name), vectors: arena.copied(&point.vectors), sums })
         })?,
         conditions: formulas.all(&document.conditions)?,
     })

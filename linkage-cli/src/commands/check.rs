@@ -1,13 +1,16 @@
 //! `linkage check`: the mistakes of all files, or a line for each mechanism.
 
+use std::path::Path;
+
 use linkage_compiler::model::Mechanism;
 
-use super::compiled;
+use super::compiled::compiled;
 use crate::arguments::{Check, MessageFormat};
 use crate::failure::Failure;
-use crate::messages::{Item, Mistakes};
+use crate::messages::Item;
+use crate::mistakes::Mistakes;
 use crate::output;
-use crate::source::Source;
+use crate::source::read;
 
 pub fn run(arguments: &Check) -> Result<(), Failure> {
     let (mut right, mut wrong) = (String::new(), Vec::new());
@@ -32,8 +35,8 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
 }
 
 /// A line for each mechanism of a file.
-fn checked(file: &std::path::Path) -> Result<String, Mistakes> {
-    let source = Source::read(file)?;
+fn checked(file: &Path) -> Result<String, Mistakes> {
+    let source = read(file)?;
     let compiled = compiled(&source, |_| ())?;
     Ok(compiled.iter().map(|of| format!("{}: {}\n", source.name, summary(&of.mechanism))).collect())
 }

@@ -1,7 +1,7 @@
 //! `linkage fpcore`: the formulas of functions for tools that analyse rounding errors.
 
+use super::compiled::of_drivers;
 use super::documents::Documents;
-use super::of_drivers;
 use crate::arguments::Code;
 use crate::failure::Failure;
 use crate::output;

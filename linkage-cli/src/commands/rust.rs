@@ -4,14 +4,14 @@ use linkage_compiler::emit;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::{compiled, unknown};
+use super::compiled::{compiled, unknown};
 use crate::arguments::Code;
 use crate::failure::Failure;
 use crate::output;
-use crate::source::Source;
+use crate::source::read;
 
 pub fn run(arguments: &Code) -> Result<(), Failure> {
-    let source = Source::read(&arguments.source.file)?;
+    let source = read(&arguments.source.file)?;
     let root = quote!(::linkage);
     let compiled = compiled(&source, |of| emit::driver(&of.program, Some(&of.derivation), &root))?;
     let names: Vec<String> = compiled.iter().map(|of| of.mechanism.name.to_string()).collect();

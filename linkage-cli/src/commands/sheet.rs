@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::compiled::{listed, of_drivers};
 use super::documents::Documents;
-use super::{listed, of_drivers};
 use crate::arguments::{Sheet, SheetFormat};
 use crate::failure::Failure;
 use crate::output;

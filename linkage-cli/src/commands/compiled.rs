@@ -1,0 +1,51 @@
+//! The compiled mechanisms of a file, and the one that is meant.
+
+use linkage_compiler::Lowered;
+use linkage_compiler::budget::Budget;
+use linkage_compiler::diagnostics::suggestion;
+use linkage_compiler::text::{self, Compiled};
+
+use crate::arguments::From;
+use crate::failure::Failure;
+use crate::mistakes::{Mistakes, Source};
+use crate::progress;
+use crate::source::read;
+
+/// Compiles a text, and applies a function to each driver.
+pub fn compiled<R>(source: &Source, f: impl FnMut(Lowered) -> R) -> Result<Vec<Compiled<R>>, Mistakes> {
+    let compiled =
+        progress::during(format!("deriving {}", source.name), || text::compile(&source.text, &Budget::default(), f));
+    compiled.map_err(|messages| Mistakes::of(source, messages))
+}
+
+/// The results of a function for the drivers of a file: of the one that is asked for, or of all.
+pub fn of_drivers<R>(from: &From, mut f: impl FnMut(Lowered) -> R) -> Result<Vec<(String, R)>, Failure> {
+    let source = read(&from.file)?;
+    let compiled = compiled(&source, |lowered| (lowered.program.signatures.driver.name.to_string(), f(lowered)))?;
+    let mut all: Vec<(String, R)> = compiled.into_iter().flat_map(|compiled| compiled.drivers).collect();
+    if let Some(asked) = &from.mechanism {
+        let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
+        all.retain(|(name, _)| name == asked);
+        if all.is_empty() {
+            return Err(unknown(&source, asked, &names));
+        }
+    }
+    Ok(all)
+}
+
+/// The failure of a name that no mechanism has.
+pub fn unknown(source: &Source, asked: &str, names: &[String]) -> Failure {
+    let meant = suggestion(asked, names.iter().map(String::as_str));
+    let meant = if meant.is_empty() { format!(": it has {}", listed(names)) } else { meant };
+    Failure::Argument(format!("{} has no mechanism `{asked}`{meant}", source.name))
+}
+
+/// Names in a sentence.
+pub fn listed(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => "none".to_owned(),
+    }
+}
