@@ -6,13 +6,13 @@ use crate::{Column, Dim, Mechanism};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Part {
+pub enum Part<'a> {
     /// A pivot on the ground.
     Ground(usize),
     /// A rigid link.
     Bar {
         /// Its joints; a pivot on the ground comes first.
-        joints: &'static [usize],
+        joints: &'a [usize],
         /// True if it turns with an input about a pivot on the ground.
         is_driven: bool,
     },
@@ -44,7 +44,7 @@ pub trait Skeleton: Mechanism {
     /// The names of the joints: of the declared points, `O` for the origin, numbers for the others.
     const JOINTS: &'static [&'static str];
     /// The parts.
-    const PARTS: &'static [Part];
+    const PARTS: &'static [Part<'static>];
 
     /// x and y of each joint.
     fn joints(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::Parts>;

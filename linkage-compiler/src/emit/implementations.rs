@@ -79,7 +79,7 @@ fn constant(name: &str, value: &ConstantValue) -> TokenStream {
         ConstantValue::Flags(flags) => listed(&quote!(bool), flags.iter()),
         ConstantValue::Groups(groups) => listed(&quote!(__rt::Group), groups.iter().map(group)),
         ConstantValue::Kinks(kinks) => listed(&quote!(__rt::Kink), kinks.iter().map(kink)),
-        ConstantValue::Parts(parts) => listed(&quote!(__rt::Part), parts.iter().map(part)),
+        ConstantValue::Parts(parts) => listed(&quote!(__rt::Part<'static>), parts.iter().map(part)),
     };
     quote!(const #name: #of = #value;)
 }

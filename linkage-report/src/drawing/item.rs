@@ -25,6 +25,13 @@ pub(super) struct Label {
 }
 
 impl Label {
+    /// The name in one of this number of frames.
+    fn still(&self, frame: usize, frames: usize) -> Text {
+        let last = self.offsets.len() - 1;
+        let place = &self.offsets[(frame * last + frames / 2) / (frames - 1).max(1)];
+        Text::new(self.text.as_str()).set("x", short(place.x, 1)).set("y", short(place.y + 4.5, 1))
+    }
+
     /// The name, which walks around its point in this number of seconds, or stays at its first place.
     fn text(&self, seconds: Option<f64>) -> Text {
         let first = self.offsets[0];
@@ -60,6 +67,22 @@ fn animate(kind: &str, values: Vec<String>, seconds: Option<f64>) -> Option<Anim
 }
 
 impl Item {
+    /// The item in one frame, at rest.
+    pub(super) fn still(&self, frame: usize) -> Group {
+        let mut drawn = self.drawn.clone();
+        if let Some(name) = &self.name {
+            drawn = drawn.add(name.still(frame, self.body.places.len()));
+        }
+        let place = &self.body.places[frame];
+        let turned = (self.body.angles[frame] - self.body.angles[0]).to_degrees();
+        let mut moved = format!("translate({} {})rotate({})", short(place.x, 1), short(place.y, 1), short(turned, 2));
+        if let Some((&now, &first)) = self.lengths.get(frame).zip(self.lengths.first()) {
+            let along = self.body.angles[0].to_degrees();
+            moved += &format!("rotate({})scale({} 1)", short(along, 2), short(now / first, 3));
+        }
+        drawn.set("transform", moved)
+    }
+
     /// The item in its first position, or animated through all frames in this number of seconds.
     pub(super) fn group(&self, seconds: Option<f64>) -> Group {
         let first = self.body.places[0];

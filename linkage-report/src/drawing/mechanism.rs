@@ -4,24 +4,16 @@ use std::f64::consts::TAU;
 
 use linkage_runtime::continuation::Options;
 use linkage_runtime::range_of_motion::{Driven, MotionByLength, MotionEnd, RangeOfMotion, RangeOptions};
-use linkage_runtime::skeleton::{Part as Known, Skeleton};
+use linkage_runtime::skeleton::Skeleton;
 use linkage_runtime::{Assembly, Mechanism, PathError};
-use nalgebra::Vector2;
 
 use super::figure::Figure;
-use super::part::Part;
+use super::parts::Parts;
 use super::{Animation, Drawing, DrawingError};
 
 /// The frames of a turn, and the seconds that it takes.
 const FRAMES: u32 = 120;
 const SECONDS: f64 = 4.0;
-
-/// The length of an arm beyond its farthest block.
-const BEYOND: f64 = 1.1;
-
-fn name<M: Skeleton>(joint: usize) -> &'static str {
-    M::JOINTS.get(joint).copied().unwrap_or_default()
-}
 
 impl Figure {
     /// The joints of a mechanism at these poses, and its parts.
@@ -29,56 +21,12 @@ impl Figure {
     where
         M::Pose: 'a,
     {
-        let mut figure = Self::default();
-        let mut first = None;
-        for pose in poses {
-            let parts = mechanism.joints(pose);
-            let places = parts.as_slice().chunks_exact(2).map(Vector2::from_column_slice);
-            figure.frames.push(M::JOINTS.iter().map(|&name| name.to_owned()).zip(places).collect());
-            first.get_or_insert(pose);
-        }
-        let mut guides = 0..;
-        for part in M::PARTS {
-            let guide = matches!(part, Known::Slider(_) | Known::Sleeve { .. }).then(|| guides.next()).flatten();
-            match *part {
-                Known::Ground(joint) => figure.part(Part::Ground(name::<M>(joint).to_owned())),
-                Known::Slider(joint) => {
-                    let along = first.zip(guide).and_then(|(pose, guide)| mechanism.guide(pose, guide));
-                    let along = along.map(Vector2::from);
-                    figure.part(Part::Slider { point: name::<M>(joint).to_owned(), along });
-                }
-                Known::Trace(joint) => figure.part(Part::Trace(name::<M>(joint).to_owned())),
-                Known::Bar { joints, is_driven } => {
-                    let names: Vec<&str> = joints.iter().map(|&joint| name::<M>(joint)).collect();
-                    figure.link(&names, is_driven);
-                }
-                Known::Sleeve { pin, on, towards } => {
-                    let [pin, on] = [pin, on].map(|joint| name::<M>(joint));
-                    match towards {
-                        Some(end) => figure.sleeve(pin, [on, name::<M>(end)]),
-                        None => figure.arm(pin, on),
-                    }
-                }
-                _ => {}
-            }
-        }
-        figure
-    }
-
-    /// Adds the arm of a sleeve, whose end is no joint: a little longer than the farthest distance of its block.
-    fn arm(&mut self, pin: &str, on: &str) {
-        let tip = format!("{on}-{pin}");
-        let at = |frame: &[(String, Vector2<f64>)], name: &str| {
-            frame.iter().find(|(other, _)| other == name).map(|(_, at)| *at).unwrap_or_default()
-        };
-        let along = |frame: &[(String, Vector2<f64>)]| at(frame, pin) - at(frame, on);
-        let length = BEYOND * self.frames.iter().map(|frame| along(frame).norm()).fold(0.0, f64::max);
-        for frame in &mut self.frames {
-            let direction = along(frame).try_normalize(0.0).unwrap_or_default();
-            frame.push((tip.clone(), at(frame, on) + length * direction));
-        }
-        self.link(&[on, &tip], false);
-        self.sleeve(pin, [on, &tip]);
+        let mut poses = poses.into_iter().peekable();
+        let guides: Vec<[f64; 2]> =
+            poses.peek().iter().flat_map(|pose| (0..).map_while(|guide| mechanism.guide(pose, guide))).collect();
+        let parts = Parts { joints: M::JOINTS, parts: M::PARTS, guides: &guides };
+        let places = |pose| mechanism.joints(pose).as_slice().chunks_exact(2).map(|at| [at[0], at[1]]).collect();
+        Self::at(&parts, poses.map(places).collect::<Vec<Vec<[f64; 2]>>>())
     }
 }
 

@@ -8,6 +8,7 @@ use super::DrawingError;
 use super::arrows::{Arrow, Quantity, Tail};
 use super::axes::{label, ticks};
 use super::frame::{Frame, LEFT, WIDTH, bounds};
+use super::plain::plain;
 use super::stage::{CLASS, STYLE, Shapes};
 use super::still::{Drawing, Units};
 
@@ -35,12 +36,20 @@ impl Drawing {
     /// [`DrawingError`] if the drawing is empty, a name is unknown or used twice, a number is not finite, or `rename` or
     /// `without` found nothing.
     pub fn to_svg(&self) -> Result<String, DrawingError> {
-        svg(self)
+        svg(self, STYLE.to_owned() + PLOT)
+    }
+
+    /// Writes the SVG with plain styles, without variables and always light, for programs that make other formats of it.
+    ///
+    /// # Errors
+    /// As [`to_svg`](Self::to_svg).
+    pub fn to_plain_svg(&self) -> Result<String, DrawingError> {
+        svg(self, plain(&(STYLE.to_owned() + PLOT)))
     }
 }
 
 /// The SVG of a drawing.
-fn svg(drawing: &Drawing) -> Result<String, DrawingError> {
+fn svg(drawing: &Drawing, style: String) -> Result<String, DrawingError> {
     let arrows = arrows(drawing)?;
     let ends: Vec<[Vector2<f64>; 2]> = arrows.iter().map(|(_, ends)| *ends).collect();
     let title = wrapped(&drawing.title, TITLE);
@@ -61,7 +70,7 @@ fn svg(drawing: &Drawing) -> Result<String, DrawingError> {
         .set("text-anchor", "middle")
         .add(Title::new(drawing.title.as_str()))
         .add(Description::new().add(svg::node::Text::new(describe(drawing))))
-        .add(Style::new(STYLE.to_owned() + PLOT))
+        .add(Style::new(style))
         .add(Rectangle::new().set("class", "paper").set("width", "100%").set("height", "100%"));
     for (line, words) in title.iter().enumerate() {
         document = document.add(text(words, "title", Vector2::new(LEFT, 24.0 + TITLE_LINE * line as f64), "start"));
@@ -253,6 +262,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn plain_styles_have_no_variables() {
+        let style = plain(&(STYLE.to_owned() + PLOT));
+        assert!(!style.contains("--") && !style.contains("var(") && !style.contains('@'), "{style}");
+        assert!(style.contains(".linkage .paper{fill:#fff}") && style.contains(".linkage .velocity{color:#188038}"));
+    }
+
+    #[test]
     fn scales_have_units() {
         let mut drawing = Drawing::new("units");
         drawing.ground("A", [0.0, 0.0]).joint("B", [80.0, 60.0]).bar("A", "B").units("mm", "s");
@@ -261,7 +277,7 @@ mod tests {
             .velocity("B", [0.0, 100.0])
             .acceleration_scale(0.001)
             .acceleration("B", [1e3, 0.0]);
-        let svg = svg(&drawing).unwrap_or_default();
+        let svg = drawing.to_svg().unwrap_or_default();
         let texts: Vec<&str> = svg.split('>').map(|piece| piece.split('<').next().unwrap_or("").trim()).collect();
         for text in ["80 mm", "mm", "velocity × 0.02 s", "acceleration × 0.001 s²"] {
             assert_eq!(texts.iter().filter(|found| **found == text).count(), 1, "{text}: {texts:?}");
@@ -274,7 +290,7 @@ mod tests {
         let mut drawing = Drawing::new("scale");
         drawing.ground("A", [0.0, 0.0]).joint("B", [10.0, 0.0]).bar("A", "B");
         drawing.velocity_scale(0.02).velocity("B", [0.0, 100.0]);
-        let svg = svg(&drawing).unwrap_or_default();
+        let svg = drawing.to_svg().unwrap_or_default();
         let read = |class: &str| -> Vec<f64> {
             let element = svg.split('<').find(|element| element.contains(&format!("class=\"{class}\""))).unwrap_or("");
             ["x1", "y1", "x2", "y2"]

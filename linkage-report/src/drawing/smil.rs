@@ -9,6 +9,7 @@ use super::DrawingError;
 use super::animation::Animation;
 use super::frame::View;
 use super::part::Part;
+use super::plain::plain;
 use super::stage::{CLASS, STYLE, Shapes};
 
 /// The size of the picture and its margin, in pixels.
@@ -23,33 +24,62 @@ impl Animation {
     /// parts contradict the frames: a link changes its shape, a ground pivot moves, a slider leaves its straight line; or if
     /// `rename`, `paths` or `without` found nothing.
     pub fn to_svg(&self) -> Result<String, DrawingError> {
-        if !(self.seconds.is_finite() && self.seconds > 0.0) {
-            return Err(DrawingError::NotFinite("the duration of an animation".to_owned()));
-        }
+        self.check()?;
         svg(self)
+    }
+
+    /// Writes an SVG for each frame, at rest and with plain styles, for programs that make films in other formats. The first
+    /// and the last frame of a smooth loop are the same picture.
+    ///
+    /// # Errors
+    /// As [`to_svg`](Self::to_svg).
+    pub fn frames_to_svg(&self) -> Result<impl ExactSizeIterator<Item = String>, DrawingError> {
+        self.check()?;
+        let Shapes { back, items, .. } = shapes(self)?;
+        let empty = page(self, plain(STYLE)).add(back);
+        let frame = move |frame| items.iter().fold(empty.clone(), |page, item| page.add(item.still(frame))).to_string();
+        Ok((0..self.figure.frames.len()).map(frame))
+    }
+
+    /// The time that all frames take, in seconds.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.seconds
+    }
+
+    fn check(&self) -> Result<(), DrawingError> {
+        match self.seconds.is_finite() && self.seconds > 0.0 {
+            true => Ok(()),
+            false => Err(DrawingError::NotFinite("the duration of an animation".to_owned())),
+        }
     }
 }
 
-fn svg(animation: &Animation) -> Result<String, DrawingError> {
-    let Shapes { back, items, .. } = Shapes::of(&animation.figure, |shown| View::within(shown, SIZE, MARGIN), &[])?;
-    let (mut moving, mut still) = (Group::new().set("class", "moving"), Group::new().set("class", "still"));
-    for item in &items {
-        moving = moving.add(item.group(Some(animation.seconds)));
-        still = still.add(item.group(None));
-    }
-    let document = Document::new()
+fn shapes(animation: &Animation) -> Result<Shapes, DrawingError> {
+    Shapes::of(&animation.figure, |shown| View::within(shown, SIZE, MARGIN), &[])
+}
+
+/// An empty picture.
+fn page(animation: &Animation, style: impl Into<String>) -> Document {
+    Document::new()
         .set("class", CLASS)
         .set("viewBox", (0, 0, SIZE.x, SIZE.y))
         .set("role", "img")
         .set("text-anchor", "middle")
         .add(Title::new(animation.title.as_str()))
         .add(Description::new().add(svg::node::Text::new(describe(animation))))
-        .add(Style::new(STYLE))
+        .add(Style::new(style))
         .add(Rectangle::new().set("class", "paper").set("width", "100%").set("height", "100%"))
-        .add(back)
-        .add(moving)
-        .add(still);
-    Ok(document.to_string())
+}
+
+fn svg(animation: &Animation) -> Result<String, DrawingError> {
+    let Shapes { back, items, .. } = shapes(animation)?;
+    let (mut moving, mut still) = (Group::new().set("class", "moving"), Group::new().set("class", "still"));
+    for item in &items {
+        moving = moving.add(item.group(Some(animation.seconds)));
+        still = still.add(item.group(None));
+    }
+    Ok(page(animation, STYLE).add(back).add(moving).add(still).to_string())
 }
 
 fn describe(animation: &Animation) -> String {

@@ -16,7 +16,7 @@ const MARGIN: f64 = 9.0;
 #[derive(Debug, Clone)]
 pub(super) struct Miniature {
     joints: Vec<Vector2<f64>>,
-    parts: &'static [Part],
+    parts: &'static [Part<'static>],
 }
 
 impl Miniature {
