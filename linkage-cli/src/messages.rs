@@ -12,16 +12,13 @@ impl Mistakes {
     /// Writes them for readers: `file:line:column: message`, and the line with the marked token.
     pub fn to_text(&self) -> String {
         let name = &self.source.name;
-        let mut text = String::new();
-        for mistake in &self.all {
-            text += &match mistake {
-                Mistake::Text(message) => {
-                    format!("{BOLD}{name}:{message}{BOLD:#}\n{}\n", marked(&self.source.text, message))
-                }
-                Mistake::File(message) => format!("{BOLD}{name}: {message}{BOLD:#}\n"),
-            };
-        }
-        text
+        let line = |mistake: &Mistake| match mistake {
+            Mistake::Text(message) => {
+                format!("{BOLD}{name}:{message}{BOLD:#}\n{}", marked(&self.source.text, message))
+            }
+            Mistake::File(message) => format!("{BOLD}{name}: {message}{BOLD:#}\n"),
+        };
+        self.all.iter().map(line).collect()
     }
 
     /// The mistakes as items of the array for editors.
@@ -54,19 +51,22 @@ pub struct Item<'a> {
     help: Option<&'a str>,
 }
 
-/// The line of a message with its marked characters, and its help.
+/// The line of a message with its marked characters, and its help. A message about the whole text marks nothing.
 fn marked(text: &str, message: &Message) -> String {
     let mut shown = String::new();
     let line = text.strip_prefix('\u{feff}').unwrap_or(text).lines().nth(message.line.saturating_sub(1));
-    if let Some(line) = line.filter(|line| !line.trim().is_empty()) {
-        let from = byte_of(line, message.column.saturating_sub(1));
-        let to = byte_of(line, message.column.saturating_sub(1) + message.length.max(1));
+    if let Some(line) = line.filter(|_| message.length > 0) {
+        let first = message.column.saturating_sub(1);
+        let [from, to] = [first, first + message.length].map(|character| byte_of(line, character));
         let snippet = Snippet::source(line).line_start(message.line).annotation(AnnotationKind::Primary.span(from..to));
         shown += &Renderer::styled().render(&[Group::with_level(Level::ERROR).element(snippet)]);
         shown.push('\n');
     }
     for help in message.help.iter().flat_map(|help| help.lines()) {
         let _ = writeln!(shown, "  {BOLD}help:{BOLD:#} {}", help.trim_start_matches("help: "));
+    }
+    if !shown.is_empty() {
+        shown.push('\n');
     }
     shown
 }

@@ -95,7 +95,7 @@ fn not_utf8(bytes: &[u8], place: usize) -> Message {
     let byte = bytes.get(place).copied().unwrap_or_default();
     let is_wide = matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..]);
     let is = if is_wide { "the file is in UTF-16".to_owned() } else { format!("byte {byte:#04x} is not UTF-8") };
-    Message { line, column, length: 1, text: format!("{is}: save the file in UTF-8"), help: None }
+    Message { line, column, length: usize::from(!is_wide), text: format!("{is}: save the file in UTF-8"), help: None }
 }
 
 #[cfg(test)]

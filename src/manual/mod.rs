@@ -3,6 +3,7 @@
 //! | page | contents |
 //! |---|---|
 //! | [`first_mechanism`] | from a drawing to numbers |
+//! | [`without_rust`] | a mechanism in a file of its own, and the program `linkage` |
 //! | [`first_picture`] | a picture and an animation in three lines |
 //! | [`first_sheet`] | the derivation as a document |
 //! | [`the_sheet`] | the sheet, line by line: two courses, and where each of their formulas is |
@@ -34,6 +35,11 @@
 ///
 #[doc = include_str!("first_mechanism.md")]
 pub mod first_mechanism {}
+
+/// The program `linkage`: sheets, checks and code of a mechanism in a file, without a Rust project.
+///
+#[doc = include_str!("without_rust.md")]
+pub mod without_rust {}
 
 /// A picture, an animation, and how to change what they guess.
 ///

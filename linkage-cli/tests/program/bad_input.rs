@@ -1,0 +1,105 @@
+//! Files that are no texts, and files that cannot be written: one message each, and nothing is lost.
+
+use std::fs::{self, File};
+use std::process::Stdio;
+
+use super::folder::{Folder, SLIDER_CRANK};
+
+#[test]
+fn files_that_are_no_texts() {
+    let folder = Folder::new();
+    folder.write("empty.linkage", "");
+    folder.write("notes.linkage", "// Nothing yet.\n");
+    folder.write("latin.linkage", b"mechanism M {\n    // \xc3\xa9 \xe9\n}\n");
+    folder.write("wide.linkage", b"\xff\xfem\0e\0");
+    folder.write("zeros.linkage", [0; 64]);
+    File::create(folder.path("huge.linkage")).unwrap().set_len(1 << 40).unwrap();
+    fs::create_dir(folder.path("folder")).unwrap();
+    let mut all = String::new();
+    for name in ["empty", "notes", "latin", "wide", "zeros", "huge", "empt"] {
+        let ran = folder.run(&format!("check {name}.linkage"));
+        assert_eq!((ran.code, ran.output.as_str()), (Some(1), ""), "{name}");
+        assert_eq!(ran.messages.matches(".linkage:").count(), 1, "{}", ran.messages);
+        all += &ran.messages;
+    }
+    all += &folder.run("check folder").messages;
+    all += &folder.run("sheet folder").messages;
+    insta::assert_snapshot!("files_that_are_no_texts", all);
+}
+
+#[test]
+fn a_mark_at_the_beginning_and_other_ends_of_lines() {
+    let folder = Folder::new();
+    folder.write("windows.linkage", format!("\u{feff}{}", SLIDER_CRANK.replace('\n', "\r\n")));
+    folder.run("check windows.linkage").works("");
+}
+
+#[test]
+fn wrong_arguments() {
+    let folder = Folder::new();
+    for arguments in ["", "check", "shet a", "sheet a --format pdf", "completions basic", "check --fromat json a"] {
+        let ran = folder.run(arguments);
+        assert_eq!((ran.code, ran.output.as_str()), (Some(2), ""), "{arguments}");
+    }
+    assert!(folder.run("shet a").messages.contains("'sheet'"));
+}
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    let folder = Folder::new();
+    folder.write("slider.linkage", SLIDER_CRANK);
+    fs::create_dir(folder.path("folder")).unwrap();
+    folder.write("kept.rs", "old");
+    let mut locked = fs::metadata(folder.path("kept.rs")).unwrap().permissions();
+    locked.set_readonly(true);
+    fs::set_permissions(folder.path("kept.rs"), locked).unwrap();
+    for (place, why) in [
+        ("there/a.rs", "its folder does not exist"),
+        ("slider.linkage/a.rs", "its folder does not exist"),
+        ("folder", "it is a folder"),
+        ("kept.rs", "you may not write there"),
+    ] {
+        let message = format!("error: {place} is not written: {why}\n");
+        folder.run(&format!("rust slider.linkage -o {place}")).fails(1, &message);
+    }
+    assert_eq!(folder.read("kept.rs"), "old");
+    assert_eq!(folder.names(), ["folder", "kept.rs", "slider.linkage"]);
+    assert_eq!(fs::read_dir(folder.path("folder")).unwrap().count(), 0);
+    folder.run("new there/wiper").fails(1, "error: there/wiper.linkage is not written: its folder does not exist\n");
+}
+
+/// The reader of the output goes away before it has all.
+#[test]
+fn a_broken_pipe_ends_quietly() {
+    let folder = Folder::new();
+    folder.write("slider.linkage", SLIDER_CRANK);
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let mut command = folder.command("rust slider.linkage");
+    let program = command.stdout(writer).stderr(Stdio::piped()).spawn().unwrap();
+    let ended = program.wait_with_output().unwrap();
+    assert_eq!((ended.status.code(), ended.stderr.as_slice()), (Some(0), &b""[..]));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_a_pipe_and_permissions_stay() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    let folder = Folder::new();
+    folder.write("slider.linkage", SLIDER_CRANK);
+    folder.write("real.rs", "old");
+    fs::set_permissions(folder.path("real.rs"), fs::Permissions::from_mode(0o640)).unwrap();
+    symlink(folder.path("real.rs"), folder.path("link.rs")).unwrap();
+    folder.run("rust slider.linkage -o link.rs").works("wrote link.rs\n");
+    assert!(fs::symlink_metadata(folder.path("link.rs")).unwrap().is_symlink());
+    assert!(folder.read("real.rs").contains("struct Crank"));
+    assert_eq!(fs::metadata(folder.path("real.rs")).unwrap().permissions().mode() & 0o777, 0o640);
+    folder.run("rust slider.linkage -o /dev/null").works("wrote /dev/null\n");
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    // As any new file, not only for its owner.
+    folder.run("rust slider.linkage -o new.rs").works("wrote new.rs\n");
+    File::create(folder.path("other.rs")).unwrap();
+    let mode = |name: &str| fs::metadata(folder.path(name)).unwrap().permissions().mode();
+    assert_eq!(mode("new.rs"), mode("other.rs"));
+}

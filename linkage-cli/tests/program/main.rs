@@ -1,0 +1,6 @@
+//! The program from outside: each command, its exit code and its messages; bad input; interrupts.
+
+mod bad_input;
+mod commands;
+mod folder;
+mod interrupts;
