@@ -1,10 +1,12 @@
 //! Types with text of the program, such as the names of groups: they can be written, not read.
 
+use std::sync::Arc;
+
 use linkage::continuation::{AtChangePoint, Direction, Options, Path};
 use linkage::report::{Report, ReportOptions};
 use linkage::simulation::{Start, simulate};
 use linkage::skeleton::Skeleton;
-use linkage::{Error, Mechanism, Scene, Table, linkage, singularity};
+use linkage::{Error, InputValues, Mechanism, MotionError, PositionError, Scene, Table, linkage, singularity};
 use serde::Deserialize;
 use serde_json::{Value, from_value, json, to_value};
 
@@ -121,4 +123,21 @@ fn names_limits_tables_and_errors() {
         four_bar().0.solve(&FourBarCoordinates { theta2: f64::NAN, theta3: 0.0, theta4: 0.0 }).unwrap_err().into();
     let written: Value = to_value(error).unwrap();
     assert_eq!(written["Position"]["NotFinite"]["mechanism"], "FourBar");
+}
+
+/// Errors with borrowed and owned names are written as those with static ones.
+#[test]
+fn errors_with_names_of_any_type() {
+    let name = "FourBar".to_owned();
+    let names = ["theta", "s"].map(str::to_owned);
+    let names = names.each_ref().map(String::as_str);
+    let inputs = InputValues::new(names.as_slice(), &[true, false], [0.5, 2.0, 0.0]);
+    let error = PositionError::Unbuildable { mechanism: name.as_str(), group: "phi, psi", gap: 0.25, inputs };
+    let expected = json!({
+        "mechanism": "FourBar", "group": "phi, psi", "gap": 0.25, "inputs": { "theta": 0.5, "s": 2.0 }
+    });
+    let [borrowed, owned] = [to_value(error), to_value(error.map_names(Arc::<str>::from))].map(Result::unwrap);
+    assert_eq!([&borrowed["Unbuildable"], &owned["Unbuildable"]], [&expected, &expected]);
+    let motion = to_value(MotionError::from(error).map_names(String::from)).unwrap();
+    assert_eq!(motion["Position"], owned);
 }

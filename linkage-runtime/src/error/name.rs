@@ -25,7 +25,7 @@ pub trait Name: Clone + Debug + Display + PartialEq {
     /// The names of the inputs of a mechanism.
     type List: Clone + Default + PartialEq + AsRef<[Self]>;
 
-    /// A name that is always the same: `the position`.
+    /// A name that the library gives: `the position`.
     fn from_static(text: &'static str) -> Self;
 }
 

@@ -121,3 +121,10 @@ fn names_of_any_type_have_the_same_text() {
     check(&fixed, &of_borrowed);
     check(&fixed, &of_borrowed.into_iter().map(|error| error.map_names(String::from)).collect::<Vec<_>>());
 }
+
+/// Emitted functions return errors by value: one of 24 bytes more takes the derivative of a scene 20 instructions more.
+#[test]
+fn errors_are_small() {
+    assert!(size_of::<InputValues>() <= 48 && size_of::<PositionError>() <= 96);
+    assert_eq!(size_of::<PositionError<&str>>(), size_of::<Result<[f64; 2], PositionError>>());
+}
