@@ -192,8 +192,11 @@ fn too_much(mechanism: &Mechanism, diagnostics: &mut Diagnostics) {
     );
 }
 
-/// Applies a function to each driver of a mechanism without diagnostics so far.
-fn of_checked<R>(mechanism: &Mechanism, f: impl FnMut(Lowered) -> R) -> Result<Vec<R>, Vec<String>> {
+/// Applies a function to each driver of a mechanism that [`read`] returns, one after the other to limit memory.
+///
+/// # Errors
+/// As [`compile`].
+pub fn each_driver<R>(mechanism: &Mechanism, f: impl FnMut(Lowered) -> R) -> Result<Vec<R>, Vec<String>> {
     let mut diagnostics = Diagnostics::default();
     of_drivers(mechanism, &mut diagnostics, f).ok_or_else(|| diagnostics.messages())
 }
@@ -214,7 +217,7 @@ pub struct Expansion {
 /// The messages of mistakes that appear in derivatives, or that of a spent budget.
 pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Result<Expansion, Vec<String>> {
     let (mut nodes, mut operations) = (0, Operations::default());
-    let drivers = of_checked(mechanism, |Lowered { derivation, program }| {
+    let drivers = each_driver(mechanism, |Lowered { derivation, program }| {
         nodes += derivation.graph.len();
         operations = operations.plus(emit::operations(&program));
         emit::driver(&program, Some(&derivation), root)
@@ -233,7 +236,7 @@ pub fn derive(mechanism: &Mechanism) -> Vec<Derivation> {
 /// # Errors
 /// As [`compile`].
 pub fn programs(mechanism: &Mechanism) -> Result<Vec<String>, Vec<String>> {
-    of_checked(mechanism, |of| emit::text(&of.program))
+    each_driver(mechanism, |of| emit::text(&of.program))
 }
 
 /// Returns the documents of a mechanism, one for each driver, and those of its scenes, with the formulas of functions as
@@ -243,7 +246,7 @@ pub fn programs(mechanism: &Mechanism) -> Result<Vec<String>, Vec<String>> {
 /// As [`compile`].
 pub fn documents(mechanism: &Mechanism) -> Result<(Vec<Document>, Vec<SceneDocument>), Vec<String>> {
     let (documents, scenes): (Vec<_>, Vec<_>) =
-        of_checked(mechanism, |of| emit::documents(&of.program, &of.derivation))?.into_iter().unzip();
+        each_driver(mechanism, |of| emit::documents(&of.program, &of.derivation))?.into_iter().unzip();
     Ok((documents.into_iter().flatten().collect(), scenes.into_iter().flatten().collect()))
 }
 
@@ -259,7 +262,7 @@ pub fn sheets(mechanism: &Mechanism) -> Result<Vec<SheetDocument>, Vec<String>> 
             None => Ok(document::of_sheet(mechanism, program.signatures.driver, &derivation)),
         }
     };
-    of_checked(mechanism, of_driver)?.into_iter().collect()
+    each_driver(mechanism, of_driver)?.into_iter().collect()
 }
 
 /// The largest rounding errors that the functions of one driver can have.
@@ -278,7 +281,7 @@ pub struct Bounds {
 /// # Errors
 /// As [`compile`].
 pub fn bounds(mechanism: &Mechanism) -> Result<Vec<Bounds>, Vec<String>> {
-    of_checked(mechanism, |Lowered { derivation, program }| {
+    each_driver(mechanism, |Lowered { derivation, program }| {
         let name = |symbol| derivation.graph.symbol_name(symbol).to_owned();
         let bounds = program.functions.iter().filter_map(|function| {
             let bound = function.body.as_ref()?.bound.clone()?;

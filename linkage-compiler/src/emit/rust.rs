@@ -375,7 +375,7 @@ pub(super) fn argument(name: &str, is_used: bool) -> Ident {
 }
 
 /// (count, parts) if the number is count * pi / parts with parts up to 180.
-pub(super) fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
+pub fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
     /// Fractions with larger counts are so close together that any number is near one.
     const MOST: f64 = 1e6;
     let Number::Float(value) = number else { return None };

@@ -230,7 +230,7 @@ impl Body {
         columns: usize,
     ) -> Expression {
         if rows == 0 {
-            return Expression::zeros(of);
+            return Expression::zeros(of, [rows, columns]);
         }
         if rows * columns <= LARGEST_DENSE || 2 * entries.len() >= rows * columns {
             let mut flat = vec![Expression::zero(); rows * columns];
@@ -240,7 +240,7 @@ impl Body {
             return Expression::made(of, Expression::listed(&flat, rows));
         }
         if entries.is_empty() {
-            return Expression::zeros(of);
+            return Expression::zeros(of, [rows, columns]);
         }
         let matrix = self.local("matrix");
         let Expression::Local(index) = matrix else { return matrix };

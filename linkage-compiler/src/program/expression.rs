@@ -330,13 +330,16 @@ impl Expression {
     }
 
     /// A matrix with its dimensions as types, from its entries column by column.
-    pub fn sized_matrix(entries: &[Self], rows: usize) -> Self {
-        if rows == 0 { Self::zeros("Matrix") } else { Self::made("Matrix", Self::listed(entries, rows)) }
+    pub fn sized_matrix(entries: &[Self], rows: usize, columns: usize) -> Self {
+        match rows {
+            0 => Self::zeros("Matrix", [rows, columns]),
+            _ => Self::made("Matrix", Self::listed(entries, rows)),
+        }
     }
 
-    /// The zero matrix of a type of the runtime.
-    pub fn zeros(of: &'static str) -> Self {
-        Self::of_type(Type::Runtime(of, Vec::new()), Intrinsic::Zeros, [])
+    /// The zero matrix of a type of the runtime, with these numbers of rows and columns.
+    pub fn zeros(of: &'static str, sizes: [usize; 2]) -> Self {
+        Self::of_type(Type::Runtime(of, sizes.to_vec()), Intrinsic::Zeros, [])
     }
 
     /// The columns, as lists of `rows` entries each.

@@ -21,7 +21,7 @@ use proc_macro2::TokenStream;
 pub use message::Message;
 
 use crate::budget::Budget;
-use crate::model::Mechanism;
+use crate::model::{Mechanism, Request};
 use crate::{Checked, Facade, Invocation, Lowered, syntax};
 use message::Places;
 use spans::Spans;
@@ -56,12 +56,24 @@ pub fn read(text: &str, budget: &Budget) -> Result<Vec<Mechanism>, Vec<Message>>
 ///
 /// # Errors
 /// The messages that the macro gives for this text, in the order of their places.
-pub fn compile<R>(
+pub fn compile<R>(text: &str, budget: &Budget, f: impl FnMut(Lowered) -> R) -> Result<Vec<Compiled<R>>, Vec<Message>> {
+    compile_with(text, budget, &[], f)
+}
+
+/// Compiles the mechanisms of a text as [`compile`], as if each had these `derive` statements besides its own.
+///
+/// # Errors
+/// Those of [`compile`].
+pub fn compile_with<R>(
     text: &str,
     budget: &Budget,
+    requests: &[Request],
     mut f: impl FnMut(Lowered) -> R,
 ) -> Result<Vec<Compiled<R>>, Vec<Message>> {
-    let compiled = within(text, budget, |checked| checked.drivers(&mut f))?;
+    let compiled = within(text, budget, |checked| {
+        checked.mechanism.requests.extend(requests);
+        checked.drivers(&mut f)
+    })?;
     Ok(compiled.into_iter().map(|(mechanism, drivers)| Compiled { mechanism, drivers }).collect())
 }
 

@@ -14,7 +14,7 @@ use proc_macro2::{TokenStream, TokenTree};
 const STACK: usize = 2048;
 
 /// The budget of each text.
-const STEPS: usize = 200_000;
+const STEPS: usize = 100_000;
 
 /// A shape of texts: its name, and the text of a size.
 type Shape = (&'static str, fn(usize) -> String);

@@ -150,9 +150,9 @@ impl ScenePlan<'_, '_, '_> {
         let body = self.with_rates(body);
         let (forces, ratios) = (v * v + v, v * v + v + u * v);
         let members = [
-            ("mass", Expression::sized_matrix(&results(0..v * v), v)),
+            ("mass", Expression::sized_matrix(&results(0..v * v), v, v)),
             ("forces", Expression::sized_vector(results(v * v..forces))),
-            ("ratios", Expression::sized_matrix(&results(forces..ratios), u)),
+            ("ratios", Expression::sized_matrix(&results(forces..ratios), u, v)),
             ("bias", Expression::sized_vector(results(ratios..count))),
         ];
         let body = Body { value: Value::Plain(structure("Equations", members)), ..body };
