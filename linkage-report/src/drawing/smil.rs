@@ -41,12 +41,6 @@ impl Animation {
         Ok((0..self.figure.frames.len()).map(frame))
     }
 
-    /// The time that all frames take, in seconds.
-    #[must_use]
-    pub fn duration(&self) -> f64 {
-        self.seconds
-    }
-
     fn check(&self) -> Result<(), DrawingError> {
         match self.seconds.is_finite() && self.seconds > 0.0 {
             true => Ok(()),
@@ -92,5 +86,45 @@ fn describe(animation: &Animation) -> String {
         "A linkage in motion".to_owned()
     } else {
         format!("A linkage in motion, with the path of {}", traces.join(" and of "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A crank and a spring at quarters of a turn.
+    fn film() -> Animation {
+        let mut film = Animation::new("A crank and a spring", 1.0);
+        for step in 0..=4 {
+            let [x, y] = [[3.0, 0.0], [0.0, 3.0], [-3.0, 0.0], [0.0, -3.0], [3.0, 0.0]][step];
+            film.frame([("A", [0.0, 0.0]), ("B", [x, y]), ("C", [6.0, 0.0])]);
+        }
+        film.ground("A").ground("C").crank(&["A", "B"]).spring("C", "B");
+        film
+    }
+
+    /// The transforms of the parts in a picture.
+    fn transforms(svg: &str) -> Vec<&str> {
+        svg.split("transform=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect()
+    }
+
+    #[test]
+    fn frames_are_at_rest_and_close_the_loop() {
+        let frames: Vec<String> = film().frames_to_svg().unwrap().collect();
+        assert_eq!(frames.len(), 5);
+        assert_eq!(frames[0].replacen("rotate(0)", "rotate(-360)", 1), frames[4]);
+        for (frame, turned) in frames.iter().zip([0, -90, -180, -270, -360]) {
+            assert!(!frame.contains("animate") && !frame.contains("var(") && frame.contains("</svg>"));
+            // The crank comes first; on the screen y points down.
+            assert!(transforms(frame)[0].ends_with(&format!("rotate({turned})")), "{:?}", transforms(frame));
+        }
+        // The spring is drawn along x from C to B, 3 long in the first frame and 9 in the middle.
+        let stretch = |frame: usize| {
+            transforms(&frames[frame]).iter().find_map(|of| of.split("scale(").nth(1)).map(str::to_owned)
+        };
+        assert_eq!([stretch(0), stretch(2)], [Some("1 1)".to_owned()), Some("3 1)".to_owned())]);
+        assert!(Animation::new("empty", 1.0).frames_to_svg().is_err());
+        assert!(film().seconds(0.0).frames_to_svg().is_err());
     }
 }
