@@ -1,0 +1,185 @@
+//! From a driver as the compiler lowered it to one that is run.
+
+use std::sync::Arc;
+
+use linkage_compiler::Lowered;
+use linkage_compiler::graph::Graph;
+use linkage_compiler::ids::{FunctionId, Table};
+use linkage_compiler::lower::Code;
+use linkage_compiler::model::{self, Kind};
+use linkage_compiler::program::{self, ConstantValue, Implemented, Program, SceneProgram, TypeNames};
+
+use crate::code::{Function, Name, Names};
+use crate::program::{
+    Coordinate, Driver, Implementation, Lanes, Parameter, Scene, SceneTypes, Side, Types, UserFunction,
+};
+use crate::translate::{Context, Untranslated};
+
+/// The driver with its scenes.
+pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
+    let Program { signatures, position, functions, implementations, scenes, .. } = &lowered.program;
+    let (mechanism, of, types) = (signatures.mechanism, signatures.driver, &signatures.types);
+    let mut names = Names::default();
+    let field = |name: &model::Name| name.field.clone();
+    let coordinates = mechanism.coordinate_order(of);
+    let named = |indices: &mut dyn Iterator<Item = &linkage_compiler::ids::CoordinateId>| -> Vec<String> {
+        indices.map(|&index| field(&mechanism.coordinates[index].name)).collect()
+    };
+    let implementation = |of: Implemented, on: &str| {
+        implementations.iter().find(move |one| one.of == of && one.on == on).map(|one| one.functions.as_slice())
+    };
+    let of_pose = implementation(Implemented::Itself, &types.pose).unwrap_or_default();
+    let of_branch = implementation(Implemented::Itself, &types.branch).unwrap_or_default();
+    let listed = places(functions);
+    let context = Context {
+        types,
+        points: mechanism.points.iter().map(|point| field(&point.name)).collect(),
+        outputs: mechanism.outputs.iter().map(|output| field(&output.name)).collect(),
+        own: listed.clone(),
+        of_driver: listed,
+        of_pose: of_pose.iter().map(|function| function.name.clone()).collect(),
+        of_branch: of_branch.iter().map(|function| function.name.clone()).collect(),
+        users: mechanism.externals.iter().enumerate().map(|(place, external)| (external.id, place)).collect(),
+    };
+    let traits = implementations.iter().filter(|one| one.of != Implemented::Itself);
+    let traits = traits.map(|one| implemented(one, &context, &mut names)).collect::<Result<_, _>>()?;
+    let all = |functions: &[program::Function<Code>], names: &mut Names| -> Result<Vec<Function>, Untranslated> {
+        functions.iter().map(|function| context.function(function, names)).collect()
+    };
+    let (of_pose, of_branch) = (all(of_pose, &mut names)?, all(of_branch, &mut names)?);
+    let own = listed_functions(functions, &context, &mut names)?;
+    let scenes = scenes.iter().map(|one| scene(one, &context, &mut names)).collect::<Result<_, _>>()?;
+    let mut numbers = |texts: Vec<String>| texts.iter().map(|text| names.of(text)).collect::<Vec<Name>>();
+    let fields = coordinates.iter().map(|&index| &mechanism.coordinates[index]);
+    let (points, outputs) = (context.points.clone(), context.outputs.clone());
+    Ok(Driver {
+        mechanism: mechanism.name.to_string(),
+        name: of.name.to_string().into(),
+        parameters: numbers(mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect()),
+        about_parameters: mechanism.parameters.iter().map(|of| parameter(&mechanism.graph, of)).collect(),
+        about_coordinates: fields
+            .map(|of| Coordinate { text: of.name.text.clone(), is_angle: of.kind == Kind::Angle })
+            .collect(),
+        input_texts: of.inputs.iter().map(|&id| mechanism.coordinates[id].name.text.as_str().into()).collect(),
+        input_angles: of.inputs.iter().map(|&id| mechanism.coordinates[id].kind == Kind::Angle).collect(),
+        coordinates: numbers(named(&mut coordinates.iter())),
+        unknowns: numbers(named(&mut of.unknowns.iter())),
+        inputs: numbers(named(&mut of.inputs.iter())),
+        points: numbers(points),
+        outputs: numbers(outputs),
+        turns: numbers(position.turns.iter().map(|turn| turn.field.clone()).collect()),
+        sides: position
+            .sides
+            .iter()
+            .map(|side| Side {
+                field: names.of(&side.field),
+                solutions: side.choice.variants().map(Arc::from),
+                meaning: side.meaning.clone(),
+            })
+            .collect(),
+        modes: position.modes.iter().map(|modes| (names.of(&modes.field), modes.most)).collect(),
+        users: mechanism
+            .externals
+            .iter()
+            .map(|external| UserFunction {
+                names: external.names.iter().map(|name| name.text.clone()).collect(),
+                arguments: external.arguments.len(),
+            })
+            .collect(),
+        types: type_names(types, &mut names),
+        functions: own,
+        of_pose,
+        of_branch,
+        traits,
+        scenes,
+        lanes: lanes(implementations),
+        names,
+    })
+}
+
+fn type_names(types: &TypeNames, names: &mut Names) -> Types {
+    Types {
+        mechanism: names.of(&types.driver),
+        inputs: names.of(&types.inputs),
+        coordinates: names.of(&types.coordinates),
+        points: names.of(&types.points),
+        outputs: names.of(&types.outputs),
+        branch: names.of(&types.branch),
+        point_motion: names.of("PointMotion"),
+        output_motion: names.of("OutputMotion"),
+        assembled: names.of("Assembled"),
+    }
+}
+
+fn parameter(graph: &Graph, of: &model::Parameter) -> Parameter {
+    let default = of.default.and_then(|node| {
+        graph.as_number(node).map(linkage_compiler::graph::Number::to_f64).or_else(|| graph.constant_value(node))
+    });
+    Parameter { text: of.name.text.clone(), default }
+}
+
+/// The columns of many positions.
+fn lanes(implementations: &[program::Implementation<Code>]) -> Lanes {
+    let mut lanes = Lanes::default();
+    let of = implementations.iter().filter(|one| one.of == Implemented::Lanes);
+    for (name, value) in of.flat_map(|one| &one.constants) {
+        match (*name, value) {
+            ("GIVEN", ConstantValue::Texts(names)) => lanes.given.clone_from(names),
+            ("FOUND", ConstantValue::Texts(names)) => lanes.found.clone_from(names),
+            ("START", ConstantValue::Count(count)) => lanes.start = *count,
+            ("COORDINATES", ConstantValue::Count(count)) => lanes.coordinates = *count,
+            _ => {}
+        }
+    }
+    lanes
+}
+
+/// The places of the functions that are emitted, by their ids.
+fn places(functions: &program::Functions<Code>) -> Vec<Option<usize>> {
+    let by_id: &Table<FunctionId, program::Function<Code>> = functions.by_id();
+    let place = |of: &program::Function<Code>| functions.iter().position(|other| std::ptr::eq(of, other));
+    by_id.iter().map(place).collect()
+}
+
+fn listed_functions(
+    functions: &program::Functions<Code>,
+    context: &Context,
+    names: &mut Names,
+) -> Result<Vec<Function>, Untranslated> {
+    functions.iter().map(|function| context.function(function, names)).collect()
+}
+
+fn implemented(
+    of: &program::Implementation<Code>,
+    context: &Context,
+    names: &mut Names,
+) -> Result<Implementation, Untranslated> {
+    let functions = of.functions.iter().map(|function| context.function(function, names));
+    let of = of.of.name().unwrap_or_default().to_owned();
+    Ok(Implementation { of, functions: functions.collect::<Result<_, _>>()? })
+}
+
+fn scene(of: &SceneProgram<Code>, driver: &Context, names: &mut Names) -> Result<Scene, Untranslated> {
+    let SceneProgram { signatures, functions, implementation } = of;
+    let context = Context {
+        types: &signatures.types,
+        points: driver.points.clone(),
+        outputs: driver.outputs.clone(),
+        own: places(functions),
+        of_driver: driver.of_driver.clone(),
+        of_pose: driver.of_pose.clone(),
+        of_branch: driver.of_branch.clone(),
+        users: driver.users.clone(),
+    };
+    let parameters = signatures.scene.parameters.iter().map(|&id| &signatures.mechanism.scene_parameters[id]);
+    let parameters: Vec<&model::Parameter> = parameters.collect();
+    Ok(Scene {
+        name: signatures.scene.name.to_string().into(),
+        types: SceneTypes { scene: names.of(&signatures.types.itself), state: names.of("StateParts") },
+        field: names.of(&signatures.field),
+        parameters: parameters.iter().map(|parameter| names.of(&parameter.name.field)).collect(),
+        about_parameters: parameters.iter().map(|of| parameter(&signatures.mechanism.graph, of)).collect(),
+        functions: listed_functions(functions, &context, names)?,
+        implementation: implementation.as_ref().map(|one| implemented(one, &context, names)).transpose()?,
+    })
+}

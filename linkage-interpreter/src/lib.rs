@@ -1,0 +1,116 @@
+//! Planar linkages at run time: the language of `linkage!` as text, and mechanisms with the bits of the emitted code.
+//!
+//! [`Program::compile`] takes a text, the inside of `linkage! { … }`, and returns its mechanisms, or the macro's own messages
+//! with their places. A [`Mechanism`] with values of its parameters is a [`Design`]: it calls every function that the macro
+//! emits by its name, with values by name, and computes many positions at once from columns. The scenes of a mechanism are
+//! [`SceneDesign`]s.
+//!
+//! ```
+//! use linkage_interpreter::{Data, Program};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let text = "
+//!     mechanism FourBar {
+//!         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
+//!         input theta2;
+//!         unknown theta3, theta4;
+//!         loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+//!         point C = l2@theta2 + l3@theta3;
+//!     }
+//! ";
+//! let program = Program::compile(text).map_err(|messages| messages[0].clone())?;
+//! let design = program.mechanism("FourBar")?.design().with("l2", 25.0)?;
+//! let branch = Data::fields([("theta3_theta4", "left".into())]);
+//! let pose = design.call("assemble", &[1.0.into(), branch])?;
+//! let points = design.call("points", &[pose])?;
+//! assert!(points.get("c.x").and_then(Data::number).is_some());
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Numbers have the bits of the emitted code, since the functions of the runtime that it calls are called here: a compiled
+//! function is read expression by expression, in the order of emitted code. Columns are computed in blocks, as `derive lanes`
+//! does, which hides the cost of reading.
+//!
+//! A [`Program`] is written and read by serde, so that a mechanism runs without its text; without the feature `compiler` it
+//! runs without the compiler.
+//!
+//! # Not there
+//!
+//! Algorithms over a mechanism as a whole have its sizes in their types, and are there for emitted mechanisms only:
+//! [`WITHOUT`] names the functions that call one.
+
+mod code;
+mod columns;
+#[cfg(feature = "compiler")]
+mod compile;
+mod convert;
+mod data;
+mod error;
+mod machine;
+mod mechanism;
+mod program;
+mod tape;
+#[cfg(feature = "compiler")]
+mod translate;
+mod written;
+
+pub use code::{Argument, Record, Shape};
+pub use columns::{Columns, Rejected, Values};
+pub use data::Data;
+pub use error::{CallError, Error, Mistake};
+#[cfg(feature = "compiler")]
+pub use linkage_compiler::text::Message;
+pub use machine::{Defect, WITHOUT};
+pub use mechanism::{Design, Mechanism, SceneDesign};
+
+/// The mechanisms of a text. One with several choices of inputs is several.
+#[derive(Debug, Clone)]
+pub struct Program {
+    mechanisms: Vec<Mechanism>,
+}
+
+impl Program {
+    fn of(mechanisms: Vec<Mechanism>) -> Self {
+        Self { mechanisms }
+    }
+
+    /// Compiles the mechanisms of a text, which may be that of a stranger: its size, the work and the memory are bounded.
+    ///
+    /// Spans of `proc-macro2` that were made earlier on this thread have no places any more.
+    ///
+    /// # Errors
+    /// The messages that the macro gives for this text, in the order of their places.
+    #[cfg(feature = "compiler")]
+    pub fn compile(text: &str) -> Result<Self, Vec<Message>> {
+        use linkage_compiler::{budget::Budget, model::Request, text};
+
+        let requests = [Request::Lanes];
+        let compiled = text::compile_with(text, &Budget::default(), &requests, |lowered| compile::driver(&lowered))?;
+        let drivers = compiled.into_iter().flat_map(|compiled| compiled.drivers);
+        let mechanisms = drivers.map(|driver| match driver {
+            // As when it is read: what is compiled can be written and read again.
+            Ok(driver) => match written::checked(&driver) {
+                Ok(()) => Ok(Mechanism::new(driver.into())),
+                Err(what) => Err(vec![translate::without_place(format!("`{}` cannot be run: {what}", driver.name))]),
+            },
+            Err(untranslated) => Err(vec![translate::without_place(untranslated.to_string())]),
+        });
+        mechanisms.collect::<Result<_, _>>().map(Self::of)
+    }
+
+    /// The mechanisms, in their order.
+    #[must_use]
+    pub fn mechanisms(&self) -> &[Mechanism] {
+        &self.mechanisms
+    }
+
+    /// The mechanism or the choice of inputs with this name.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn mechanism(&self, name: &str) -> Result<&Mechanism, Mistake> {
+        let found = self.mechanisms.iter().find(|mechanism| mechanism.name() == name);
+        found.ok_or_else(|| Mistake::unknown(name, self.mechanisms.iter().map(Mechanism::name)))
+    }
+}

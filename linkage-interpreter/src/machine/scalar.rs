@@ -1,0 +1,120 @@
+//! The numbers that formulas are computed in: doubles, twice the precision, and lanes of doubles.
+
+use linkage_runtime::__rt::{Wide, real};
+use linkage_runtime::Real;
+
+use super::failure::Defect;
+use super::value::Value;
+use crate::code::{Constant, Elementary};
+
+/// A number of formulas.
+pub(crate) trait Scalar: Clone {
+    /// The number that a value is.
+    fn of(value: &Value) -> Option<Self>;
+    fn into_value(self) -> Value;
+    fn constant(constant: Constant) -> Self;
+    fn plus(self, other: &Self) -> Self;
+    fn minus(self, other: &Self) -> Self;
+    fn times(self, other: &Self) -> Self;
+    fn over(self, other: &Self) -> Self;
+    fn negative(self) -> Self;
+    /// An elementary function.
+    fn call(function: Elementary, arguments: &[Self]) -> Result<Self, Defect>;
+}
+
+/// One number, for which the functions of the runtime are generic.
+pub(crate) trait Single: Scalar + Real {}
+
+impl Single for f64 {}
+impl Single for Wide {}
+
+/// The constant as emitted code writes it, over any scalar.
+fn constant<T: Real>(constant: Constant) -> T {
+    match constant {
+        Constant::Double(value) => real(value),
+        Constant::Turn(count, parts) => {
+            let turned = if count == 1.0 { T::pi() } else { T::pi() * real(count) };
+            if parts == 1.0 { turned } else { turned / real(parts) }
+        }
+    }
+}
+
+/// An elementary function as emitted code calls it.
+fn elementary<T: Real>(function: Elementary, arguments: &[T]) -> Result<T, Defect> {
+    Ok(match (function, arguments) {
+        (Elementary::Sin, &[x]) => x.sine(),
+        (Elementary::Cos, &[x]) => x.cosine(),
+        (Elementary::Tan, &[x]) => x.tan(),
+        (Elementary::Asin, &[x]) => x.asin(),
+        (Elementary::Acos, &[x]) => x.acos(),
+        (Elementary::Atan, &[x]) => x.atan(),
+        (Elementary::Atan2, &[y, x]) => y.arctangent2(x),
+        (Elementary::Sqrt, &[x]) => x.sqrt(),
+        (Elementary::Abs, &[x]) => x.abs(),
+        (Elementary::Exp, &[x]) => x.exp(),
+        (Elementary::Ln, &[x]) => x.ln(),
+        (Elementary::Hypot, &[x, y]) => x.hypotenuse(y),
+        (Elementary::IfNonzero, &[a, value, limit]) => a.if_nonzero(value, limit),
+        _ => return Err(Defect::new(format!("{function:?} of {} numbers", arguments.len()))),
+    })
+}
+
+macro_rules! single {
+    ($($T:ty: $($variant:ident),+;)*) => {$(
+        impl Scalar for $T {
+            #[inline]
+            fn of(value: &Value) -> Option<Self> {
+                match value {
+                    $(Value::$variant(number) => Some((*number).into()),)+
+                    _ => None,
+                }
+            }
+
+            #[inline]
+            fn into_value(self) -> Value {
+                self.into()
+            }
+
+            #[inline]
+            fn constant(of: Constant) -> Self {
+                constant(of)
+            }
+
+            #[inline]
+            fn plus(self, other: &Self) -> Self {
+                self + *other
+            }
+
+            #[inline]
+            fn minus(self, other: &Self) -> Self {
+                self - *other
+            }
+
+            #[inline]
+            fn times(self, other: &Self) -> Self {
+                self * *other
+            }
+
+            #[inline]
+            fn over(self, other: &Self) -> Self {
+                self / *other
+            }
+
+            #[inline]
+            fn negative(self) -> Self {
+                -self
+            }
+
+            #[inline]
+            fn call(function: Elementary, arguments: &[Self]) -> Result<Self, Defect> {
+                elementary(function, arguments)
+            }
+        }
+    )*};
+}
+
+single! {
+    f64: Number;
+    // A double is exact in twice the precision.
+    Wide: Wide, Number;
+}

@@ -1,0 +1,637 @@
+//! From the compiler's lowered functions to those that are run: names become numbers, types are resolved.
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Display, Formatter};
+
+use linkage_compiler::graph::{self, Number};
+use linkage_compiler::ids::Id as _;
+use linkage_compiler::lower::{self, Code, Returned as Lowered, ValueId};
+use linkage_compiler::program::{self, Constant as Path, Intrinsic, Passed, Receiver, Type as TypeOf, TypeNames};
+use linkage_compiler::text::Message;
+
+use crate::code::{
+    Access, Argument, Block, Constant, Elementary, Expression, Function, Id, Name, Names, Operation, Pattern, Place,
+    Record, Returned, Shape, Slot, Statement, Type,
+};
+
+/// The things that the functions of a driver or a scene refer to.
+pub(crate) struct Context<'c> {
+    pub(crate) types: &'c TypeNames,
+    pub(crate) points: Vec<String>,
+    pub(crate) outputs: Vec<String>,
+    /// The functions of the type itself, by id: their places.
+    pub(crate) own: Vec<Option<usize>>,
+    /// Those of the driver.
+    pub(crate) of_driver: Vec<Option<usize>>,
+    /// The functions of poses and branches by name: their places.
+    pub(crate) of_pose: Vec<String>,
+    pub(crate) of_branch: Vec<String>,
+    /// The user functions by id: their places.
+    pub(crate) users: BTreeMap<graph::ExternalId, usize>,
+}
+
+/// Something in lowered code that has no meaning for the interpreter: a mistake of the compiler.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Untranslated {
+    pub(crate) function: String,
+    pub(crate) what: String,
+}
+
+impl Display for Untranslated {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { function, what } = self;
+        write!(f, "the code of `{function}` has {what}, which is not run: this is a mistake of the compiler")
+    }
+}
+
+/// A message about a text as a whole.
+pub(crate) fn without_place(text: String) -> Message {
+    Message { line: 1, column: 1, length: 0, text, help: None }
+}
+
+impl Context<'_> {
+    /// Translates a function with a body.
+    pub(crate) fn function(&self, of: &program::Function<Code>, names: &mut Names) -> Result<Function, Untranslated> {
+        let untranslated = |what: String| Untranslated { function: of.name.clone(), what };
+        let code = of.body.as_ref().ok_or_else(|| untranslated("no body".to_owned()))?;
+        let mut translator = Translator {
+            context: self,
+            code,
+            names,
+            slots: BTreeMap::new(),
+            // `self` and the arguments have the first slots.
+            next: 1 + of.arguments.len() as u32,
+            done: BTreeMap::new(),
+            expressions: Vec::new(),
+        };
+        let body = translator.body().map_err(untranslated)?;
+        let (slots, expressions) = (translator.next, translator.expressions);
+        let (statements, value) = body;
+        let arguments = of.arguments.iter().map(|argument| Argument {
+            name: argument.name.clone(),
+            shape: match &argument.passed {
+                Passed::ByValue(of)
+                | Passed::ByReference(of)
+                | Passed::ByMutableReference(of)
+                | Passed::Converted(of) => self.shape(of),
+                Passed::Turns => Shape::Other("turns".to_owned()),
+            },
+        });
+        Ok(Function {
+            name: of.name.clone(),
+            access: match of.access {
+                access if access.is_public() => Access::Public,
+                program::Access::OfTrait => Access::OfTrait,
+                _ => Access::Private,
+            },
+            is_method: of.is_method,
+            is_fallible: of.is_fallible,
+            arguments: arguments.collect(),
+            returns: self.shape(&of.returns),
+            slots,
+            expressions,
+            statements,
+            value,
+        })
+    }
+
+    /// The form of the values of a type.
+    fn shape(&self, of: &TypeOf) -> Shape {
+        let boxed = |of: &TypeOf| Box::new(self.shape(of));
+        match of {
+            TypeOf::Scalar | TypeOf::Lanes => Shape::Number,
+            TypeOf::Text => Shape::Text,
+            TypeOf::Flag => Shape::Flag,
+            TypeOf::Count => Shape::Count,
+            TypeOf::Itself => Shape::Record(Record::Branch),
+            TypeOf::OfTrait(name) => self.of_trait(name),
+            TypeOf::Own(name) | TypeOf::Wide(name) | TypeOf::Bare(name) => {
+                self.record(name).map_or_else(|| Shape::Other(name.clone()), Shape::Record)
+            }
+            TypeOf::Each(name, of) => {
+                let names = if *name == self.types.points { &self.points } else { &self.outputs };
+                Shape::Each(names.clone(), boxed(of))
+            }
+            TypeOf::Column(of, count) => Shape::List(boxed(of), *count),
+            TypeOf::Vector(count) => Shape::Vector(*count),
+            TypeOf::Matrix(rows, columns) => Shape::Matrix(*rows, *columns),
+            TypeOf::Sized("Matrix", sizes) => match sizes.as_slice() {
+                &[rows, columns] => Shape::Matrix(rows, columns),
+                _ => Shape::Other("Matrix".to_owned()),
+            },
+            TypeOf::Point => Shape::Point,
+            TypeOf::Plane => Shape::Vector(2),
+            TypeOf::Runtime(name, _) | TypeOf::Sized(name, _) => Shape::Other((*name).to_owned()),
+            TypeOf::Around("Option", of) => Shape::Perhaps(boxed(of)),
+            TypeOf::Around(name, _) => Shape::Other((*name).to_owned()),
+            TypeOf::List(of, count) => Shape::List(boxed(of), *count),
+            TypeOf::Tuple(all) => Shape::Tuple(all.iter().map(|of| self.shape(of)).collect()),
+            TypeOf::ReducedMotion { .. } => Shape::Other("ReducedMotion".to_owned()),
+            TypeOf::StateRates { .. } => Shape::Other("StateRates".to_owned()),
+            TypeOf::Branches { .. } => Shape::Many(Box::new(Shape::Other("Assembled".to_owned()))),
+            TypeOf::Iterator { item, .. } => Shape::Many(boxed(item)),
+        }
+    }
+
+    fn of_trait(&self, name: &str) -> Shape {
+        match name {
+            "Pose" => Shape::Record(Record::Pose),
+            "Branch" => Shape::Record(Record::Branch),
+            "Inputs" => Shape::Record(Record::Inputs),
+            "Coordinates" => Shape::Record(Record::Coordinates),
+            "Rates" => Shape::Record(Record::Rates),
+            "Accelerations" => Shape::Record(Record::Accelerations),
+            other => Shape::Other(other.to_owned()),
+        }
+    }
+
+    fn record(&self, name: &str) -> Option<Record> {
+        let types = self.types;
+        let all = [
+            (&types.driver, Record::Mechanism),
+            (&types.itself, Record::Scene),
+            (&types.inputs, Record::Inputs),
+            (&types.pose, Record::Pose),
+            (&types.branch, Record::Branch),
+            (&types.coordinates, Record::Coordinates),
+            (&types.rates, Record::Rates),
+            (&types.accelerations, Record::Accelerations),
+            (&types.jerks, Record::Jerks),
+            (&types.motion, Record::Motion),
+            (&types.kinematics, Record::Kinematics),
+            (&types.full_kinematics, Record::FullKinematics),
+        ];
+        all.into_iter().find(|(other, _)| *other == name).map(|(_, record)| record)
+    }
+}
+
+/// The translation of one function.
+struct Translator<'t> {
+    context: &'t Context<'t>,
+    code: &'t Code,
+    names: &'t mut Names,
+    /// The slots of values that statements bind.
+    slots: BTreeMap<ValueId, Slot>,
+    next: u32,
+    /// The expressions of values that are computed where they are used.
+    done: BTreeMap<ValueId, Id>,
+    expressions: Vec<Expression>,
+}
+
+type Translated<T> = Result<T, String>;
+
+impl Translator<'_> {
+    fn body(&mut self) -> Translated<(Vec<Statement>, Returned)> {
+        let stored = match self.code.value {
+            Lowered::Stored { result, .. } => Some(result),
+            _ => None,
+        };
+        let statements = self.code.statements.iter().filter(|statement| !is_store(self.code, statement, stored));
+        let statements = statements.map(|statement| self.statement(statement)).collect::<Translated<Vec<_>>>()?;
+        let value = self.value(self.code.value.literal())?;
+        let value = match self.code.value {
+            Lowered::Result(_) => Returned::Outcome(value),
+            Lowered::Plain(_) | Lowered::Stored { .. } => Returned::Plain(value),
+        };
+        Ok((statements, value))
+    }
+
+    fn statements(&mut self, all: &[lower::Statement]) -> Translated<Vec<Statement>> {
+        all.iter().map(|statement| self.statement(statement)).collect()
+    }
+
+    fn statement(&mut self, statement: &lower::Statement) -> Translated<Statement> {
+        Ok(match statement {
+            lower::Statement::Let(pattern, value) => {
+                let value = match pattern {
+                    // The pattern gives the value its name.
+                    lower::Pattern::Bound(bound) if bound == value => self.computed(*value)?,
+                    _ => self.value(*value)?,
+                };
+                Statement::Let(self.pattern(pattern), value)
+            }
+            lower::Statement::Do(value) => Statement::Do(self.value(*value)?),
+            lower::Statement::Assign(to, value) => Statement::Assign(self.place(*to)?, self.value(*value)?),
+            lower::Statement::Return(value) => Statement::Return(self.value(*value)?),
+            lower::Statement::LetElse(pattern, value, otherwise) => {
+                let (value, otherwise) = (self.value(*value)?, self.value(*otherwise)?);
+                Statement::LetElse(self.pattern(pattern), value, otherwise)
+            }
+            lower::Statement::Unless(conditions, inside) => {
+                Statement::Unless(self.values(conditions)?, self.statements(inside)?)
+            }
+        })
+    }
+
+    /// A part of a bound value that is replaced.
+    fn place(&mut self, id: ValueId) -> Translated<Place> {
+        if self.code.name(id).is_some() {
+            return Ok(Place { of: self.slot(id), at: Vec::new() });
+        }
+        let (of, at) = match self.code.operation(id) {
+            lower::Value::Index(of, index) => (*of, self.add(Expression::Count(*index))),
+            lower::Value::At(of, index) => (*of, self.value(*index)?),
+            other => return Err(format!("a place {other:?}")),
+        };
+        let mut place = self.place(of)?;
+        place.at.push(at);
+        Ok(place)
+    }
+
+    fn pattern(&mut self, pattern: &lower::Pattern) -> Pattern {
+        match pattern {
+            lower::Pattern::Bound(bound) | lower::Pattern::Mutable(bound) | lower::Pattern::Typed(bound, _) => {
+                Pattern::Bound(self.slot(*bound))
+            }
+            lower::Pattern::Case(_, inside) => Pattern::Present(Box::new(self.pattern(inside))),
+            lower::Pattern::Ignored => Pattern::Ignored,
+            lower::Pattern::List(all) | lower::Pattern::Tuple(all) => {
+                Pattern::List(all.iter().map(|pattern| self.pattern(pattern)).collect())
+            }
+            lower::Pattern::Struct { fields, .. } => {
+                let fields = fields.iter().map(|(name, pattern)| (self.names.of(name), self.pattern(pattern)));
+                Pattern::Record(fields.collect())
+            }
+        }
+    }
+
+    /// The slot of a value with a name: an argument, or what a statement binds.
+    fn slot(&mut self, id: ValueId) -> Slot {
+        match self.code.operation(id) {
+            lower::Value::Itself => Slot(0),
+            lower::Value::Argument(index) => Slot(1 + *index as u32),
+            _ => *self.slots.entry(id).or_insert_with(|| {
+                self.next += 1;
+                Slot(self.next - 1)
+            }),
+        }
+    }
+
+    fn add(&mut self, expression: Expression) -> Id {
+        self.expressions.push(expression);
+        Id(self.expressions.len() as u32 - 1)
+    }
+
+    fn values(&mut self, ids: &[ValueId]) -> Translated<Vec<Id>> {
+        ids.iter().map(|id| self.value(*id)).collect()
+    }
+
+    /// A value by its slot, or computed where it is used.
+    fn value(&mut self, id: ValueId) -> Translated<Id> {
+        if self.code.name(id).is_some() {
+            let slot = self.slot(id);
+            return Ok(self.add(Expression::Slot(slot)));
+        }
+        self.computed(id)
+    }
+
+    /// The operation of a value.
+    fn computed(&mut self, id: ValueId) -> Translated<Id> {
+        if let Some(done) = self.done.get(&id) {
+            return Ok(*done);
+        }
+        let done = self.operation(id)?;
+        self.done.insert(id, done);
+        Ok(done)
+    }
+
+    fn operation(&mut self, id: ValueId) -> Translated<Id> {
+        let code = self.code;
+        let expression = match code.operation(id) {
+            lower::Value::Constant(number) => Expression::Number(constant(*number)),
+            lower::Value::Sum(terms) => {
+                let terms = terms.iter().map(|term| Ok((term.negative, self.value(term.value)?)));
+                Expression::Sum(terms.collect::<Translated<_>>()?)
+            }
+            lower::Value::Product(factors) => Expression::Product(self.values(factors)?),
+            lower::Value::Quotient(above, below) => Expression::Quotient(self.value(*above)?, self.value(*below)?),
+            lower::Value::Square(base) => Expression::Square(self.value(*base)?),
+            lower::Value::Negative(inside) => Expression::Negative(self.value(*inside)?),
+            lower::Value::Call(function, arguments) => {
+                let arguments = arguments.iter().map(|argument| {
+                    let value = self.value(argument.value)?;
+                    Ok(if argument.negative { self.add(Expression::Negative(value)) } else { value })
+                });
+                let arguments = arguments.collect::<Translated<_>>()?;
+                Expression::Call(elementary(*function), arguments)
+            }
+            lower::Value::All(conditions) => Expression::All(self.values(conditions)?),
+            lower::Value::Text(text) => Expression::Text(text.as_str().into()),
+            lower::Value::Count(count) => Expression::Count(*count),
+            lower::Value::Path(path) => self.path(*path),
+            lower::Value::Field(of, name) => match (code.operation(*of), name.as_str()) {
+                // The columns of a matrix, `matrix.data.0`.
+                (lower::Value::Field(matrix, data), "0") if data == "data" => return self.value(*matrix),
+                _ => {
+                    let of = self.value(*of)?;
+                    match name.parse() {
+                        // An entry of a tuple.
+                        Ok(index) => Expression::Index(of, index),
+                        Err(_) => Expression::Field(of, self.names.of(name)),
+                    }
+                }
+            },
+            lower::Value::Index(of, index) => Expression::Index(self.value(*of)?, *index),
+            lower::Value::At(of, index) => Expression::At(self.value(*of)?, self.value(*index)?),
+            lower::Value::List(values) | lower::Value::Tuple(values) => Expression::List(self.values(values)?),
+            lower::Value::Repeated(value, count) => Expression::Repeated(self.value(*value)?, *count),
+            lower::Value::Struct(of, members, rest) => {
+                let mut fields = Vec::with_capacity(members.len());
+                for (name, value) in members {
+                    if !self.is_mark(*value) {
+                        fields.push((self.names.of(name), self.value(*value)?));
+                    }
+                }
+                let rest = rest.map(|rest| self.value(rest)).transpose()?;
+                Expression::Record(self.type_name(of), fields, rest)
+            }
+            lower::Value::Intrinsic(of, of_type, arguments) => {
+                return self.intrinsic(*of, of_type.as_ref(), arguments);
+            }
+            // A function as an argument: what takes it knows it.
+            lower::Value::Function(..) => Expression::Absent,
+            lower::Value::Own(receiver, function, arguments) => {
+                let arguments = self.values(arguments)?;
+                let place = |all: &[Option<usize>]| {
+                    all.get(function.index()).copied().flatten().ok_or_else(|| format!("a call of {function:?}"))
+                };
+                match receiver {
+                    Receiver::Itself | Receiver::ItsType => Expression::Own(place(&self.context.own)?, arguments),
+                    Receiver::Value(of) => {
+                        let of = self.value(*of)?;
+                        Expression::OfMechanism(Some(of), place(&self.context.of_driver)?, arguments)
+                    }
+                    Receiver::Type(_) => Expression::OfMechanism(None, place(&self.context.of_driver)?, arguments),
+                }
+            }
+            lower::Value::UserFunction(function, arguments) => {
+                let place = self.context.users.get(function);
+                let place = *place.ok_or_else(|| format!("a call of {function:?}"))?;
+                Expression::User(place, self.values(arguments)?)
+            }
+            lower::Value::Try(value) => Expression::Try(self.value(*value)?),
+            // Values have no places but those of `Assign`.
+            lower::Value::Borrowed(of) | lower::Value::MutablyBorrowed(of) | lower::Value::Dereferenced(of) => {
+                return self.value(*of);
+            }
+            lower::Value::Closure { arguments, body, .. } => {
+                let arguments = arguments.iter().map(|argument| self.pattern(argument)).collect();
+                Expression::Closure(arguments, self.block(body)?)
+            }
+            lower::Value::Block(block) => Expression::Block(self.block(block)?),
+            other @ (lower::Value::Symbol(_)
+            | lower::Value::Direction(..)
+            | lower::Value::Bound
+            | lower::Value::Itself
+            | lower::Value::Argument(_)
+            | lower::Value::Exact(_)
+            | lower::Value::External(..)) => return Err(format!("{other:?}")),
+        };
+        Ok(self.add(expression))
+    }
+
+    fn block(&mut self, block: &lower::Block) -> Translated<Block> {
+        Ok(Block { statements: self.statements(&block.statements)?, value: self.value(block.value)? })
+    }
+
+    /// True for the mark that stands for the scalar of a type without numbers.
+    fn is_mark(&self, id: ValueId) -> bool {
+        matches!(self.code.operation(id), lower::Value::Path(Path::Mark))
+    }
+
+    fn type_name(&mut self, of: &TypeOf) -> Name {
+        let context = self.context;
+        let text = match of {
+            TypeOf::Own(name) | TypeOf::Wide(name) | TypeOf::Bare(name) | TypeOf::Each(name, _) => name.as_str(),
+            TypeOf::Runtime(name, _) | TypeOf::Sized(name, _) | TypeOf::Around(name, _) => name,
+            // Of the functions of other types only that of a branch makes values of its own type.
+            TypeOf::Itself => context.types.branch.as_str(),
+            _ => "",
+        };
+        self.names.of(text)
+    }
+
+    fn path(&mut self, of: Path) -> Expression {
+        match of {
+            Path::Name => Expression::OwnName,
+            Path::None | Path::Mark => Expression::Absent,
+            Path::Angle => Expression::Operation(Operation::UnknownAngle, Vec::new()),
+            Path::SearchTurn => Expression::Operation(Operation::SearchTurn, Vec::new()),
+            Path::NoSearch => Expression::Operation(Operation::NoSearch, Vec::new()),
+            Path::OfGuess => Expression::Operation(Operation::ModeOfGuess, Vec::new()),
+            Path::False => Expression::Flag(false),
+            Path::Quantities => Expression::Quantities,
+        }
+    }
+
+    fn intrinsic(&mut self, of: Intrinsic, of_type: Option<&TypeOf>, arguments: &[ValueId]) -> Translated<Id> {
+        let to_points = |arguments: &[ValueId]| {
+            let word = arguments.get(1).map(|id| self.code.operation(*id));
+            matches!(word, Some(lower::Value::Text(text)) if text.starts_with("point"))
+        };
+        let operation = match of {
+            // The value itself.
+            Intrinsic::Into | Intrinsic::Iter | Intrinsic::Copied | Intrinsic::EachSized => {
+                return self.value(arguments[0]);
+            }
+            Intrinsic::From => match of_type {
+                Some(TypeOf::Bare(name)) if *name == self.context.types.inputs => Operation::InputsOf,
+                Some(TypeOf::Bare(name)) if *name == self.context.types.driver => Operation::MechanismOf,
+                Some(TypeOf::List(..)) => Operation::Listed,
+                Some(TypeOf::Runtime("SMatrix" | "Matrix", _) | TypeOf::Sized("Matrix", _)) => Operation::Matrix,
+                Some(TypeOf::Runtime(..) | TypeOf::Sized(..) | TypeOf::Tuple(_) | TypeOf::Column(..)) => {
+                    return self.value(arguments[0]);
+                }
+                other => return Err(format!("from of {other:?}")),
+            },
+            Intrinsic::Zeros => {
+                let (rows, columns) = match of_type {
+                    Some(TypeOf::Runtime(_, sizes)) if sizes.len() == 2 => (sizes[0], sizes[1]),
+                    other => return Err(format!("zeros of {other:?}")),
+                };
+                let zero = self.add(Expression::Number(Constant::Double(0.0)));
+                let column = self.add(Expression::Repeated(zero, rows));
+                let all = self.add(Expression::Repeated(column, columns));
+                return Ok(self.add(Expression::Operation(Operation::Matrix, vec![all])));
+            }
+            Intrinsic::OnlyBranch => {
+                let name = self.context.types.branch.clone();
+                let name = self.names.of(&name);
+                return Ok(self.add(Expression::Record(name, Vec::new(), None)));
+            }
+            Intrinsic::Default => Operation::Memory,
+            Intrinsic::New => Operation::NearestTurns,
+            Intrinsic::All => return self.of_type(Type::Branch, "all", arguments),
+            Intrinsic::Coordinates => return self.of_type(Type::Pose, "coordinates", arguments),
+            Intrinsic::Parts => Operation::Parts,
+            Intrinsic::Map => match arguments.get(1).map(|id| self.code.operation(*id)) {
+                Some(lower::Value::Function(Intrinsic::Widened, _)) => {
+                    let value = self.value(arguments[0])?;
+                    return Ok(self.add(Expression::Operation(Operation::Widened, vec![value])));
+                }
+                _ => Operation::Map,
+            },
+            Intrinsic::AreAll => {
+                let value = self.value(arguments[0])?;
+                return Ok(self.add(Expression::Operation(Operation::AreFinite, vec![value])));
+            }
+            Intrinsic::Square => {
+                let value = self.value(arguments[0])?;
+                return Ok(self.add(Expression::Square(value)));
+            }
+            Intrinsic::Some => Operation::Present,
+            Intrinsic::Ok => Operation::Success,
+            Intrinsic::Err => Operation::Failure,
+            Intrinsic::ValueOf => Operation::ValueOf,
+            Intrinsic::And => Operation::And,
+            Intrinsic::OrElse => Operation::OrElse,
+            Intrinsic::Get => Operation::Get,
+            Intrinsic::UnwrapOr => Operation::UnwrapOr,
+            Intrinsic::IsFinite => Operation::AreFinite,
+            Intrinsic::Sum => Operation::Sum,
+            Intrinsic::SineCosine => Operation::SineCosine,
+            Intrinsic::SinesCosines => Operation::SinesCosines,
+            Intrinsic::Largest => Operation::Largest,
+            Intrinsic::Unit => Operation::Direction,
+            Intrinsic::Finite => Operation::Finite,
+            Intrinsic::FiniteEach => Operation::FiniteEach,
+            Intrinsic::FinitePoints => Operation::FinitePoints,
+            Intrinsic::FiniteVectors => Operation::FiniteVectors,
+            Intrinsic::FiniteOutputs => Operation::FiniteOutputs,
+            Intrinsic::FiniteMatrix => Operation::FiniteMatrix,
+            Intrinsic::FiniteMatrices if to_points(arguments) => Operation::FinitePointMatrices,
+            Intrinsic::FiniteMatrices => Operation::FiniteOutputMatrices,
+            Intrinsic::PointMotions => Operation::PointMotions,
+            Intrinsic::OutputMotions => Operation::OutputMotions,
+            Intrinsic::At => Operation::At,
+            Intrinsic::Regular => Operation::Regular,
+            Intrinsic::IsNonzero => Operation::IsNonzero,
+            Intrinsic::Closes => Operation::Closes,
+            Intrinsic::Solvable => Operation::Solvable,
+            Intrinsic::Reachable => Operation::Reachable,
+            Intrinsic::Implied => Operation::Implied,
+            Intrinsic::NotNegative => Operation::NotNegative,
+            Intrinsic::ValidateStops => Operation::ValidateStops,
+            Intrinsic::ValidateContacts => Operation::ValidateContacts,
+            Intrinsic::ElbowChord => Operation::ElbowChord,
+            Intrinsic::RegularElbowChord => Operation::RegularElbowChord,
+            Intrinsic::Chord => Operation::Chord,
+            Intrinsic::ReachChord => Operation::ReachChord,
+            Intrinsic::RegularChord => Operation::RegularChord,
+            Intrinsic::RegularReachChord => Operation::RegularReachChord,
+            Intrinsic::SineInLane => Operation::SineInLane,
+            Intrinsic::CosineInLane => Operation::CosineInLane,
+            Intrinsic::SineCosineInLane => Operation::SineCosineInLane,
+            Intrinsic::Arctangent2InLane => Operation::Arctangent2InLane,
+            Intrinsic::HypotenuseInLane => Operation::HypotenuseInLane,
+            Intrinsic::IsModerateInLane => Operation::IsModerateInLane,
+            Intrinsic::HasArctangent2InLane => Operation::HasArctangent2InLane,
+            Intrinsic::HasHypotenuseInLane => Operation::HasHypotenuseInLane,
+            Intrinsic::IsSolvableInLane => Operation::IsSolvableInLane,
+            Intrinsic::IsReachableInLane => Operation::IsReachableInLane,
+            Intrinsic::ElbowChordInLane => Operation::ElbowChordInLane,
+            Intrinsic::ChordInLane => Operation::ChordInLane,
+            Intrinsic::ReachChordInLane => Operation::ReachChordInLane,
+            Intrinsic::ProductOfPivots => Operation::ProductOfPivots,
+            Intrinsic::Factorization => Operation::Factorization,
+            Intrinsic::Solve => Operation::Solve,
+            Intrinsic::Refined => Operation::Refined,
+            Intrinsic::NewtonGroup => Operation::NewtonGroup,
+            Intrinsic::Modes => Operation::Modes,
+            Intrinsic::ModesWithLengths => Operation::ModesWithLengths,
+            Intrinsic::Take => Operation::Take,
+            Intrinsic::Newton => Operation::Newton,
+            Intrinsic::NewtonAnyBranch => Operation::NewtonAnyBranch,
+            Intrinsic::Turns => Operation::Turns,
+            Intrinsic::InTurn => Operation::InTurn,
+            Intrinsic::InRange => Operation::InRange,
+            Intrinsic::TurnsFound => Operation::TurnsFound,
+            Intrinsic::Countable => Operation::Countable,
+            Intrinsic::SideOf => Operation::SideOf,
+            Intrinsic::SideAt => Operation::SideAt,
+            Intrinsic::NumberOfMode => Operation::NumberOfMode,
+            Intrinsic::Combinations => Operation::Combinations,
+            Intrinsic::Existing => Operation::Existing,
+            Intrinsic::NoClosedForm => Operation::NoClosedForm,
+            Intrinsic::NoList => Operation::NoList,
+            Intrinsic::TooManyBranches => Operation::TooManyBranches,
+            Intrinsic::Limits => Operation::Limits,
+            Intrinsic::LimitOfAngle => Operation::LimitOfAngle,
+            Intrinsic::LimitOfLength => Operation::LimitOfLength,
+            Intrinsic::SearchLength => Operation::SearchLength,
+            Intrinsic::Ranged => Operation::Ranged,
+            Intrinsic::RangedDirection => Operation::RangedDirection,
+            Intrinsic::RangedModuloTurns => Operation::RangedModuloTurns,
+            // All convert each number.
+            Intrinsic::Widened | Intrinsic::WidenedDirection | Intrinsic::WidenedByName | Intrinsic::WidenedColumn => {
+                Operation::Widened
+            }
+            Intrinsic::Rounded | Intrinsic::RoundedByName | Intrinsic::RoundedEach => Operation::Rounded,
+            Intrinsic::Reduced => Operation::Reduced,
+            Intrinsic::Reactions => Operation::Reactions,
+            Intrinsic::DriveForces => Operation::DriveForces,
+            Intrinsic::BearingLoss => Operation::BearingLoss,
+            Intrinsic::EquationsAt => Operation::EquationsAt,
+            Intrinsic::Equilibrium => Operation::Equilibrium,
+            // Numbers of any kind.
+            Intrinsic::Pi | Intrinsic::Unknown => return Err(format!("{of:?}")),
+        };
+        let arguments = self.values(arguments)?;
+        Ok(self.add(Expression::Operation(operation, arguments)))
+    }
+
+    /// A call of a function of a pose or a branch.
+    fn of_type(&mut self, of: Type, name: &str, arguments: &[ValueId]) -> Translated<Id> {
+        let all = match of {
+            Type::Pose => &self.context.of_pose,
+            Type::Branch => &self.context.of_branch,
+        };
+        let place = all.iter().position(|other| other == name).ok_or_else(|| format!("a call of {name}"))?;
+        let arguments = self.values(arguments)?;
+        Ok(self.add(Expression::OfType(of, place, arguments)))
+    }
+}
+
+/// True for the statements that store members of the returned literal as they become known: the literal has them too.
+fn is_store(code: &Code, statement: &lower::Statement, stored: Option<ValueId>) -> bool {
+    let Some(result) = stored else { return false };
+    match statement {
+        lower::Statement::Let(lower::Pattern::Mutable(bound), _) => *bound == result,
+        lower::Statement::LetElse(_, value, otherwise) => {
+            *otherwise == result && matches!(code.operation(*value), lower::Value::MutablyBorrowed(of) if *of == result)
+        }
+        lower::Statement::Assign(..) => true,
+        _ => false,
+    }
+}
+
+/// A constant as emitted code writes it.
+fn constant(number: Number) -> Constant {
+    if let Some((count, parts)) = linkage_compiler::emit::parts_of_pi(number) {
+        return Constant::Turn(count, parts);
+    }
+    Constant::Double(match number {
+        Number::Ratio(above, below) => above as f64 / below as f64,
+        // Emitted code writes zero without its sign.
+        Number::Float(0.0) => 0.0,
+        Number::Float(value) => value,
+    })
+}
+
+fn elementary(function: graph::Function) -> Elementary {
+    match function {
+        graph::Function::Sin => Elementary::Sin,
+        graph::Function::Cos => Elementary::Cos,
+        graph::Function::Tan => Elementary::Tan,
+        graph::Function::Asin => Elementary::Asin,
+        graph::Function::Acos => Elementary::Acos,
+        graph::Function::Atan => Elementary::Atan,
+        graph::Function::Atan2 => Elementary::Atan2,
+        graph::Function::Sqrt => Elementary::Sqrt,
+        graph::Function::Abs => Elementary::Abs,
+        graph::Function::Exp => Elementary::Exp,
+        graph::Function::Ln => Elementary::Ln,
+        graph::Function::Hypot => Elementary::Hypot,
+        graph::Function::IfNonzero => Elementary::IfNonzero,
+    }
+}
