@@ -1,0 +1,104 @@
+//! Columns of positions: each has the bits of the function for one position, or its error.
+
+use linkage_gallery::FILES;
+use linkage_interpreter::{CallError, Columns, Data, Design, Values};
+
+use crate::drawn::{Drawn, mechanisms};
+
+/// More than one block, and a part of one.
+const POSITIONS: usize = 150;
+
+#[test]
+fn columns_have_the_bits_of_one_position() {
+    let (mut compared, mut rejected) = (0, 0);
+    for (seed, file) in FILES.iter().enumerate() {
+        for mechanism in mechanisms(file) {
+            for (extreme, has_columns_of_parameters) in [(0.0, false), (0.02, true)] {
+                let mut drawn = Drawn::new(seed as u64, extreme);
+                let branch = drawn.branch(&mechanism);
+                let design = mechanism.design();
+                let all = Given::drawn(&design, &mut drawn, has_columns_of_parameters);
+                let columns = all.computed(&design, &branch);
+                let mut left = columns.rejected.iter().peekable();
+                for place in 0..POSITIONS {
+                    let alone = all.alone(&design, &branch, place);
+                    match (alone, left.next_if(|rejected| rejected.place == place)) {
+                        (Ok(alone), None) => compared += same(&all, &columns, place, &alone, mechanism.name()),
+                        (Err(CallError::Function(error)), Some(one)) => {
+                            assert_eq!(
+                                format!("{error:?}"),
+                                format!("{:?}", one.error),
+                                "{} {place}",
+                                mechanism.name()
+                            );
+                            rejected += 1;
+                        }
+                        (alone, one) => panic!("{} {place}: {alone:?} {one:?}", mechanism.name()),
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 50_000 && rejected > 1000, "{compared} numbers, {rejected} positions without a result");
+}
+
+/// The given columns of a design.
+struct Given {
+    names: Vec<String>,
+    values: Vec<Vec<f64>>,
+    found: Vec<String>,
+    parameters: usize,
+    inputs: usize,
+}
+
+impl Given {
+    fn drawn(design: &Design, drawn: &mut Drawn, has_columns_of_parameters: bool) -> Self {
+        let names = design.given_columns().expect("columns").to_vec();
+        let found = design.found_columns().expect("columns").to_vec();
+        let parameters = design.parameters().len();
+        let values = names.iter().enumerate().map(|(place, _)| match design.parameters().get(place) {
+            Some(value) if has_columns_of_parameters => (0..POSITIONS).map(|_| drawn.near(*value)).collect(),
+            Some(value) => vec![drawn.near(*value); POSITIONS],
+            None => (0..POSITIONS).map(|_| drawn.number()).collect(),
+        });
+        let inputs = design.mechanism().sizes()[1];
+        Self { values: values.collect(), names, found, parameters, inputs }
+    }
+
+    fn computed(&self, design: &Design, branch: &Data) -> Columns {
+        let given: Vec<(&str, Values<'_>)> =
+            self.names.iter().zip(&self.values).map(|(name, values)| (name.as_str(), Values::Each(values))).collect();
+        let found: Vec<&str> = self.found.iter().map(String::as_str).collect();
+        design.columns(&given, branch, &found).expect("columns")
+    }
+
+    fn alone(&self, design: &Design, branch: &Data, place: usize) -> Result<Data, CallError> {
+        let at =
+            |from: usize, to: usize| -> Vec<f64> { self.values[from..to].iter().map(|values| values[place]).collect() };
+        let end = self.names.len();
+        let (rates, accelerations) = (end - 2 * self.inputs, end - self.inputs);
+        let start = at(self.parameters, rates);
+        let design = design.clone().with_parameters(&at(0, self.parameters));
+        // A mechanism without closed form starts at a guess, with all its coordinates.
+        let function = if design.arguments("kinematics_near").is_ok() { "kinematics_near" } else { "kinematics" };
+        let moving = [at(rates, accelerations), at(accelerations, end)];
+        let [rates, accelerations] = moving.each_ref().map(|numbers| Data::from(numbers.as_slice()));
+        design.call(function, &[Data::from(start.as_slice()), branch.clone(), rates, accelerations])
+    }
+}
+
+/// Compares the columns of a position by name with the result for it; returns how many.
+fn same(given: &Given, columns: &Columns, place: usize, alone: &Data, mechanism: &str) -> usize {
+    let mut compared = 0;
+    for (part, ending) in [("rates", "_rate"), ("accelerations", "_acceleration")] {
+        let Some(Data::Fields(fields)) = alone.get(part) else { panic!("{alone:?}") };
+        for (field, value) in fields {
+            let name = format!("{field}{ending}");
+            let Some(column) = given.found.iter().position(|other| *other == name) else { continue };
+            let (own, value) = (columns.columns[column][place], value.number().expect("a number"));
+            assert_eq!(own.to_bits(), value.to_bits(), "{mechanism} {name} {place}: {own} and {value}");
+            compared += 1;
+        }
+    }
+    compared
+}

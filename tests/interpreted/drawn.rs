@@ -1,0 +1,127 @@
+//! The mechanisms of the gallery at run time, and random arguments.
+
+use linkage_gallery::{cam_laws, source};
+use linkage_interpreter::{Data, Design, Mechanism, Program, Record, Shape};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+/// Numbers that functions must bear.
+const EXTREME: [f64; 8] = [0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 1e-300, 1e17];
+
+/// The text of a file of the gallery, between the braces of its `linkage!`.
+pub fn text_of(file: &str) -> String {
+    let text = source::text_of(file);
+    let from = text.find("linkage! {").expect("one `linkage!`") + "linkage! {".len();
+    text[from..text.rfind('}').expect("its end")].to_owned()
+}
+
+/// The mechanisms of a file, with their user functions.
+pub fn mechanisms(file: &str) -> Vec<Mechanism> {
+    let program = Program::compile(&text_of(file)).unwrap_or_else(|messages| panic!("{file}: {messages:?}"));
+    program.mechanisms().iter().cloned().map(given).collect()
+}
+
+/// The mechanism with its user functions.
+pub fn given(mechanism: Mechanism) -> Mechanism {
+    match mechanism.name() {
+        "CamFollower" => {
+            let lift = |at: &[f64]| {
+                let (lift, lift1, lift2, lift3) = cam_laws::polynomial_strokes(at[0], at[1], at[2]);
+                vec![lift, lift1, lift2, lift3]
+            };
+            mechanism.with_function("lift", lift).expect("its function")
+        }
+        "CamRocker" => {
+            let turn = |at: &[f64]| {
+                let (turn, turn1, turn2) = cam_laws::cycloidal_strokes(at[0], at[1], at[2]);
+                vec![turn, turn1, turn2]
+            };
+            mechanism.with_function("turn", turn).expect("its function")
+        }
+        _ => mechanism,
+    }
+}
+
+/// Random numbers, kept in the order in which they are taken.
+pub struct Drawn {
+    random: SmallRng,
+    pub all: Vec<f64>,
+    /// The share of extreme numbers.
+    extreme: f64,
+}
+
+impl Drawn {
+    pub fn new(seed: u64, extreme: f64) -> Self {
+        Self { random: SmallRng::seed_from_u64(seed), all: Vec::new(), extreme }
+    }
+
+    /// A number of the size of angles and rates, or an extreme one.
+    pub fn number(&mut self) -> f64 {
+        let number = match self.random.random_bool(self.extreme) {
+            true => EXTREME[self.random.random_range(0..EXTREME.len())],
+            false => self.random.random_range(-4.0..4.0),
+        };
+        self.all.push(number);
+        number
+    }
+
+    /// A number near another one; like [`number`](Self::number) if that is none.
+    pub fn near(&mut self, value: f64) -> f64 {
+        let change = self.number();
+        let number = if value.is_finite() { value * (1.0 + 0.05 * change) } else { change };
+        *self.all.last_mut().expect("one was drawn") = number;
+        number
+    }
+
+    /// A number that is not negative, unless it is extreme.
+    pub fn size(&mut self) -> f64 {
+        let size = self.number().abs();
+        *self.all.last_mut().expect("one was drawn") = size;
+        size
+    }
+
+    pub fn count(&mut self, below: u32) -> u32 {
+        let count = self.random.random_range(0..below);
+        self.all.push(f64::from(count));
+        count
+    }
+
+    pub fn list(&mut self, count: usize) -> Data {
+        Data::List((0..count).map(|_| Data::Number(self.number())).collect())
+    }
+
+    pub fn branch(&mut self, mechanism: &Mechanism) -> Data {
+        let [sides, modes, turns] = mechanism.branch_fields();
+        let mut fields = Vec::new();
+        for (name, solutions) in sides {
+            fields.push((name, Data::from(solutions[self.count(2) as usize])));
+        }
+        for (name, _) in modes {
+            let count = self.count(4);
+            fields.push((name, if count == 0 { Data::Nothing } else { Data::Count(i64::from(count) - 1) }));
+        }
+        for (name, _) in turns {
+            fields.push((name, Data::Count(self.count(3).into())));
+        }
+        Data::fields(fields)
+    }
+
+    /// An argument of this form.
+    pub fn argument(&mut self, mechanism: &Mechanism, design: &Design, shape: &Shape) -> Data {
+        let [coordinates, inputs] = mechanism.sizes();
+        match shape {
+            Shape::Number => Data::Number(self.number()),
+            Shape::Record(Record::Inputs) => self.list(inputs),
+            Shape::Record(Record::Coordinates | Record::Rates | Record::Accelerations | Record::Jerks) => {
+                self.list(coordinates)
+            }
+            Shape::Record(Record::Pose) => {
+                let q = self.list(coordinates);
+                design.call("pose_at", &[q]).expect("a pose at any coordinates")
+            }
+            Shape::Record(Record::Branch) => self.branch(mechanism),
+            Shape::List(of, count) => Data::List((0..*count).map(|_| self.argument(mechanism, design, of)).collect()),
+            other => panic!("no public function takes {other:?}"),
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Mechanisms at run time: the bits and the errors of the emitted code.
+
+mod columns;
+mod drawn;
+mod printed;
+mod same_bits;
+mod written;

@@ -1,0 +1,118 @@
+//! Compiled mechanisms as a file.
+
+use linkage_gallery::FILES;
+use linkage_interpreter::{Data, Program};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
+
+use crate::drawn::{Drawn, given, text_of};
+
+#[test]
+fn what_is_read_is_what_was_written() {
+    for file in FILES {
+        let program = Program::compile(&text_of(file)).expect("it compiles");
+        let text = serde_json::to_string(&program).expect("it is written");
+        let read: Program = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
+        assert!(text == serde_json::to_string(&read).expect("it is written again"), "{file}");
+        let both = [&program, &read].map(|program| given(program.mechanisms()[0].clone()));
+        let mut drawn = Drawn::new(1, 0.0);
+        let q = drawn.list(both[0].sizes()[0]);
+        let [one, other] = both.map(|mechanism| mechanism.design().call("pose_at", std::slice::from_ref(&q)));
+        assert_eq!(one.expect("a pose"), other.expect("a pose"), "{file}");
+    }
+}
+
+#[test]
+fn values_and_designs_are_written() {
+    let program = Program::compile(&text_of("four_bar")).expect("it compiles");
+    let mechanism = program.mechanism("FourBar").expect("the mechanism");
+    let design = mechanism.design().with("l2", 2.5).expect("a parameter");
+    let text = serde_json::to_string(&design.by_name()).expect("it is written");
+    assert!(text.starts_with("{\"l1\":"), "{text}");
+    let read: Data = serde_json::from_str(&text).expect("it is read");
+    let again = mechanism.design().with_all(&read).expect("parameters by name");
+    assert_eq!(again.parameters(), design.parameters());
+    let pose = design.call("pose_at", &[Drawn::new(1, 0.0).list(3)]).expect("a pose");
+    let read: Data = serde_json::from_str(&serde_json::to_string(&pose).expect("written")).expect("read");
+    assert_eq!(design.call("points", &[read]).expect("points"), design.call("points", &[pose]).expect("points"));
+}
+
+/// Mistakes of a caller are one message, with the nearest name.
+#[test]
+fn mistakes_of_calls() {
+    let program = Program::compile(&text_of("four_bar")).expect("it compiles");
+    let design = program.mechanism("FourBar").expect("the mechanism").design();
+    let branch = |word: &str| Data::fields([("theta3_theta4", word.into())]);
+    let message = |result: Result<Data, linkage_interpreter::CallError>| result.expect_err("a mistake").to_string();
+    let found = [
+        program.mechanism("FourBra").expect_err("no such mechanism").to_string(),
+        design.clone().with("l22", 1.0).expect_err("no such parameter").to_string(),
+        design.scene("Loaded").expect_err("no such scene").to_string(),
+        message(design.call("asemble", &[1.0.into(), branch("left")])),
+        message(design.call("assemble", &[1.0.into()])),
+        message(design.call("assemble", &[1.0.into(), branch("lefd")])),
+        message(design.call("assemble", &[1.0.into(), Data::Nothing])),
+        message(design.call("assemble", &["one".into(), branch("left")])),
+        message(design.call("assemble", &[Data::fields([("theta", 1.0.into())]), branch("left")])),
+    ];
+    let expected = [
+        "there is no `FourBra`, did you mean `FourBar`?",
+        "there is no `l22`, did you mean `l2`?",
+        "there is no `Loaded`",
+        "there is no `asemble`, did you mean `assemble`?",
+        "`assemble` takes inputs, branch",
+        "there is no `lefd`, did you mean `Left`?",
+        "`theta3_theta4` is not given",
+        "expected numbers by name, found Text(\"one\")",
+        "there is no `theta`, did you mean `theta2`?",
+    ];
+    assert_eq!(found, expected);
+    let cam = Program::compile(&text_of("cam_rocker")).expect("it compiles");
+    let alone = message(cam.mechanisms()[0].design().call("pose_at", &[Drawn::new(1, 0.0).list(4)]));
+    assert_eq!(alone, "`turn` is declared by `extern fn` and not given: use `with_function`");
+}
+
+#[test]
+fn another_version_is_one_message() {
+    let program = Program::compile(&text_of("four_bar")).expect("it compiles");
+    let text = serde_json::to_string(&program).expect("it is written");
+    let other = text.replacen("\"version\":1", "\"version\":2", 1);
+    let error = serde_json::from_str::<Program>(&other).expect_err("another version").to_string();
+    assert!(error.contains("version 2") && error.contains("compile them again"), "{error}");
+}
+
+/// Damaged files are errors, or run: to a value, an error or a defect, without a panic.
+#[test]
+fn damaged_files_do_not_panic() {
+    let mut random = SmallRng::seed_from_u64(7);
+    let (mut refused, mut run) = (0, 0);
+    for file in ["four_bar", "double_butterfly", "four_bar_effects"] {
+        let text = serde_json::to_string(&Program::compile(&text_of(file)).expect("it compiles")).expect("written");
+        for _ in 0..60 {
+            let mut damaged = text.clone().into_bytes();
+            for _ in 0..random.random_range(1..4) {
+                let digits: Vec<usize> = (0..400)
+                    .map(|_| random.random_range(0..damaged.len()))
+                    .filter(|at| damaged[*at].is_ascii_digit())
+                    .collect();
+                if let Some(at) = digits.first() {
+                    damaged[*at] = b'0' + random.random_range(0..10_u8);
+                }
+            }
+            let Ok(program) = serde_json::from_slice::<Program>(&damaged) else {
+                refused += 1;
+                continue;
+            };
+            for mechanism in program.mechanisms() {
+                let mut drawn = Drawn::new(3, 0.0);
+                let design = mechanism.design();
+                for function in mechanism.functions() {
+                    let Ok(arguments) = design.arguments(function) else { continue };
+                    let arguments: Vec<Data> = arguments.iter().map(|_| drawn.list(mechanism.sizes()[0])).collect();
+                    run += usize::from(design.call(function, &arguments).is_ok());
+                }
+            }
+        }
+    }
+    assert!(refused > 10 && run > 10, "{refused} {run}");
+}
