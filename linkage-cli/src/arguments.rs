@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use crate::values::{Assignment, Choice, Value};
+
 /// Planar linkages from their loop equations: formulas, checks and code of a mechanism in a file.
 ///
 /// A file has mechanisms in the language of the macro `linkage!`, without the macro around them. `-` is standard input.
@@ -18,7 +20,7 @@ pub struct Arguments {
 const EXIT_CODES: &str = "\
 Exit codes:
   0    done
-  1    a mistake in a text, a file that cannot be read or written
+  1    a mistake in a text, no position, a file that cannot be read or written
   2    wrong arguments, or a name that the text does not have
   130  interrupted; files are as they were
 
@@ -39,6 +41,18 @@ pub enum Command {
         after_help = "Examples:\n  linkage sheet wiper.linkage\n  linkage sheet wiper.linkage --format latex -o wiper.tex"
     )]
     Sheet(Sheet),
+    /// Print a motion as a table: coordinates, points and outputs with their velocities and accelerations
+    #[command(after_help = "\
+Examples:
+  linkage table wiper.linkage --degrees --columns theta2,C_x,C_y > wiper.csv
+  linkage table wiper.linkage --set l2=25 --branch theta3_theta4=right --rate 45rpm --format json")]
+    Table(Table),
+    /// Draw the mechanism at one position, as SVG or PNG
+    #[command(after_help = "Example:\n  linkage draw wiper.linkage --at theta2=60deg -o wiper.png")]
+    Draw(Draw),
+    /// Draw a motion of the mechanism, as SVG that moves or as GIF
+    #[command(after_help = "Example:\n  linkage animate wiper.linkage --set l2=25 -o wiper.gif")]
+    Animate(Animate),
     /// Print the Rust code that the macro `linkage!` makes of a file
     #[command(after_help = "Example:\n  linkage rust wiper.linkage -o wiper.rs")]
     Rust(Code),
@@ -118,4 +132,100 @@ pub struct From {
     /// The mechanism, or the driver of one, if the file has several
     #[arg(long, value_name = "NAME")]
     pub mechanism: Option<String>,
+}
+
+/// A mechanism with numbers.
+#[derive(Args)]
+pub struct Numbers {
+    #[command(flatten)]
+    pub source: From,
+    /// The value of a parameter, instead of its default
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<Assignment>,
+    /// The position of a group that has two [default: the first]
+    #[arg(long, value_name = "GROUP=SIDE")]
+    pub branch: Vec<Choice>,
+}
+
+/// A table of so many rows has a gigabyte.
+const MOST_STEPS: i64 = 1_000_000;
+
+/// One input moves, others are held.
+#[derive(Args)]
+pub struct Along {
+    /// The value of an input that is held [default: 60deg]
+    #[arg(long, value_name = "INPUT=VALUE")]
+    pub at: Vec<Assignment>,
+    /// The input that moves [default: the first that is not held]
+    #[arg(long, value_name = "INPUT")]
+    pub along: Option<String>,
+    /// Its first value [default of an angle: 0]
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub from: Option<Value>,
+    /// Its last value [default of an angle: 360deg]
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub to: Option<Value>,
+    /// The number of equal steps between them
+    #[arg(long, value_name = "NUMBER", default_value = "120", value_parser = clap::value_parser!(u32).range(1..=MOST_STEPS))]
+    pub steps: u32,
+}
+
+#[derive(Args)]
+pub struct Table {
+    #[command(flatten)]
+    pub numbers: Numbers,
+    #[command(flatten)]
+    pub along: Along,
+    /// The rate of the moving input, such as 45rpm; time is then a column
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub rate: Option<Value>,
+    /// The columns to print, by name and in this order
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Print angles in degrees
+    #[arg(long)]
+    pub degrees: bool,
+    /// Print at most so many digits [default: all]
+    #[arg(long, value_name = "NUMBER")]
+    pub digits: Option<usize>,
+    /// The form of the table
+    #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
+    pub format: TableFormat,
+    /// The file to write, `-` for standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableFormat {
+    /// A line for each row, for spreadsheets
+    Csv,
+    /// A list of numbers for each column
+    Json,
+}
+
+#[derive(Args)]
+pub struct Draw {
+    #[command(flatten)]
+    pub numbers: Numbers,
+    /// The value of an input [default: 60deg]
+    #[arg(long, value_name = "INPUT=VALUE")]
+    pub at: Vec<Assignment>,
+    /// The file to write, .svg or .png; `-` for standard output [default: as FILE, with .svg]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct Animate {
+    #[command(flatten)]
+    pub numbers: Numbers,
+    #[command(flatten)]
+    pub along: Along,
+    /// The seconds that the motion takes
+    #[arg(long, value_name = "SECONDS", default_value = "4")]
+    pub seconds: Value,
+    /// The file to write, .svg or .gif; `-` for standard output [default: as FILE, with .svg]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
 }

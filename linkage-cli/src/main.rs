@@ -6,12 +6,18 @@
 mod arguments;
 mod commands;
 mod failure;
+mod figure;
 mod interrupt;
+mod machine;
 mod messages;
 mod mistakes;
+mod motion;
+mod names;
 mod output;
+mod picture;
 mod progress;
 mod source;
+mod values;
 
 use std::process::ExitCode;
 

@@ -10,13 +10,18 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::source::is_standard;
 
-/// Writes a file, or to standard output for `-`; says on standard error which file it wrote.
-pub fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
+/// Writes a file, or to standard output for `-`; says on standard error which file it wrote. It is not the source of what is
+/// written.
+pub fn write(path: &Path, contents: &[u8], source: &Path) -> Result<(), Failure> {
     if is_standard(path) {
         return print(contents);
     }
     // A link stays, and leads to the new contents.
     let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    if !is_standard(source) && fs::canonicalize(source).is_ok_and(|source| source == place) {
+        let message = format!("{} would replace what it is made of: write another name with -o", path.display());
+        return Err(Failure::Argument(message));
+    }
     // A pipe or a device is no file to replace.
     let is_special = fs::metadata(&place).is_ok_and(|found| !found.is_file() && !found.is_dir());
     let written = if is_special { fs::write(&place, contents) } else { replaced(&place, contents) };

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressBarIter, ProgressFinish, ProgressStyle};
 
 /// The time between two signs.
 const TICK: Duration = Duration::from_millis(100);
@@ -14,4 +14,12 @@ pub fn during<R>(words: String, work: impl FnOnce() -> R) -> R {
     let result = work();
     spinner.finish_and_clear();
     result
+}
+
+/// The items of some work, with a bar that shows how many are done.
+pub fn over<I: ExactSizeIterator>(words: &'static str, items: I) -> ProgressBarIter<I> {
+    let style =
+        ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}").unwrap_or_else(|_| ProgressStyle::default_bar());
+    let bar = ProgressBar::new(items.len() as u64).with_style(style).with_message(words);
+    bar.with_finish(ProgressFinish::AndClear).wrap_iter(items)
 }

@@ -47,7 +47,7 @@ fn summary(mechanism: &Mechanism) -> String {
     let count = |number: usize, of: &str| format!("{number} {of}{}", if number == 1 { "" } else { "s" });
     let freedom = mechanism.drivers.iter().next().map_or(0, |driver| driver.inputs.len());
     format!(
-        "{drivers} is right: {} of freedom, {}, {}",
+        "{drivers}: no mistakes; {} of freedom, {}, {}",
         if freedom == 1 { "1 degree".to_owned() } else { format!("{freedom} degrees") },
         count(mechanism.points.len(), "point"),
         count(mechanism.outputs.len(), "output"),

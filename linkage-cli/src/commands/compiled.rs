@@ -2,12 +2,12 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::budget::Budget;
-use linkage_compiler::diagnostics::suggestion;
 use linkage_compiler::text::{self, Compiled};
 
 use crate::arguments::From;
 use crate::failure::Failure;
 use crate::mistakes::{Mistakes, Source};
+use crate::names::place;
 use crate::progress;
 use crate::source::read;
 
@@ -24,28 +24,9 @@ pub fn of_drivers<R>(from: &From, mut f: impl FnMut(Lowered) -> R) -> Result<Vec
     let compiled = compiled(&source, |lowered| (lowered.program.signatures.driver.name.to_string(), f(lowered)))?;
     let mut all: Vec<(String, R)> = compiled.into_iter().flat_map(|compiled| compiled.drivers).collect();
     if let Some(asked) = &from.mechanism {
-        let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
-        all.retain(|(name, _)| name == asked);
-        if all.is_empty() {
-            return Err(unknown(&source, asked, &names));
-        }
+        let names: Vec<&str> = all.iter().map(|(name, _)| name.as_str()).collect();
+        let place = place(&source.name, "mechanism", asked, &names)?;
+        return Ok(vec![all.swap_remove(place)]);
     }
     Ok(all)
-}
-
-/// The failure of a name that no mechanism has.
-pub fn unknown(source: &Source, asked: &str, names: &[String]) -> Failure {
-    let meant = suggestion(asked, names.iter().map(String::as_str));
-    let meant = if meant.is_empty() { format!(": it has {}", listed(names)) } else { meant };
-    Failure::Argument(format!("{} has no mechanism `{asked}`{meant}", source.name))
-}
-
-/// Names in a sentence.
-pub fn listed(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    match names.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, others)) => format!("{} and {last}", others.join(", ")),
-        None => "none".to_owned(),
-    }
 }

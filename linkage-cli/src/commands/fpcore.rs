@@ -11,5 +11,9 @@ pub fn run(arguments: &Code) -> Result<(), Failure> {
     for (_, one) in of_drivers(&arguments.source, Documents::of)? {
         one.each(|document| cores.extend(document.fpcore().iter().map(ToString::to_string)))?;
     }
-    output::write(&arguments.output, (cores.join("\n\n") + "\n").as_bytes())
+    if cores.is_empty() {
+        let message = "no function has formulas alone: all of them iterate, pivot, or call functions of yours";
+        return Err(Failure::Outside(message.to_owned()));
+    }
+    output::write(&arguments.output, (cores.join("\n\n") + "\n").as_bytes(), &arguments.source.file)
 }

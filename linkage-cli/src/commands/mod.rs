@@ -1,13 +1,16 @@
 //! The commands, each a file.
 
+mod animate;
 mod check;
 mod compiled;
 mod completions;
 mod documents;
+mod draw;
 mod fpcore;
 mod new;
 mod rust;
 mod sheet;
+mod table;
 
 use crate::arguments::Command;
 use crate::failure::Failure;
@@ -17,6 +20,9 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::New(arguments) => new::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
         Command::Sheet(arguments) => sheet::run(&arguments),
+        Command::Table(arguments) => table::run(&arguments),
+        Command::Draw(arguments) => draw::run(&arguments),
+        Command::Animate(arguments) => animate::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),
         Command::Completions { shell } => completions::run(shell),

@@ -4,9 +4,10 @@ use linkage_compiler::emit;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::compiled::{compiled, unknown};
+use super::compiled::compiled;
 use crate::arguments::Code;
 use crate::failure::Failure;
+use crate::names::place;
 use crate::output;
 use crate::source::read;
 
@@ -15,13 +16,13 @@ pub fn run(arguments: &Code) -> Result<(), Failure> {
     let root = quote!(::linkage);
     let compiled = compiled(&source, |of| emit::driver(&of.program, Some(&of.derivation), &root))?;
     let names: Vec<String> = compiled.iter().map(|of| of.mechanism.name.to_string()).collect();
+    if let Some(asked) = &arguments.source.mechanism {
+        place(&source.name, "mechanism", asked, &names.iter().map(String::as_str).collect::<Vec<_>>())?;
+    }
     let is_asked = |name: &String| arguments.source.mechanism.as_ref().is_none_or(|asked| asked == name);
     let asked = compiled.into_iter().zip(&names).filter(|(_, name)| is_asked(name));
-    let items: Vec<TokenStream> = asked.map(|(of, _)| emit::mechanism(&of.mechanism, of.drivers, &root)).collect();
-    match &arguments.source.mechanism {
-        Some(asked) if items.is_empty() => Err(unknown(&source, asked, &names)),
-        _ => output::write(&arguments.output, formatted(quote!(#(#items)*))?.as_bytes()),
-    }
+    let items = asked.map(|(of, _)| emit::mechanism(&of.mechanism, of.drivers, &root));
+    output::write(&arguments.output, formatted(quote!(#(#items)*))?.as_bytes(), &arguments.source.file)
 }
 
 fn formatted(items: TokenStream) -> Result<String, Failure> {

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::compiled::{listed, of_drivers};
+use super::compiled::of_drivers;
 use super::documents::Documents;
 use crate::arguments::{Sheet, SheetFormat};
 use crate::failure::Failure;
+use crate::names::listed;
 use crate::output;
 use crate::source::is_standard;
 
@@ -19,8 +20,7 @@ pub fn run(arguments: &Sheet) -> Result<(), Failure> {
         SheetFormat::Html => match all.as_slice() {
             [(_, one)] => text = one.page()?,
             several => {
-                let names: Vec<String> = several.iter().map(|(name, _)| name.clone()).collect();
-                let of = listed(&names);
+                let of = listed(&several.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>());
                 let message = format!("a page has one mechanism, and the file has {of}: write --mechanism NAME");
                 return Err(Failure::Argument(message));
             }
@@ -39,7 +39,7 @@ pub fn run(arguments: &Sheet) -> Result<(), Failure> {
             }
         }
     }
-    output::write(&place(arguments), text.as_bytes())
+    output::write(&place(arguments), text.as_bytes(), &arguments.source.file)
 }
 
 /// The file to write: by default next to the file of the mechanism.

@@ -68,6 +68,16 @@ fn outputs_that_cannot_be_written() {
     folder.run("new there/wiper").fails(1, "error: there/wiper.linkage is not written: its folder does not exist\n");
 }
 
+#[test]
+fn a_source_is_never_replaced() {
+    let folder = Folder::new();
+    folder.write("slider.txt", SLIDER_CRANK);
+    let message = "error: slider.txt would replace what it is made of: write another name with -o\n";
+    folder.run("sheet slider.txt --format text").fails(2, message);
+    folder.run("rust slider.txt -o ./slider.txt").fails(2, &message.replace("slider.txt", "./slider.txt"));
+    assert_eq!(folder.read("slider.txt"), SLIDER_CRANK);
+}
+
 /// The reader of the output goes away before it has all.
 #[test]
 fn a_broken_pipe_ends_quietly() {

@@ -1,4 +1,4 @@
-//! What each command makes.
+//! Each command and its results.
 
 use super::folder::{Folder, SLIDER_CRANK, WRONG};
 
@@ -13,7 +13,7 @@ fn the_first_file_works_with_every_command() {
         .run("new wind-screen_wiper.linkage")
         .fails(1, "error: wind-screen_wiper.linkage is not written: it exists; write another name\n");
     let checked = folder.run("check wind-screen_wiper.linkage").works("");
-    let line = "WindScreenWiper is right: 1 degree of freedom, 3 points, 1 output\n";
+    let line = "WindScreenWiper: no mistakes; 1 degree of freedom, 3 points, 1 output\n";
     assert_eq!(checked, format!("wind-screen_wiper.linkage: {line}"));
     folder.run("sheet wind-screen_wiper.linkage").works("wrote wind-screen_wiper.html\n");
     assert!(folder.read("wind-screen_wiper.html").starts_with("<!DOCTYPE html>"));
@@ -40,7 +40,7 @@ fn mistakes_for_readers() {
     folder.write("right.linkage", SLIDER_CRANK);
     let ran = folder.run("check wrong.linkage right.linkage");
     assert_eq!(ran.code, Some(1));
-    assert_eq!(ran.output, "right.linkage: Crank, Piston is right: 1 degree of freedom, 1 point, 0 outputs\n");
+    assert_eq!(ran.output, "right.linkage: Crank, Piston: no mistakes; 1 degree of freedom, 1 point, 0 outputs\n");
     insta::assert_snapshot!("mistakes_for_readers", ran.messages);
 }
 

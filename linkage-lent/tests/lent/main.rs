@@ -1,4 +1,4 @@
-//! What does not hold together is an error; what does is what the compiler made, and outlives its document.
+//! A document that does not hold together is an error; what is lent of a sound one outlives it.
 
 use linkage_compiler::document::{Document, Node, SceneDocument, SheetDocument, Table};
 use linkage_lent::{Lender, Unsound};

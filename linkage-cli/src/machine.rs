@@ -1,0 +1,210 @@
+//! A mechanism with numbers: values of its parameters, a branch, and the inputs that are held.
+
+use linkage_compiler::Lowered;
+use linkage_compiler::budget::Budget;
+use linkage_compiler::derivation::Derivation;
+use linkage_compiler::ids::CoordinateId;
+use linkage_compiler::model::{Kind, Name, Request};
+use linkage_compiler::text;
+use linkage_interpreter::{Data, Design, Mechanism, Program};
+use linkage_runtime::lane::arctangent2;
+
+use crate::arguments::Numbers;
+use crate::failure::Failure;
+use crate::mistakes::{Mistakes, Source};
+use crate::names::{listed, place};
+use crate::progress;
+use crate::source::read;
+use crate::values::{Assignment, Choice, Value};
+
+/// A name as written, and that of its field.
+#[derive(Debug, Clone)]
+pub struct Named {
+    pub text: String,
+    pub field: String,
+}
+
+/// A coordinate.
+#[derive(Debug, Clone)]
+pub struct Coordinate {
+    pub name: Named,
+    pub is_angle: bool,
+}
+
+/// A mechanism with values for all but its inputs.
+pub struct Machine {
+    pub name: String,
+    pub inputs: Vec<Coordinate>,
+    pub unknowns: Vec<Coordinate>,
+    pub points: Vec<Named>,
+    pub outputs: Vec<Named>,
+    /// Its formulas, for the drawing.
+    pub derivation: Derivation,
+    parameters: Vec<(String, f64)>,
+    design: Design,
+    branch: Data,
+}
+
+/// A position with its rates, at one choice of inputs.
+pub struct Motion {
+    /// The values of the inputs.
+    pub inputs: Vec<f64>,
+    /// The values of the unknowns; angles from -pi to pi.
+    pub unknowns: Vec<f64>,
+    data: Data,
+}
+
+impl Motion {
+    /// A number of the motion: `points.c.velocity.x`.
+    pub fn number(&self, path: &str) -> f64 {
+        self.data.get(path).and_then(Data::number).unwrap_or(f64::NAN)
+    }
+}
+
+/// The names of a driver, and its derivation.
+struct About {
+    name: String,
+    inputs: Vec<Coordinate>,
+    unknowns: Vec<Coordinate>,
+    points: Vec<Named>,
+    outputs: Vec<Named>,
+    parameters: Vec<String>,
+    /// The functions that are declared by `extern fn`.
+    functions: Vec<String>,
+    derivation: Derivation,
+}
+
+impl About {
+    fn of(lowered: Lowered) -> Self {
+        let (mechanism, driver) = (lowered.program.signatures.mechanism, lowered.program.signatures.driver);
+        let named = |name: &Name| Named { text: name.text.clone(), field: name.field.clone() };
+        let coordinate = |id: &CoordinateId| {
+            let of = &mechanism.coordinates[*id];
+            Coordinate { name: named(&of.name), is_angle: of.kind == Kind::Angle }
+        };
+        Self {
+            name: driver.name.to_string(),
+            inputs: driver.inputs.iter().map(coordinate).collect(),
+            unknowns: driver.unknowns.iter().map(coordinate).collect(),
+            points: mechanism.points.iter().map(|point| named(&point.name)).collect(),
+            outputs: mechanism.outputs.iter().map(|output| named(&output.name)).collect(),
+            parameters: mechanism.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
+            functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),
+            derivation: lowered.derivation,
+        }
+    }
+}
+
+impl Machine {
+    /// The mechanism that the arguments mean, with their numbers.
+    pub fn of(numbers: &Numbers) -> Result<Self, Failure> {
+        let file = &numbers.source.file;
+        let (about, mechanism) = chosen(&read(file)?, numbers.source.mechanism.as_deref())?;
+        if let Some(function) = about.functions.first() {
+            let name = &about.name;
+            return Err(Failure::Outside(format!(
+                "`{name}` calls `{function}`, which a program in Rust has to give it"
+            )));
+        }
+        let parameters = parameters(&about, &mechanism, &numbers.set)?;
+        let branch = branch(&about, &mechanism, &numbers.branch)?;
+        let values: Vec<f64> = parameters.iter().map(|(_, value)| *value).collect();
+        let design = mechanism.design().with_parameters(&values);
+        let About { name, inputs, unknowns, points, outputs, derivation, .. } = about;
+        Ok(Self { name, inputs, unknowns, points, outputs, derivation, parameters, design, branch })
+    }
+
+    /// The place of an input.
+    pub fn input(&self, name: &str) -> Result<usize, Failure> {
+        let names: Vec<&str> = self.inputs.iter().map(|input| input.name.text.as_str()).collect();
+        place(&self.name, "input", name, &names)
+    }
+
+    /// Position, velocity and acceleration; rates are constant.
+    pub fn motion(&self, inputs: &[f64], rates: &[f64]) -> Result<Motion, String> {
+        let given = |numbers: &[f64]| match numbers {
+            [only] => Data::from(*only),
+            several => Data::List(several.iter().copied().map(Data::from).collect()),
+        };
+        let still = vec![0.0; inputs.len()];
+        let arguments = [given(inputs), self.branch.clone(), given(rates), given(&still)];
+        if self.design.arguments("full_kinematics").is_err() {
+            let name = &self.name;
+            return Err(format!("positions of `{name}` are found from a guess only, which this program does not take"));
+        }
+        let data = self.design.call("full_kinematics", &arguments).map_err(|error| error.to_string())?;
+        let unknowns = self.unknowns.iter().map(|unknown| {
+            let value = data.get("pose").and_then(|pose| pose.get(&unknown.name.field));
+            match value.map(Data::numbers).as_deref() {
+                Some([cosine, sine]) => arctangent2(*sine, *cosine),
+                Some([value]) => *value,
+                _ => f64::NAN,
+            }
+        });
+        Ok(Motion { inputs: inputs.to_vec(), unknowns: unknowns.collect(), data })
+    }
+
+    /// The value of a symbol of the formulas at a position.
+    pub fn symbol(&self, name: &str, motion: &Motion) -> f64 {
+        let of = |coordinates: &[Coordinate], values: &[f64]| {
+            let place = coordinates.iter().position(|of| of.name.text == name)?;
+            values.get(place).copied()
+        };
+        let parameter = self.parameters.iter().find(|(other, _)| other == name).map(|(_, value)| *value);
+        let coordinate = of(&self.inputs, &motion.inputs).or_else(|| of(&self.unknowns, &motion.unknowns));
+        parameter.or(coordinate).unwrap_or(f64::NAN)
+    }
+}
+
+/// The mechanism with a name, or the only one of a file.
+fn chosen(source: &Source, asked: Option<&str>) -> Result<(About, Mechanism), Failure> {
+    let compiled = progress::during(format!("deriving {}", source.name), || {
+        let all = text::compile_with(&source.text, &Budget::default(), &[Request::Drawing], About::of)?;
+        Ok((all, Program::compile(&source.text)?))
+    });
+    let (all, mechanisms) = compiled.map_err(|messages| Mistakes::of(source, messages))?;
+    let mut all: Vec<(About, Mechanism)> =
+        all.into_iter().flat_map(|compiled| compiled.drivers).zip(mechanisms.mechanisms().iter().cloned()).collect();
+    let names: Vec<&str> = all.iter().map(|(about, _)| about.name.as_str()).collect();
+    let place = match (asked, names.as_slice()) {
+        (Some(name), names) => place(&source.name, "mechanism", name, names)?,
+        (None, [_]) => 0,
+        (None, names) => {
+            let of = listed(names);
+            return Err(Failure::Argument(format!("{} has {of}: write --mechanism NAME", source.name)));
+        }
+    };
+    Ok(all.swap_remove(place))
+}
+
+/// The parameters with their values.
+fn parameters(about: &About, mechanism: &Mechanism, set: &[Assignment]) -> Result<Vec<(String, f64)>, Failure> {
+    let mut values = mechanism.design().parameters().to_vec();
+    let names: Vec<&str> = about.parameters.iter().map(String::as_str).collect();
+    for Assignment { name, value: Value(value) } in set {
+        values[place(&about.name, "parameter", name, &names)?] = *value;
+    }
+    let parameters: Vec<(String, f64)> = about.parameters.iter().cloned().zip(values).collect();
+    match parameters.iter().find(|(_, value)| value.is_nan()) {
+        Some((name, _)) => {
+            Err(Failure::Argument(format!("the parameter `{name}` has no value: write --set {name}=VALUE")))
+        }
+        None => Ok(parameters),
+    }
+}
+
+/// The branch, by the first of two positions where none is chosen.
+fn branch(about: &About, mechanism: &Mechanism, choices: &[Choice]) -> Result<Data, Failure> {
+    let [groups, ..] = mechanism.branch_fields();
+    let names: Vec<&str> = groups.iter().map(|(name, _)| *name).collect();
+    let mut words: Vec<&str> = groups.iter().filter_map(|(_, words)| words.first().copied()).collect();
+    for Choice { name, word } in choices {
+        let place = place(&about.name, "group with two positions", name, &names)?;
+        let all = &groups[place].1;
+        words[place] = *all.iter().find(|other| other.eq_ignore_ascii_case(word)).ok_or_else(|| {
+            let all: Vec<String> = all.iter().map(|word| word.to_lowercase()).collect();
+            Failure::Argument(format!("`{name}` is `{}`, not `{word}`", all.join("` or `")))
+        })?;
+    }
+    Ok(Data::fields(names.into_iter().zip(words.into_iter().map(Data::from))))
+}

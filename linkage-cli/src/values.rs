@@ -1,0 +1,117 @@
+//! Values in arguments: `l2=25`, `theta2=60deg`, `theta3_theta4=left`.
+
+use std::str::FromStr;
+
+use linkage_compiler::graph::{Graph, Number};
+use linkage_compiler::syntax::Unit;
+use syn::Lit;
+
+/// A number as the language writes it: `25`, `-0.5`, `60deg`, `12rpm`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Value(pub f64);
+
+/// A name and its number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assignment {
+    pub name: String,
+    pub value: Value,
+}
+
+/// A name and one of the words that it can be.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Choice {
+    pub name: String,
+    pub word: String,
+}
+
+impl FromStr for Value {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let no_number = || format!("`{text}` is not a number: write one such as `25`, `-0.5`, `60deg` or `12rpm`");
+        let (is_negative, positive) = text.strip_prefix('-').map_or((false, text), |rest| (true, rest));
+        // A literal can have a sign of its own.
+        let literal = positive.starts_with(|first: char| first.is_ascii_digit()).then(|| syn::parse_str(positive));
+        let (digits, unit) = match literal.ok_or_else(no_number)? {
+            Ok(Lit::Int(number)) => (number.base10_digits().to_owned(), number.suffix().to_owned()),
+            Ok(Lit::Float(number)) => (number.base10_digits().to_owned(), number.suffix().to_owned()),
+            _ => return Err(no_number()),
+        };
+        let unit = match unit.as_str() {
+            "" => Unit::None,
+            name => Unit::ALL.into_iter().find(|(unit, _)| *unit == name).ok_or_else(no_number)?.1,
+        };
+        let number = Number::parse(&digits).ok_or_else(no_number)?;
+        // As the compiler reads a default: one rounding error.
+        let value = unit.share_of_pi().map_or(Some(number.to_f64()), |share| {
+            let mut graph = Graph::default();
+            let pi = graph.pi();
+            let node = graph.scale(number.multiply(Number::ratio(1, share)), pi);
+            graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node))
+        });
+        let value = value.filter(|value| value.is_finite()).ok_or_else(|| format!("`{text}` is too large"))?;
+        Ok(Self(if is_negative { -value } else { value }))
+    }
+}
+
+/// The two sides of the first `=`.
+fn sides<'t>(text: &'t str, example: &str) -> Result<[&'t str; 2], String> {
+    let sides = text.split_once('=').map(|(name, value)| [name, value].map(str::trim));
+    let sides = sides.filter(|sides| sides.iter().all(|side| !side.is_empty()));
+    sides.ok_or_else(|| format!("write NAME=VALUE, as in `{example}`"))
+}
+
+impl FromStr for Assignment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let [name, value] = sides(text, "l2=25")?;
+        Ok(Self { name: name.to_owned(), value: value.parse()? })
+    }
+}
+
+impl FromStr for Choice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let [name, word] = sides(text, "theta3_theta4=left")?;
+        Ok(Self { name: name.to_owned(), word: word.to_owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    fn value(text: &str) -> Result<f64, String> {
+        text.parse().map(|Value(value)| value)
+    }
+
+    /// The bits are those of a default in a text.
+    #[test]
+    fn numbers_are_read_as_defaults_are() {
+        for text in ["25", "0.1", "-0.5", "1e-3", "60deg", "-90deg", "12rpm", "1.5rad", "180deg", "0deg", "7.3deg"] {
+            let mechanism = format!("mechanism M {{ param a = {text}; input x; output product = a * x; }}");
+            let mechanism = linkage_compiler::read(mechanism.parse().unwrap()).unwrap().remove(0);
+            let node = mechanism.parameters.iter().next().and_then(|parameter| parameter.default).unwrap();
+            let graph = &mechanism.graph;
+            let default = graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node));
+            assert_eq!(value(text).map(f64::to_bits), Ok(default.unwrap().to_bits()), "{text}");
+        }
+        assert_eq!(value("180deg"), Ok(PI));
+    }
+
+    #[test]
+    fn what_is_no_number() {
+        for text in ["", "-", "x", "25mm", "6O", "nan", "inf", "1;2", "2*3", "'a'", "--5", "+5", "1e999"] {
+            assert!(value(text).is_err(), "{text}: {:?}", value(text));
+        }
+        for text in ["l2", "=", "l2=", "=5", "l2=x"] {
+            assert!(text.parse::<Assignment>().is_err(), "{text}");
+        }
+        let [one, other] = ["l2=25", "l2 = 25"].map(|text| text.parse::<Assignment>());
+        assert!(one.is_ok() && one == other);
+    }
+}
