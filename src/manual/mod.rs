@@ -3,6 +3,7 @@
 //! | page | contents |
 //! |---|---|
 //! | [`first_mechanism`] | from a drawing to numbers |
+//! | [`at_run_time`] | mechanisms from text in a program that runs, by the library `linkage-interpreter` |
 //! | [`without_rust`] | a mechanism in a file of its own, and the program `linkage` |
 //! | [`first_picture`] | a picture and an animation in three lines |
 //! | [`first_sheet`] | the derivation as a document |
@@ -35,6 +36,11 @@
 ///
 #[doc = include_str!("first_mechanism.md")]
 pub mod first_mechanism {}
+
+/// Mechanisms from text in a program that runs: the library `linkage-interpreter`.
+///
+#[doc = include_str!("at_run_time.md")]
+pub mod at_run_time {}
 
 /// The program `linkage`: sheets, checks and code of a mechanism in a file, without a Rust project.
 ///
