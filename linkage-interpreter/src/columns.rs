@@ -3,14 +3,15 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use crate::call_error::CallError;
 use crate::code::{Function, Record, Shape};
 use crate::convert;
 use crate::data::Data;
-use crate::error::{CallError, Error, Mistake};
+use crate::error::{Error, Mistake};
 use crate::machine::{Failure, Kind, Machine, Of, Scalar as _, Value};
 use crate::mechanism::Design;
 use crate::program::{Driver, Implementation};
-use crate::tape::{Block, Recorder, Tape, Traced, WIDTH};
+use crate::tape::{Block, Recorder, Tape, Traced, WIDTH, recorded};
 
 /// One number for each position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,7 +164,7 @@ impl Run<'_> {
         let (accepted, found) = machine.lanes(lane, self.own(&given), arguments, self.driver.lanes.found.len())?;
         // A column that is not computed is that of a function that accepts no lane.
         let number = |place: &usize| found.get(*place).and_then(Traced::of).unwrap_or(Traced::Constant(f64::NAN));
-        Ok(Recorder::tape(recorder, wanted.iter().map(number).collect(), accepted))
+        Ok(recorded(&recorder, wanted.iter().map(number).collect(), accepted))
     }
 
     /// The numbers of a column in a block; after the last stand those of the first.

@@ -40,6 +40,7 @@
 //! Algorithms over a mechanism as a whole have its sizes in their types, and are there for emitted mechanisms only:
 //! [`WITHOUT`] names the functions that call one.
 
+mod call_error;
 mod code;
 mod columns;
 #[cfg(feature = "compiler")]
@@ -55,10 +56,11 @@ mod tape;
 mod translate;
 mod written;
 
+pub use call_error::CallError;
 pub use code::{Argument, Record, Shape};
 pub use columns::{Columns, Rejected, Values};
 pub use data::Data;
-pub use error::{CallError, Error, Mistake};
+pub use error::{Error, Mistake};
 #[cfg(feature = "compiler")]
 pub use linkage_compiler::text::Message;
 pub use machine::{Defect, WITHOUT};

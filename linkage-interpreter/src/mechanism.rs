@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::call_error::CallError;
 use crate::code::{Access, Argument, Function};
 use crate::convert::{to_data, to_value};
 use crate::data::Data;
-use crate::error::{CallError, Mistake};
+use crate::error::Mistake;
 use crate::machine::{Kind, Machine, Of, User, Value};
 use crate::program::{Driver, Scene, UserFunction};
 

@@ -3,10 +3,11 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::failure::{Defect, Failure};
+use super::defect::Defect;
+use super::failure::{Evaluated, Failure};
 use super::scalar::Scalar;
 use super::value::Value;
-use super::{Evaluated, Kind, Machine, Of};
+use super::{Kind, Machine, Of};
 use crate::code::{Block, Expression, Function, Id, Pattern, Place, Returned, Slot, Statement};
 use crate::tape::{Flag, Traced};
 use linkage_runtime::__rt::Wide;
@@ -99,7 +100,7 @@ impl<'c> Machine<'c> {
             Pattern::List(patterns) => {
                 let values = value.as_list()?;
                 if values.len() != patterns.len() {
-                    return Err(Defect::expected("a list of another length", &value).into());
+                    return Err(value.expected("a list of another length").into());
                 }
                 for (pattern, value) in patterns.iter().zip(values) {
                     self.bind(pattern, value.clone())?;
@@ -139,7 +140,7 @@ impl<'c> Machine<'c> {
         let slot = self.slots.get_mut(base + place.of.0 as usize);
         let mut part = slot.ok_or_else(|| Defect::new("a slot that does not exist"))?;
         for index in indices {
-            let Value::List(all) = part else { return Err(Defect::expected("a list", part).into()) };
+            let Value::List(all) = part else { return Err(part.expected("a list").into()) };
             let entry = Rc::make_mut(all).get_mut(index);
             part = entry.ok_or_else(|| Defect::new("an entry that does not exist"))?;
         }
@@ -323,9 +324,9 @@ impl<'c> Machine<'c> {
         arguments: impl IntoIterator<Item = Value>,
         is_fallible: bool,
     ) -> Evaluated<Value> {
-        let Value::Closure(id) = closure else { return Err(Defect::expected("a function", closure).into()) };
+        let Value::Closure(id) = closure else { return Err(closure.expected("a function").into()) };
         let Expression::Closure(patterns, block) = Self::expression(code, *id)? else {
-            return Err(Defect::expected("a function", closure).into());
+            return Err(closure.expected("a function").into());
         };
         for (pattern, argument) in patterns.iter().zip(arguments) {
             self.bind(pattern, argument)?;
@@ -345,7 +346,7 @@ impl<'c> Machine<'c> {
             all = match self.value(code, *condition)? {
                 Value::Flag(flag) => all.and(&Flag::Constant(flag)),
                 Value::TracedFlag(flag) => all.and(&flag),
-                other => return Err(Defect::expected("a flag", &other).into()),
+                other => return Err(other.expected("a flag").into()),
             };
         }
         Ok(match all {
@@ -385,7 +386,7 @@ impl<'c> Machine<'c> {
         Ok(match Self::expression(code, id)? {
             Expression::Slot(slot) => {
                 let value = self.slot(*slot)?;
-                S::of(value).ok_or_else(|| Defect::expected("a number", value))?
+                S::of(value).ok_or_else(|| value.expected("a number"))?
             }
             Expression::Number(constant) => S::constant(*constant),
             Expression::Sum(terms) => {
@@ -427,7 +428,7 @@ impl<'c> Machine<'c> {
             },
             _ => {
                 let value = self.value(code, id)?;
-                S::of(&value).ok_or_else(|| Defect::expected("a number", &value))?
+                S::of(&value).ok_or_else(|| value.expected("a number"))?
             }
         })
     }

@@ -2,18 +2,19 @@
 //! runtime have the number of unknowns in their types: here it is a number within a capacity.
 
 use std::cell::RefCell;
-use std::fmt::Debug;
 use std::rc::Rc;
 use std::sync::Arc;
 
 use linkage_runtime::__rt::{Factorization, Loops, Memory, Unknown, newton_group, product_of_pivots};
 use linkage_runtime::AssemblyMode;
 
-use super::failure::{Defect, Error, Failure};
+use super::Machine;
+use super::defect::Defect;
+use super::failure::{Evaluated, Failure};
 use super::scalar::Single;
-use super::value::Value;
-use super::{Evaluated, Machine};
+use super::value::{Factors, Found, Kept, Value};
 use crate::code::{Function, Name};
+use crate::error::Error;
 
 /// The most unknowns of a group that is factorised.
 pub(crate) const MOST_UNKNOWNS: usize = 16;
@@ -41,11 +42,11 @@ pub(crate) fn too_many(count: usize) -> Box<Failure> {
 pub(crate) fn numbers<S: Single, const N: usize>(value: &Value) -> Result<[S; N], Defect> {
     let all = value.as_list()?;
     if all.len() != N {
-        return Err(Defect::expected("a list of another length", value));
+        return Err(value.expected("a list of another length"));
     }
     let mut numbers = [S::zero(); N];
     for (number, value) in numbers.iter_mut().zip(all) {
-        *number = S::of(value).ok_or_else(|| Defect::expected("a number", value))?;
+        *number = S::of(value).ok_or_else(|| value.expected("a number"))?;
     }
     Ok(numbers)
 }
@@ -54,7 +55,7 @@ pub(crate) fn numbers<S: Single, const N: usize>(value: &Value) -> Result<[S; N]
 pub(crate) fn columns<S: Single, const R: usize, const C: usize>(value: &Value) -> Result<[[S; R]; C], Defect> {
     let all = value.as_list()?;
     if all.len() != C {
-        return Err(Defect::expected("a list of another length", value));
+        return Err(value.expected("a list of another length"));
     }
     let mut columns = [[S::zero(); R]; C];
     for (column, value) in columns.iter_mut().zip(all) {
@@ -65,13 +66,6 @@ pub(crate) fn columns<S: Single, const R: usize, const C: usize>(value: &Value) 
 
 pub(crate) fn list<S: Single, const N: usize>(numbers: [S; N]) -> Value {
     Value::list(numbers.map(S::into_value))
-}
-
-/// A factorised matrix of any size and scalar.
-pub(crate) trait Factors: Debug {
-    fn solve(&self, right: &Value) -> Result<Value, Defect>;
-    /// True if a solution loses digits that twice the precision keeps.
-    fn loses_digits(&self) -> bool;
 }
 
 impl<S: Single, const N: usize> Factors for Factorization<S, N> {
@@ -107,22 +101,10 @@ pub(crate) fn pivots<S: Single>(matrix: &Value) -> Evaluated<Value> {
     sized!(matrix.as_list()?.len(), N => Ok(product_of_pivots(columns::<S, N, N>(matrix)?).into_value()))
 }
 
-/// All positions of a group.
-pub(crate) trait Found: Debug {
-    fn take(&self, names: [&Arc<str>; 2], mode: AssemblyMode) -> Evaluated<Value>;
-}
-
 impl<const N: usize> Found for linkage_runtime::modes::Modes<f64, N> {
-    fn take(&self, [mechanism, group]: [&Arc<str>; 2], mode: AssemblyMode) -> Evaluated<Value> {
-        Ok(list(Self::take(self, &**mechanism, &**group, mode).map_err(Error::from)?))
+    fn take(&self, [mechanism, group]: [&Arc<str>; 2], mode: AssemblyMode) -> Result<Value, Error> {
+        Ok(list(Self::take(self, &**mechanism, &**group, mode)?))
     }
-}
-
-/// The positions of a group that were found last, by the number of its loops.
-#[derive(Debug, Clone)]
-pub(crate) enum Kept {
-    Two(Box<Memory<f64, 2, 4>>),
-    Three(Box<Memory<f64, 3, 6>>),
 }
 
 impl<'c> Machine<'c> {
@@ -139,7 +121,7 @@ impl<'c> Machine<'c> {
             let value = self.closure(code, evaluation, [list(at)], false)?;
             match value.as_list()? {
                 [residual, scales, matrix] => Ok((numbers(residual)?, numbers(scales)?, columns(matrix)?)),
-                _ => Err(Defect::expected("three lists", &value).into()),
+                _ => Err(value.expected("three lists").into()),
             }
         };
         evaluate().unwrap_or_else(|failure| {
@@ -178,14 +160,14 @@ impl<'c> Machine<'c> {
         unknowns_are: Option<&Value>,
         functions: [&Value; 2],
     ) -> Evaluated<Value> {
-        let Value::Memory(memory) = memory else { return Err(Defect::expected("a memory", memory).into()) };
+        let Value::Memory(memory) = memory else { return Err(memory.expected("a memory").into()) };
         let mut kept = memory.borrow_mut();
         let count = loops.field(Name::CONSTANTS)?.as_list()?.len();
         match (count, &*kept) {
             (2, None | Some(Kept::Three(_))) => *kept = Some(Kept::Two(Box::default())),
             (3, None | Some(Kept::Two(_))) => *kept = Some(Kept::Three(Box::default())),
             (2 | 3, _) => {}
-            _ => return Err(Defect::expected("two or three loops", loops).into()),
+            _ => return Err(loops.expected("two or three loops").into()),
         }
         match &mut *kept {
             Some(Kept::Two(memory)) => self.modes_of(code, memory, names, loops, unknowns_are, functions),
@@ -234,7 +216,7 @@ impl<'c> Machine<'c> {
 /// An unknown of a group with lengths; an angle is no record.
 fn unknown(value: &Value) -> Result<Unknown<f64>, Defect> {
     let Value::Record(length) = value else { return Ok(Unknown::Angle) };
-    let field = |name| length.get(name).ok_or_else(|| Defect::expected("a field", value));
+    let field = |name| length.get(name).ok_or_else(|| value.expected("a field"));
     let with = match field(Name::WITH)? {
         Value::Absent => None,
         index => Some(index.as_count()?),

@@ -1,6 +1,7 @@
 //! The machine that runs compiled functions: expressions in the order of emitted code, functions of the runtime by
 //! themselves.
 
+mod defect;
 mod evaluate;
 mod failure;
 mod groups;
@@ -9,8 +10,8 @@ mod scalar;
 mod turns;
 mod value;
 
-pub use failure::Defect;
-pub(crate) use failure::Failure;
+pub use defect::Defect;
+pub(crate) use failure::{Evaluated, Failure};
 pub(crate) use scalar::Scalar;
 pub(crate) use value::Value;
 
@@ -56,9 +57,6 @@ const DEEPEST: usize = 24;
 
 /// The most calls of functions of the program within one call: all branches are far fewer.
 const MOST_CALLS: usize = 10_000_000;
-
-/// The result of an evaluation.
-pub(crate) type Evaluated<T> = Result<T, Box<Failure>>;
 
 /// A running call: the bound values of all functions in it.
 pub(crate) struct Machine<'c> {
@@ -135,7 +133,7 @@ impl<'c> Machine<'c> {
         let accepted = match accepted {
             Value::Flag(flag) => Flag::Constant(flag),
             Value::TracedFlag(flag) => flag,
-            other => return Err(Defect::expected("a flag", &other).into()),
+            other => return Err(other.expected("a flag").into()),
         };
         Ok((accepted, columns.as_list()?.to_vec()))
     }

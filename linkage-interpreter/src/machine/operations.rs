@@ -9,13 +9,15 @@ use linkage_dynamics::MotionError;
 use linkage_runtime::__rt::{self as rt, Triangle, Wide};
 use linkage_runtime::{AssemblyMode, Column, D, Elbow, PositionError, Ranged};
 
-use super::failure::{Defect, Error, Failure};
+use super::defect::Defect;
+use super::failure::{Evaluated, Failure};
 use super::groups::{columns, factorised, list, numbers, pivots, sized};
 use super::scalar::{Scalar, Single};
-use super::turns::Turning;
-use super::value::{Record, Value};
-use super::{Evaluated, Kind, Machine};
+
+use super::value::{Record, Turning, Value};
+use super::{Kind, Machine};
 use crate::code::{Function, Id, Name, Operation};
+use crate::error::Error;
 use crate::tape::{Chord, Flag, Test, Traced};
 
 impl Operation {
@@ -161,7 +163,7 @@ impl<'v> Arguments<'v> {
 
     fn number<S: Scalar>(&self, place: usize) -> Result<S, Defect> {
         let value = self.at(place)?;
-        S::of(value).ok_or_else(|| Defect::expected("a number", value))
+        S::of(value).ok_or_else(|| value.expected("a number"))
     }
 }
 
@@ -187,14 +189,14 @@ fn side(value: &Value) -> Result<Elbow, Defect> {
     match value {
         Value::Side(true) => Ok(Elbow::Left),
         Value::Side(false) => Ok(Elbow::Right),
-        other => Err(Defect::expected("a side", other)),
+        other => Err(other.expected("a side")),
     }
 }
 
 fn triangle<S: Single>(value: &Value) -> Result<Triangle<S>, Defect> {
     let number = |name| {
         let value = value.field(name)?;
-        S::of(value).ok_or_else(|| Defect::expected("a number", value))
+        S::of(value).ok_or_else(|| value.expected("a number"))
     };
     Ok(Triangle {
         links: numbers(value.field(Name::LINKS)?)?,
@@ -227,7 +229,7 @@ impl<'c> Machine<'c> {
                         Err(error) => Err(error.clone().into()),
                         Ok(_) => Err(Defect::new("an error that is none").into()),
                     },
-                    other => Err(Defect::expected("an error", &other).into()),
+                    other => Err(other.expected("an error").into()),
                 };
             }
             (Operation::And, [one, other]) => {
@@ -272,7 +274,7 @@ impl<'c> Machine<'c> {
             })?,
             Operation::Largest => {
                 let all = arguments.at(0)?.as_list()?.iter();
-                let all = all.map(|value| S::of(value).ok_or_else(|| Defect::expected("a number", value)));
+                let all = all.map(|value| S::of(value).ok_or_else(|| value.expected("a number")));
                 rt::largest(all.collect::<Result<Vec<S>, _>>()?).into_value()
             }
             Operation::Regular => {
@@ -302,7 +304,7 @@ impl<'c> Machine<'c> {
                 for ((name, residual), scale) in rows {
                     let name = name.as_text()?;
                     let [residual, scale] =
-                        [residual, scale].map(|value| S::of(value).ok_or_else(|| Defect::expected("a number", value)));
+                        [residual, scale].map(|value| S::of(value).ok_or_else(|| value.expected("a number")));
                     rt::implied(&**mechanism, [&**name], [residual?], [scale?]).map_err(Error::from)?;
                 }
                 Value::unit()
@@ -343,7 +345,7 @@ impl<'c> Machine<'c> {
             Operation::SideOf => Value::Side(rt::side_of::<S, Elbow>(number(0)?) == Elbow::Left),
             Operation::Refined => {
                 let Value::Factors(factors) = arguments.at(0)? else {
-                    return Err(Defect::expected("factors", arguments.at(0)?).into());
+                    return Err(arguments.at(0)?.expected("factors").into());
                 };
                 let rough = arguments.at(1)?;
                 let precise = match factors.loses_digits() {
@@ -382,7 +384,7 @@ impl<'c> Machine<'c> {
                         self.closure(code, arguments.at(1)?, [error], true)?
                     }
                 },
-                other => return Err(Defect::expected("an outcome", other).into()),
+                other => return Err(other.expected("an outcome").into()),
             },
             Operation::Combinations => self.combinations(code, arguments.at(0)?, arguments.at(1)?)?,
             Operation::Existing => self.existing(code, arguments.at(0)?, arguments.at(1)?)?,
@@ -439,24 +441,24 @@ impl<'c> Machine<'c> {
             }
             Operation::Solve => match value()? {
                 Value::Factors(factors) => factors.solve(arguments.at(1)?)?,
-                other => return Err(Defect::expected("factors", other).into()),
+                other => return Err(other.expected("factors").into()),
             },
             Operation::Take => match (value()?, arguments.at(3)?) {
                 (Value::Modes(modes), Value::Mode(mode)) => {
                     modes.take([arguments.at(1)?.as_text()?, arguments.at(2)?.as_text()?], *mode)?
                 }
-                (other, _) => return Err(Defect::expected("modes", other).into()),
+                (other, _) => return Err(other.expected("modes").into()),
             },
             Operation::Memory => Value::Memory(Rc::default()),
             Operation::Turns => Value::Turns(Rc::new(Turning::given(value()?)?)),
             Operation::NearestTurns => Value::Turns(Rc::new(Turning::nearest(value()?)?)),
             Operation::InTurn => match value()? {
                 Value::Turns(turns) => turns.number(arguments.at(1)?.as_count()?, arguments.at(2)?)?,
-                other => return Err(Defect::expected("turns", other).into()),
+                other => return Err(other.expected("turns").into()),
             },
             Operation::TurnsFound => match value()? {
                 Value::Turns(turns) => turns.found()?,
-                other => return Err(Defect::expected("turns", other).into()),
+                other => return Err(other.expected("turns").into()),
             },
             Operation::SideAt => Value::Side(value()?.as_count()? == 0),
             Operation::NumberOfMode => Value::Mode(AssemblyMode::Number(value()?.as_count()?)),
@@ -510,7 +512,7 @@ impl<'c> Machine<'c> {
                 let scene = arguments.at(0)?.as_text()?;
                 for pair in arguments.at(1)?.as_list()? {
                     let [quantity, value] = pair.as_list()? else {
-                        return Err(Defect::expected("a pair", pair).into());
+                        return Err(pair.expected("a pair").into());
                     };
                     if !are_finite(value) {
                         return Err(not_finite([scene, quantity.as_text()?]).into());
@@ -531,7 +533,7 @@ impl<'c> Machine<'c> {
             Operation::Countable => {
                 let mechanism = arguments.at(0)?.as_text()?;
                 for guess in arguments.at(1)?.as_list()? {
-                    let guess = f64::of(guess).ok_or_else(|| Defect::expected("a number", guess))?;
+                    let guess = f64::of(guess).ok_or_else(|| guess.expected("a number"))?;
                     rt::countable(&**mechanism, [guess]).map_err(Error::from)?;
                 }
                 Value::unit()
@@ -548,7 +550,7 @@ impl<'c> Machine<'c> {
                 let scene = arguments.at(0)?.as_text()?;
                 for stop in arguments.at(1)?.as_list()? {
                     let [name, lower, upper, restitution] = stop.as_list()? else {
-                        return Err(Defect::expected("a stop", stop).into());
+                        return Err(stop.expected("a stop").into());
                     };
                     let [lower, upper, restitution] = [lower, upper, restitution].map(number);
                     let stop = (&**name.as_text()?, lower?, upper?, restitution?);
@@ -567,9 +569,9 @@ impl<'c> Machine<'c> {
                 let scene = arguments.at(0)?.as_text()?;
                 for pair in arguments.at(1)?.as_list()? {
                     let [quantity, value] = pair.as_list()? else {
-                        return Err(Defect::expected("a pair", pair).into());
+                        return Err(pair.expected("a pair").into());
                     };
-                    let value = f64::of(value).ok_or_else(|| Defect::expected("a number", value))?;
+                    let value = f64::of(value).ok_or_else(|| value.expected("a number"))?;
                     dynamics::not_negative(&**scene, [(&**quantity.as_text()?, value)]).map_err(Error::from)?;
                 }
                 Value::unit()
@@ -638,7 +640,7 @@ impl<'c> Machine<'c> {
         at: [f64; N],
     ) -> Evaluated<(Value, Balance<f64, N>)> {
         let found = self.closure(code, evaluation, [list(at)], true)?;
-        let [q, balance] = found.as_list()? else { return Err(Defect::expected("a pair", &found).into()) };
+        let [q, balance] = found.as_list()? else { return Err(found.expected("a pair").into()) };
         let [forces, scales] = [Name::FORCES, Name::SCALES].map(|name| balance.field(name).and_then(numbers));
         let slopes = columns(balance.field(Name::SLOPES)?)?;
         Ok((q.clone(), Balance { forces: forces?, scales: scales?, slopes }))
@@ -654,7 +656,7 @@ impl<'c> Machine<'c> {
         let inputs = match arguments.at(0)? {
             Value::Text(mechanism) => return Ok(call(mechanism, group).map_err(Error::from)?),
             Value::At(inputs) => inputs,
-            other => return Err(Defect::expected("a name", other).into()),
+            other => return Err(other.expected("a name").into()),
         };
         call(&self.driver.name, group).map_err(|error| {
             let mut error = error.map_names(Arc::from);
@@ -730,7 +732,7 @@ fn matrices(all: &Value) -> Result<Value, Defect> {
 }
 
 fn number(value: &Value) -> Result<f64, Defect> {
-    f64::of(value).ok_or_else(|| Defect::expected("a number", value))
+    f64::of(value).ok_or_else(|| value.expected("a number"))
 }
 
 /// A value with a range.

@@ -3,9 +3,10 @@
 use linkage_runtime::__rt::{Wide, real};
 use linkage_runtime::Real;
 
-use super::failure::Defect;
+use super::defect::Defect;
 use super::value::Value;
 use crate::code::{Constant, Elementary};
+use crate::tape::{Binary, Ternary, Traced, Unary};
 
 /// A number of formulas.
 pub(crate) trait Scalar: Clone {
@@ -117,4 +118,55 @@ single! {
     f64: Number;
     // A double is exact in twice the precision.
     Wide: Wide, Number;
+}
+
+impl Scalar for Traced {
+    fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::Traced(traced) => Some(traced.clone()),
+            Value::Number(number) => Some(Self::Constant(*number)),
+            _ => None,
+        }
+    }
+
+    fn into_value(self) -> Value {
+        match self {
+            Self::Constant(value) => Value::Number(value),
+            register => Value::Traced(register),
+        }
+    }
+
+    fn constant(constant: Constant) -> Self {
+        Self::Constant(f64::constant(constant))
+    }
+
+    fn plus(self, other: &Self) -> Self {
+        self.binary(Binary::Plus, other)
+    }
+
+    fn minus(self, other: &Self) -> Self {
+        self.binary(Binary::Minus, other)
+    }
+
+    fn times(self, other: &Self) -> Self {
+        self.binary(Binary::Times, other)
+    }
+
+    fn over(self, other: &Self) -> Self {
+        self.binary(Binary::Over, other)
+    }
+
+    fn negative(self) -> Self {
+        self.unary(Unary::Negative)
+    }
+
+    fn call(function: Elementary, arguments: &[Self]) -> Result<Self, Defect> {
+        match (function, arguments) {
+            (Elementary::Sqrt, [x]) => Ok(x.unary(Unary::Sqrt)),
+            (Elementary::Abs, [x]) => Ok(x.unary(Unary::Abs)),
+            (Elementary::IfNonzero, [a, value, limit]) => Ok(a.ternary(Ternary::IfNonzero, [value, limit])),
+            // Others have forms over lanes, or none.
+            _ => Err(Defect::new(format!("{function:?} over lanes"))),
+        }
+    }
 }

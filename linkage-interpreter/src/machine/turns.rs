@@ -4,31 +4,17 @@ use std::cell::RefCell;
 
 use linkage_runtime::__rt::{NearestTurns, Turn as _, Turns};
 
-use super::Evaluated;
-use super::failure::Defect;
+use super::defect::Defect;
+use super::failure::Evaluated;
 use super::scalar::Scalar as _;
-use super::value::Value;
+use super::value::{Nearest, Turning, Value};
 use crate::tape::Traced;
-
-/// The source of the turns of angles, by place.
-#[derive(Debug)]
-pub(crate) enum Turning {
-    Given(Vec<i32>),
-    Nearest(Vec<RefCell<Nearest>>),
-}
-
-/// The turn of an angle that is nearest to a guess, of one position or of lanes.
-#[derive(Debug)]
-pub(crate) enum Nearest {
-    One(NearestTurns<f64, 1>),
-    Traced(Traced),
-}
 
 impl Turning {
     pub(crate) fn given(turns: &Value) -> Result<Self, Defect> {
         let turn = |value: &Value| match value {
-            Value::Count(count) => i32::try_from(*count).map_err(|_| Defect::expected("a turn", value)),
-            other => Err(Defect::expected("a turn", other)),
+            Value::Count(count) => i32::try_from(*count).map_err(|_| value.expected("a turn")),
+            other => Err(other.expected("a turn")),
         };
         turns.as_list()?.iter().map(turn).collect::<Result<_, _>>().map(Self::Given)
     }
@@ -37,7 +23,7 @@ impl Turning {
         let near = |value: &Value| match value {
             Value::Number(number) => Ok(RefCell::new(Nearest::One(NearestTurns::new([*number])))),
             Value::Traced(guess) => Ok(RefCell::new(Nearest::Traced(guess.clone()))),
-            other => Err(Defect::expected("a number", other)),
+            other => Err(other.expected("a number")),
         };
         guesses.as_list()?.iter().map(near).collect::<Result<_, _>>().map(Self::Nearest)
     }
@@ -45,7 +31,7 @@ impl Turning {
     /// The number of an angle: its principal value and whole turns.
     pub(crate) fn number(&self, place: usize, principal: &Value) -> Evaluated<Value> {
         let none = || Defect::new("a turn that does not exist");
-        let is_number = |value: &Value| Defect::expected("a number", value);
+        let is_number = |value: &Value| value.expected("a number");
         Ok(match self {
             Self::Given(turns) => {
                 let turn = *turns.get(place).ok_or_else(none)?;

@@ -5,13 +5,12 @@ use std::fmt::Debug;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use linkage_runtime::__rt::Wide;
+use linkage_runtime::__rt::{Memory, NearestTurns, Wide};
 use linkage_runtime::AssemblyMode;
 
-use super::failure::{Defect, Error};
-use super::groups::{Factors, Found, Kept};
-use super::turns::Turning;
+use super::defect::Defect;
 use crate::code::{Id, Name};
+use crate::error::Error;
 use crate::tape::{Flag, Traced};
 
 /// A value. Lists stand for arrays, tuples, columns and the columns of matrices, and a direction is the list of its cosine
@@ -45,6 +44,39 @@ pub(crate) enum Value {
     Factors(Rc<dyn Factors>),
     Memory(Rc<RefCell<Option<Kept>>>),
     Modes(Rc<dyn Found>),
+}
+
+/// The source of the turns of angles, by place.
+#[derive(Debug)]
+pub(crate) enum Turning {
+    Given(Vec<i32>),
+    Nearest(Vec<RefCell<Nearest>>),
+}
+
+/// The turn of an angle that is nearest to a guess, of one position or of lanes.
+#[derive(Debug)]
+pub(crate) enum Nearest {
+    One(NearestTurns<f64, 1>),
+    Traced(Traced),
+}
+
+/// A factorised matrix of any size and scalar.
+pub(crate) trait Factors: Debug {
+    fn solve(&self, right: &Value) -> Result<Value, Defect>;
+    /// True if a solution loses digits that twice the precision keeps.
+    fn loses_digits(&self) -> bool;
+}
+
+/// All positions of a group.
+pub(crate) trait Found: Debug {
+    fn take(&self, names: [&Arc<str>; 2], mode: AssemblyMode) -> Result<Value, Error>;
+}
+
+/// The positions of a group that were found last, by the number of its loops.
+#[derive(Debug, Clone)]
+pub(crate) enum Kept {
+    Two(Box<Memory<f64, 2, 4>>),
+    Three(Box<Memory<f64, 3, 6>>),
 }
 
 /// Fields by name.
@@ -91,38 +123,63 @@ impl Value {
         Self::List(Rc::default())
     }
 
+    /// The value is not of the form that it must have.
+    #[cold]
+    pub(crate) fn expected(&self, what: &str) -> Defect {
+        let found = match self {
+            Self::Number(_) | Self::Wide(_) | Self::Traced(_) => "a number",
+            Self::Flag(_) | Self::TracedFlag(_) => "a flag",
+            Self::Count(_) => "a count",
+            Self::Text(_) => "a text",
+            Self::List(_) => "a list",
+            Self::Matrix(_) => "a matrix",
+            Self::Record(_) => "fields",
+            Self::Absent => "no value",
+            Self::Outcome(_) => "an outcome",
+            Self::Side(_) => "a side",
+            Self::Mode(_) => "a number of a mode",
+            Self::Closure(_) => "a function",
+            Self::At(_) => "a place",
+            Self::Turns(_) => "turns",
+            Self::Factors(_) => "factors",
+            Self::Memory(_) => "a memory",
+            Self::Modes(_) => "modes",
+        };
+        Defect::new(format!("expected {what}, found {found}"))
+    }
+
     pub(crate) fn as_list(&self) -> Result<&[Self], Defect> {
         match self {
             Self::List(all) | Self::Matrix(all) => Ok(all),
-            other => Err(Defect::expected("a list", other)),
+            other => Err(other.expected("a list")),
         }
     }
 
     pub(crate) fn as_record(&self) -> Result<&Record, Defect> {
         match self {
             Self::Record(record) => Ok(record),
-            other => Err(Defect::expected("fields", other)),
+            other => Err(other.expected("fields")),
         }
     }
 
     pub(crate) fn as_text(&self) -> Result<&Arc<str>, Defect> {
         match self {
             Self::Text(text) => Ok(text),
-            other => Err(Defect::expected("a text", other)),
+            other => Err(other.expected("a text")),
         }
     }
 
     pub(crate) fn as_flag(&self) -> Result<bool, Defect> {
         match self {
             Self::Flag(flag) => Ok(*flag),
-            other => Err(Defect::expected("a flag", other)),
+            other => Err(other.expected("a flag")),
         }
     }
 
     pub(crate) fn as_count(&self) -> Result<usize, Defect> {
         match self {
-            Self::Count(count) => usize::try_from(*count).map_err(|_| Defect::expected("a count", self)),
-            other => Err(Defect::expected("a count", other)),
+            Self::Count(count) => usize::try_from(*count).map_err(|_| self.expected("a count")),
+            other => Err(other.expected("a count")),
         }
     }
 
@@ -137,7 +194,7 @@ impl Value {
             },
             _ => None,
         };
-        found.ok_or_else(|| Defect::expected("a field", self))
+        found.ok_or_else(|| self.expected("a field"))
     }
 
     /// Visits the numbers, flags and counts in it, in order.

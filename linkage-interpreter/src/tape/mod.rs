@@ -9,7 +9,8 @@ mod registers;
 mod run;
 mod traced;
 
-pub(crate) use instruction::{Chord, Test};
+pub(crate) use instruction::{Binary, Chord, Ternary, Test, Unary};
+pub(crate) use registers::recorded;
 pub(crate) use run::Block;
 pub(crate) use traced::{Flag, Recorder, Traced};
 

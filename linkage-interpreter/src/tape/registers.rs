@@ -2,10 +2,17 @@
 
 use super::Tape;
 use super::instruction::{Instruction, Use};
-use super::traced::{Flag, Traced};
+use super::traced::{Flag, Recorder, Recording, Traced};
+
+/// The tape of a recording, for these found columns.
+pub(crate) fn recorded(of: &Recording, found: Vec<Traced>, accepted: Flag) -> Tape {
+    let Recorder { instructions, numbers, flags, given, constants } = of.take();
+    let (numbers, flags) = (numbers as usize, flags as usize);
+    reused(Tape { instructions, numbers, flags, given, constants, found, accepted })
+}
 
 /// The tape without needless operations, on few registers.
-pub(super) fn reused(mut tape: Tape) -> Tape {
+fn reused(mut tape: Tape) -> Tape {
     let Tape { numbers, flags, .. } = tape;
     let mut needed = Needed { numbers: vec![false; numbers], flags: vec![false; flags] };
     for found in &tape.found {

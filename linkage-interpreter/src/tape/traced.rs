@@ -7,21 +7,19 @@ use linkage_runtime::__rt::{self as rt, NearestTurns, Triangle, Turn as _, Turns
 use linkage_runtime::Elbow;
 
 use super::instruction::{Binary, Chord, Instruction, Ternary, Test, Unary};
-use super::{Tape, registers};
-use crate::code::{Constant, Elementary};
-use crate::machine::{Defect, Scalar, Value};
 
 /// A recording.
 #[derive(Debug, Default)]
 pub(crate) struct Recorder {
-    instructions: Vec<Instruction>,
-    numbers: u32,
-    flags: u32,
-    given: Vec<(usize, u32)>,
-    constants: Vec<(f64, u32)>,
+    pub(super) instructions: Vec<Instruction>,
+    pub(super) numbers: u32,
+    pub(super) flags: u32,
+    pub(super) given: Vec<(usize, u32)>,
+    pub(super) constants: Vec<(f64, u32)>,
 }
 
-type Recording = Rc<RefCell<Recorder>>;
+/// A recording that its numbers share.
+pub(crate) type Recording = Rc<RefCell<Recorder>>;
 
 /// A number: a constant, or a register.
 #[derive(Debug, Clone)]
@@ -66,13 +64,6 @@ impl Recorder {
         recorder.given.push((column, register));
         Traced::Register(Rc::clone(of), register)
     }
-
-    /// The tape for these found columns.
-    pub(crate) fn tape(of: Recording, found: Vec<Traced>, accepted: Flag) -> Tape {
-        let Self { instructions, numbers, flags, given, constants } = of.take();
-        let (numbers, flags) = (numbers as usize, flags as usize);
-        registers::reused(Tape { instructions, numbers, flags, given, constants, found, accepted })
-    }
 }
 
 /// The recording of the first register among numbers.
@@ -98,7 +89,7 @@ impl Traced {
         }
     }
 
-    fn unary(&self, of: Unary) -> Self {
+    pub(crate) fn unary(&self, of: Unary) -> Self {
         match self {
             Self::Constant(value) => Self::Constant(unary(of, *value)),
             Self::Register(recording, from) => {
@@ -110,7 +101,7 @@ impl Traced {
         }
     }
 
-    fn binary(&self, of: Binary, other: &Self) -> Self {
+    pub(crate) fn binary(&self, of: Binary, other: &Self) -> Self {
         let Some(recording) = recording([self, other]) else {
             return Self::Constant(binary(of, self.constant(), other.constant()));
         };
@@ -122,7 +113,7 @@ impl Traced {
         Self::Register(recording, to)
     }
 
-    fn ternary(&self, of: Ternary, others: [&Self; 2]) -> Self {
+    pub(crate) fn ternary(&self, of: Ternary, others: [&Self; 2]) -> Self {
         let all = [self, others[0], others[1]];
         let Some(recording) = recording(all) else {
             return Self::Constant(ternary(of, all.map(Self::constant)));
@@ -221,57 +212,6 @@ impl Flag {
                 recorder.instructions.push(Instruction::And(flag, [*one, *other]));
                 Self::Register(Rc::clone(recording), flag)
             }
-        }
-    }
-}
-
-impl Scalar for Traced {
-    fn of(value: &Value) -> Option<Self> {
-        match value {
-            Value::Traced(traced) => Some(traced.clone()),
-            Value::Number(number) => Some(Self::Constant(*number)),
-            _ => None,
-        }
-    }
-
-    fn into_value(self) -> Value {
-        match self {
-            Self::Constant(value) => Value::Number(value),
-            register => Value::Traced(register),
-        }
-    }
-
-    fn constant(constant: Constant) -> Self {
-        Self::Constant(f64::constant(constant))
-    }
-
-    fn plus(self, other: &Self) -> Self {
-        self.binary(Binary::Plus, other)
-    }
-
-    fn minus(self, other: &Self) -> Self {
-        self.binary(Binary::Minus, other)
-    }
-
-    fn times(self, other: &Self) -> Self {
-        self.binary(Binary::Times, other)
-    }
-
-    fn over(self, other: &Self) -> Self {
-        self.binary(Binary::Over, other)
-    }
-
-    fn negative(self) -> Self {
-        self.unary(Unary::Negative)
-    }
-
-    fn call(function: Elementary, arguments: &[Self]) -> Result<Self, Defect> {
-        match (function, arguments) {
-            (Elementary::Sqrt, [x]) => Ok(x.unary(Unary::Sqrt)),
-            (Elementary::Abs, [x]) => Ok(x.unary(Unary::Abs)),
-            (Elementary::IfNonzero, [a, value, limit]) => Ok(a.ternary(Ternary::IfNonzero, [value, limit])),
-            // Others have forms over lanes, or none.
-            _ => Err(Defect::new(format!("{function:?} over lanes"))),
         }
     }
 }
