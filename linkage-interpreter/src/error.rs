@@ -28,7 +28,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// As the `?` of a function of a scene converts it.
+    /// The error as the `?` of a function of a scene converts it.
     pub(crate) fn of_scene(self) -> Self {
         match self {
             Self::Position(error) => Self::Motion(error.into()),

@@ -38,7 +38,7 @@ impl Serialize for Program {
     }
 }
 
-/// What was written by another version, or is damaged, is an error.
+/// Mechanisms written by another version, and damaged ones, are errors.
 impl<'de> Deserialize<'de> for Program {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let Version { version, mechanisms } = Version::deserialize(deserializer)?;

@@ -31,7 +31,7 @@ impl Built {
     }
 }
 
-/// What was found of the functions that were called.
+/// The findings about the functions that were called.
 #[derive(Default)]
 struct Found {
     calls: usize,
@@ -160,7 +160,7 @@ fn difference(path: &str, emitted: &Printed, own: &Data) -> Option<String> {
     }
 }
 
-/// The same bits; of numbers that are none the bits are open.
+/// True for the same bits. Rust leaves those of NaN open.
 fn is_same(one: f64, other: f64) -> bool {
     one.to_bits() == other.to_bits() || one.is_nan() && other.is_nan()
 }

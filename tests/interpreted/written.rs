@@ -85,7 +85,7 @@ fn another_version_is_one_message() {
 #[test]
 fn damaged_files_do_not_panic() {
     let mut random = SmallRng::seed_from_u64(7);
-    let (mut refused, mut run) = (0, 0);
+    let (mut rejected, mut run) = (0, 0);
     for file in ["four_bar", "double_butterfly", "four_bar_effects"] {
         let text = serde_json::to_string(&Program::compile(&text_of(file)).expect("it compiles")).expect("written");
         for _ in 0..60 {
@@ -100,7 +100,7 @@ fn damaged_files_do_not_panic() {
                 }
             }
             let Ok(program) = serde_json::from_slice::<Program>(&damaged) else {
-                refused += 1;
+                rejected += 1;
                 continue;
             };
             for mechanism in program.mechanisms() {
@@ -114,5 +114,5 @@ fn damaged_files_do_not_panic() {
             }
         }
     }
-    assert!(refused > 10 && run > 10, "{refused} {run}");
+    assert!(rejected > 10 && run > 10, "{rejected} {run}");
 }

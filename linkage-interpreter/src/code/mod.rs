@@ -48,7 +48,7 @@ pub(crate) enum Access {
     Public,
     /// Called by functions of the program alone.
     Private,
-    /// Of a trait of the runtime.
+    /// The runtime, by a trait of its own.
     OfTrait,
 }
 

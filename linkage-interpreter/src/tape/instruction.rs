@@ -50,11 +50,11 @@ pub(crate) enum Test {
 /// A half chord of numbers that say how large the parts of a group are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Chord {
-    /// Of a triangle: links, line, scale, reach squared, distance squared, factors.
+    /// The half chord of a triangle: links, line, scale, reach squared, distance squared, factors.
     Elbow,
-    /// Of two factors.
+    /// The half chord of two factors.
     Factors,
-    /// Of two factors, a radius and a scale.
+    /// The half chord of two factors, if a radius is apart from rounding errors of a scale.
     Reach,
 }
 
