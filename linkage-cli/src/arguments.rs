@@ -142,7 +142,7 @@ pub struct Numbers {
     /// The value of a parameter, instead of its default
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<Assignment>,
-    /// The position of a group that has two [default: the first]
+    /// The position of a group that has several: a word such as left, or a number [default: the first]
     #[arg(long, value_name = "GROUP=SIDE")]
     pub branch: Vec<Choice>,
 }

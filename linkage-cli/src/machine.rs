@@ -193,18 +193,30 @@ fn parameters(about: &About, mechanism: &Mechanism, set: &[Assignment]) -> Resul
     }
 }
 
-/// The branch, by the first of two positions where none is chosen.
+/// The branch: the first position of each group where none is chosen, and no additional turns.
 fn branch(about: &About, mechanism: &Mechanism, choices: &[Choice]) -> Result<Data, Failure> {
-    let [groups, ..] = mechanism.branch_fields();
+    let [sides, modes, turns] = mechanism.branch_fields();
+    let words = sides.iter().map(|(_, words)| words.first().copied().map_or(Data::Nothing, Data::from));
+    let numbers = modes.iter().chain(&turns).map(|_| Data::Count(0));
+    let mut values: Vec<Data> = words.chain(numbers).collect();
+    let groups: Vec<&(&str, Vec<&str>)> = sides.iter().chain(&modes).chain(&turns).collect();
     let names: Vec<&str> = groups.iter().map(|(name, _)| *name).collect();
-    let mut words: Vec<&str> = groups.iter().filter_map(|(_, words)| words.first().copied()).collect();
     for Choice { name, word } in choices {
-        let place = place(&about.name, "group with two positions", name, &names)?;
-        let all = &groups[place].1;
-        words[place] = *all.iter().find(|other| other.eq_ignore_ascii_case(word)).ok_or_else(|| {
-            let all: Vec<String> = all.iter().map(|word| word.to_lowercase()).collect();
-            Failure::Argument(format!("`{name}` is `{}`, not `{word}`", all.join("` or `")))
-        })?;
+        let place = place(&about.name, "group with several positions", name, &names)?;
+        values[place] = position(&groups[place].1, word)
+            .map_err(|all| Failure::Argument(format!("`{name}` is {all}, not `{word}`")))?;
     }
-    Ok(Data::fields(names.into_iter().zip(words.into_iter().map(Data::from))))
+    Ok(Data::fields(names.into_iter().zip(values)))
+}
+
+/// A position by its word, or by its number where positions have no words; what it can be otherwise.
+fn position(words: &[&str], chosen: &str) -> Result<Data, String> {
+    if words.is_empty() {
+        return chosen.parse().map(Data::Count).map_err(|_| "a whole number".to_owned());
+    }
+    let found = words.iter().find(|word| word.eq_ignore_ascii_case(chosen));
+    found.map(|word| Data::from(*word)).ok_or_else(|| {
+        let all: Vec<String> = words.iter().map(|word| format!("`{}`", word.to_lowercase())).collect();
+        all.join(" or ")
+    })
 }

@@ -106,7 +106,7 @@ fn names_and_values_that_do_not_exist() {
         ("draw four.linkage --branch theta3_theta4=up", "`theta3_theta4` is `left` or `right`, not `up`"),
         (
             "draw four.linkage --branch theta3theta4=left",
-            "FourBar has no group with two positions `theta3theta4`, did you mean `theta3_theta4`?",
+            "FourBar has no group with several positions `theta3theta4`, did you mean `theta3_theta4`?",
         ),
         ("table four.linkage --columns C_z", "the table has no column `C_z`; the nearest name is `C_x`"),
         ("draw five.linkage", "the parameter `d` has no value: write --set d=VALUE"),
