@@ -150,3 +150,114 @@ pub(crate) enum Operation {
     EquationsAt,
     Equilibrium,
 }
+
+impl Operation {
+    /// True if it returns an outcome, not a value.
+    pub(crate) fn is_fallible(self) -> bool {
+        match self {
+            Self::Finite
+            | Self::FiniteEach
+            | Self::FinitePoints
+            | Self::FiniteVectors
+            | Self::FiniteOutputs
+            | Self::FiniteMatrix
+            | Self::FinitePointMatrices
+            | Self::FiniteOutputMatrices
+            | Self::PointMotions
+            | Self::OutputMotions
+            | Self::Regular
+            | Self::Solvable
+            | Self::Reachable
+            | Self::Implied
+            | Self::NotNegative
+            | Self::ValidateStops
+            | Self::ValidateContacts
+            | Self::ElbowChord
+            | Self::Chord
+            | Self::ReachChord
+            | Self::Factorization
+            | Self::NewtonGroup
+            | Self::Modes
+            | Self::ModesWithLengths
+            | Self::Take
+            | Self::Newton
+            | Self::NewtonAnyBranch
+            | Self::Countable
+            | Self::Existing
+            | Self::NoClosedForm
+            | Self::NoList
+            | Self::TooManyBranches
+            | Self::Limits
+            | Self::Failure
+            | Self::And
+            | Self::OrElse
+            | Self::Reduced
+            | Self::Reactions
+            | Self::DriveForces
+            | Self::BearingLoss
+            | Self::EquationsAt
+            | Self::Equilibrium
+            | Self::Success => true,
+            Self::ValueOf
+            | Self::Present
+            | Self::UnwrapOr
+            | Self::Map
+            | Self::Get
+            | Self::AreFinite
+            | Self::Sum
+            | Self::Largest
+            | Self::Listed
+            | Self::Matrix
+            | Self::InputsOf
+            | Self::MechanismOf
+            | Self::Parts
+            | Self::SineCosine
+            | Self::SinesCosines
+            | Self::Direction
+            | Self::At
+            | Self::IsNonzero
+            | Self::Closes
+            | Self::RegularElbowChord
+            | Self::RegularChord
+            | Self::RegularReachChord
+            | Self::SineInLane
+            | Self::CosineInLane
+            | Self::SineCosineInLane
+            | Self::Arctangent2InLane
+            | Self::HypotenuseInLane
+            | Self::IsModerateInLane
+            | Self::HasArctangent2InLane
+            | Self::HasHypotenuseInLane
+            | Self::IsSolvableInLane
+            | Self::IsReachableInLane
+            | Self::ElbowChordInLane
+            | Self::ChordInLane
+            | Self::ReachChordInLane
+            | Self::ProductOfPivots
+            | Self::Solve
+            | Self::Refined
+            | Self::Memory
+            | Self::Turns
+            | Self::NearestTurns
+            | Self::InTurn
+            | Self::InRange
+            | Self::TurnsFound
+            | Self::SideOf
+            | Self::SideAt
+            | Self::NumberOfMode
+            | Self::ModeOfGuess
+            | Self::Combinations
+            | Self::LimitOfAngle
+            | Self::LimitOfLength
+            | Self::SearchLength
+            | Self::SearchTurn
+            | Self::NoSearch
+            | Self::UnknownAngle
+            | Self::Ranged
+            | Self::RangedDirection
+            | Self::RangedModuloTurns
+            | Self::Widened
+            | Self::Rounded => false,
+        }
+    }
+}

@@ -146,11 +146,12 @@ impl<'c> Machine<'c> {
         arguments: impl IntoIterator<Item = Value>,
         read: impl FnOnce(&mut [Value]),
     ) -> Evaluated<Value> {
-        self.depth += 1;
-        self.calls += 1;
-        if self.depth > DEEPEST || self.calls > MOST_CALLS {
+        // Calls from outside are counted each for itself.
+        self.calls = if self.depth == 0 { 1 } else { self.calls + 1 };
+        if self.depth == DEEPEST || self.calls > MOST_CALLS {
             return Err(Defect::new(format!("calls of {} do not end", function.name)).into());
         }
+        self.depth += 1;
         let from = self.slots.len();
         let (base, last) = (std::mem::replace(&mut self.base, from), std::mem::replace(&mut self.of, of));
         self.slots.push(own);

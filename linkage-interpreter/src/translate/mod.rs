@@ -1,17 +1,20 @@
 //! From the compiler's lowered functions to those that are run: names become numbers, types are resolved.
 
+mod intrinsics;
+mod types;
+
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
 
 use linkage_compiler::graph::{self, Number};
 use linkage_compiler::ids::Id as _;
 use linkage_compiler::lower::{self, Code, Returned as Lowered, ValueId};
-use linkage_compiler::program::{self, Constant as Path, Intrinsic, Passed, Receiver, Type as TypeOf, TypeNames};
+use linkage_compiler::program::{self, Constant as Path, Passed, Receiver, Type as TypeOf, TypeNames};
 use linkage_compiler::text::Message;
 
 use crate::code::{
     Access, Argument, Block, Constant, Elementary, Expression, Function, Id, Name, Names, Operation, Pattern, Place,
-    Record, Returned, Shape, Slot, Statement, Type,
+    Returned, Shape, Slot, Statement,
 };
 
 /// The things that the functions of a driver or a scene refer to.
@@ -93,75 +96,6 @@ impl Context<'_> {
             statements,
             value,
         })
-    }
-
-    /// The form of the values of a type.
-    fn shape(&self, of: &TypeOf) -> Shape {
-        let boxed = |of: &TypeOf| Box::new(self.shape(of));
-        match of {
-            TypeOf::Scalar | TypeOf::Lanes => Shape::Number,
-            TypeOf::Text => Shape::Text,
-            TypeOf::Flag => Shape::Flag,
-            TypeOf::Count => Shape::Count,
-            TypeOf::Itself => Shape::Record(Record::Branch),
-            TypeOf::OfTrait(name) => self.of_trait(name),
-            TypeOf::Own(name) | TypeOf::Wide(name) | TypeOf::Bare(name) => {
-                self.record(name).map_or_else(|| Shape::Other(name.clone()), Shape::Record)
-            }
-            TypeOf::Each(name, of) => {
-                let names = if *name == self.types.points { &self.points } else { &self.outputs };
-                Shape::Each(names.clone(), boxed(of))
-            }
-            TypeOf::Column(of, count) => Shape::List(boxed(of), *count),
-            TypeOf::Vector(count) => Shape::Vector(*count),
-            TypeOf::Matrix(rows, columns) => Shape::Matrix(*rows, *columns),
-            TypeOf::Sized("Matrix", sizes) => match sizes.as_slice() {
-                &[rows, columns] => Shape::Matrix(rows, columns),
-                _ => Shape::Other("Matrix".to_owned()),
-            },
-            TypeOf::Point => Shape::Point,
-            TypeOf::Plane => Shape::Vector(2),
-            TypeOf::Runtime(name, _) | TypeOf::Sized(name, _) => Shape::Other((*name).to_owned()),
-            TypeOf::Around("Option", of) => Shape::Perhaps(boxed(of)),
-            TypeOf::Around(name, _) => Shape::Other((*name).to_owned()),
-            TypeOf::List(of, count) => Shape::List(boxed(of), *count),
-            TypeOf::Tuple(all) => Shape::Tuple(all.iter().map(|of| self.shape(of)).collect()),
-            TypeOf::ReducedMotion { .. } => Shape::Other("ReducedMotion".to_owned()),
-            TypeOf::StateRates { .. } => Shape::Other("StateRates".to_owned()),
-            TypeOf::Branches { .. } => Shape::Many(Box::new(Shape::Other("Assembled".to_owned()))),
-            TypeOf::Iterator { item, .. } => Shape::Many(boxed(item)),
-        }
-    }
-
-    fn of_trait(&self, name: &str) -> Shape {
-        match name {
-            "Pose" => Shape::Record(Record::Pose),
-            "Branch" => Shape::Record(Record::Branch),
-            "Inputs" => Shape::Record(Record::Inputs),
-            "Coordinates" => Shape::Record(Record::Coordinates),
-            "Rates" => Shape::Record(Record::Rates),
-            "Accelerations" => Shape::Record(Record::Accelerations),
-            other => Shape::Other(other.to_owned()),
-        }
-    }
-
-    fn record(&self, name: &str) -> Option<Record> {
-        let types = self.types;
-        let all = [
-            (&types.driver, Record::Mechanism),
-            (&types.itself, Record::Scene),
-            (&types.inputs, Record::Inputs),
-            (&types.pose, Record::Pose),
-            (&types.branch, Record::Branch),
-            (&types.coordinates, Record::Coordinates),
-            (&types.rates, Record::Rates),
-            (&types.accelerations, Record::Accelerations),
-            (&types.jerks, Record::Jerks),
-            (&types.motion, Record::Motion),
-            (&types.kinematics, Record::Kinematics),
-            (&types.full_kinematics, Record::FullKinematics),
-        ];
-        all.into_iter().find(|(other, _)| *other == name).map(|(_, record)| record)
     }
 }
 
@@ -422,173 +356,6 @@ impl Translator<'_> {
             Path::False => Expression::Flag(false),
             Path::Quantities => Expression::Quantities,
         }
-    }
-
-    fn intrinsic(&mut self, of: Intrinsic, of_type: Option<&TypeOf>, arguments: &[ValueId]) -> Translated<Id> {
-        let to_points = |arguments: &[ValueId]| {
-            let word = arguments.get(1).map(|id| self.code.operation(*id));
-            matches!(word, Some(lower::Value::Text(text)) if text.starts_with("point"))
-        };
-        let operation = match of {
-            // The value itself.
-            Intrinsic::Into | Intrinsic::Iter | Intrinsic::Copied | Intrinsic::EachSized => {
-                return self.value(arguments[0]);
-            }
-            Intrinsic::From => match of_type {
-                Some(TypeOf::Bare(name)) if *name == self.context.types.inputs => Operation::InputsOf,
-                Some(TypeOf::Bare(name)) if *name == self.context.types.driver => Operation::MechanismOf,
-                Some(TypeOf::List(..)) => Operation::Listed,
-                Some(TypeOf::Runtime("SMatrix" | "Matrix", _) | TypeOf::Sized("Matrix", _)) => Operation::Matrix,
-                Some(TypeOf::Runtime(..) | TypeOf::Sized(..) | TypeOf::Tuple(_) | TypeOf::Column(..)) => {
-                    return self.value(arguments[0]);
-                }
-                other => return Err(format!("from of {other:?}")),
-            },
-            Intrinsic::Zeros => {
-                let (rows, columns) = match of_type {
-                    Some(TypeOf::Runtime(_, sizes)) if sizes.len() == 2 => (sizes[0], sizes[1]),
-                    other => return Err(format!("zeros of {other:?}")),
-                };
-                let zero = self.add(Expression::Number(Constant::Double(0.0)));
-                let column = self.add(Expression::Repeated(zero, rows));
-                let all = self.add(Expression::Repeated(column, columns));
-                return Ok(self.add(Expression::Operation(Operation::Matrix, vec![all])));
-            }
-            Intrinsic::OnlyBranch => {
-                let name = self.context.types.branch.clone();
-                let name = self.names.of(&name);
-                return Ok(self.add(Expression::Record(name, Vec::new(), None)));
-            }
-            Intrinsic::Default => Operation::Memory,
-            Intrinsic::New => Operation::NearestTurns,
-            Intrinsic::All => return self.of_type(Type::Branch, "all", arguments),
-            Intrinsic::Coordinates => return self.of_type(Type::Pose, "coordinates", arguments),
-            Intrinsic::Parts => Operation::Parts,
-            Intrinsic::Map => match arguments.get(1).map(|id| self.code.operation(*id)) {
-                Some(lower::Value::Function(Intrinsic::Widened, _)) => {
-                    let value = self.value(arguments[0])?;
-                    return Ok(self.add(Expression::Operation(Operation::Widened, vec![value])));
-                }
-                _ => Operation::Map,
-            },
-            Intrinsic::AreAll => {
-                let value = self.value(arguments[0])?;
-                return Ok(self.add(Expression::Operation(Operation::AreFinite, vec![value])));
-            }
-            Intrinsic::Square => {
-                let value = self.value(arguments[0])?;
-                return Ok(self.add(Expression::Square(value)));
-            }
-            Intrinsic::Some => Operation::Present,
-            Intrinsic::Ok => Operation::Success,
-            Intrinsic::Err => Operation::Failure,
-            Intrinsic::ValueOf => Operation::ValueOf,
-            Intrinsic::And => Operation::And,
-            Intrinsic::OrElse => Operation::OrElse,
-            Intrinsic::Get => Operation::Get,
-            Intrinsic::UnwrapOr => Operation::UnwrapOr,
-            Intrinsic::IsFinite => Operation::AreFinite,
-            Intrinsic::Sum => Operation::Sum,
-            Intrinsic::SineCosine => Operation::SineCosine,
-            Intrinsic::SinesCosines => Operation::SinesCosines,
-            Intrinsic::Largest => Operation::Largest,
-            Intrinsic::Unit => Operation::Direction,
-            Intrinsic::Finite => Operation::Finite,
-            Intrinsic::FiniteEach => Operation::FiniteEach,
-            Intrinsic::FinitePoints => Operation::FinitePoints,
-            Intrinsic::FiniteVectors => Operation::FiniteVectors,
-            Intrinsic::FiniteOutputs => Operation::FiniteOutputs,
-            Intrinsic::FiniteMatrix => Operation::FiniteMatrix,
-            Intrinsic::FiniteMatrices if to_points(arguments) => Operation::FinitePointMatrices,
-            Intrinsic::FiniteMatrices => Operation::FiniteOutputMatrices,
-            Intrinsic::PointMotions => Operation::PointMotions,
-            Intrinsic::OutputMotions => Operation::OutputMotions,
-            Intrinsic::At => Operation::At,
-            Intrinsic::Regular => Operation::Regular,
-            Intrinsic::IsNonzero => Operation::IsNonzero,
-            Intrinsic::Closes => Operation::Closes,
-            Intrinsic::Solvable => Operation::Solvable,
-            Intrinsic::Reachable => Operation::Reachable,
-            Intrinsic::Implied => Operation::Implied,
-            Intrinsic::NotNegative => Operation::NotNegative,
-            Intrinsic::ValidateStops => Operation::ValidateStops,
-            Intrinsic::ValidateContacts => Operation::ValidateContacts,
-            Intrinsic::ElbowChord => Operation::ElbowChord,
-            Intrinsic::RegularElbowChord => Operation::RegularElbowChord,
-            Intrinsic::Chord => Operation::Chord,
-            Intrinsic::ReachChord => Operation::ReachChord,
-            Intrinsic::RegularChord => Operation::RegularChord,
-            Intrinsic::RegularReachChord => Operation::RegularReachChord,
-            Intrinsic::SineInLane => Operation::SineInLane,
-            Intrinsic::CosineInLane => Operation::CosineInLane,
-            Intrinsic::SineCosineInLane => Operation::SineCosineInLane,
-            Intrinsic::Arctangent2InLane => Operation::Arctangent2InLane,
-            Intrinsic::HypotenuseInLane => Operation::HypotenuseInLane,
-            Intrinsic::IsModerateInLane => Operation::IsModerateInLane,
-            Intrinsic::HasArctangent2InLane => Operation::HasArctangent2InLane,
-            Intrinsic::HasHypotenuseInLane => Operation::HasHypotenuseInLane,
-            Intrinsic::IsSolvableInLane => Operation::IsSolvableInLane,
-            Intrinsic::IsReachableInLane => Operation::IsReachableInLane,
-            Intrinsic::ElbowChordInLane => Operation::ElbowChordInLane,
-            Intrinsic::ChordInLane => Operation::ChordInLane,
-            Intrinsic::ReachChordInLane => Operation::ReachChordInLane,
-            Intrinsic::ProductOfPivots => Operation::ProductOfPivots,
-            Intrinsic::Factorization => Operation::Factorization,
-            Intrinsic::Solve => Operation::Solve,
-            Intrinsic::Refined => Operation::Refined,
-            Intrinsic::NewtonGroup => Operation::NewtonGroup,
-            Intrinsic::Modes => Operation::Modes,
-            Intrinsic::ModesWithLengths => Operation::ModesWithLengths,
-            Intrinsic::Take => Operation::Take,
-            Intrinsic::Newton => Operation::Newton,
-            Intrinsic::NewtonAnyBranch => Operation::NewtonAnyBranch,
-            Intrinsic::Turns => Operation::Turns,
-            Intrinsic::InTurn => Operation::InTurn,
-            Intrinsic::InRange => Operation::InRange,
-            Intrinsic::TurnsFound => Operation::TurnsFound,
-            Intrinsic::Countable => Operation::Countable,
-            Intrinsic::SideOf => Operation::SideOf,
-            Intrinsic::SideAt => Operation::SideAt,
-            Intrinsic::NumberOfMode => Operation::NumberOfMode,
-            Intrinsic::Combinations => Operation::Combinations,
-            Intrinsic::Existing => Operation::Existing,
-            Intrinsic::NoClosedForm => Operation::NoClosedForm,
-            Intrinsic::NoList => Operation::NoList,
-            Intrinsic::TooManyBranches => Operation::TooManyBranches,
-            Intrinsic::Limits => Operation::Limits,
-            Intrinsic::LimitOfAngle => Operation::LimitOfAngle,
-            Intrinsic::LimitOfLength => Operation::LimitOfLength,
-            Intrinsic::SearchLength => Operation::SearchLength,
-            Intrinsic::Ranged => Operation::Ranged,
-            Intrinsic::RangedDirection => Operation::RangedDirection,
-            Intrinsic::RangedModuloTurns => Operation::RangedModuloTurns,
-            // All convert each number.
-            Intrinsic::Widened | Intrinsic::WidenedDirection | Intrinsic::WidenedByName | Intrinsic::WidenedColumn => {
-                Operation::Widened
-            }
-            Intrinsic::Rounded | Intrinsic::RoundedByName | Intrinsic::RoundedEach => Operation::Rounded,
-            Intrinsic::Reduced => Operation::Reduced,
-            Intrinsic::Reactions => Operation::Reactions,
-            Intrinsic::DriveForces => Operation::DriveForces,
-            Intrinsic::BearingLoss => Operation::BearingLoss,
-            Intrinsic::EquationsAt => Operation::EquationsAt,
-            Intrinsic::Equilibrium => Operation::Equilibrium,
-            // Numbers of any kind.
-            Intrinsic::Pi | Intrinsic::Unknown => return Err(format!("{of:?}")),
-        };
-        let arguments = self.values(arguments)?;
-        Ok(self.add(Expression::Operation(operation, arguments)))
-    }
-
-    /// A call of a function of a pose or a branch.
-    fn of_type(&mut self, of: Type, name: &str, arguments: &[ValueId]) -> Translated<Id> {
-        let all = match of {
-            Type::Pose => &self.context.of_pose,
-            Type::Branch => &self.context.of_branch,
-        };
-        let place = all.iter().position(|other| other == name).ok_or_else(|| format!("a call of {name}"))?;
-        let arguments = self.values(arguments)?;
-        Ok(self.add(Expression::OfType(of, place, arguments)))
     }
 }
 

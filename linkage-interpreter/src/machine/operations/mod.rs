@@ -1,0 +1,273 @@
+//! The functions of the runtime, applied to values.
+
+mod arguments;
+mod branches;
+mod checked;
+mod lanes;
+mod parts;
+mod scenes;
+
+use std::sync::Arc;
+
+use linkage_runtime::__rt::{self as rt, Wide};
+use linkage_runtime::PositionError;
+use linkage_runtime::{Elbow, Ranged};
+
+use super::defect::Defect;
+use super::failure::Evaluated;
+use super::groups::{factorised, list, numbers, pivots, sized};
+use super::scalar::Single;
+use super::value::Value;
+use super::{Kind, Machine};
+use crate::code::{Function, Id, Name, Operation};
+use crate::error::Error;
+use arguments::{Arguments, number as number_of, side, triangle};
+use lanes::in_lanes;
+
+impl Operation {
+    /// The error of a function that is not there for mechanisms at run time, as [`WITHOUT`](super::WITHOUT) says.
+    fn unavailable(self) -> Error {
+        let function = match self {
+            Self::Newton => "newton",
+            Self::NewtonAnyBranch => "newton_any_branch",
+            Self::Reactions => "reactions",
+            Self::DriveForces => "drive_forces",
+            Self::BearingLoss => "bearing_loss",
+            Self::EquationsAt => "Equations::at",
+            // The parts of its arguments are evaluated first.
+            Self::LimitOfAngle | Self::LimitOfLength | Self::SearchLength | Self::SearchTurn | Self::Limits => "limits",
+            _ => "",
+        };
+        Error::NotAvailable { function: function.into() }
+    }
+}
+
+/// A chord and whether its triangle is well conditioned.
+fn flagged<S: Single>((chord, is_well_conditioned): (S, bool)) -> Value {
+    Value::list([chord.into_value(), Value::Flag(is_well_conditioned)])
+}
+
+fn perhaps<S: Single>(found: Option<S>) -> Value {
+    found.map_or(Value::Absent, S::into_value)
+}
+
+impl<'c> Machine<'c> {
+    /// Applies a function of the runtime: the value of its success, or its value.
+    pub(super) fn operation(&mut self, code: &'c Function, of: Operation, arguments: &'c [Id]) -> Evaluated<Value> {
+        // Those that evaluate an argument in a way of their own.
+        match (of, arguments) {
+            (Operation::Success, [value]) => return self.value(code, *value),
+            (Operation::Failure, [error]) => {
+                return match self.value(code, *error)? {
+                    Value::Outcome(outcome) => match &*outcome {
+                        Err(error) => Err(error.clone().into()),
+                        Ok(_) => Err(Defect::new("an error that is none").into()),
+                    },
+                    other => Err(other.expected("an error").into()),
+                };
+            }
+            (Operation::And, [one, other]) => {
+                self.success(code, *one)?;
+                return self.success(code, *other);
+            }
+            _ => {}
+        }
+        let values = self.values(code, arguments)?;
+        match self.kind {
+            Kind::Double => self.applied::<f64>(code, of, &values),
+            Kind::Wide => self.applied::<Wide>(code, of, &values),
+            Kind::Traced => match in_lanes(of, &Arguments(&values))? {
+                Some(value) => Ok(value),
+                None => self.applied::<f64>(code, of, &values),
+            },
+        }
+    }
+
+    fn applied<S: Single + 'static>(
+        &mut self,
+        code: &'c Function,
+        of: Operation,
+        values: &[Value],
+    ) -> Evaluated<Value> {
+        let arguments = Arguments(values);
+        if let Some(value) = self.of_values(of, &arguments)? {
+            return Ok(value);
+        }
+        if let Some(value) = self.checked(of, &arguments)? {
+            return Ok(value);
+        }
+        let number = |place| arguments.number::<S>(place);
+        Ok(match of {
+            Operation::SineCosine => {
+                let (sine, cosine) = number(0)?.sine_cosine();
+                list([sine, cosine])
+            }
+            Operation::SinesCosines => sized!(arguments.at(0)?.as_list()?.len(), N => {
+                let all = S::sines_cosines(numbers::<S, N>(arguments.at(0)?)?);
+                Ok(Value::list(all.map(|(sine, cosine)| list([sine, cosine]))))
+            })?,
+            Operation::Largest => {
+                let all = arguments.at(0)?.as_list()?.iter();
+                let all = all.map(|value| S::of(value).ok_or_else(|| value.expected("a number")));
+                rt::largest(all.collect::<Result<Vec<S>, _>>()?).into_value()
+            }
+            Operation::Regular => {
+                let [mechanism, group] = arguments.names()?;
+                rt::regular(&**mechanism, &**group, number(2)?, number(3)?).map_err(Error::from)?;
+                Value::unit()
+            }
+            Operation::IsNonzero => Value::Flag(rt::is_nonzero(number(0)?, number(1)?)),
+            Operation::Closes => Value::Flag(rt::closes(number(0)?, number(1)?)),
+            Operation::Solvable => sized!(arguments.at(3)?.as_list()?.len(), N => {
+                let [numerators, scales] = [3, 4].map(|place| arguments.at(place).and_then(numbers::<S, N>));
+                let (determinant, numerators, scales) = (number(2)?, numerators?, scales?);
+                self.located(&arguments, |mechanism, group| {
+                    rt::solvable(mechanism, group, determinant, numerators, scales).map(|()| Value::unit())
+                })
+            })?,
+            Operation::Reachable => {
+                let distance = number(2)?;
+                self.located(&arguments, |mechanism, group| {
+                    rt::reachable(mechanism, group, distance).map(|()| Value::unit())
+                })?
+            }
+            Operation::Implied => {
+                let [names, residuals, scales] = [arguments.at(1)?, arguments.at(2)?, arguments.at(3)?];
+                let mechanism = arguments.at(0)?.as_text()?;
+                let rows = names.as_list()?.iter().zip(residuals.as_list()?).zip(scales.as_list()?);
+                for ((name, residual), scale) in rows {
+                    let name = name.as_text()?;
+                    let [residual, scale] =
+                        [residual, scale].map(|value| S::of(value).ok_or_else(|| value.expected("a number")));
+                    rt::implied(&**mechanism, [&**name], [residual?], [scale?]).map_err(Error::from)?;
+                }
+                Value::unit()
+            }
+            Operation::ElbowChord => {
+                let (triangle, side) = (triangle::<S>(arguments.at(2)?)?, side(arguments.at(3)?)?);
+                self.located(&arguments, |mechanism, group| {
+                    rt::elbow_chord(mechanism, group, triangle, side).map(flagged)
+                })?
+            }
+            Operation::RegularElbowChord => {
+                perhaps(rt::regular_elbow_chord(triangle::<S>(arguments.at(0)?)?, side(arguments.at(1)?)?))
+            }
+            Operation::Chord => {
+                let (factors, radius) = (numbers::<S, 2>(arguments.at(2)?)?, number(3)?);
+                let (scales, side) = (numbers(arguments.at(4)?)?, side(arguments.at(5)?)?);
+                self.located(&arguments, |mechanism, group| {
+                    rt::chord(mechanism, group, factors, radius, scales, side).map(S::into_value)
+                })?
+            }
+            Operation::ReachChord => {
+                let (factors, radius) = (numbers::<S, 2>(arguments.at(2)?)?, number(3)?);
+                let (scales, side) = (numbers(arguments.at(4)?)?, side(arguments.at(5)?)?);
+                self.located(&arguments, |mechanism, group| {
+                    rt::reach_chord(mechanism, group, factors, radius, scales, side).map(S::into_value)
+                })?
+            }
+            Operation::RegularChord => {
+                perhaps(rt::regular_chord(numbers::<S, 2>(arguments.at(0)?)?, number(1)?, side(arguments.at(2)?)?))
+            }
+            Operation::RegularReachChord => {
+                let factors = numbers::<S, 2>(arguments.at(0)?)?;
+                perhaps(rt::regular_reach_chord(factors, number(1)?, number(2)?, side(arguments.at(3)?)?))
+            }
+            Operation::ProductOfPivots => pivots::<S>(arguments.at(0)?)?,
+            Operation::Factorization => factorised::<S>(arguments.names()?, arguments.at(2)?, arguments.at(3)?)?,
+            Operation::InRange => rt::in_range(number(0)?, number(1)?, number(2)?).into_value(),
+            Operation::SideOf => Value::Side(rt::side_of::<S, Elbow>(number(0)?) == Elbow::Left),
+            Operation::Refined => {
+                let Value::Factors(factors) = arguments.at(0)? else {
+                    return Err(arguments.at(0)?.expected("factors").into());
+                };
+                let rough = arguments.at(1)?;
+                let precise = match factors.loses_digits() {
+                    true => self.closure(code, arguments.at(2)?, [rough.clone()], false)?,
+                    false => Value::Absent,
+                };
+                if matches!(precise, Value::Absent) { rough.clone() } else { precise }
+            }
+            Operation::NewtonGroup => {
+                self.newton_group(code, arguments.names()?, arguments.at(2)?, arguments.at(3)?)?
+            }
+            Operation::Modes => {
+                let names = [arguments.at(1)?.as_text()?, arguments.at(2)?.as_text()?];
+                let functions = [arguments.at(4)?, arguments.at(5)?];
+                self.modes(code, arguments.at(0)?, names, arguments.at(3)?, None, functions)?
+            }
+            Operation::ModesWithLengths => {
+                let names = [arguments.at(1)?.as_text()?, arguments.at(2)?.as_text()?];
+                let (are, functions) = (arguments.at(4)?, [arguments.at(5)?, arguments.at(6)?]);
+                self.modes(code, arguments.at(0)?, names, arguments.at(3)?, Some(are), functions)?
+            }
+            Operation::Map => {
+                let closure = arguments.at(1)?;
+                let mut mapped = Vec::new();
+                for value in arguments.at(0)?.as_list()? {
+                    // Of items that are outcomes the errors stay.
+                    mapped.push(self.closure(code, closure, [value.clone()], false)?);
+                }
+                Value::list(mapped)
+            }
+            Operation::OrElse => match arguments.at(0)? {
+                Value::Outcome(outcome) => match &**outcome {
+                    Ok(value) => value.clone(),
+                    Err(error) => {
+                        let error = Value::outcome(Err(error.clone()));
+                        self.closure(code, arguments.at(1)?, [error], true)?
+                    }
+                },
+                other => return Err(other.expected("an outcome").into()),
+            },
+            Operation::Combinations => self.combinations(code, arguments.at(0)?, arguments.at(1)?)?,
+            Operation::Existing => self.existing(code, arguments.at(0)?, arguments.at(1)?)?,
+            Operation::Reduced => self.reduced(&arguments)?,
+            Operation::Equilibrium => self.equilibrium(code, &arguments)?,
+            Operation::Ranged => ranged(&arguments, rt::ranged)?,
+            Operation::RangedDirection => ranged(&arguments, rt::ranged_direction)?,
+            Operation::RangedModuloTurns => ranged(&arguments, rt::ranged_modulo_turns)?,
+            other => return Err(other.unavailable().into()),
+        })
+    }
+
+    /// Calls a function with the names of a mechanism and a group; an error has the inputs, if they are given.
+    fn located(
+        &self,
+        arguments: &Arguments,
+        call: impl for<'n> FnOnce(&'n str, &'n str) -> Result<Value, PositionError<&'n str>>,
+    ) -> Evaluated<Value> {
+        let group = arguments.at(1)?.as_text()?;
+        let inputs = match arguments.at(0)? {
+            Value::Text(mechanism) => return Ok(call(mechanism, group).map_err(Error::from)?),
+            Value::At(inputs) => inputs,
+            other => return Err(other.expected("a name").into()),
+        };
+        call(&self.driver.name, group).map_err(|error| {
+            let mut error = error.map_names(Arc::from);
+            if let PositionError::Unbuildable { inputs: known, .. } = &mut error {
+                *known = self.driver.input_values(inputs);
+            }
+            Error::Position(error).into()
+        })
+    }
+}
+
+/// A value with a range.
+fn ranged(arguments: &Arguments, made: impl Fn(f64, Option<f64>, Option<f64>) -> Ranged<f64>) -> Result<Value, Defect> {
+    let end = |place| match arguments.at(place)? {
+        Value::Absent => Ok(None),
+        value => number_of(value).map(Some),
+    };
+    let Ranged { value, least, most, is_direction } = made(arguments.number(0)?, end(1)?, end(2)?);
+    let end = |end: Option<f64>| end.map_or(Value::Absent, Value::Number);
+    Ok(Value::record(
+        Name::RANGED,
+        [
+            (Name::VALUE, Value::Number(value)),
+            (Name::LEAST, end(least)),
+            (Name::MOST, end(most)),
+            (Name::IS_DIRECTION, Value::Flag(is_direction)),
+        ],
+    ))
+}
