@@ -1,9 +1,10 @@
 //! Mechanisms from text at run time: the inside of one `linkage! { … }`, with the macro's own messages as data.
 //!
 //! [`read`] makes the checks that need no derivatives, [`compile`] runs all stages. Both take any text, also that of a
-//! stranger: it has at most [`LONGEST`] bytes, [`MOST_TOKENS`] tokens and
-//! [`DEEPEST_NESTING`](crate::syntax::DEEPEST_NESTING) levels of brackets, and all further work is counted by a [`Budget`].
-//! Nothing is kept between texts.
+//! stranger: it has at most [`LONGEST`] bytes, [`MOST_TOKENS`] tokens, [`LONGEST_WORD`](syntax::LONGEST_WORD) letters in a
+//! name or a number, and [`DEEPEST_NESTING`](syntax::DEEPEST_NESTING) levels of brackets. All further work is counted by a
+//! [`Budget`]; one of a few million steps ends a text after seconds. An optimised build needs 256 KiB of stack. Nothing is
+//! kept between texts.
 //!
 //! What is addressed to Rust has no effect: `pub`, attributes such as `#[derive(Clone)]`, `derive serde`. `#[cfg(…)]` is a
 //! mistake, since a text has no configuration. An `extern fn` is declared and has no value here.
