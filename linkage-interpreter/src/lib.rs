@@ -77,18 +77,29 @@ impl Program {
         Self { mechanisms }
     }
 
-    /// Compiles the mechanisms of a text, which may be that of a stranger: its size, the work and the memory are bounded.
+    /// Compiles the mechanisms of a text. Its size, the work and the memory are bounded as those of the macro, which allows
+    /// minutes.
+    ///
+    /// # Errors
+    /// Those of [`compile_within`](Self::compile_within).
+    #[cfg(feature = "compiler")]
+    pub fn compile(text: &str) -> Result<Self, Vec<Message>> {
+        Self::compile_within(text, linkage_compiler::budget::MOST_STEPS)
+    }
+
+    /// Compiles the mechanisms of a text, which may be that of a stranger, in this number of steps, each
+    /// of some microseconds at most.
     ///
     /// Spans of `proc-macro2` that were made earlier on this thread have no places any more.
     ///
     /// # Errors
     /// The messages that the macro gives for this text, in the order of their places.
     #[cfg(feature = "compiler")]
-    pub fn compile(text: &str) -> Result<Self, Vec<Message>> {
+    pub fn compile_within(text: &str, steps: usize) -> Result<Self, Vec<Message>> {
         use linkage_compiler::{budget::Budget, model::Request, text};
 
         let requests = [Request::Lanes];
-        let compiled = text::compile_with(text, &Budget::default(), &requests, |lowered| compile::driver(&lowered))?;
+        let compiled = text::compile_with(text, &Budget::new(steps), &requests, |lowered| compile::driver(&lowered))?;
         let drivers = compiled.into_iter().flat_map(|compiled| compiled.drivers);
         let mechanisms = drivers.map(|driver| match driver {
             // As when it is read: what is compiled can be written and read again.

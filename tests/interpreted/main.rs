@@ -2,6 +2,7 @@
 
 mod columns;
 mod drawn;
+mod mutants;
 mod printed;
 mod same_bits;
 mod written;
