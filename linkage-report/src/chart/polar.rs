@@ -61,7 +61,7 @@ impl Polar {
         self.svg(&style_of_file())
     }
 
-    /// The chart as a part of a page that has the [`STYLE`].
+    /// The chart as a part of a page that has the [`STYLE`](super::STYLE).
     #[must_use]
     pub fn to_svg_fragment(&self) -> String {
         self.svg("")
