@@ -31,6 +31,16 @@ pub struct Coordinate {
     pub is_angle: bool,
 }
 
+impl Coordinate {
+    /// The number of an argument as its value.
+    pub fn value(&self, value: Value) -> Result<f64, Failure> {
+        match self.is_angle {
+            true => value.angle(&self.name.text).map_err(Failure::Argument),
+            false => Ok(value.number),
+        }
+    }
+}
+
 /// A mechanism with values for all but its inputs.
 pub struct Machine {
     pub name: String,
@@ -69,6 +79,8 @@ struct About {
     points: Vec<Named>,
     outputs: Vec<Named>,
     parameters: Vec<String>,
+    /// True for each parameter that is an angle.
+    are_angles: Vec<bool>,
     /// The functions that are declared by `extern fn`.
     functions: Vec<String>,
     derivation: Derivation,
@@ -89,6 +101,7 @@ impl About {
             points: mechanism.points.iter().map(|point| named(&point.name)).collect(),
             outputs: mechanism.outputs.iter().map(|output| named(&output.name)).collect(),
             parameters: mechanism.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
+            are_angles: mechanism.parameters.iter().map(|parameter| parameter.kind == Kind::Angle).collect(),
             functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),
             derivation: lowered.derivation,
         }
@@ -181,8 +194,12 @@ fn chosen(source: &Source, asked: Option<&str>) -> Result<(About, Mechanism), Fa
 fn parameters(about: &About, mechanism: &Mechanism, set: &[Assignment]) -> Result<Vec<(String, f64)>, Failure> {
     let mut values = mechanism.design().parameters().to_vec();
     let names: Vec<&str> = about.parameters.iter().map(String::as_str).collect();
-    for Assignment { name, value: Value(value) } in set {
-        values[place(&about.name, "parameter", name, &names)?] = *value;
+    for Assignment { name, value } in set {
+        let place = place(&about.name, "parameter", name, &names)?;
+        values[place] = match about.are_angles[place] {
+            true => value.angle(name).map_err(Failure::Argument)?,
+            false => value.number,
+        };
     }
     let parameters: Vec<(String, f64)> = about.parameters.iter().cloned().zip(values).collect();
     match parameters.iter().find(|(_, value)| value.is_nan()) {

@@ -26,9 +26,10 @@ impl Path {
             None => free().ok_or_else(|| Failure::Argument("each input is held: leave out one --at".to_owned()))?,
         };
         let input = &machine.inputs[moving];
-        let turn = if input.is_angle { [Some(Value(0.0)), Some(Value(TAU))] } else { [None, None] };
-        let ends = [along.from.or(turn[0]), along.to.or(turn[1])];
-        let [Some(Value(from)), Some(Value(to))] = ends else {
+        let given = |value: &Option<Value>| value.map(|value| input.value(value)).transpose();
+        let turn = if input.is_angle { [Some(0.0), Some(TAU)] } else { [None, None] };
+        let ends = [given(&along.from)?.or(turn[0]), given(&along.to)?.or(turn[1])];
+        let [Some(from), Some(to)] = ends else {
             let name = &input.name.text;
             return Err(Failure::Argument(format!("`{name}` is a length: write --from and --to")));
         };
@@ -63,8 +64,9 @@ impl Path {
 /// The inputs with these values, and the first value of the one that moves; angles without one are held at 60 degrees.
 pub fn held(machine: &Machine, at: &[Assignment], moving: Option<(usize, f64)>) -> Result<Vec<f64>, Failure> {
     let mut inputs: Vec<Option<f64>> = machine.inputs.iter().map(|input| input.is_angle.then_some(HELD)).collect();
-    for Assignment { name, value: Value(value) } in at {
-        inputs[machine.input(name)?] = Some(*value);
+    for Assignment { name, value } in at {
+        let place = machine.input(name)?;
+        inputs[place] = Some(machine.inputs[place].value(*value)?);
     }
     if let Some((moving, first)) = moving {
         inputs[moving] = Some(first);

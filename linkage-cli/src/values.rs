@@ -1,5 +1,6 @@
 //! Values in arguments: `l2=25`, `theta2=60deg`, `theta3_theta4=left`.
 
+use std::f64::consts::TAU;
 use std::str::FromStr;
 
 use linkage_compiler::graph::{Graph, Number};
@@ -8,7 +9,22 @@ use syn::Lit;
 
 /// A number as the language writes it: `25`, `-0.5`, `60deg`, `12rpm`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Value(pub f64);
+pub struct Value {
+    pub number: f64,
+    /// True if it was written without a unit.
+    pub is_plain: bool,
+}
+
+impl Value {
+    /// The number as an angle. One without a unit is in radians, and more than a turn is not meant, as in the language.
+    pub fn angle(self, name: &str) -> Result<f64, String> {
+        let Self { number, is_plain } = self;
+        let is_meant = !is_plain || number.abs() <= TAU;
+        is_meant.then_some(number).ok_or_else(|| {
+            format!("`{name}` is an angle, and {number} radians are more than a turn: write `{number}deg`")
+        })
+    }
+}
 
 /// A name and its number.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +53,7 @@ impl FromStr for Value {
             Ok(Lit::Float(number)) => (number.base10_digits().to_owned(), number.suffix().to_owned()),
             _ => return Err(no_number()),
         };
+        let is_plain = unit.is_empty();
         let unit = match unit.as_str() {
             "" => Unit::None,
             name => Unit::ALL.into_iter().find(|(unit, _)| *unit == name).ok_or_else(no_number)?.1,
@@ -50,7 +67,7 @@ impl FromStr for Value {
             graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node))
         });
         let value = value.filter(|value| value.is_finite()).ok_or_else(|| format!("`{text}` is too large"))?;
-        Ok(Self(if is_negative { -value } else { value }))
+        Ok(Self { number: if is_negative { -value } else { value }, is_plain })
     }
 }
 
@@ -86,7 +103,7 @@ mod tests {
     use super::*;
 
     fn value(text: &str) -> Result<f64, String> {
-        text.parse().map(|Value(value)| value)
+        text.parse().map(|value: Value| value.number)
     }
 
     /// The bits are those of a default in a text.
@@ -101,6 +118,16 @@ mod tests {
             assert_eq!(value(text).map(f64::to_bits), Ok(default.unwrap().to_bits()), "{text}");
         }
         assert_eq!(value("180deg"), Ok(PI));
+    }
+
+    #[test]
+    fn plain_angles_are_at_most_a_turn() {
+        let angle = |text: &str| text.parse::<Value>().and_then(|value| value.angle("theta"));
+        assert_eq!([angle("6"), angle("400deg"), angle("-1.5")].map(|angle| angle.is_ok()), [true; 3]);
+        assert_eq!(
+            angle("360"),
+            Err("`theta` is an angle, and 360 radians are more than a turn: write `360deg`".to_owned())
+        );
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub fn run(arguments: &Animate) -> Result<(), Failure> {
         "gif" => true,
         other => return Err(Failure::Argument(format!("a film is SVG or GIF: write -o NAME.gif, not `.{other}`"))),
     };
-    let seconds = arguments.seconds.0;
+    let seconds = arguments.seconds.number;
     if seconds <= 0.0 {
         return Err(Failure::Argument("a film takes more than 0 seconds".to_owned()));
     }

@@ -12,7 +12,7 @@ use crate::progress;
 pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
     let machine = Machine::of(&arguments.numbers)?;
     let path = Path::of(&machine, &arguments.along)?;
-    let rate = arguments.rate.map_or(0.0, |value| value.0);
+    let rate = arguments.rate.map_or(0.0, |value| value.number);
     let mut rates = vec![0.0; machine.inputs.len()];
     rates[path.moving] = rate;
     let mut table = Table::new(names(&machine, rate != 0.0));
