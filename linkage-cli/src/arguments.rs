@@ -56,7 +56,7 @@ Examples:
     /// Print the Rust code that the macro `linkage!` makes of a file
     #[command(after_help = "Example:\n  linkage rust wiper.linkage -o wiper.rs")]
     Rust(Code),
-    /// Print the computed formulas as FPCore, for tools that analyse rounding errors
+    /// Print the computed formulas as FPCore, for tools that say how many digits a formula loses
     #[command(after_help = "Example:\n  linkage fpcore wiper.linkage --mechanism Wiper")]
     Fpcore(Code),
     /// Print the completions of a shell

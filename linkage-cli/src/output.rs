@@ -32,7 +32,7 @@ pub fn write(path: &Path, contents: &[u8], source: &Path) -> Result<(), Failure>
 
 /// Writes a file that is not there yet.
 pub fn create(path: &Path, contents: &[u8]) -> Result<(), Failure> {
-    let written = beside(path, contents).and_then(|file| renamed(|| file.persist_noclobber(path)));
+    let written = temporary_file(path, contents).and_then(|file| renamed(|| file.persist_noclobber(path)));
     written.map_err(|error| cannot_write(path, &error))?;
     anstream::eprintln!("wrote {}", path.display());
     Ok(())
@@ -54,7 +54,7 @@ fn replaced(path: &Path, contents: &[u8]) -> io::Result<()> {
     if old.as_ref().is_ok_and(Permissions::readonly) {
         return Err(ErrorKind::PermissionDenied.into());
     }
-    let file = beside(path, contents)?;
+    let file = temporary_file(path, contents)?;
     if let Ok(permissions) = old {
         file.as_file().set_permissions(permissions)?;
     }
@@ -62,7 +62,7 @@ fn replaced(path: &Path, contents: &[u8]) -> io::Result<()> {
 }
 
 /// A new file in the folder of a path, with these contents.
-fn beside(path: &Path, contents: &[u8]) -> io::Result<NamedTempFile> {
+fn temporary_file(path: &Path, contents: &[u8]) -> io::Result<NamedTempFile> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.map_or_else(|| PathBuf::from("."), Path::to_path_buf);
     let mut builder = Builder::new();

@@ -60,7 +60,8 @@ impl Painter {
     /// Frames as GIF, which takes this number of seconds and begins again at its end.
     pub fn gif(&self, frames: impl ExactSizeIterator<Item = String>, seconds: f64) -> Result<Vec<u8>, String> {
         let count = frames.len();
-        // In hundredths of a second from the beginning, so that rounding errors do not add up.
+        // The end of a frame, in hundredths of a second from the first one: its own length, rounded, would make the film
+        // longer or shorter.
         let time = |frame: usize| (100.0 * seconds * frame as f64 / count as f64).round();
         let mut film: Option<(Encoder<Vec<u8>>, Pixmap)> = None;
         for (index, svg) in frames.enumerate() {

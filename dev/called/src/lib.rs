@@ -1,6 +1,9 @@
 //! Every public function that `linkage!` emits for the mechanisms and scenes of the gallery, called from a list of numbers:
 //! the parameters, those of the scene after those of its mechanism, then the arguments.
 
+// The calls use its functions.
+use linkage::Mechanism;
+
 /// A mechanism or a scene with its functions.
 #[derive(Debug)]
 pub struct Called {
@@ -40,8 +43,5 @@ impl Numbers<'_> {
         self.number() as i32
     }
 }
-
-#[allow(unused_imports)]
-use linkage::Mechanism;
 
 include!(concat!(env!("OUT_DIR"), "/calls.rs"));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::draw::{beside, ending, painter, undrawn};
+use super::draw::{ending, next_to, painter, undrawn};
 use crate::arguments::Animate;
 use crate::failure::Failure;
 use crate::figure::Figure;
@@ -16,7 +16,7 @@ const SCALE: f32 = 1.5;
 
 pub fn run(arguments: &Animate) -> Result<(), Failure> {
     let file = &arguments.numbers.source.file;
-    let output = arguments.output.clone().unwrap_or_else(|| beside(file));
+    let output = arguments.output.clone().unwrap_or_else(|| next_to(file));
     let is_gif = match ending(&output).as_str() {
         "svg" | "" => false,
         "gif" => true,

@@ -14,7 +14,7 @@ use crate::picture::{Painter, SHARP};
 
 pub fn run(arguments: &Draw) -> Result<(), Failure> {
     let file = &arguments.numbers.source.file;
-    let output = arguments.output.clone().unwrap_or_else(|| beside(file));
+    let output = arguments.output.clone().unwrap_or_else(|| next_to(file));
     let is_png = match ending(&output).as_str() {
         "svg" | "" => false,
         "png" => true,
@@ -33,7 +33,7 @@ pub fn run(arguments: &Draw) -> Result<(), Failure> {
 }
 
 /// The file with the ending of a picture, or standard output.
-pub fn beside(file: &Path) -> PathBuf {
+pub fn next_to(file: &Path) -> PathBuf {
     if crate::source::is_standard(file) { PathBuf::from("-") } else { file.with_extension("svg") }
 }
 

@@ -1,4 +1,4 @@
-//! `linkage fpcore`: the formulas of functions for tools that analyse rounding errors.
+//! `linkage fpcore`: the formulas of functions, for tools that say how many digits a formula loses.
 
 use super::compiled::of_drivers;
 use super::documents::Documents;
