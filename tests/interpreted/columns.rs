@@ -13,8 +13,10 @@ fn columns_have_the_bits_of_one_position() {
     let (mut compared, mut rejected) = (0, 0);
     for (seed, file) in FILES.iter().enumerate() {
         for mechanism in mechanisms(file) {
-            for (extreme, has_columns_of_parameters) in [(0.0, false), (0.02, true)] {
-                let mut drawn = Drawn::new(seed as u64, extreme);
+            let seed = seed as u64;
+            let all =
+                [(Drawn::new(seed, 0.0), false), (Drawn::new(seed, 0.02), true), (Drawn::near_zero(seed, 0.8), true)];
+            for (mut drawn, has_columns_of_parameters) in all {
                 let branch = drawn.branch(&mechanism);
                 let design = mechanism.design();
                 let all = Given::drawn(&design, &mut drawn, has_columns_of_parameters);

@@ -6,7 +6,10 @@ use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
 /// Numbers that functions must bear.
-const EXTREME: [f64; 8] = [0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 1e-300, 1e17];
+const EXTREME: &[f64] = &[0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 1e-300, 1e17];
+
+/// Zeros, and angles near them: many links are nearly in line, so that groups are nearly singular.
+const NEAR_ZERO: &[f64] = &[0.0, -0.0, 0.001, -0.002];
 
 /// The text of a file of the gallery, between the braces of its `linkage!`.
 pub fn text_of(file: &str) -> String {
@@ -46,19 +49,26 @@ pub fn given(mechanism: Mechanism) -> Mechanism {
 pub struct Drawn {
     random: SmallRng,
     pub all: Vec<f64>,
-    /// The share of extreme numbers.
-    extreme: f64,
+    /// Special numbers, and their share.
+    special: (&'static [f64], f64),
 }
 
 impl Drawn {
+    /// Numbers of which this share is extreme.
     pub fn new(seed: u64, extreme: f64) -> Self {
-        Self { random: SmallRng::seed_from_u64(seed), all: Vec::new(), extreme }
+        Self { random: SmallRng::seed_from_u64(seed), all: Vec::new(), special: (EXTREME, extreme) }
     }
 
-    /// A number of the size of angles and rates, or an extreme one.
+    /// Numbers of which this share is zero or near it.
+    pub fn near_zero(seed: u64, share: f64) -> Self {
+        Self { special: (NEAR_ZERO, share), ..Self::new(seed, 0.0) }
+    }
+
+    /// A number of the size of angles and rates, or a special one.
     pub fn number(&mut self) -> f64 {
-        let number = match self.random.random_bool(self.extreme) {
-            true => EXTREME[self.random.random_range(0..EXTREME.len())],
+        let (special, share) = self.special;
+        let number = match self.random.random_bool(share) {
+            true => special[self.random.random_range(0..special.len())],
             false => self.random.random_range(-4.0..4.0),
         };
         self.all.push(number);

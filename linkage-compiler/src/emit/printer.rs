@@ -172,7 +172,7 @@ impl<S: Style> Printer<'_, S> {
             Value::Square(_) => self.style.square_binding(),
             Value::Constant(number) => self.style.number_binding(*number),
             Value::Exact(number) => self.style.exact_binding(*number),
-            // -a * b parses as (-a) * b, which is equal and costs the same.
+            // -a * b parses as (-a) * b, which is equal but for the sign of a zero in twice the precision, and costs the same.
             Value::Negative(inside) => match self.binding(*inside) {
                 Binding::Product => Binding::Product,
                 _ => Binding::Prefix,

@@ -234,17 +234,20 @@ impl Translator<'_> {
         let expression = match code.operation(id) {
             lower::Value::Constant(number) => Expression::Number(constant(*number)),
             lower::Value::Sum(terms) => {
-                let terms = terms.iter().map(|term| Ok((term.negative, self.value(term.value)?)));
-                Expression::Sum(terms.collect::<Translated<_>>()?)
+                let term = |(place, term): (usize, &lower::Signed)| match (place, term.negative) {
+                    (0, true) => Ok((false, self.negative(term.value)?)),
+                    (_, is_negative) => Ok((is_negative, self.value(term.value)?)),
+                };
+                Expression::Sum(terms.iter().enumerate().map(term).collect::<Translated<_>>()?)
             }
             lower::Value::Product(factors) => Expression::Product(self.values(factors)?),
             lower::Value::Quotient(above, below) => Expression::Quotient(self.value(*above)?, self.value(*below)?),
             lower::Value::Square(base) => Expression::Square(self.value(*base)?),
-            lower::Value::Negative(inside) => Expression::Negative(self.value(*inside)?),
+            lower::Value::Negative(inside) => return self.negative(*inside),
             lower::Value::Call(function, arguments) => {
-                let arguments = arguments.iter().map(|argument| {
-                    let value = self.value(argument.value)?;
-                    Ok(if argument.negative { self.add(Expression::Negative(value)) } else { value })
+                let arguments = arguments.iter().map(|argument| match argument.negative {
+                    true => self.negative(argument.value),
+                    false => self.value(argument.value),
                 });
                 let arguments = arguments.collect::<Translated<_>>()?;
                 Expression::Call(elementary(*function), arguments)
@@ -320,6 +323,30 @@ impl Translator<'_> {
             | lower::Value::Argument(_)
             | lower::Value::Exact(_)
             | lower::Value::External(..)) => return Err(format!("{other:?}")),
+        };
+        Ok(self.add(expression))
+    }
+
+    /// The negative of a value as emitted code computes it: `-a * b` is (-a)*b. In twice the precision a product that is zero
+    /// can have another sign than -(a*b).
+    fn negative(&mut self, id: ValueId) -> Translated<Id> {
+        let code = self.code;
+        let of = code.name(id).is_none().then(|| code.operation(id));
+        let expression = match of {
+            Some(lower::Value::Product(factors)) => {
+                let factors = factors.iter().enumerate().map(|(place, factor)| match place {
+                    0 => self.negative(*factor),
+                    _ => self.value(*factor),
+                });
+                Expression::Product(factors.collect::<Translated<_>>()?)
+            }
+            Some(lower::Value::Square(base)) => Expression::Product(vec![self.negative(*base)?, self.value(*base)?]),
+            Some(lower::Value::Quotient(above, below)) => {
+                Expression::Quotient(self.negative(*above)?, self.value(*below)?)
+            }
+            // Two signs are none.
+            Some(lower::Value::Negative(inside)) => return self.value(*inside),
+            _ => Expression::Negative(self.value(id)?),
         };
         Ok(self.add(expression))
     }
