@@ -1,6 +1,7 @@
 //! Mutants of the gallery's mechanisms that compile: their functions end with values or errors.
 //!
-//! `MUTANTS=10000 cargo test --release -p linkage-tests --test interpreted mutants` is the full size.
+//! `MUTANTS=10000 cargo test --release -p linkage-tests --test interpreted mutants` is the full size: 851 778 values and 177 222
+//! errors in 129 s of one core, no panic.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
