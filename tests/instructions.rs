@@ -1,8 +1,8 @@
 //! The instructions of a scene's derivative relative to those of one written by hand, and of the main functions of some
 //! mechanisms relative to a committed table.
 //!
-//! Two programs are built for release by themselves, with nothing but `linkage`, and run by valgrind's callgrind at two
-//! numbers of calls, whose difference is that of the calls alone. `.ci/run` calls it and installs valgrind:
+//! Programs are built for release by themselves, with nothing but `linkage` or `linkage-interpreter`, and run by valgrind's
+//! callgrind at two numbers of calls, whose difference is that of the calls alone. `.ci/run` calls it and installs valgrind:
 //!
 //! ```text
 //! cargo test --test instructions
@@ -21,18 +21,18 @@ version = "0.0.0"
 edition = "2024"
 
 [[bin]]
-name = "twin"
-path = "ROOT/benches/twin.rs"
-
-[[bin]]
-name = "kernels"
-path = "ROOT/benches/poses/kernels.rs"
+name = "PROGRAM"
+path = "ROOT/benches/PATH"
 
 [dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics", "interval"] }
+DEPENDENCY
 
 [workspace]
 "#;
+
+const LIBRARY: &str =
+    r#"linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics", "interval"] }"#;
+const INTERPRETER: &str = r#"linkage-interpreter = { path = "ROOT/linkage-interpreter" }"#;
 
 /// The emitted code may take this many times the instructions by hand: another version of the compiler moves both by some
 /// per cent. On Rust 1.95 they take 0.94 and 0.95 times as many.
@@ -44,12 +44,16 @@ const TOLERANCE: f64 = 0.03;
 /// Calls of the first run; the second makes three times as many.
 const CALLS: u64 = 1000;
 
+/// Fewer calls of what takes millions of instructions.
+const FEW_CALLS: u64 = 2;
+
 /// Builds a program; returns its path.
-fn built(name: &str) -> PathBuf {
+fn built(name: &str, path: &str, dependency: &str) -> PathBuf {
     let root = linkage_tests::ROOT;
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&folder).unwrap();
-    fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
+    let manifest = MANIFEST.replace("PROGRAM", name).replace("PATH", path).replace("DEPENDENCY", dependency);
+    fs::write(folder.join("Cargo.toml"), manifest.replace("ROOT", root)).unwrap();
     // The versions under test are those of this workspace.
     fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("instructions");
@@ -80,16 +84,17 @@ fn instructions(program: &Path, arguments: [&str; 2], calls: u64) -> u64 {
 }
 
 /// The instructions of one call.
-fn a_call(program: &Path, arguments: [&str; 2]) -> f64 {
-    let [once, more] = [CALLS, 3 * CALLS].map(|calls| instructions(program, arguments, calls));
-    (more - once) as f64 / (2 * CALLS) as f64
+fn a_call(program: &Path, arguments: [&str; 2], calls: u64) -> f64 {
+    let [once, more] = [calls, 3 * calls].map(|calls| instructions(program, arguments, calls));
+    (more - once) as f64 / (2 * calls) as f64
 }
 
 #[test]
 fn a_scene_takes_no_more_than_its_hand_written_twin() {
-    let program = built("twin");
+    let program = built("twin", "twin.rs", LIBRARY);
     for scene in ["bare", "mounted"] {
-        let [emitted, alone, hand] = ["emitted", "alone", "hand"].map(|version| a_call(&program, [scene, version]));
+        let [emitted, alone, hand] =
+            ["emitted", "alone", "hand"].map(|version| a_call(&program, [scene, version], CALLS));
         println!("{scene}: {emitted} instructions a call, {alone} with no other scene declared, {hand} by hand");
         assert!(emitted > 100.0 && hand > 100.0, "{scene}: the calls are counted");
         let most = MARGIN * hand;
@@ -101,7 +106,8 @@ fn a_scene_takes_no_more_than_its_hand_written_twin() {
 
 #[test]
 fn functions_take_what_the_table_says() {
-    let program = built("kernels");
+    let kernels = &built("kernels", "poses/kernels.rs", LIBRARY);
+    let from_text = &built("from_text", "from_text.rs", INTERPRETER);
     let table = Path::new(linkage_tests::ROOT).join("tests/instructions.tsv");
     let committed = fs::read_to_string(&table).unwrap();
     let mut found = String::from("mechanism\tfunction\tinstructions\n");
@@ -110,8 +116,13 @@ fn functions_take_what_the_table_says() {
     let functions = ["kinematics", "assemble", "velocity", "acceleration", "pose_at", "motion"];
     let single = mechanisms.iter().flat_map(|mechanism| functions.map(|function| [*mechanism, function]));
     // Of eight lanes: more if the loop over them is not vectorised.
-    for [mechanism, function] in single.chain([["four_bar", "lanes"], ["jansen", "lanes"]]) {
-        let count = a_call(&program, [mechanism, function]);
+    let emitted = single.chain([["four_bar", "lanes"], ["jansen", "lanes"]]).map(|row| (kernels, row, CALLS));
+    let at_run_time = ["four_bar", "jansen"].into_iter().flat_map(|mechanism| {
+        [("by_name", CALLS), ("from_text", FEW_CALLS)]
+            .map(|(function, calls)| (from_text, [mechanism, function], calls))
+    });
+    for (program, [mechanism, function], calls) in emitted.chain(at_run_time) {
+        let count = a_call(program, [mechanism, function], calls);
         let name = format!("{mechanism}\t{function}\t");
         writeln!(found, "{name}{count:.0}").unwrap();
         let known: Option<f64> =
