@@ -33,7 +33,7 @@ impl<'c> Machine<'c> {
                 Statement::Let(Pattern::Bound(slot), value)
                     if self.kind == Kind::Double && Self::expression(code, *value)?.is_arithmetic() =>
                 {
-                    let number = self.number::<f64>(code, *value)?;
+                    let number = self.computed::<f64>(code, *value)?;
                     self.set(*slot, Value::Number(number))?;
                 }
                 Statement::Let(pattern, value) => {
@@ -116,6 +116,7 @@ impl<'c> Machine<'c> {
         Ok(true)
     }
 
+    #[inline]
     fn set(&mut self, slot: Slot, value: Value) -> Evaluated<()> {
         let place = self.slots.get_mut(self.base + slot.0 as usize);
         *place.ok_or_else(|| Defect::new("a slot that does not exist"))? = value;
@@ -184,10 +185,7 @@ impl<'c> Machine<'c> {
                     self.part(code, *of, |value| entry(value, index))
                 }
             },
-            Expression::List(all) => {
-                let all = self.values(code, all)?;
-                Ok(Value::list(all))
-            }
+            Expression::List(all) => self.list(code, all),
             Expression::Repeated(value, count) => {
                 let value = self.value(code, *value)?;
                 Ok(Value::list(std::iter::repeat_n(value, *count)))
@@ -272,7 +270,24 @@ impl<'c> Machine<'c> {
     }
 
     pub(super) fn values(&mut self, code: &'c Function, ids: &[Id]) -> Evaluated<Values> {
-        ids.iter().map(|id| self.value(code, *id)).collect()
+        let mut values = Values::with_capacity(ids.len());
+        for id in ids {
+            values.push(self.value(code, *id)?);
+        }
+        Ok(values)
+    }
+
+    /// The list of these values. Its length is known, so that memory is taken once.
+    fn list(&mut self, code: &'c Function, ids: &[Id]) -> Evaluated<Value> {
+        let mut failed = None;
+        let list = Value::list(ids.iter().map(|id| match failed {
+            None => self.value(code, *id).unwrap_or_else(|failure| {
+                failed = Some(failure);
+                Value::Absent
+            }),
+            Some(_) => Value::Absent,
+        }));
+        failed.map_or(Ok(list), Err)
     }
 
     /// A part of a value, which is not copied if it is bound.
