@@ -1,11 +1,9 @@
 //! A mechanism with numbers: values of its parameters, a branch, and the inputs that are held.
 
 use linkage_compiler::Lowered;
-use linkage_compiler::budget::Budget;
 use linkage_compiler::derivation::Derivation;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::model::{Kind, Name, Request};
-use linkage_compiler::text;
 use linkage_interpreter::{Data, Design, Mechanism, Program};
 use linkage_runtime::lane::arctangent2;
 
@@ -172,12 +170,10 @@ impl Machine {
 /// The mechanism with a name, or the only one of a file.
 fn chosen(source: &Source, asked: Option<&str>) -> Result<(About, Mechanism), Failure> {
     let compiled = progress::during(format!("deriving {}", source.name), || {
-        let all = text::compile_with(&source.text, &Budget::default(), &[Request::Drawing], About::of)?;
-        Ok((all, Program::compile(&source.text)?))
+        Program::compile_with(&source.text, &[Request::Drawing], About::of)
     });
-    let (all, mechanisms) = compiled.map_err(|messages| Mistakes::of(source, messages))?;
-    let mut all: Vec<(About, Mechanism)> =
-        all.into_iter().flat_map(|compiled| compiled.drivers).zip(mechanisms.mechanisms().iter().cloned()).collect();
+    let compiled = compiled.map_err(|messages| Mistakes::of(source, messages))?;
+    let mut all: Vec<(About, Mechanism)> = compiled.into_iter().map(|(mechanism, about)| (about, mechanism)).collect();
     let names: Vec<&str> = all.iter().map(|(about, _)| about.name.as_str()).collect();
     let place = match (asked, names.as_slice()) {
         (Some(name), names) => place(&source.name, "mechanism", name, names)?,

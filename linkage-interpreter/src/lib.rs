@@ -96,20 +96,56 @@ impl Program {
     /// The messages that the macro gives for this text, in the order of their places.
     #[cfg(feature = "compiler")]
     pub fn compile_within(text: &str, steps: usize) -> Result<Self, Vec<Message>> {
+        Self::lent(text, steps, &[], |_| ()).map(|pairs| Self::of(pairs.into_iter().map(|(mechanism, ())| mechanism).collect()))
+    }
+
+    /// Compiles the mechanisms of a text as if each had these `derive` statements besides its own, and lends each as the compiler
+    /// lowered it to a function: for readers of formulas that also run them.
+    ///
+    /// ```
+    /// use linkage_interpreter::Program;
+    ///
+    /// let text = "mechanism Crank { param r = 2; input phi; point P = r@phi; }";
+    /// let lent = Program::compile_with(text, &[], |lowered| lowered.derivation.points.len());
+    /// let (mechanism, points) = &lent.unwrap()[0];
+    /// assert_eq!((mechanism.name(), *points), ("Crank", 1));
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`compile_within`](Self::compile_within).
+    #[cfg(feature = "compiler")]
+    pub fn compile_with<R>(
+        text: &str,
+        requests: &[linkage_compiler::model::Request],
+        f: impl FnMut(linkage_compiler::Lowered<'_>) -> R,
+    ) -> Result<Vec<(Mechanism, R)>, Vec<Message>> {
+        Self::lent(text, linkage_compiler::budget::MOST_STEPS, requests, f)
+    }
+
+    #[cfg(feature = "compiler")]
+    fn lent<R>(
+        text: &str,
+        steps: usize,
+        requests: &[linkage_compiler::model::Request],
+        mut f: impl FnMut(linkage_compiler::Lowered<'_>) -> R,
+    ) -> Result<Vec<(Mechanism, R)>, Vec<Message>> {
         use linkage_compiler::{budget::Budget, model::Request, text};
 
-        let requests = [Request::Lanes];
-        let compiled = text::compile_with(text, &Budget::new(steps), &requests, |lowered| compile::driver(&lowered))?;
+        let requests: Vec<Request> = requests.iter().copied().chain([Request::Lanes]).collect();
+        let compiled = text::compile_with(text, &Budget::new(steps), &requests, |lowered| {
+            let driver = compile::driver(&lowered);
+            (driver, f(lowered))
+        })?;
         let drivers = compiled.into_iter().flat_map(|compiled| compiled.drivers);
-        let mechanisms = drivers.map(|driver| match driver {
+        let mechanisms = drivers.map(|(driver, lent)| match driver {
             // As when it is read: what is compiled can be written and read again.
             Ok(driver) => match written::checked(&driver) {
-                Ok(()) => Ok(Mechanism::new(driver.into())),
+                Ok(()) => Ok((Mechanism::new(driver.into()), lent)),
                 Err(what) => Err(vec![translate::without_place(format!("`{}` cannot be run: {what}", driver.name))]),
             },
             Err(untranslated) => Err(vec![translate::without_place(untranslated.to_string())]),
         });
-        mechanisms.collect::<Result<_, _>>().map(Self::of)
+        mechanisms.collect()
     }
 
     /// The mechanisms, in their order.
