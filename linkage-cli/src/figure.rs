@@ -19,6 +19,13 @@ impl<'m> Figure<'m> {
         let skeleton = skeleton.ok_or_else(|| {
             Failure::Outside(format!("`{}` has no drawing: write `derive drawing;` in it", machine.name))
         })?;
+        for place in &skeleton.unplaced {
+            anstream::eprintln!(
+                "loop {} of `{}` is drawn from the origin: if it begins at another joint, declare a point on it",
+                place + 1,
+                machine.name
+            );
+        }
         Ok(Self { machine, skeleton })
     }
 

@@ -1,6 +1,6 @@
 //! The parts of a drawing, guessed from the vectors of loops and points: bars, sliders, pivots on the ground.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::graph::{Graph, NodeId, Number, SymbolId};
 use crate::model::{Chain, Driver, Joints, Link, Mechanism};
@@ -13,6 +13,8 @@ pub struct Skeleton {
     pub parts: Vec<Part>,
     /// The direction of the vector of each slider and sleeve, in the order of the parts.
     pub guides: Vec<[NodeId; 2]>,
+    /// The loops, by index, that are drawn from the origin because nothing says where they begin.
+    pub unplaced: Vec<usize>,
 }
 
 /// A part of a drawing, by indices of joints.
@@ -88,19 +90,100 @@ impl Skeleton {
         };
         let moving = symbols(&mut mechanism.coordinates.ids());
         let driving = symbols(&mut driver.inputs.iter().copied());
+        let starts = starts(mechanism, graph);
         let mut tracer = Tracer { mechanism, graph, moving, joints: Joints::default(), edges: Vec::new() };
-        for [left, right] in &mechanism.loops {
-            if !left.links.is_empty() || !right.links.is_empty() {
-                let [one, other] = [left, right].map(|side| tracer.trace(side));
+        let origin = [tracer.graph.zero(); 2];
+        for (sides, start) in mechanism.loops.iter().zip(&starts) {
+            if sides.iter().any(|side| !side.links.is_empty()) {
+                let [one, other] = sides.each_ref().map(|side| tracer.trace(side, start.unwrap_or(origin)));
                 tracer.joints.merge(one, other);
             }
         }
         for point in &mechanism.points {
-            tracer.trace(&point.chain);
+            tracer.trace(&point.chain, origin);
         }
         tracer.merge();
-        tracer.finish(&driving)
+        let unplaced = (0..starts.len()).filter(|&at| starts[at].is_none()).collect();
+        Self { unplaced, ..tracer.finish(&driving) }
     }
+}
+
+/// The positions at which vectors begin, by the vector.
+type Placed = BTreeMap<[NodeId; 2], BTreeSet<[NodeId; 2]>>;
+
+/// The position at which each loop begins. The first one and those from a point are from the origin. Another may be written
+/// from any joint, since it closes wherever it is: it begins where a vector that it shares with a point or with another loop
+/// says, and at the origin if one of several such vectors says so. None where no vector does.
+fn starts(mechanism: &Mechanism, graph: &mut Graph) -> Vec<Option<[NodeId; 2]>> {
+    let origin = [graph.zero(); 2];
+    let is_anywhere = |at: usize| {
+        let sides = &mechanism.loops[at];
+        sides.iter().all(|side| side.start.is_none()) && sides.iter().any(|side| !side.links.is_empty())
+    };
+    let all = 0..mechanism.loops.len();
+    let first = all.clone().find(|&at| is_anywhere(at));
+    let (mut left, known): (Vec<usize>, Vec<usize>) = all.partition(|&at| is_anywhere(at) && Some(at) != first);
+    let mut starts = vec![Some(origin); mechanism.loops.len()];
+    if left.is_empty() {
+        return starts;
+    }
+    let mut placed = Placed::new();
+    for point in &mechanism.points {
+        place(&point.chain, origin, graph, &mut placed);
+    }
+    for side in known.iter().flat_map(|&at| &mechanism.loops[at]) {
+        place(side, origin, graph, &mut placed);
+    }
+    loop {
+        let count = left.len();
+        left.retain(|&at| {
+            let start = start(&mechanism.loops[at], graph, &placed);
+            for (side, start) in mechanism.loops[at].iter().flat_map(|side| start.map(|start| (side, start))) {
+                place(side, start, graph, &mut placed);
+            }
+            starts[at] = start;
+            start.is_none()
+        });
+        if left.len() == count {
+            return starts;
+        }
+    }
+}
+
+/// Notes the vectors of a chain, which begins at a position if it has none of its own.
+fn place(chain: &Chain, start: [NodeId; 2], graph: &mut Graph, placed: &mut Placed) {
+    let mut at = chain.start.unwrap_or(start);
+    for link in &chain.links {
+        let next = moved(graph, at, link, Number::ONE);
+        placed.entry(link.vector).or_default().insert(if link.is_reversed { next } else { at });
+        at = next;
+    }
+}
+
+/// The position at which a loop begins, by the vectors that are placed.
+fn start(sides: &[Chain; 2], graph: &mut Graph, placed: &Placed) -> Option<[NodeId; 2]> {
+    let origin = [graph.zero(); 2];
+    let mut first = None;
+    for side in sides {
+        for (index, link) in side.links.iter().enumerate() {
+            for &from in placed.get(&link.vector).into_iter().flatten() {
+                // Back to the begin of the loop.
+                let before = &side.links[..index + usize::from(link.is_reversed)];
+                let at = before.iter().rev().fold(from, |at, link| moved(graph, at, link, Number::MINUS_ONE));
+                if at == origin {
+                    return Some(origin);
+                }
+                first.get_or_insert(at);
+            }
+        }
+    }
+    first
+}
+
+/// A position moved along a link, or back.
+fn moved(graph: &mut Graph, at: [NodeId; 2], link: &Link, sign: Number) -> [NodeId; 2] {
+    let sign = if link.is_reversed { sign.negate() } else { sign };
+    [0, 1].map(|axis| graph.sum(&[(Number::ONE, at[axis]), (sign, link.vector[axis])]))
 }
 
 struct Tracer<'a> {
@@ -113,14 +196,12 @@ struct Tracer<'a> {
 }
 
 impl Tracer<'_> {
-    /// Adds the joints and vectors of a chain; returns its last joint.
-    fn trace(&mut self, chain: &Chain) -> usize {
-        let zero = self.graph.zero();
-        let mut last = self.joints.add(chain.start.unwrap_or([zero; 2]));
+    /// Adds the joints and vectors of a chain, which begins at a position if it has none of its own; returns its last joint.
+    fn trace(&mut self, chain: &Chain, start: [NodeId; 2]) -> usize {
+        let mut last = self.joints.add(chain.start.unwrap_or(start));
         for &link in &chain.links {
-            let sign = if link.is_reversed { Number::MINUS_ONE } else { Number::ONE };
             let from = self.joints.position(last);
-            let to = [0, 1].map(|axis| self.graph.sum(&[(Number::ONE, from[axis]), (sign, link.vector[axis])]));
+            let to = moved(self.graph, from, &link, Number::ONE);
             let next = self.joints.add(to);
             self.edges.push(Edge { ends: [last, next], link });
             last = next;
@@ -136,13 +217,10 @@ impl Tracer<'_> {
             is_changed = false;
             for edge in 0..self.edges.len() {
                 let Edge { ends: [from, to], link } = self.edges[edge];
-                let sign = if link.is_reversed { Number::MINUS_ONE } else { Number::ONE };
-                let backwards = if link.is_reversed { Number::ONE } else { Number::MINUS_ONE };
-                for (start, end, sign) in [(from, to, sign), (to, from, backwards)] {
+                for (start, end, sign) in [(from, to, Number::ONE), (to, from, Number::MINUS_ONE)] {
                     let formulas: Vec<[NodeId; 2]> = self.joints.formulas(self.joints.find(start)).collect();
                     for at in formulas {
-                        let moved =
-                            [0, 1].map(|axis| self.graph.sum(&[(Number::ONE, at[axis]), (sign, link.vector[axis])]));
+                        let moved = moved(self.graph, at, &link, sign);
                         if let Some(known) = self.joints.known(moved)
                             && known != self.joints.find(end)
                         {
@@ -279,7 +357,7 @@ impl Tracer<'_> {
         let grounds = pivots.into_iter().map(Part::Ground);
         parts.splice(0..0, grounds);
         let joints = self.named();
-        Skeleton { joints, parts, guides }.compact()
+        Skeleton { joints, parts, guides, unplaced: Vec::new() }.compact()
     }
 
     /// The name of each joint: that of a point there, `O` for the origin, or else a number.
@@ -313,7 +391,7 @@ impl Skeleton {
         used.dedup();
         let index = |joint: usize| used.binary_search(&joint).unwrap_or_default();
         let parts = self.parts.into_iter().map(|part| part.map(index)).collect();
-        Self { joints: used.iter().map(|&joint| self.joints[joint].clone()).collect(), parts, guides: self.guides }
+        Self { joints: used.iter().map(|&joint| self.joints[joint].clone()).collect(), parts, ..self }
     }
 }
 
