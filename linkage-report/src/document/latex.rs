@@ -4,6 +4,7 @@ use core::fmt::{self, Write};
 
 use super::outline::{GeneralEquation, Lines, Pen, words};
 use crate::Notation;
+use crate::sheet::{Values, latex};
 use linkage_runtime::derivation::{Counts, Equation, Formula, FormulaMatrix, Group, Kernel, Root};
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
@@ -11,17 +12,36 @@ const LARGEST_MATRIX: usize = 6;
 
 pub(super) struct Latex<'a> {
     out: &'a mut String,
+    /// The numbers after formulas.
+    values: Option<Values>,
 }
 
 impl<'a> Latex<'a> {
     pub(super) fn new(out: &'a mut String) -> Self {
-        Self { out }
+        Self { out, values: None }
+    }
+
+    /// With numbers after formulas.
+    pub(super) fn at(self, values: Option<&Values>) -> Self {
+        Self { values: values.cloned(), ..self }
+    }
+
+    fn numbered(&mut self, number: usize, Equation { left, right }: &Equation<'_>, about: &str) -> fmt::Result {
+        let [left, right] = [left, right].map(Notation::to_latex);
+        writeln!(self.out, "\\begin{{equation*}} {left} = {right}{about} \\tag{{{number}}} \\end{{equation*}}")
     }
 }
 
-/// Escapes identifiers in running text.
-fn escape(name: &str) -> String {
-    name.replace('_', "\\_")
+/// Escapes running text.
+fn escape(text: &str) -> String {
+    let escaped = |sign: char| match sign {
+        '_' | '&' | '%' | '$' | '#' | '{' | '}' => format!("\\{sign}"),
+        '\\' => "\\textbackslash{}".to_owned(),
+        '~' => "\\textasciitilde{}".to_owned(),
+        '^' => "\\textasciicircum{}".to_owned(),
+        _ => sign.to_string(),
+    };
+    text.chars().map(escaped).collect()
 }
 
 impl Lines for Latex<'_> {
@@ -42,13 +62,13 @@ impl Lines for Latex<'_> {
     }
 
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
-        let Equation { left, right } = equation;
-        writeln!(
-            self.out,
-            "\\begin{{equation*}} {} = {} \\tag{{{number}}} \\end{{equation*}}",
-            left.to_latex(),
-            right.to_latex()
-        )
+        let value = self.values.as_mut().and_then(|values| values.define(equation));
+        let about = value.map_or_else(String::new, |value| format!(" \\approx {}", latex(value)));
+        self.numbered(number, equation, &about)
+    }
+
+    fn zero(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
+        self.numbered(number, equation, "")
     }
 
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
@@ -80,9 +100,21 @@ impl Pen for Latex<'_> {
         writeln!(self.out, "\\section*{{{}}}", escape(mechanism))
     }
 
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
-        let formulas: Vec<_> = formulas.map(|formula| format!("${}$", formula.to_latex())).collect();
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = (Formula<'_>, Option<f64>)>) -> fmt::Result {
+        let formulas = formulas.map(|(formula, value)| {
+            let value = value.map_or_else(String::new, |value| format!(" = {}", latex(value)));
+            format!("${}{value}$", formula.to_latex())
+        });
+        let formulas: Vec<_> = formulas.collect();
         writeln!(self.out, "{role}: {}\\par", formulas.join(", "))
+    }
+
+    fn table(&mut self, caption: &str, rows: &[(String, f64)]) -> fmt::Result {
+        writeln!(self.out, "{}\\par\n\\begin{{tabular}}{{lr}}", escape(caption))?;
+        for (name, value) in rows {
+            writeln!(self.out, "\\texttt{{{}}} & ${}$ \\\\", escape(name), latex(*value))?;
+        }
+        writeln!(self.out, "\\end{{tabular}}\\par")
     }
 
     fn counts(&mut self, counts: Counts) -> fmt::Result {

@@ -6,7 +6,7 @@ pub(crate) mod sheet;
 mod text;
 
 use crate::FpCore;
-use crate::sheet::Values;
+use crate::sheet::{Sheet, Values};
 use linkage_runtime::derivation::{Derivation, SceneDerivation, SheetDerivation};
 
 /// A derivation that can be written as a document.
@@ -37,11 +37,11 @@ pub trait Document {
 
 impl Document for Derivation<'_> {
     fn to_text(&self) -> String {
-        written(|text| outline::write(self, &mut text::Text::new(text)))
+        written(|text| outline::write_whole(&Sheet::new(self), &mut text::Text::new(text)))
     }
 
     fn to_latex(&self) -> String {
-        written(|text| outline::write(self, &mut latex::Latex::new(text)))
+        written(|text| outline::write_whole(&Sheet::new(self), &mut latex::Latex::new(text)))
     }
 
     fn fpcore(&self) -> Vec<FpCore<'_>> {
@@ -51,11 +51,11 @@ impl Document for Derivation<'_> {
 
 impl Document for SceneDerivation<'_> {
     fn to_text(&self) -> String {
-        written(|text| outline::write_scene(self, &mut text::Text::new(text)))
+        written(|text| outline::write_scene(self, &mut text::Text::new(text), &mut 0))
     }
 
     fn to_latex(&self) -> String {
-        written(|text| outline::write_scene(self, &mut latex::Latex::new(text)))
+        written(|text| outline::write_scene(self, &mut latex::Latex::new(text), &mut 0))
     }
 
     fn fpcore(&self) -> Vec<FpCore<'_>> {
@@ -86,7 +86,24 @@ pub fn text_at(sheet: &SheetDerivation<'_>, values: &Values) -> String {
 
 fn write_sheet<P: outline::Pen>(sheet: &SheetDerivation<'_>, pen: &mut P) -> core::fmt::Result {
     pen.title(sheet.mechanism)?;
-    sheet::write(sheet, pen, &mut 0)
+    sheet::write(sheet, pen, &mut 0)?;
+    outline::conditions(pen, sheet.conditions.iter())
+}
+
+/// Writes a sheet as plain text.
+pub(crate) fn text_of(sheet: &Sheet<'_>) -> String {
+    written(|text| {
+        let pen = text::Text::new(text);
+        match &sheet.values {
+            Some(values) => outline::write_whole(sheet, &mut pen.at(values)),
+            None => outline::write_whole(sheet, &mut { pen }),
+        }
+    })
+}
+
+/// Writes a sheet as LaTeX.
+pub(crate) fn latex_of(sheet: &Sheet<'_>) -> String {
+    written(|text| outline::write_whole(sheet, &mut latex::Latex::new(text).at(sheet.values.as_ref())))
 }
 
 fn written(write: impl FnOnce(&mut String) -> core::fmt::Result) -> String {

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use super::sheet as by_hand;
+use crate::sheet::Sheet;
 use linkage_runtime::derivation::{
     Counts, Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Quantity, Root, SceneDerivation, Symbol,
 };
@@ -113,6 +115,7 @@ pub(crate) mod words {
     pub(crate) const POTENTIAL: &str = "Potential energy";
     pub(crate) const OPERATIONS: &str = "Operations";
     pub(crate) const CONDITIONS: &str = "Conditions";
+    pub(crate) const NUMBERS: &str = "Numbers";
 
     pub(crate) const GIVEN: &str = "Given";
     pub(crate) const DRIVEN: &str = "Driven";
@@ -164,6 +167,10 @@ pub(crate) trait Lines {
     fn display(&mut self, formula: &Formula<'_>) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result;
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result;
+    /// A constraint equation, whose number at a position is a rounding error.
+    fn zero(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
+        self.equation(number, equation)
+    }
     /// An equation whose right side is the sum of these columns.
     fn sum(&mut self, number: usize, equation: &Equation<'_>, _: &[&FormulaMatrix<'_>]) -> fmt::Result {
         self.equation(number, equation)
@@ -173,8 +180,10 @@ pub(crate) trait Lines {
 /// The writer of one document format.
 pub(super) trait Pen: Lines {
     fn title(&mut self, mechanism: &str) -> fmt::Result;
-    /// A line such as "Given: l₁, l₂".
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result;
+    /// A line such as "Given: l₁ = 80, l₂", with the values that are known.
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = (Formula<'_>, Option<f64>)>) -> fmt::Result;
+    /// A table of numbers by name.
+    fn table(&mut self, caption: &str, rows: &[(String, f64)]) -> fmt::Result;
     /// The numbers of coordinates and equations.
     fn counts(&mut self, counts: Counts) -> fmt::Result;
     /// The n-th group, counted from 1.
@@ -184,18 +193,15 @@ pub(super) trait Pen: Lines {
     fn kernels(&mut self, kernels: &[Kernel<'_>]) -> fmt::Result;
 }
 
-/// Writes a derivation.
-pub(super) fn write(derivation: &Derivation<'_>, pen: &mut dyn Pen) -> fmt::Result {
+/// Writes all parts of a sheet but its pictures and properties: equations are numbered through.
+pub(super) fn write_whole(sheet: &Sheet<'_>, pen: &mut dyn Pen) -> fmt::Result {
+    let derivation = sheet.derivation;
     let mut number = 0;
-    pen.title(derivation.mechanism)?;
+    pen.title(sheet.title.as_deref().unwrap_or(derivation.mechanism))?;
+    sheet.about.iter().try_for_each(|paragraph| pen.lead(paragraph))?;
     pen.heading(words::COORDINATES)?;
-    let roles = [
-        (words::GIVEN, derivation.parameters),
-        (words::DRIVEN, derivation.inputs),
-        (words::UNKNOWN, derivation.unknowns),
-    ];
-    for (role, symbols) in roles.into_iter().filter(|(_, symbols)| !symbols.is_empty()) {
-        pen.list(role, &mut symbols.iter().map(|symbol| symbol.formula))?;
+    for (role, symbols) in sheet.roles() {
+        pen.list(role, &mut symbols.into_iter())?;
     }
     pen.counts(derivation.counts())?;
 
@@ -206,21 +212,39 @@ pub(super) fn write(derivation: &Derivation<'_>, pen: &mut dyn Pen) -> fmt::Resu
         }
         _ => solved(derivation, pen, &mut number)?,
     }
+    if let Some(by_hand) = sheet.by_hand {
+        by_hand::write(by_hand, pen, &mut number)?;
+    }
 
     quantities(pen, &mut number, words::POINTS, derivation.points)?;
     quantities(pen, &mut number, words::OUTPUTS, derivation.outputs)?;
+    if !sheet.tables.is_empty() {
+        pen.heading(words::NUMBERS)?;
+    }
+    for table in &sheet.tables {
+        pen.table(&table.caption, &table.rows)?;
+    }
     if !derivation.kernels.is_empty() {
         pen.heading(words::OPERATIONS)?;
         pen.kernels(derivation.kernels)?;
     }
-    if !derivation.conditions.is_empty() {
-        pen.heading(words::CONDITIONS)?;
-        pen.lead(words::LEAD_CONDITIONS)?;
-        for condition in derivation.conditions {
-            pen.display(condition)?;
-        }
+    conditions(pen, sheet.conditions().into_iter())?;
+    for scene in &sheet.scenes {
+        write_scene(scene, pen, &mut number)?;
     }
     Ok(())
+}
+
+/// Writes the conditions of the formulas, if there are some.
+pub(super) fn conditions<'a>(
+    pen: &mut dyn Pen,
+    conditions: impl ExactSizeIterator<Item = &'a Formula<'a>>,
+) -> fmt::Result {
+    if conditions.len() > 0 {
+        pen.heading(words::CONDITIONS)?;
+        pen.lead(words::LEAD_CONDITIONS)?;
+    }
+    conditions.into_iter().try_for_each(|condition| pen.display(condition))
 }
 
 /// Writes the constraint equations, and the solutions for position, velocity and acceleration.
@@ -228,7 +252,10 @@ fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) ->
     pen.heading(words::CONSTRAINTS)?;
     pen.lead(words::LEAD_CONSTRAINTS)?;
     pen.general_equation(&CONSTRAINTS)?;
-    equations(pen, number, derivation.residual)?;
+    for equation in derivation.residual {
+        *number += 1;
+        pen.zero(*number, equation)?;
+    }
     if !derivation.implied.is_empty() {
         pen.lead(words::LEAD_IMPLIED)?;
         equations(pen, number, derivation.implied)?;
@@ -248,7 +275,7 @@ fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) ->
     }
     for (index, group) in derivation.groups.iter().enumerate() {
         pen.group(index + 1, group)?;
-        pen.list(words::UNKNOWN, &mut group.unknowns.iter().copied())?;
+        pen.list(words::UNKNOWN, &mut group.unknowns.iter().map(|unknown| (*unknown, None)))?;
         pen.lead(if group.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION })?;
         equations(pen, number, group.position)?;
         if let Some(root) = &group.root {
@@ -310,31 +337,30 @@ fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) ->
     Ok(())
 }
 
-/// Writes the equations of motion of a scene.
-pub(super) fn write_scene(scene: &SceneDerivation<'_>, pen: &mut dyn Pen) -> fmt::Result {
-    let mut number = 0;
+/// Writes the equations of motion of a scene; `number` is that of the equation before them.
+pub(super) fn write_scene(scene: &SceneDerivation<'_>, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
     pen.title(scene.scene)?;
     if !scene.parameters.is_empty() {
-        pen.list(words::GIVEN, &mut scene.parameters.iter().map(|symbol| symbol.formula))?;
+        pen.list(words::GIVEN, &mut scene.parameters.iter().map(|symbol| (symbol.formula, None)))?;
     }
     pen.heading(words::MOTION)?;
     pen.lead(words::LEAD_MOTION)?;
     pen.general_equation(&MOTION)?;
     if !scene.mass_matrix.is_empty() {
         pen.lead(words::LEAD_MASS_MATRIX)?;
-        equations(pen, &mut number, scene.mass_matrix)?;
+        equations(pen, number, scene.mass_matrix)?;
     }
     pen.lead(lead_of_forces(scene))?;
     for effect in scene.forces {
         pen.lead(effect.name)?;
-        equations(pen, &mut number, effect.forces)?;
+        equations(pen, number, effect.forces)?;
     }
     if !scene.frictions_and_stops.is_empty() {
         pen.lead(words::LEAD_CONTACTS)?;
     }
     for contact in scene.frictions_and_stops {
         pen.lead(contact.name)?;
-        equations(pen, &mut number, &[contact.along])?;
+        equations(pen, number, &[contact.along])?;
         pen.display(&contact.bound)?;
         if let Some(joint) = &contact.bearing {
             pen.lead(&bearing(joint))?;
@@ -344,15 +370,15 @@ pub(super) fn write_scene(scene: &SceneDerivation<'_>, pen: &mut dyn Pen) -> fmt
             pen.lead(words::LEAD_REBOUND)?;
             pen.display(factor)?;
         }
-        equations(pen, &mut number, contact.forces)?;
+        equations(pen, number, contact.forces)?;
     }
     if !scene.drives.is_empty() {
         pen.lead(words::LEAD_DRIVES)?;
-        equations(pen, &mut number, scene.drives)?;
+        equations(pen, number, scene.drives)?;
     }
     if let Some(potential) = scene.potential {
         pen.heading(words::POTENTIAL)?;
-        equations(pen, &mut number, &[potential])?;
+        equations(pen, number, &[potential])?;
     }
     if !scene.joints.is_empty() {
         pen.heading(words::JOINTS)?;
@@ -368,7 +394,7 @@ pub(super) fn write_scene(scene: &SceneDerivation<'_>, pen: &mut dyn Pen) -> fmt
     }
     for joint in scene.joints {
         pen.lead(joint.name)?;
-        equations(pen, &mut number, &joint.components)?;
+        equations(pen, number, &joint.components)?;
     }
     if !scene.kernels.is_empty() {
         pen.heading(words::OPERATIONS)?;

@@ -240,7 +240,7 @@ const SINGULAR: GeneralEquation = GeneralEquation {
     mathml: row!("<mi>det</mi>", "<mo rspace=\"0.17em\">\u{2061}</mo>", mi!("J"), mo!("="), "<mn>0</mn>"),
 };
 
-/// Writes an analysis by hand; `number` is that of the equation before it.
+/// Writes an analysis by hand without its conditions; `number` is that of the equation before it.
 pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &mut usize) -> fmt::Result {
     let [jacobian_rate, input_rate] = &sheet.jacobian_rates;
     if jacobian_rate.rows > 0 {
@@ -333,13 +333,6 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
                 *number += 1;
                 pen.sum(*number, sum, parts)?;
             }
-        }
-    }
-    if !sheet.conditions.is_empty() {
-        pen.heading(words::CONDITIONS)?;
-        pen.lead(words::LEAD_CONDITIONS)?;
-        for condition in sheet.conditions {
-            pen.display(condition)?;
         }
     }
     Ok(())

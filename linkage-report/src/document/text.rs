@@ -10,7 +10,7 @@ pub(super) struct Text<'a> {
     out: &'a mut String,
     sections: usize,
     /// The numbers after formulas.
-    values: Option<&'a Values>,
+    values: Option<Values>,
 }
 
 impl<'a> Text<'a> {
@@ -19,16 +19,27 @@ impl<'a> Text<'a> {
     }
 
     /// With numbers after formulas.
-    pub(super) fn at(self, values: &'a Values) -> Self {
-        Self { values: Some(values), ..self }
+    pub(super) fn at(self, values: &Values) -> Self {
+        Self { values: Some(values.clone()), ..self }
     }
 
     /// The number of a formula, and the end of the line.
     fn number(&mut self, formula: Formula<'_>) -> fmt::Result {
-        match self.values.and_then(|values| values.of_unless_number(formula)) {
+        let value = self.values.as_ref().and_then(|values| values.of_unless_number(formula));
+        self.about(value)
+    }
+
+    /// A number after a formula, if it has one, and the end of the line.
+    fn about(&mut self, value: Option<f64>) -> fmt::Result {
+        match value {
             Some(value) => writeln!(self.out, "  ≈ {}", number(value)),
             None => writeln!(self.out),
         }
+    }
+
+    fn numbered(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
+        let width = if number < 10 { 3 } else { 2 };
+        write!(self.out, "  ({number}){:width$}{equation}", "")
     }
 
     fn underline(&mut self, text: &str, line: &str) -> fmt::Result {
@@ -59,9 +70,14 @@ impl Lines for Text<'_> {
     }
 
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
-        let width = if number < 10 { 3 } else { 2 };
-        write!(self.out, "  ({number}){:width$}{equation}", "")?;
-        self.number(equation.right)
+        self.numbered(number, equation)?;
+        let value = self.values.as_mut().and_then(|values| values.define(equation));
+        self.about(value)
+    }
+
+    fn zero(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
+        self.numbered(number, equation)?;
+        writeln!(self.out)
     }
 
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
@@ -83,9 +99,8 @@ impl Lines for Text<'_> {
     }
 
     fn sum(&mut self, number: usize, equation: &Equation<'_>, of: &[&FormulaMatrix<'_>]) -> fmt::Result {
-        let width = if number < 10 { 3 } else { 2 };
-        write!(self.out, "  ({number}){:width$}{equation}", "")?;
-        match self.values.and_then(|values| values.sum(of)) {
+        self.numbered(number, equation)?;
+        match self.values.as_ref().and_then(|values| values.sum(of)) {
             Some([x, y]) => writeln!(self.out, "  ≈ ({}, {})", self::number(x), self::number(y)),
             None => writeln!(self.out),
         }
@@ -97,12 +112,19 @@ impl Pen for Text<'_> {
         self.underline(mechanism, "═")
     }
 
-    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = Formula<'_>>) -> fmt::Result {
+    fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = (Formula<'_>, Option<f64>)>) -> fmt::Result {
         write!(self.out, "  {role:<8}")?;
-        for (index, formula) in formulas.enumerate() {
+        for (index, (formula, value)) in formulas.enumerate() {
             write!(self.out, "{} {formula}", if index == 0 { "" } else { "," })?;
+            value.map_or(Ok(()), |value| write!(self.out, " = {}", number(value)))?;
         }
         writeln!(self.out)
+    }
+
+    fn table(&mut self, caption: &str, rows: &[(String, f64)]) -> fmt::Result {
+        let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+        writeln!(self.out, "  {caption}")?;
+        rows.iter().try_for_each(|(name, value)| writeln!(self.out, "    {name:width$}  {}", number(*value)))
     }
 
     fn counts(&mut self, counts: Counts) -> fmt::Result {

@@ -80,7 +80,7 @@ pub(super) fn matrix(matrix: &FormulaMatrix<'_>, general: Option<&GeneralEquatio
 }
 
 /// An SVG file as a data URL.
-pub(super) fn svg_address(svg: &str) -> String {
+pub(crate) fn svg_address(svg: &str) -> String {
     let mut address = String::from("data:image/svg+xml,");
     for byte in svg.trim().bytes() {
         match byte {

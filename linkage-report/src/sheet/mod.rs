@@ -1,4 +1,4 @@
-//! A mechanism's derivation as one HTML file: formulas in MathML, numbers and pictures.
+//! A mechanism's derivation as one HTML file: formulas in MathML, numbers and pictures; also as text and LaTeX.
 //!
 //! The file is self-contained: it loads nothing, runs no script, supports light and dark mode, and can be printed.
 //!
@@ -21,19 +21,23 @@ mod page;
 mod properties;
 mod values;
 
-use linkage_runtime::derivation::{Derivation, SceneDerivation, SheetDerivation};
+use std::collections::BTreeSet;
+
+use linkage_runtime::derivation::{Derivation, Formula, SceneDerivation, SheetDerivation, Symbol};
+
+use crate::document::outline::words;
 
 pub use crate::document::text_at;
-pub(crate) use html::escape;
-pub(crate) use numbers::number;
+pub(crate) use html::{escape, svg_address};
+pub(crate) use numbers::{latex, number};
 pub(crate) use page::document;
 pub use properties::{RatioNumber, RatioProperty, ratio_properties};
 pub use values::Values;
 
 #[derive(Debug, Clone, PartialEq)]
-struct Table {
-    caption: String,
-    rows: Vec<(String, f64)>,
+pub(crate) struct Table {
+    pub(crate) caption: String,
+    pub(crate) rows: Vec<(String, f64)>,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,13 +49,15 @@ struct Picture {
 /// A builder for a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet<'a> {
-    derivation: &'a Derivation<'a>,
-    title: Option<String>,
-    scenes: Vec<&'a SceneDerivation<'a>>,
-    by_hand: Option<&'a SheetDerivation<'a>>,
-    values: Option<Values>,
+    pub(crate) derivation: &'a Derivation<'a>,
+    pub(crate) title: Option<String>,
+    pub(crate) scenes: Vec<&'a SceneDerivation<'a>>,
+    pub(crate) by_hand: Option<&'a SheetDerivation<'a>>,
+    pub(crate) values: Option<Values>,
+    pub(crate) about: Vec<String>,
+    given: Vec<(String, f64)>,
     properties: Vec<RatioProperty>,
-    tables: Vec<Table>,
+    pub(crate) tables: Vec<Table>,
     pictures: Vec<Picture>,
 }
 
@@ -65,6 +71,8 @@ impl<'a> Sheet<'a> {
             scenes: Vec::new(),
             by_hand: None,
             values: None,
+            about: Vec::new(),
+            given: Vec::new(),
             properties: Vec::new(),
             tables: Vec::new(),
             pictures: Vec::new(),
@@ -89,7 +97,7 @@ impl<'a> Sheet<'a> {
         self
     }
 
-    /// Adds the number of each formula of the analysis by hand at a position.
+    /// Adds the number of each formula at a position, except those of the constraint equations, which are zero.
     pub fn at(&mut self, values: Values) -> &mut Self {
         self.values = Some(values);
         self
@@ -98,6 +106,18 @@ impl<'a> Sheet<'a> {
     /// Adds the properties of the velocity ratios with their numbers, as [`ratio_properties`] finds them.
     pub fn properties(&mut self, properties: impl IntoIterator<Item = RatioProperty>) -> &mut Self {
         self.properties.extend(properties);
+        self
+    }
+
+    /// Adds a paragraph in plain words below the heading.
+    pub fn about(&mut self, paragraph: impl Into<String>) -> &mut Self {
+        self.about.push(paragraph.into());
+        self
+    }
+
+    /// Sets the value of a parameter in the list of what is given.
+    pub fn given(&mut self, name: impl Into<String>, value: f64) -> &mut Self {
+        self.given.push((name.into(), value));
         self
     }
 
@@ -132,6 +152,36 @@ impl<'a> Sheet<'a> {
     pub fn picture(&mut self, svg: impl Into<String>, caption: impl Into<String>) -> &mut Self {
         self.pictures.push(Picture { svg: svg.into(), caption: caption.into() });
         self
+    }
+
+    /// Writes it as plain text, without properties and pictures.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        crate::document::text_of(self)
+    }
+
+    /// Writes it as LaTeX, for inclusion in a file that uses `amsmath`, without properties and pictures.
+    #[must_use]
+    pub fn to_latex(&self) -> String {
+        crate::document::latex_of(self)
+    }
+
+    /// The parameters with their values, the inputs and the unknowns, each kind with its heading.
+    pub(crate) fn roles(&self) -> Vec<(&'static str, Vec<(Formula<'a>, Option<f64>)>)> {
+        let Derivation { parameters, inputs, unknowns, .. } = *self.derivation;
+        let value = |name: &str| self.given.iter().rfind(|(other, _)| other == name).map(|(_, value)| *value);
+        let roles = [(words::GIVEN, parameters), (words::DRIVEN, inputs), (words::UNKNOWN, unknowns)];
+        let listed = roles.into_iter().filter(|(_, symbols)| !symbols.is_empty());
+        let valued = |symbols: &[Symbol<'a>]| symbols.iter().map(|of| (of.formula, value(of.name))).collect();
+        listed.map(|(role, symbols)| (role, valued(symbols))).collect()
+    }
+
+    /// The conditions of all formulas, each once.
+    pub(crate) fn conditions(&self) -> Vec<&'a Formula<'a>> {
+        let by_hand = self.by_hand.map_or(&[][..], |by_hand| by_hand.conditions);
+        let mut texts = BTreeSet::new();
+        let all = self.derivation.conditions.iter().chain(by_hand);
+        all.filter(|condition| texts.insert(condition.to_string())).collect()
     }
 
     /// Writes the HTML file.

@@ -20,11 +20,13 @@ const STYLE: &str = include_str!("style.css");
 struct Page {
     body: String,
     equations: usize,
+    /// The numbers below formulas.
+    values: Option<Values>,
 }
 
 pub(super) fn html(sheet: &Sheet<'_>) -> String {
     let derivation = sheet.derivation;
-    let mut page = Page::default();
+    let mut page = Page { values: sheet.values.clone(), ..Page::default() };
     page.header(sheet);
     if derivation.unknowns.is_empty() {
         page.section(words::OPEN_CHAIN, |page| page.lead(words::LEAD_OPEN_CHAIN));
@@ -38,7 +40,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     }
     page.properties(derivation, &sheet.properties);
     if let Some(by_hand) = sheet.by_hand {
-        page.by_hand(by_hand, sheet.values.as_ref());
+        page.by_hand(by_hand);
     }
     page.quantities(words::POINTS, derivation.points);
     page.quantities(words::OUTPUTS, derivation.outputs);
@@ -51,7 +53,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
     for scene in &sheet.scenes {
         page.operations(Some(scene.scene), scene.kernels);
     }
-    page.conditions(derivation.conditions);
+    page.conditions(&sheet.conditions());
     let title = escape(sheet.title.as_deref().unwrap_or(derivation.mechanism));
     document(&title, &page.body)
 }
@@ -88,6 +90,15 @@ impl Page {
     }
 
     fn equations(&mut self, equations: &[Equation<'_>]) {
+        self.numbered(equations, |page, equation| {
+            if let Some(value) = page.values.as_mut().and_then(|values| values.define(equation)) {
+                page.at(&equation.left, &format!("<mn>{}</mn>", numbers::number(value)));
+            }
+        });
+    }
+
+    /// Equations with their numbers, each followed by what a function adds.
+    fn numbered(&mut self, equations: &[Equation<'_>], after: impl Fn(&mut Self, &Equation<'_>)) {
         if equations.is_empty() {
             return;
         }
@@ -100,13 +111,22 @@ impl Page {
             self.push(&format!(
                 "<div class=\"equation\" id=\"equation-{number}\">{formula}<span class=\"number\">({number})</span></div>"
             ));
+            after(self, equation);
         }
         self.push("</div>");
+    }
+
+    /// The number of a formula at the position.
+    fn at(&mut self, left: &Formula<'_>, number: &str) {
+        self.push(&format!("<p class=\"at\"><math>{}<mo>=</mo>{number}</math></p>", left.to_mathml()));
     }
 
     fn matrix(&mut self, which: &FormulaMatrix<'_>, general: Option<&GeneralEquation>) {
         let lines: String = matrix(which, general).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
         self.push(&format!("<div class=\"law\">{lines}</div>"));
+        if let Some(numbers) = self.values.as_ref().and_then(|values| at::matrix(which, values)) {
+            self.push(&format!("<div class=\"at\">{numbers}</div>"));
+        }
     }
 
     fn header(&mut self, sheet: &Sheet<'_>) {
@@ -115,14 +135,18 @@ impl Page {
             Some(title) => (escape(derivation.mechanism), escape(title)),
             None => ("Kinematics".to_owned(), escape(derivation.mechanism)),
         };
-        self.push(&format!("<header>\n<p class=\"over\">{over}</p>\n<h1>{title}</h1>\n<dl class=\"coordinates\">"));
-        let roles = [
-            (words::GIVEN, derivation.parameters),
-            (words::DRIVEN, derivation.inputs),
-            (words::UNKNOWN, derivation.unknowns),
-        ];
-        for (role, symbols) in roles.into_iter().filter(|(_, symbols)| !symbols.is_empty()) {
-            let symbols = list(symbols.iter().map(|Symbol { formula, .. }| formula));
+        self.push(&format!("<header>\n<p class=\"over\">{over}</p>\n<h1>{title}</h1>"));
+        for paragraph in &sheet.about {
+            self.lead(&escape(paragraph));
+        }
+        self.push("<dl class=\"coordinates\">");
+        for (role, symbols) in sheet.roles() {
+            let symbols = symbols.iter().map(|(formula, value)| {
+                let value =
+                    value.map_or_else(String::new, |value| format!("<mo>=</mo><mn>{}</mn>", numbers::number(value)));
+                format!("<math>{}{value}</math>", formula.to_mathml())
+            });
+            let symbols = symbols.collect::<Vec<_>>().join(", ");
             self.push(&format!("<div><dt>{role}</dt><dd>{symbols}</dd></div>"));
         }
         let counts = derivation.counts();
@@ -134,7 +158,7 @@ impl Page {
         self.section(words::CONSTRAINTS, |page| {
             page.lead(words::LEAD_CONSTRAINTS);
             page.general_equation(&outline::CONSTRAINTS);
-            page.equations(derivation.residual);
+            page.numbered(derivation.residual, |_, _| ());
             if !derivation.implied.is_empty() {
                 page.lead(words::LEAD_IMPLIED);
                 page.equations(derivation.implied);
@@ -231,9 +255,9 @@ impl Page {
         });
     }
 
-    fn by_hand(&mut self, by_hand: &SheetDerivation<'_>, values: Option<&Values>) {
+    fn by_hand(&mut self, by_hand: &SheetDerivation<'_>) {
         let mut number = self.equations;
-        let mut sections = Sections { page: self, values, is_open: false };
+        let mut sections = Sections { page: self, is_open: false };
         // A page takes every line.
         let _ = sheet::write(by_hand, &mut sections, &mut number);
         if sections.is_open {
@@ -300,7 +324,7 @@ impl Page {
         if tables.is_empty() {
             return;
         }
-        self.section("Numbers", |page| {
+        self.section(words::NUMBERS, |page| {
             page.push("<div class=\"tables\">");
             for Table { caption, rows } in tables {
                 let values: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
@@ -427,25 +451,24 @@ impl Page {
         });
     }
 
-    fn conditions(&mut self, conditions: &[Formula<'_>]) {
+    fn conditions(&mut self, conditions: &[&Formula<'_>]) {
         if conditions.is_empty() {
             return;
         }
         self.section(words::CONDITIONS, |page| {
-            let conditions = list(conditions.iter());
+            let conditions = list(conditions.iter().copied());
             page.push(&format!("<p>{} {conditions}.</p>", words::LEAD_CONDITIONS));
         });
     }
 }
 
 /// Writes an analysis by hand as sections, with numbers below formulas.
-struct Sections<'p, 'v> {
+struct Sections<'p> {
     page: &'p mut Page,
-    values: Option<&'v Values>,
     is_open: bool,
 }
 
-impl Lines for Sections<'_, '_> {
+impl Lines for Sections<'_> {
     fn heading(&mut self, heading: &str) -> fmt::Result {
         if self.is_open {
             self.page.push("</section>");
@@ -472,30 +495,20 @@ impl Lines for Sections<'_, '_> {
 
     fn equation(&mut self, _: usize, equation: &Equation<'_>) -> fmt::Result {
         self.page.equations(&[*equation]);
-        if let Some(value) = self.values.and_then(|values| values.of_unless_number(equation.right)) {
-            let left = equation.left.to_mathml();
-            let number = numbers::number(value);
-            self.page.push(&format!("<p class=\"at\"><math>{left}<mo>=</mo><mn>{number}</mn></math></p>"));
-        }
         Ok(())
     }
 
     fn sum(&mut self, _: usize, equation: &Equation<'_>, of: &[&FormulaMatrix<'_>]) -> fmt::Result {
-        self.page.equations(&[*equation]);
-        if let Some(sum) = self.values.and_then(|values| values.sum(of)) {
-            let (left, [x, y]) = (equation.left.to_mathml(), sum.map(numbers::number));
-            self.page.push(&format!(
-                "<p class=\"at\"><math>{left}<mo>=</mo><mo>(</mo><mn>{x}</mn><mo>,</mo><mn>{y}</mn><mo>)</mo></math></p>"
-            ));
+        self.page.numbered(&[*equation], |_, _| ());
+        if let Some(sum) = self.page.values.as_ref().and_then(|values| values.sum(of)) {
+            let [x, y] = sum.map(numbers::number);
+            self.page.at(&equation.left, &format!("<mo>(</mo><mn>{x}</mn><mo>,</mo><mn>{y}</mn><mo>)</mo>"));
         }
         Ok(())
     }
 
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result {
         self.page.matrix(matrix, None);
-        if let Some(numbers) = self.values.and_then(|values| at::matrix(matrix, values)) {
-            self.page.push(&format!("<div class=\"at\">{numbers}</div>"));
-        }
         Ok(())
     }
 }

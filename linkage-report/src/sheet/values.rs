@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use linkage_runtime::Mechanism;
 use linkage_runtime::analysis::AnalysisOf;
 use linkage_runtime::derivation::notation::Name;
-use linkage_runtime::derivation::{Derivation, ElementaryFunction, Formula, FormulaList, FormulaMatrix, FormulaView};
+use linkage_runtime::derivation::{
+    Derivation, ElementaryFunction, Equation, Formula, FormulaList, FormulaMatrix, FormulaView,
+};
 
 /// Numbers for the names in the formulas of a mechanism: those of a position, with its rates and accelerations.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -13,6 +15,8 @@ pub struct Values {
     /// By the order of the derivative.
     of: [BTreeMap<String, f64>; 3],
     ratios: BTreeMap<(String, String), f64>,
+    /// Left sides of equations, as text.
+    defined: BTreeMap<String, f64>,
 }
 
 impl Values {
@@ -47,12 +51,34 @@ impl Values {
         values
     }
 
+    /// Sets the value of a parameter or a coordinate; `order` 1 is its rate and 2 its acceleration.
+    pub fn set(&mut self, name: &str, order: usize, value: f64) -> &mut Self {
+        if let Some(of) = self.of.get_mut(order) {
+            of.insert(name.to_owned(), value);
+        }
+        self
+    }
+
+    /// Sets a velocity ratio: the derivative of an unknown by an input.
+    pub fn set_ratio(&mut self, of: &str, by: &str, value: f64) -> &mut Self {
+        self.ratios.insert((of.to_owned(), by.to_owned()), value);
+        self
+    }
+
+    /// The value of the right side of an equation, which its left side has from now on.
+    pub(crate) fn define(&mut self, equation: &Equation<'_>) -> Option<f64> {
+        let value = self.of_unless_number(equation.right)?;
+        self.defined.insert(equation.left.to_string(), value);
+        Some(value)
+    }
+
     /// The value of a formula; none if it contains a name without a number, a user function, or a part that is left out.
     #[must_use]
     pub fn value(&self, formula: Formula<'_>) -> Option<f64> {
         let all = |list: FormulaList<'_>| list.iter().map(|one| self.value(one)).collect::<Option<Vec<f64>>>();
+        let defined = || self.defined.get(&formula.to_string()).copied();
         Some(match formula.view() {
-            FormulaView::Name(name) => self.named(name)?,
+            FormulaView::Name(name) => self.named(name).or_else(defined)?,
             FormulaView::Integer(number) => number as f64,
             FormulaView::Decimal(number) => number,
             FormulaView::Pi => std::f64::consts::PI,
@@ -67,7 +93,11 @@ impl Values {
             FormulaView::Product(factors) => all(factors)?.into_iter().product(),
             FormulaView::Multiple(one, other) => self.value(one)? * self.value(other)?,
             FormulaView::Quotient(above, below) => self.value(above)? / self.value(below)?,
-            FormulaView::Power(base, exponent) => self.value(base)?.powi(i32::try_from(exponent).ok()?),
+            FormulaView::Power(base, exponent) => match self.value(base) {
+                Some(base) => base.powi(i32::try_from(exponent).ok()?),
+                // A square can be known without its root.
+                None => defined()?,
+            },
             FormulaView::Call(function, arguments) => called(function, &all(arguments)?)?,
             _ => return None,
         })
