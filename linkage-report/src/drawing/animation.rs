@@ -118,6 +118,12 @@ impl Animation {
         self
     }
 
+    /// Sets the width of the picture in pixels; its height follows. Without it the picture fills the place that it has.
+    pub fn width(&mut self, pixels: u32) -> &mut Self {
+        self.figure.width = Some(pixels);
+        self
+    }
+
     /// Lets these points leave their paths, and no others: by default the declared points that are no joints do.
     /// [`DrawingError::UnknownJoint`](super::DrawingError::UnknownJoint) if there is no such point.
     pub fn paths(&mut self, points: &[&str]) -> &mut Self {

@@ -1,6 +1,7 @@
 //! Frames of named points and the parts that connect them: the contents of a picture, at rest or in motion.
 
 use nalgebra::Vector2;
+use svg::Document;
 
 use super::DrawingError;
 use super::part::Part;
@@ -14,6 +15,8 @@ pub(super) struct Figure {
     pub mistake: Option<DrawingError>,
     /// The names that were changed, with the new ones, in order.
     pub renamed: Vec<[String; 2]>,
+    /// The width of the picture in pixels, if it has one.
+    pub width: Option<u32>,
 }
 
 impl Figure {
@@ -31,6 +34,15 @@ impl Figure {
 }
 
 impl Figure {
+    /// An empty picture of this size in its own unit.
+    pub(super) fn page(&self, [width, height]: [f64; 2]) -> Document {
+        let page = Document::new().set("viewBox", (0, 0, width, height));
+        match self.width {
+            Some(pixels) => page.set("width", pixels).set("height", f64::from(pixels) * height / width),
+            None => page,
+        }
+    }
+
     /// Notes a mistake; the first one is reported.
     fn mistaken(&mut self, mistake: DrawingError) {
         self.mistake.get_or_insert(mistake);

@@ -1,7 +1,6 @@
 //! Writes the SVG of a drawing: the linkage in the style of an animation, axes, vectors and a legend.
 
 use nalgebra::Vector2;
-use svg::Document;
 use svg::node::element::{Description, Group, Line, Path, Rectangle, Style, Text, Title};
 
 use super::DrawingError;
@@ -63,9 +62,9 @@ fn svg(drawing: &Drawing, style: String) -> Result<String, DrawingError> {
     let legend = legend(drawing);
     let bottom = top + frame.height() + 30.0;
     let height = bottom + ENTRY[1] * legend.len().div_ceil(ENTRIES) as f64 + 6.0;
-    let mut document = Document::new()
+    let page = drawing.figure.page([LEFT + WIDTH + 14.0, height.ceil()]);
+    let mut document = page
         .set("class", CLASS)
-        .set("viewBox", (0, 0, LEFT + WIDTH + 14.0, height.ceil()))
         .set("role", "img")
         .set("text-anchor", "middle")
         .add(Title::new(drawing.title.as_str()))

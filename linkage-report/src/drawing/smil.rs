@@ -55,9 +55,8 @@ fn shapes(animation: &Animation) -> Result<Shapes, DrawingError> {
 
 /// An empty picture.
 fn page(animation: &Animation, style: impl Into<String>) -> Document {
-    Document::new()
-        .set("class", CLASS)
-        .set("viewBox", (0, 0, SIZE.x, SIZE.y))
+    let page = animation.figure.page(SIZE.into());
+    page.set("class", CLASS)
         .set("role", "img")
         .set("text-anchor", "middle")
         .add(Title::new(animation.title.as_str()))

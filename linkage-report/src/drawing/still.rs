@@ -64,6 +64,12 @@ impl Drawing {
         }
     }
 
+    /// Sets the width of the picture in pixels; its height follows. Without it the picture fills the place that it has.
+    pub fn width(&mut self, pixels: u32) -> &mut Self {
+        self.figure.width = Some(pixels);
+        self
+    }
+
     fn place(&mut self, name: &str, at: impl Into<Point2<f64>>, parts: impl IntoIterator<Item = fn(String) -> Part>) {
         self.figure.frames[0].push((name.to_owned(), at.into().coords));
         self.figure.parts.extend(parts.into_iter().map(|part| part(name.to_owned())));
