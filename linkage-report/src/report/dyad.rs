@@ -4,8 +4,10 @@
 //! direction of its line, so that the angle between the columns is that between two links, between a link and the normal
 //! of a guide, or between an arm and its slot. Of a point at two distances the rows are the directions of the links.
 
-use linkage_runtime::derivation::{Derivation, GroupForm};
-use linkage_runtime::{Column, Kinematic, Mechanism, OutputMotion, PerUnknown};
+use linkage_runtime::OutputMotion;
+use linkage_runtime::derivation::GroupForm;
+
+use super::local::Local;
 
 /// A vector of the plane.
 pub(super) type Vector = [f64; 2];
@@ -44,17 +46,14 @@ enum Directions {
 
 impl Dyad {
     /// The dyad of a group, if it is one.
-    pub(super) fn of<M>(mechanism: &M, derivation: &Derivation<'_>, group: usize, q: &M::Coordinates) -> Option<Self>
-    where
-        M: Kinematic<Scalar = f64>,
-    {
-        let (form, of_group) = (derivation.groups.get(group)?.form, M::GROUPS.get(group)?);
-        let (&[first, second], &[one, other]) = (of_group.equations, of_group.unknowns) else { return None };
+    fn of(local: &Local<'_>, group: usize) -> Option<Self> {
+        let form = local.form(group)?;
+        let (&[first, second], &[one, other]) = (local.equations(group), local.unknowns(group)) else { return None };
         let (rows, unknowns) = ([first, second], [one, other]);
         let of = |kind, directions| Self { kind, rows, unknowns, directions };
         let plain = Directions::Columns { multiples: [0.0; 2], signs: [1.0; 2] };
         match form {
-            GroupForm::TwoAngles => Some(of(DyadKind::Rrr, of_angles(mechanism, rows, unknowns, q))),
+            GroupForm::TwoAngles => Some(of(DyadKind::Rrr, of_angles(local, rows, unknowns))),
             GroupForm::TwoDistances => Some(of(DyadKind::Rrr, Directions::Rows)),
             GroupForm::AngleAndLength => Some(of(DyadKind::Rrp, plain)),
             GroupForm::AngleAndTurningLength => Some(of(DyadKind::Rpr, plain)),
@@ -65,44 +64,36 @@ impl Dyad {
 
     /// All dyads, each with its groups, in the order in which these are solved. A link and a slider whose guide is along an
     /// axis are two groups: the angle of the link follows from one coordinate, the slider from the other.
-    pub(super) fn all<M>(mechanism: &M, derivation: &Derivation<'_>, q: &M::Coordinates) -> Vec<(Vec<usize>, Self)>
-    where
-        M: Kinematic<Scalar = f64>,
-    {
-        let groups = 0..M::GROUPS.len();
+    pub(super) fn all(local: &Local<'_>) -> Vec<(Vec<usize>, Self)> {
+        let groups = 0..local.derivation.groups.len();
         let sliders = |link: usize| {
             let mut found = groups.clone().filter_map(move |slider| {
-                let dyad = Self::of_slider(mechanism, derivation, [link, slider], q)?;
+                let dyad = Self::of_slider(local, [link, slider])?;
                 Some((vec![link, slider], dyad))
             });
             found.next()
         };
         let of_group = |group: usize| {
-            let dyad = Self::of(mechanism, derivation, group, q).map(|dyad| (vec![group], dyad));
+            let dyad = Self::of(local, group).map(|dyad| (vec![group], dyad));
             dyad.or_else(|| sliders(group))
         };
         groups.clone().filter_map(of_group).collect()
     }
 
     /// The dyad of a link and a slider, each solved alone from one row of a loop.
-    fn of_slider<M>(mechanism: &M, derivation: &Derivation<'_>, groups: [usize; 2], q: &M::Coordinates) -> Option<Self>
-    where
-        M: Kinematic<Scalar = f64>,
-    {
-        let forms = groups.map(|group| derivation.groups.get(group).map(|group| group.form));
-        let [link, slider] = groups.map(|group| M::GROUPS.get(group));
-        let (&[row], &[angle]) = (link?.equations, link?.unknowns) else { return None };
-        let (&[other], &[length]) = (slider?.equations, slider?.unknowns) else { return None };
+    fn of_slider(local: &Local<'_>, groups: [usize; 2]) -> Option<Self> {
+        let forms = groups.map(|group| local.form(group));
+        let [link, slider] = groups;
+        let (&[row], &[angle]) = (local.equations(link), local.unknowns(link)) else { return None };
+        let (&[other], &[length]) = (local.equations(slider), local.unknowns(slider)) else { return None };
         let is_pair = forms == [Some(GroupForm::OneAngle), Some(GroupForm::OneLinear)]
             && row.abs_diff(other) == 1
-            && M::UNKNOWN_ANGLES.get(length) == Some(&false)
-            && derivation.jacobian_unknowns.entry(other, angle).is_some();
+            && !local.is_angle(length)
+            && local.derivation.jacobian_unknowns.entry(other, angle).is_some();
         let rows = [row, other];
-        let pose = mechanism.pose_at(q);
-        let jacobian = mechanism.jacobian_unknowns(&pose);
-        let column = rows.map(|row| jacobian.part(row, angle));
-        let turning = unit::<M>(angle);
-        let bend = mixed(mechanism, &pose, &turning, &turning, rows);
+        let column = local.column(angle, rows);
+        let turning = local.unit(angle);
+        let bend = local.mixed(&turning, &turning, rows);
         // The column of the angle of a link is i a, and Psi_aa = -a.
         let off = [less(bend, turned(column)), less(bend, scaled(turned(column), -1.0))].map(|off| dot(off, off));
         let is_link = off[0].min(off[1]) <= 1e-18 * dot(column, column);
@@ -115,15 +106,10 @@ impl Dyad {
         self.kind == DyadKind::Rrr && matches!(self.directions, Directions::Columns { .. })
     }
 
-    /// The angle between 0 and pi, with its first derivative; the second is not known.
-    pub(super) fn angle<M>(&self, mechanism: &M, q: &M::Coordinates, rates: &M::Rates) -> OutputMotion
-    where
-        M: Kinematic<Scalar = f64>,
-    {
-        let pose = mechanism.pose_at(q);
-        let jacobian = mechanism.jacobian_unknowns(&pose);
-        let column = |unknown: usize| self.rows.map(|row| jacobian.part(row, unknown));
-        let moved = |unknown: usize| mixed(mechanism, &pose, &unit::<M>(unknown), rates, self.rows);
+    /// The angle between 0 and pi, with its first derivative at these rates of unknowns and inputs; the second is not known.
+    pub(super) fn angle(&self, local: &Local<'_>, rates: &[f64]) -> OutputMotion {
+        let column = |unknown: usize| local.column(unknown, self.rows);
+        let moved = |unknown: usize| local.mixed(&local.unit(unknown), rates, self.rows);
         let [columns, derivatives] = [self.unknowns.map(column), self.unknowns.map(moved)];
         let sides = |[one, other]: [Vector; 2]| match self.directions {
             Directions::Rows => [[one[0], other[0]], [one[1], other[1]]],
@@ -146,17 +132,10 @@ impl Dyad {
 }
 
 /// The directions of two angles: the links are a and b with the angles alpha + k beta and beta.
-fn of_angles<M: Kinematic<Scalar = f64>>(
-    mechanism: &M,
-    rows: [usize; 2],
-    unknowns: [usize; 2],
-    q: &M::Coordinates,
-) -> Directions {
-    let pose = mechanism.pose_at(q);
-    let jacobian = mechanism.jacobian_unknowns(&pose);
-    let [one, other] = unknowns.map(|unknown| rows.map(|row| jacobian.part(row, unknown)));
-    let units = unknowns.map(unit::<M>);
-    let second = |a: usize, b: usize| mixed(mechanism, &pose, &units[a], &units[b], rows);
+fn of_angles(local: &Local<'_>, rows: [usize; 2], unknowns: [usize; 2]) -> Directions {
+    let [one, other] = unknowns.map(|unknown| local.column(unknown, rows));
+    let units = unknowns.map(|unknown| local.unit(unknown));
+    let second = |a: usize, b: usize| local.mixed(&units[a], &units[b], rows);
     // Psi_ab = -k a, and the column of alpha is i a.
     let between = second(0, 1);
     let multiple = |column: Vector| {
@@ -179,26 +158,6 @@ fn of_angles<M: Kinematic<Scalar = f64>>(
     ];
     let signs = [0, 1].map(|side| if dot(turned(links[side]), columns[side]) < 0.0 { -1.0 } else { 1.0 });
     Directions::Columns { multiples: [of_second, of_first], signs }
-}
-
-/// The rates at which one unknown moves with rate 1.
-pub(super) fn unit<M: Mechanism<Scalar = f64>>(unknown: usize) -> M::Rates {
-    M::rates(PerUnknown::<M>::unit(unknown), Column::zeros())
-}
-
-/// Psi_qq a b in two rows, by polarisation of the quadratic velocity term: 4 Psi_qq a b = gamma(a + b) - gamma(a - b).
-pub(super) fn mixed<M: Mechanism<Scalar = f64>>(
-    mechanism: &M,
-    pose: &M::Pose,
-    a: &M::Rates,
-    b: &M::Rates,
-    rows: [usize; 2],
-) -> Vector {
-    let [(a_unknowns, a_inputs), (b_unknowns, b_inputs)] = [a, b].map(M::rate_parts);
-    let sum = M::rates(a_unknowns + b_unknowns, a_inputs + b_inputs);
-    let difference = M::rates(a_unknowns - b_unknowns, a_inputs - b_inputs);
-    let [plus, minus] = [sum, difference].map(|rates| mechanism.gamma(pose, &rates));
-    rows.map(|row| (plus.part(row) - minus.part(row)) / 4.0)
 }
 
 /// A vector a quarter turn further.

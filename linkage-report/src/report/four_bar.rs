@@ -5,10 +5,10 @@
 
 use std::fmt;
 
-use linkage_runtime::derivation::{Derivation, KinematicChain};
-use linkage_runtime::{Column, Kinematic, PerInput};
+use linkage_runtime::derivation::KinematicChain;
 
-use super::dyad::{Dyad, DyadKind, Vector, dot, mixed, scaled, unit};
+use super::dyad::{Dyad, DyadKind, Vector, dot, scaled};
+use super::local::Local;
 
 /// A loop of four links with turning joints, one of which is the ground.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,20 +83,15 @@ impl fmt::Display for GrashofClass {
 }
 
 /// The loop of four turning joints that a dyad closes, if it does: two links from one that turns about the ground.
-pub(super) fn of_dyad<M>(
-    mechanism: &M,
-    derivation: &Derivation<'_>,
-    dyad: &Dyad,
-    q: &M::Coordinates,
-) -> Option<FourBarLoop>
-where
-    M: Kinematic<Scalar = f64>,
-{
+pub(super) fn of_dyad(local: &Local<'_>, dyad: &Dyad) -> Option<FourBarLoop> {
+    let derivation = local.derivation;
     let chain = derivation.chain.filter(|_| dyad.kind == DyadKind::Rrr)?;
-    let coordinates = || (0..M::UNKNOWNS.len() + M::INPUTS.len()).map(coordinate::<M>);
+    let names: Vec<&str> = derivation.unknowns.iter().chain(derivation.inputs).map(|symbol| symbol.name).collect();
+    let coordinates = || names.iter().copied();
+    let coordinate = |place: usize| names.get(place).copied().unwrap_or_default();
     // The link of each coordinate that alone is in its angle.
     let own = |name: &str| chain.links.iter().position(|link| link.turns_with == [name]);
-    let [one, other] = dyad.unknowns.map(|unknown| coordinate::<M>(unknown));
+    let [one, other] = dyad.unknowns.map(coordinate);
     let around = coordinates().filter(|driver| driver != &one && driver != &other).filter_map(|driver| {
         let ring = |coupler, output| {
             let links = [own(driver)?, own(coupler)?, own(output)?];
@@ -108,19 +103,18 @@ where
     // Another coordinate in these equations is one of another loop.
     let (of_unknowns, of_inputs) = (derivation.jacobian_unknowns, derivation.jacobian_inputs);
     let entries = of_unknowns.entries.iter().map(|entry| (entry.row, entry.column));
-    let entries = entries.chain(of_inputs.entries.iter().map(|entry| (entry.row, M::UNKNOWNS.len() + entry.column)));
-    let mut columns = entries.filter(|(row, _)| dyad.rows.contains(row)).map(|(_, column)| coordinate::<M>(column));
+    let entries =
+        entries.chain(of_inputs.entries.iter().map(|entry| (entry.row, derivation.unknowns.len() + entry.column)));
+    let mut columns = entries.filter(|(row, _)| dyad.rows.contains(row)).map(|(_, column)| coordinate(column));
     if columns.any(|name| !links.contains(&name)) {
         return None;
     }
-    let pose = mechanism.pose_at(q);
-    let rows = dyad.rows;
     let place = |name: &str| coordinates().position(|other| other == name);
     let mut vectors = Vec::new();
     for name in links {
-        let rates = rates::<M>(place(name)?);
+        let rates = local.unit(place(name)?);
         // Of the angle of a link alone Psi_aa = -a.
-        let vector = scaled(mixed(mechanism, &pose, &rates, &rates, rows), -1.0);
+        let vector = scaled(local.mixed(&rates, &rates, dyad.rows), -1.0);
         vectors.push(vector);
     }
     let [driving, coupler, output]: [Vector; 3] = vectors.try_into().ok()?;
@@ -139,18 +133,4 @@ fn is_ring(chain: &KinematicChain<'_>, [first, second, third]: [usize; 3]) -> bo
             .any(|joint| joint.slides_along.is_none() && (joint.links == [one, other] || joint.links == [other, one]))
     };
     meet(0, first) && meet(first, second) && meet(second, third) && meet(third, 0)
-}
-
-/// The name of a coordinate: of the unknowns, then of the inputs.
-fn coordinate<M: Kinematic>(place: usize) -> &'static str {
-    let (unknowns, inputs) = (M::UNKNOWNS, M::INPUTS);
-    unknowns.get(place).or_else(|| inputs.get(place - unknowns.len())).copied().unwrap_or_default()
-}
-
-/// The rates at which one coordinate moves with rate 1.
-fn rates<M: Kinematic<Scalar = f64>>(place: usize) -> M::Rates {
-    match place.checked_sub(M::UNKNOWNS.len()) {
-        None => unit::<M>(place),
-        Some(input) => M::rates(Column::zeros(), PerInput::<M>::unit(input)),
-    }
 }

@@ -29,6 +29,7 @@
 mod dwells;
 mod dyad;
 mod four_bar;
+mod local;
 mod mobility;
 mod modes;
 mod motion;
@@ -39,13 +40,15 @@ mod strokes;
 mod transmission;
 
 use linkage_runtime::circuits::CircuitError;
-use linkage_runtime::derivation::Derivation;
+use linkage_runtime::derivation::{Derivation, Symbol};
 use linkage_runtime::range_of_motion::RangeOfMotion;
 use linkage_runtime::{Assembly, Branches, D, Kinematic, Mechanism, PathError};
 
 pub use dwells::Dwell;
+use dyad::Dyad;
 pub use dyad::DyadKind;
 pub use four_bar::{FourBarLoop, GrashofClass};
+pub use local::Local;
 pub use mobility::{LinksAndJoints, Mobility};
 pub use modes::{ListedMode, ListedMotion, Modes, SingularInput};
 pub use motion::{MotionReport, NearMissInput, QuantityReport};
@@ -67,6 +70,8 @@ pub struct Report {
     pub mobility: Mobility,
     /// The modes and circuits at the input of the start.
     pub modes: ReportedModes,
+    /// The loops of four turning joints, of a report of data; those of a motion are with it.
+    pub four_bars: Vec<FourBarLoop>,
     /// One motion from end to end; none for a mechanism with several inputs, which has as many motions as paths of its
     /// inputs.
     pub motion: Option<MotionReport>,
@@ -92,6 +97,8 @@ pub enum ReportedModes {
     Failed(CircuitError),
     /// The mechanism does not implement [`Branches`], or the report was made without.
     NotListed,
+    /// There are none, for this reason.
+    Missing(String),
 }
 
 impl Report {
@@ -166,6 +173,41 @@ impl Report {
         Self::without_motion::<M>(derivation, modes)
     }
 
+    /// The report of a mechanism that is known as data, as one that is compiled at run time, without a motion: its mobility, and
+    /// modes that are known. With the numbers at each mode it has the classes of four-bar loops and transmission angles.
+    pub fn of_data(
+        derivation: &Derivation<'_>,
+        is_angle: impl Fn(&str) -> bool,
+        mut modes: ReportedModes,
+        at_modes: &[Local<'_>],
+    ) -> Self {
+        if let ReportedModes::Listed(modes) = &mut modes {
+            for (mode, local) in modes.modes.iter_mut().zip(at_modes) {
+                mode.transmission = transmission::at(local);
+            }
+        }
+        let of_loop = |local: &Local<'_>| {
+            Dyad::all(local).iter().filter_map(|(_, dyad)| four_bar::of_dyad(local, dyad)).collect()
+        };
+        let four_bars = at_modes.first().map(of_loop).unwrap_or_default();
+        let named = |symbols: &[Symbol<'_>]| {
+            let of = |symbol: &Symbol<'_>| ReportedCoordinate {
+                name: symbol.name.to_owned(),
+                is_angle: is_angle(symbol.name),
+            };
+            symbols.iter().map(of).collect()
+        };
+        Self {
+            mechanism: derivation.mechanism.to_owned(),
+            inputs: named(derivation.inputs),
+            unknowns: named(derivation.unknowns),
+            mobility: Mobility::of(derivation),
+            modes,
+            four_bars,
+            motion: None,
+        }
+    }
+
     fn with_modes<M>(
         range: &RangeOfMotion<'_, M>,
         derivation: &Derivation<'_>,
@@ -190,6 +232,7 @@ impl Report {
             unknowns: M::UNKNOWNS.iter().zip(M::UNKNOWN_ANGLES).map(named).collect(),
             mobility: Mobility::of(derivation),
             modes,
+            four_bars: Vec::new(),
             motion: None,
         }
     }

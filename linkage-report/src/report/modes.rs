@@ -31,6 +31,8 @@ pub struct ListedMode {
     pub unknowns: Vec<f64>,
     /// Its motion, by index.
     pub motion: Option<usize>,
+    /// The transmission angle of each dyad, with the unknowns of the dyad, in a report of data.
+    pub transmission: Vec<(String, f64)>,
 }
 
 /// A motion through modes, with dead points passed.
@@ -76,6 +78,7 @@ impl Modes {
             branch: format!("{:?}", mode.branch),
             unknowns: M::unknowns(&mode.position).as_slice().to_vec(),
             motion: Some(mode.motion),
+            transmission: Vec::new(),
         });
         let modes = modes.collect();
         let motions = circuits.motions.iter().map(listed::<M>).collect();
@@ -97,6 +100,7 @@ impl Modes {
             branch: format!("{branch:?}"),
             unknowns: M::unknowns(position).as_slice().to_vec(),
             motion: None,
+            transmission: Vec::new(),
         });
         let inputs = inputs.as_slice().to_vec();
         Ok(Self { inputs, modes: modes.collect(), motions: Vec::new(), circuits: Vec::new(), followed })

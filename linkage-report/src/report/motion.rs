@@ -11,6 +11,7 @@ use linkage_runtime::{D, Kinematic, OutputMotion, PathError};
 use super::dwells::{Dwell, dwells};
 use super::dyad::Dyad;
 use super::four_bar::{self, FourBarLoop};
+use super::local::{Local, listed};
 use super::modes::SingularInput;
 use super::options::ReportOptions;
 use super::strokes::{Stroke, strokes, time_ratio};
@@ -95,10 +96,12 @@ impl MotionReport {
         M: Kinematic<Scalar = f64, V = D<1>>,
     {
         let (m, q) = (range.mechanism(), range.at(start)?);
-        let dyads = Dyad::all(m, derivation, &q);
+        let local = Local::of(m, derivation, &q);
+        let dyads = Dyad::all(&local);
         let quantities = |motion: &MotionOf<M>| -> Vec<OutputMotion> {
             let mut all = quantities::<M>(motion);
-            all.extend(dyads.iter().map(|(_, dyad)| dyad.angle(m, &motion.position, &motion.rates)));
+            let (local, rates) = (Local::of(m, derivation, &motion.position), listed::<M>(&motion.rates));
+            all.extend(dyads.iter().map(|(_, dyad)| dyad.angle(&local, &rates)));
             all
         };
         let all = courses(range, quantities)?;
@@ -136,7 +139,7 @@ impl MotionReport {
                 })
                 .collect(),
             without_transmission: without.collect(),
-            four_bars: dyads.iter().filter_map(|(_, dyad)| four_bar::of_dyad(m, derivation, dyad, &q)).collect(),
+            four_bars: dyads.iter().filter_map(|(_, dyad)| four_bar::of_dyad(&local, dyad)).collect(),
         })
     }
 

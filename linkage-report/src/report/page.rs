@@ -1,9 +1,9 @@
 //! A report as an HTML page.
 
 use super::Report;
-use super::prose::{OUTPUTS, Section, sections, written};
+use super::prose::{MODES, OUTPUTS, Section, sections, written};
 use super::{MotionReport, QuantityReport};
-use crate::sheet::{document, escape};
+use crate::sheet::{document, escape, svg_address};
 
 /// The width and the height of a curve, in its own unit.
 const SIZE: [f64; 2] = [480.0, 120.0];
@@ -12,15 +12,24 @@ impl Report {
     /// The report as one HTML file, which loads nothing and runs no script; the outputs have curves.
     #[must_use]
     pub fn to_html(&self) -> String {
+        self.to_html_with(&[])
+    }
+
+    /// The report as one HTML file, with a picture of each mode as SVG.
+    #[must_use]
+    pub fn to_html_with(&self, pictures: &[String]) -> String {
         let name = escape(&self.mechanism);
-        let body =
-            format!("<header>\n<p class=\"over\">Report</p>\n<h1>{name}</h1>\n</header>\n{}", self.to_html_fragment());
-        document(&name, &body)
+        let body = self.body(pictures);
+        document(&name, &format!("<header>\n<p class=\"over\">Report</p>\n<h1>{name}</h1>\n</header>\n{body}"))
     }
 
     /// The sections of the page alone, to be part of another.
     #[must_use]
     pub fn to_html_fragment(&self) -> String {
+        self.body(&[])
+    }
+
+    fn body(&self, pictures: &[String]) -> String {
         let mut body = String::new();
         for Section { heading, paragraphs } in sections(self) {
             body.push_str(&format!("<section>\n<h2>{heading}</h2>\n"));
@@ -34,6 +43,10 @@ impl Report {
                 {
                     body.push_str(&self.curve(output, motion));
                 }
+            }
+            if heading == MODES && !pictures.is_empty() {
+                let figures: String = pictures.iter().zip(1..).map(|(svg, number)| picture(svg, number)).collect();
+                body.push_str(&format!("<div class=\"pictures\">\n{figures}</div>\n"));
             }
             body.push_str("</section>\n");
         }
@@ -73,4 +86,12 @@ impl Report {
             height + 8.0,
         )
     }
+}
+
+/// The picture of a mode.
+fn picture(svg: &str, number: usize) -> String {
+    format!(
+        "<figure>\n<img alt=\"Mode {number}\" src=\"{}\">\n<figcaption>Mode {number}</figcaption>\n</figure>\n",
+        svg_address(svg)
+    )
 }

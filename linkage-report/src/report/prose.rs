@@ -8,8 +8,8 @@ use linkage_runtime::extremes::Extremes;
 use linkage_runtime::range_of_motion::MotionEnd;
 
 use super::{
-    DyadKind, FourBarLoop, GrashofClass, ListedMotion, Mobility, Modes, MotionReport, QuantityReport, Report,
-    ReportedModes, SingularInput, Transmission,
+    DyadKind, FourBarLoop, GrashofClass, ListedMode, ListedMotion, Mobility, Modes, MotionReport, QuantityReport,
+    Report, ReportedModes, SingularInput, Transmission,
 };
 use crate::sheet::number;
 
@@ -21,6 +21,8 @@ pub(super) struct Section {
 
 /// The headings that a page adds something to.
 pub(super) const OUTPUTS: &str = "Outputs";
+const CLASS: &str = "Grashof's class";
+pub(super) const MODES: &str = "Modes and circuits";
 
 /// Writes inputs and values of one mechanism.
 struct Writer<'a> {
@@ -42,9 +44,14 @@ pub(super) fn sections(report: &Report) -> Vec<Section> {
         is_turn: report.motion.as_ref().is_some_and(|motion| motion.ends[1] == MotionEnd::Closed { turns: 1 }),
     };
     let section = |heading, paragraphs| Section { heading, paragraphs };
-    let mut sections =
-        vec![section("Mobility", writer.mobility(&report.mobility)), section("Modes and circuits", writer.modes())];
+    let mut sections = vec![section("Mobility", writer.mobility(&report.mobility)), section(MODES, writer.modes())];
+    if !report.four_bars.is_empty() {
+        sections.push(section(CLASS, writer.classes(&report.four_bars)));
+    }
     match &report.motion {
+        None if report.inputs.len() == 1 => {
+            sections.push(section("Motion", vec!["This report follows no motion.".to_owned()]));
+        }
         None => {
             let why = format!(
                 "With {} a mechanism has as many motions as paths of its inputs: follow one of them as a mechanism \
@@ -55,7 +62,7 @@ pub(super) fn sections(report: &Report) -> Vec<Section> {
         }
         Some(motion) => {
             sections.push(section("Motion", writer.motion(motion)));
-            sections.push(section("Grashof's class", writer.classes(motion)));
+            sections.push(section(CLASS, writer.classes(&motion.four_bars)));
             sections.push(section("Transmission angles", writer.transmission(motion)));
             let (outputs, unknowns) = motion.quantities.iter().partition::<Vec<_>, _>(|quantity| quantity.is_output);
             let with_strokes = |all: &[&QuantityReport]| all.iter().map(|one| writer.quantity(one, motion)).collect();
@@ -140,6 +147,7 @@ impl Writer<'_> {
     fn modes(&self) -> Vec<String> {
         match &self.report.modes {
             ReportedModes::NotListed => vec!["The positions are not listed.".to_owned()],
+            ReportedModes::Missing(why) => vec![format!("The modes are not known: {why}.")],
             ReportedModes::Failed(error) => vec![format!("The modes and circuits are not known: {error}.")],
             ReportedModes::Listed(modes) => self.listed(modes),
         }
@@ -151,7 +159,11 @@ impl Writer<'_> {
         let count = modes.modes.len();
         let are = if count == 1 { "is" } else { "are" };
         if modes.motions.is_empty() {
-            return vec![format!("At {at} there {are} {}.", counted(count, "mode", "modes"))];
+            let first = format!("At {at} there {are} {}.", counted(count, "mode", "modes"));
+            return [first]
+                .into_iter()
+                .chain(modes.modes.iter().zip(1..).map(|(mode, number)| self.mode(mode, number)))
+                .collect();
         }
         let mut paragraphs = vec![format!(
             "At {at} there {are} {} on {}, which {} {}.",
@@ -177,6 +189,19 @@ impl Writer<'_> {
             }
         }
         paragraphs
+    }
+
+    /// A mode with its unknowns.
+    fn mode(&self, mode: &ListedMode, number: usize) -> String {
+        let unknowns = self.report.unknowns.iter().zip(&mode.unknowns);
+        let values =
+            unknowns.map(|(unknown, &value)| format!("{} = {}", unknown.name, written(value, unknown.is_angle)));
+        let branch = if mode.branch.is_empty() { String::new() } else { format!(" ({})", mode.branch) };
+        let angles = mode.transmission.iter().map(|(group, angle)| {
+            let angle = in_degrees((angle.to_degrees() * 1e6).round() / 1e6);
+            format!(" The transmission angle of {group} is {angle}.")
+        });
+        format!("Mode {number}{branch}: {}.{}", list_of(values), angles.collect::<String>())
     }
 
     fn of_circuit(&self, motion: &ListedMotion) -> String {
@@ -240,8 +265,8 @@ impl Writer<'_> {
         paragraphs
     }
 
-    fn classes(&self, motion: &MotionReport) -> Vec<String> {
-        if motion.four_bars.is_empty() {
+    fn classes(&self, four_bars: &[FourBarLoop]) -> Vec<String> {
+        if four_bars.is_empty() {
             return vec!["No loop of four turning joints is found: there is no Grashof class.".to_owned()];
         }
         let class = |four_bar: &FourBarLoop| {
@@ -261,7 +286,7 @@ impl Writer<'_> {
                  {class}, seen from {driving}: {law}{by}."
             )
         };
-        motion.four_bars.iter().map(class).collect()
+        four_bars.iter().map(class).collect()
     }
 
     fn transmission(&self, motion: &MotionReport) -> Vec<String> {

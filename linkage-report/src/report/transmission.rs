@@ -11,6 +11,7 @@ use std::f64::consts::PI;
 use linkage_runtime::extremes::{Course, Extreme, Extremes};
 
 use super::dyad::{Dyad, DyadKind};
+use super::local::Local;
 
 /// The transmission angle of a dyad along a motion, in radians.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +38,20 @@ pub struct NoTransmission {
     pub group: String,
     /// Its kind in words.
     pub kind: String,
+}
+
+/// The acute angle of each dyad at a position, with the unknowns of the dyad.
+pub(super) fn at(local: &Local<'_>) -> Vec<(String, f64)> {
+    let rest = vec![0.0; local.derivation.unknowns.len() + local.derivation.inputs.len()];
+    let name = |group: &usize| {
+        let unknowns = local.unknowns(*group).iter().filter_map(|&unknown| local.derivation.unknowns.get(unknown));
+        unknowns.map(|unknown| unknown.name).collect::<Vec<_>>().join(", ")
+    };
+    let of = |(groups, dyad): &(Vec<usize>, Dyad)| {
+        let angle = dyad.angle(local, &rest).value;
+        (groups.iter().map(name).collect::<Vec<_>>().join(", "), angle.min(PI - angle))
+    };
+    Dyad::all(local).iter().map(of).collect()
 }
 
 impl Transmission {

@@ -1,0 +1,108 @@
+//! A mechanism at one position, by numbers: what the directions of its links need.
+
+use linkage_runtime::derivation::{Derivation, GroupForm};
+use linkage_runtime::{Kinematic, Mechanism};
+
+use super::dyad::Vector;
+
+/// A function of the rates of unknowns, then of inputs.
+type OfRates<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
+
+/// The numbers of a mechanism at a position, for [`Report::of_data`](super::Report::of_data).
+pub struct Local<'a> {
+    pub(super) derivation: &'a Derivation<'a>,
+    are_angles: Vec<bool>,
+    /// J, row by row.
+    jacobian: Vec<f64>,
+    gamma: OfRates<'a>,
+    /// The equations and the unknowns of each group.
+    groups: Vec<[Vec<usize>; 2]>,
+}
+
+impl<'a> Local<'a> {
+    /// The mechanism of a derivation at a position: true for each unknown that is an angle, J row by row, and gamma at the rates
+    /// of all unknowns, then of all inputs.
+    pub fn new(
+        derivation: &'a Derivation<'a>,
+        are_angles: Vec<bool>,
+        jacobian: Vec<f64>,
+        gamma: impl Fn(&[f64]) -> Vec<f64> + 'a,
+    ) -> Self {
+        let names: Vec<String> = derivation.unknowns.iter().map(|symbol| symbol.formula.to_string()).collect();
+        let places = |group: &linkage_runtime::derivation::Group<'_>| {
+            let place = |text: String| names.iter().position(|name| *name == text);
+            let unknowns = group.unknowns.iter().filter_map(|unknown| place(unknown.to_string()));
+            [group.equations.to_vec(), unknowns.collect()]
+        };
+        let groups = derivation.groups.iter().map(places).collect();
+        Self { derivation, are_angles, jacobian, gamma: Box::new(gamma), groups }
+    }
+
+    /// An emitted mechanism at a position.
+    pub(super) fn of<M: Kinematic<Scalar = f64>>(
+        mechanism: &'a M,
+        derivation: &'a Derivation<'a>,
+        q: &M::Coordinates,
+    ) -> Self {
+        let pose = mechanism.pose_at(q);
+        let of_unknowns = mechanism.jacobian_unknowns(&pose);
+        let count = M::UNKNOWNS.len();
+        let all = (0..count).flat_map(|row| (0..count).map(move |column| (row, column)));
+        let jacobian = all.map(|(row, column)| of_unknowns.part(row, column)).collect();
+        let gamma = move |rates: &[f64]| mechanism.gamma(&pose, &rates_of::<M>(rates)).iter().copied().collect();
+        Self::new(derivation, M::UNKNOWN_ANGLES.to_vec(), jacobian, gamma)
+    }
+
+    pub(super) fn form(&self, group: usize) -> Option<GroupForm> {
+        self.derivation.groups.get(group).map(|group| group.form)
+    }
+
+    pub(super) fn equations(&self, group: usize) -> &[usize] {
+        self.groups.get(group).map_or(&[], |[equations, _]| equations)
+    }
+
+    pub(super) fn unknowns(&self, group: usize) -> &[usize] {
+        self.groups.get(group).map_or(&[], |[_, unknowns]| unknowns)
+    }
+
+    pub(super) fn is_angle(&self, unknown: usize) -> bool {
+        self.are_angles.get(unknown) == Some(&true)
+    }
+
+    /// Two entries of a column of J.
+    pub(super) fn column(&self, unknown: usize, rows: [usize; 2]) -> Vector {
+        let count = self.derivation.unknowns.len();
+        rows.map(|row| self.jacobian.get(row * count + unknown).copied().unwrap_or(f64::NAN))
+    }
+
+    /// The rates at which one coordinate moves with rate 1; unknowns come before inputs.
+    pub(super) fn unit(&self, coordinate: usize) -> Vec<f64> {
+        let count = self.derivation.unknowns.len() + self.derivation.inputs.len();
+        (0..count).map(|other| f64::from(u8::from(other == coordinate))).collect()
+    }
+
+    /// Psi_qq a b in two rows, by polarisation of the quadratic velocity term: 4 Psi_qq a b = gamma(a + b) - gamma(a - b).
+    pub(super) fn mixed(&self, a: &[f64], b: &[f64], rows: [usize; 2]) -> Vector {
+        let with = |sign: f64| (self.gamma)(&a.iter().zip(b).map(|(a, b)| a + sign * b).collect::<Vec<f64>>());
+        let [plus, minus] = [with(1.0), with(-1.0)];
+        rows.map(|row| match (plus.get(row), minus.get(row)) {
+            (Some(plus), Some(minus)) => (plus - minus) / 4.0,
+            _ => f64::NAN,
+        })
+    }
+}
+
+/// Rates of unknowns and inputs in the type of a mechanism.
+fn rates_of<M: Mechanism<Scalar = f64>>(rates: &[f64]) -> M::Rates {
+    let (mut unknowns, mut inputs) =
+        (linkage_runtime::PerUnknown::<M>::zeros(), linkage_runtime::PerInput::<M>::zeros());
+    let all = unknowns.iter_mut().chain(inputs.iter_mut());
+    all.zip(rates).for_each(|(to, rate)| *to = *rate);
+    M::rates(unknowns, inputs)
+}
+
+/// The rates of unknowns, then of inputs.
+pub(super) fn listed<M: Mechanism<Scalar = f64>>(rates: &M::Rates) -> Vec<f64> {
+    let (unknowns, inputs) = M::rate_parts(rates);
+    unknowns.iter().chain(inputs.iter()).copied().collect()
+}
