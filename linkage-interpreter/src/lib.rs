@@ -96,7 +96,8 @@ impl Program {
     /// The messages that the macro gives for this text, in the order of their places.
     #[cfg(feature = "compiler")]
     pub fn compile_within(text: &str, steps: usize) -> Result<Self, Vec<Message>> {
-        Self::lent(text, steps, &[], |_| ()).map(|pairs| Self::of(pairs.into_iter().map(|(mechanism, ())| mechanism).collect()))
+        Self::lent(text, steps, &[], |_| ())
+            .map(|pairs| Self::of(pairs.into_iter().map(|(mechanism, ())| mechanism).collect()))
     }
 
     /// Compiles the mechanisms of a text as if each had these `derive` statements besides its own, and lends each as the compiler

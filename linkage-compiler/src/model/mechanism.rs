@@ -97,6 +97,19 @@ impl Coordinate {
     }
 }
 
+/// The lines of a doc comment.
+fn documentation(attributes: &[Attribute]) -> Vec<String> {
+    let line = |attribute: &Attribute| match &attribute.meta {
+        Meta::NameValue(MetaNameValue { path, value: Expr::Lit(ExprLit { lit: Lit::Str(text), .. }), .. })
+            if path.is_ident("doc") =>
+        {
+            Some(text.value().trim().to_owned())
+        }
+        _ => None,
+    };
+    attributes.iter().filter_map(line).collect()
+}
+
 /// A `loop`, with two rows, or an `equation`, with one row; each row is a residual.
 pub struct Constraint {
     pub span: Span,
@@ -108,14 +121,7 @@ impl Constraint {
     /// The user's doc comment, as a paragraph.
     #[must_use]
     pub fn description(&self) -> Vec<String> {
-        let mut lines = Vec::new();
-        for attribute in self.attributes.iter().filter(|attribute| attribute.path().is_ident("doc")) {
-            if let Meta::NameValue(MetaNameValue { value: Expr::Lit(ExprLit { lit: Lit::Str(text), .. }), .. }) =
-                &attribute.meta
-            {
-                lines.push(text.value().trim().to_owned());
-            }
-        }
+        let mut lines = documentation(&self.attributes);
         if !lines.is_empty() {
             lines.insert(0, String::new());
         }
@@ -187,6 +193,12 @@ pub struct Call {
 }
 
 impl Mechanism {
+    /// The lines of the user's doc comment.
+    #[must_use]
+    pub fn documentation(&self) -> Vec<String> {
+        documentation(&self.attributes)
+    }
+
     /// A mechanism without content.
     pub(super) fn named(
         attributes: Vec<Attribute>,
