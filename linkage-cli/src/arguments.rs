@@ -38,7 +38,7 @@ pub enum Command {
     Check(Check),
     /// Write the derivation: equations, Jacobians, velocity ratios, accelerations, all as formulas
     #[command(
-        after_help = "Examples:\n  linkage sheet wiper.linkage\n  linkage sheet wiper.linkage --format latex -o wiper.tex"
+        after_help = "Examples:\n  linkage sheet wiper.linkage\n  linkage sheet wiper.linkage --at theta2=60deg -o wiper.tex"
     )]
     Sheet(Sheet),
     /// Print a motion as a table: coordinates, points and outputs with their velocities and accelerations
@@ -51,8 +51,14 @@ Examples:
     #[command(after_help = "Example:\n  linkage draw wiper.linkage --at theta2=60deg -o wiper.png")]
     Draw(Draw),
     /// Draw a motion of the mechanism, as SVG that moves or as GIF
-    #[command(after_help = "Example:\n  linkage animate wiper.linkage --set l2=25 -o wiper.gif")]
+    #[command(after_help = "Example:\n  linkage animate wiper.linkage --set l2=25 --rate 45rpm -o wiper.gif")]
     Animate(Animate),
+    /// Report mobility, and all positions at one choice of inputs
+    #[command(after_help = "\
+Examples:
+  linkage report wiper.linkage --at theta2=20deg
+  linkage report wiper.linkage --set l2=25 -o wiper_report.html")]
+    Report(Report),
     /// Print the Rust code that the macro `linkage!` makes of a file
     #[command(after_help = "Example:\n  linkage rust wiper.linkage -o wiper.rs")]
     Rust(Code),
@@ -95,11 +101,16 @@ pub enum MessageFormat {
 #[derive(Args)]
 pub struct Sheet {
     #[command(flatten)]
-    pub source: From,
-    /// The form of the sheet
-    #[arg(long, value_enum, default_value_t = SheetFormat::Html)]
-    pub format: SheetFormat,
-    /// The file to write, `-` for standard output [default: as FILE, with the ending of the format]
+    pub numbers: Numbers,
+    #[command(flatten)]
+    pub place: Place,
+    /// The rate of the first input, such as 45rpm: velocities and accelerations have numbers too
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub rate: Option<Value>,
+    /// The form of the sheet [default: that of the ending of OUT, else html]
+    #[arg(long, value_enum)]
+    pub format: Option<SheetFormat>,
+    /// The file to write, .html, .tex or .txt; `-` for standard output [default: as FILE, with the ending of the form]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
 }
@@ -112,6 +123,17 @@ pub enum SheetFormat {
     Latex,
     /// Plain text
     Text,
+}
+
+#[derive(Args)]
+pub struct Report {
+    #[command(flatten)]
+    pub numbers: Numbers,
+    #[command(flatten)]
+    pub place: Place,
+    /// The file to write, .html with pictures or .txt; `-` for standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
 }
 
 #[derive(Args)]
@@ -140,11 +162,27 @@ pub struct Numbers {
     #[command(flatten)]
     pub source: From,
     /// The value of a parameter, instead of its default
-    #[arg(long, value_name = "NAME=VALUE")]
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub set: Vec<Assignment>,
     /// The position of a group that has several: a word such as left, or a number [default: the first]
     #[arg(long, value_name = "GROUP=SIDE")]
     pub branch: Vec<Choice>,
+}
+
+/// One position.
+#[derive(Args)]
+pub struct Place {
+    /// The value of an input [default: 60deg]
+    #[arg(long, value_name = "INPUT=VALUE", allow_hyphen_values = true)]
+    pub at: Vec<Assignment>,
+}
+
+/// The size of a picture.
+#[derive(Args)]
+pub struct Size {
+    /// The width of the picture in pixels; its height follows
+    #[arg(long, value_name = "PIXELS", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub width: Option<u32>,
 }
 
 /// A table of so many rows has a gigabyte.
@@ -154,7 +192,7 @@ const MOST_STEPS: i64 = 1_000_000;
 #[derive(Args)]
 pub struct Along {
     /// The value of an input that is held [default: 60deg]
-    #[arg(long, value_name = "INPUT=VALUE")]
+    #[arg(long, value_name = "INPUT=VALUE", allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
     /// The input that moves [default: the first that is not held]
     #[arg(long, value_name = "INPUT")]
@@ -166,7 +204,7 @@ pub struct Along {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub to: Option<Value>,
     /// The number of equal steps between them
-    #[arg(long, value_name = "NUMBER", default_value = "120", value_parser = clap::value_parser!(u32).range(1..=MOST_STEPS))]
+    #[arg(long, value_name = "NUMBER", default_value = "120", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=MOST_STEPS))]
     pub steps: u32,
 }
 
@@ -208,9 +246,10 @@ pub enum TableFormat {
 pub struct Draw {
     #[command(flatten)]
     pub numbers: Numbers,
-    /// The value of an input [default: 60deg]
-    #[arg(long, value_name = "INPUT=VALUE")]
-    pub at: Vec<Assignment>,
+    #[command(flatten)]
+    pub place: Place,
+    #[command(flatten)]
+    pub size: Size,
     /// The file to write, .svg or .png; `-` for standard output [default: as FILE, with .svg]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
@@ -222,9 +261,17 @@ pub struct Animate {
     pub numbers: Numbers,
     #[command(flatten)]
     pub along: Along,
-    /// The seconds that the motion takes
-    #[arg(long, value_name = "SECONDS", default_value = "4")]
-    pub seconds: Value,
+    /// The seconds that the film takes [default: 4]
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    pub seconds: Option<Value>,
+    /// The rate of the moving input, such as 45rpm, instead of the seconds; forth and back, the mean one
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true, conflicts_with = "seconds")]
+    pub rate: Option<Value>,
+    /// Go from the first value to the last and back, as a film does that cannot go on from its end
+    #[arg(long)]
+    pub back_and_forth: bool,
+    #[command(flatten)]
+    pub size: Size,
     /// The file to write, .svg or .gif; `-` for standard output [default: as FILE, with .svg]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,

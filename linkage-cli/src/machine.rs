@@ -37,6 +37,14 @@ impl Coordinate {
             false => Ok(value.number),
         }
     }
+
+    /// A value for readers, an angle in degrees to the millionth.
+    pub fn shown(&self, value: f64) -> String {
+        match self.is_angle {
+            true => format!("{}°", (value.to_degrees() * 1e6).round() / 1e6),
+            false => value.to_string(),
+        }
+    }
 }
 
 /// A mechanism with values for all but its inputs.
@@ -63,6 +71,11 @@ pub struct Motion {
 }
 
 impl Motion {
+    /// The pose, with which functions are called.
+    pub fn pose(&self) -> Data {
+        self.data.get("pose").cloned().unwrap_or(Data::Nothing)
+    }
+
     /// A number of the motion: `points.c.velocity.x`.
     pub fn number(&self, path: &str) -> f64 {
         self.data.get(path).and_then(Data::number).unwrap_or(f64::NAN)
@@ -109,8 +122,13 @@ impl About {
 impl Machine {
     /// The mechanism that the arguments mean, with their numbers.
     pub fn of(numbers: &Numbers) -> Result<Self, Failure> {
+        Self::with(numbers, |_| ()).map(|(machine, ())| machine)
+    }
+
+    /// The mechanism that the arguments mean, with their numbers, and what a function makes of its formulas.
+    pub fn with<R>(numbers: &Numbers, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
         let file = &numbers.source.file;
-        let (about, mechanism) = chosen(&read(file)?, numbers.source.mechanism.as_deref())?;
+        let (about, mechanism, result) = chosen(&read(file)?, numbers.source.mechanism.as_deref(), f)?;
         if let Some(function) = about.functions.first() {
             let name = &about.name;
             return Err(Failure::Outside(format!(
@@ -122,7 +140,44 @@ impl Machine {
         let values: Vec<f64> = parameters.iter().map(|(_, value)| *value).collect();
         let design = mechanism.design().with_parameters(&values);
         let About { name, inputs, unknowns, points, outputs, derivation, .. } = about;
-        Ok(Self { name, inputs, unknowns, points, outputs, derivation, parameters, design, branch })
+        Ok((Self { name, inputs, unknowns, points, outputs, derivation, parameters, design, branch }, result))
+    }
+
+    /// The parameters with their values.
+    pub fn parameters(&self) -> &[(String, f64)] {
+        &self.parameters
+    }
+
+    /// Values of the inputs in words.
+    pub fn at(&self, inputs: &[f64]) -> String {
+        let each = self
+            .inputs
+            .iter()
+            .zip(inputs)
+            .map(|(input, value)| format!("{} = {}", input.name.text, input.shown(*value)));
+        each.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The velocity ratios at a position: for each unknown those by all inputs.
+    pub fn ratios(&self, motion: &Motion) -> Vec<f64> {
+        self.numbers("velocity_ratios", &[motion.pose()])
+    }
+
+    /// The derivatives of the constraint equations by the unknowns, row by row.
+    pub fn jacobian(&self, motion: &Motion) -> Vec<f64> {
+        self.numbers("jacobian_unknowns", &[motion.pose()])
+    }
+
+    /// The quadratic velocity terms at rates of the unknowns, then of the inputs.
+    pub fn gamma(&self, pose: &Data, rates: &[f64]) -> Vec<f64> {
+        let coordinates = self.unknowns.iter().chain(&self.inputs);
+        let named = coordinates.zip(rates).map(|(of, rate)| (of.name.field.as_str(), Data::from(*rate)));
+        self.numbers("gamma", &[pose.clone(), Data::fields(named)])
+    }
+
+    /// The numbers that a function returns; none where it has no value.
+    fn numbers(&self, function: &str, arguments: &[Data]) -> Vec<f64> {
+        self.design.call(function, arguments).map_or_else(|_| Vec::new(), |found| found.numbers())
     }
 
     /// The place of an input.
@@ -133,26 +188,44 @@ impl Machine {
 
     /// Position, velocity and acceleration; rates are constant.
     pub fn motion(&self, inputs: &[f64], rates: &[f64]) -> Result<Motion, String> {
-        let given = |numbers: &[f64]| match numbers {
-            [only] => Data::from(*only),
-            several => Data::List(several.iter().copied().map(Data::from).collect()),
-        };
         let still = vec![0.0; inputs.len()];
         let arguments = [given(inputs), self.branch.clone(), given(rates), given(&still)];
-        if self.design.arguments("full_kinematics").is_err() {
+        // A mechanism without points and outputs has the second one only.
+        let functions = ["full_kinematics", "kinematics"];
+        let Some(function) = functions.into_iter().find(|function| self.design.arguments(function).is_ok()) else {
             let name = &self.name;
             return Err(format!("positions of `{name}` are found from a guess only, which this program does not take"));
-        }
-        let data = self.design.call("full_kinematics", &arguments).map_err(|error| error.to_string())?;
+        };
+        let data = self.design.call(function, &arguments).map_err(|error| error.to_string())?;
+        let unknowns = self.unknowns_of(data.get("pose").unwrap_or(&Data::Nothing));
+        Ok(Motion { inputs: inputs.to_vec(), unknowns, data })
+    }
+
+    /// The unknowns of a pose; angles from -pi to pi.
+    fn unknowns_of(&self, pose: &Data) -> Vec<f64> {
         let unknowns = self.unknowns.iter().map(|unknown| {
-            let value = data.get("pose").and_then(|pose| pose.get(&unknown.name.field));
+            let value = pose.get(&unknown.name.field);
             match value.map(Data::numbers).as_deref() {
                 Some([cosine, sine]) => arctangent2(*sine, *cosine),
                 Some([value]) => *value,
                 _ => f64::NAN,
             }
         });
-        Ok(Motion { inputs: inputs.to_vec(), unknowns: unknowns.collect(), data })
+        unknowns.collect()
+    }
+
+    /// All positions at these inputs, each with its branch in words; or why they are not listed.
+    pub fn positions(&self, inputs: &[f64]) -> Result<Vec<(String, Motion)>, String> {
+        if self.unknowns.is_empty() {
+            return self.motion(inputs, &vec![0.0; inputs.len()]).map(|motion| vec![(String::new(), motion)]);
+        }
+        let all = self.design.call("branches", &[given(inputs)]).map_err(|error| error.to_string())?;
+        let position = |data: &Data| {
+            let unknowns = self.unknowns_of(data.get("pose").unwrap_or(&Data::Nothing));
+            let motion = Motion { inputs: inputs.to_vec(), unknowns, data: data.clone() };
+            (data.get("branch").map(words).unwrap_or_default(), motion)
+        };
+        Ok(all.list().iter().map(position).collect())
     }
 
     /// The value of a symbol of the formulas at a position.
@@ -167,14 +240,40 @@ impl Machine {
     }
 }
 
+/// Inputs as an argument.
+fn given(numbers: &[f64]) -> Data {
+    match numbers {
+        [only] => Data::from(*only),
+        several => Data::from(several),
+    }
+}
+
+/// A branch as it is chosen on the command line.
+fn words(branch: &Data) -> String {
+    let Data::Fields(fields) = branch else { return String::new() };
+    let each = fields.iter().map(|(name, value)| match value {
+        Data::Text(word) => format!("{name}={}", word.to_lowercase()),
+        other => format!("{name}={}", other.number().unwrap_or(f64::NAN)),
+    });
+    each.collect::<Vec<_>>().join(", ")
+}
+
 /// The mechanism with a name, or the only one of a file.
-fn chosen(source: &Source, asked: Option<&str>) -> Result<(About, Mechanism), Failure> {
+fn chosen<R>(
+    source: &Source,
+    asked: Option<&str>,
+    mut f: impl FnMut(&Lowered<'_>) -> R,
+) -> Result<(About, Mechanism, R), Failure> {
     let compiled = progress::during(format!("deriving {}", source.name), || {
-        Program::compile_with(&source.text, &[Request::Drawing], About::of)
+        Program::compile_with(&source.text, &[Request::Drawing], |lowered| {
+            let result = f(&lowered);
+            (About::of(lowered), result)
+        })
     });
     let compiled = compiled.map_err(|messages| Mistakes::of(source, messages))?;
-    let mut all: Vec<(About, Mechanism)> = compiled.into_iter().map(|(mechanism, about)| (about, mechanism)).collect();
-    let names: Vec<&str> = all.iter().map(|(about, _)| about.name.as_str()).collect();
+    let mut all: Vec<(About, Mechanism, R)> =
+        compiled.into_iter().map(|(mechanism, (about, result))| (about, mechanism, result)).collect();
+    let names: Vec<&str> = all.iter().map(|(about, ..)| about.name.as_str()).collect();
     let place = match (asked, names.as_slice()) {
         (Some(name), names) => place(&source.name, "mechanism", name, names)?,
         (None, [_]) => 0,

@@ -15,8 +15,11 @@ mod motion;
 mod names;
 mod output;
 mod picture;
+mod plain;
+mod position;
 mod progress;
 mod source;
+mod tips;
 mod values;
 
 use std::process::ExitCode;
@@ -26,7 +29,10 @@ use clap::Parser;
 use arguments::Arguments;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| {
+        let words: Vec<String> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
+        tips::with_tip(error, &words).exit()
+    });
     if let Err(error) = interrupt::install() {
         anstream::eprintln!("interrupts are not noticed: {error}");
     }

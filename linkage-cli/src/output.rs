@@ -10,6 +10,37 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::source::is_standard;
 
+/// A form of output: its name in messages, and the endings of its files.
+pub type Form = (&'static str, &'static [&'static str]);
+
+/// The place of the form that the ending of a file says; none if it says nothing.
+pub fn form(path: &Path, what: &str, forms: &[Form]) -> Result<Option<usize>, Failure> {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    if ending.is_empty() {
+        return Ok(None);
+    }
+    let found = forms.iter().position(|(_, endings)| endings.contains(&ending.as_str()));
+    found.map(Some).ok_or_else(|| {
+        let names = either(forms.iter().map(|(name, _)| (*name).to_owned()));
+        let endings = either(forms.iter().filter_map(|(_, endings)| endings.first()).map(|end| format!("NAME.{end}")));
+        Failure::Argument(format!("{what} is {names}: write -o {endings}, not `.{ending}`"))
+    })
+}
+
+/// "a, b or c".
+fn either(words: impl Iterator<Item = String>) -> String {
+    let words: Vec<String> = words.collect();
+    match words.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        _ => words.concat(),
+    }
+}
+
+/// The file next to another with this ending, or standard output for standard input.
+pub fn next_to(file: &Path, ending: &str) -> PathBuf {
+    if is_standard(file) { PathBuf::from("-") } else { file.with_extension(ending) }
+}
+
 /// Writes a file, or to standard output for `-`; says on standard error which file it wrote. It is not the source of what is
 /// written.
 pub fn write(path: &Path, contents: &[u8], source: &Path) -> Result<(), Failure> {

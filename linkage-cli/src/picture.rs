@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use gif::{Encoder, EncodingError, Frame, Repeat};
-use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::fontdb::{Database, Family, Query};
 use resvg::usvg::{Options, Tree};
+
+use crate::failure::Failure;
 
 /// Pixels for each unit of an SVG: sharp on a screen of high density, and in a page.
 pub const SHARP: f32 = 2.0;
@@ -15,6 +17,12 @@ const FAMILIES: [&str; 6] = ["Arial", "Helvetica", "Liberation Sans", "DejaVu Sa
 
 /// The speed of the search for colours, from 1, best, to 30; pictures of few colours need no search.
 const SPEED: i32 = 10;
+
+/// The most pixels of a film, which takes minutes to paint; one of the usual size and number of frames has 50 million.
+const MOST_PIXELS: u64 = 1_000_000_000;
+
+/// Frames of a GIF for each second: browsers slow down those of less than 20 milliseconds.
+pub const MOST_FRAMES: f64 = 50.0;
 
 /// A painter with the fonts of this system.
 pub struct Painter {
@@ -48,6 +56,8 @@ impl Painter {
         let tree = Tree::from_str(svg, &self.options).map_err(|error| error.to_string())?;
         let size = tree.size().to_int_size().scale_by(self.scale).ok_or("the picture is too large")?;
         let mut pixels = Pixmap::new(size.width(), size.height()).ok_or("the picture is too large")?;
+        // The last row may be a part of one.
+        pixels.fill(Color::WHITE);
         resvg::render(&tree, Transform::from_scale(self.scale, self.scale), &mut pixels.as_mut());
         Ok(pixels)
     }
@@ -58,14 +68,22 @@ impl Painter {
     }
 
     /// Frames as GIF, which takes this number of seconds and begins again at its end.
-    pub fn gif(&self, frames: impl ExactSizeIterator<Item = String>, seconds: f64) -> Result<Vec<u8>, String> {
+    pub fn gif(&self, frames: impl ExactSizeIterator<Item = String>, seconds: f64) -> Result<Vec<u8>, Failure> {
         let count = frames.len();
+        let unwritten = |error: EncodingError| Failure::Outside(error.to_string());
         // The end of a frame, in hundredths of a second from the first one: its own length, rounded, would make the film
         // longer or shorter.
         let time = |frame: usize| (100.0 * seconds * frame as f64 / count as f64).round();
         let mut film: Option<(Encoder<Vec<u8>>, Pixmap)> = None;
         for (index, svg) in frames.enumerate() {
-            let pixels = self.pixels(&svg)?;
+            let pixels = self.pixels(&svg).map_err(Failure::Outside)?;
+            let [width, height] = [pixels.width(), pixels.height()];
+            if count as u64 * u64::from(width) * u64::from(height) > MOST_PIXELS {
+                let million = MOST_PIXELS / 1_000_000;
+                return Err(Failure::Argument(format!(
+                    "{count} frames of {width} by {height} pixels are more than {million} million: write a smaller --width or --steps"
+                )));
+            }
             let mut frame = match &film {
                 Some((_, last)) => part(&pixels, changed(last, &pixels)),
                 None => part(&pixels, [0, 0, pixels.width() as usize, pixels.height() as usize]),
@@ -73,13 +91,13 @@ impl Painter {
             frame.delay = (time(index + 1) - time(index)) as u16;
             let mut encoder = match film {
                 Some((encoder, _)) => encoder,
-                None => endless([frame.width, frame.height]).map_err(|error| error.to_string())?,
+                None => endless([frame.width, frame.height]).map_err(unwritten)?,
             };
-            encoder.write_frame(&frame).map_err(|error| error.to_string())?;
+            encoder.write_frame(&frame).map_err(unwritten)?;
             film = Some((encoder, pixels));
         }
-        let (encoder, _) = film.ok_or("the film has no frames")?;
-        encoder.into_inner().map_err(|error| error.to_string())
+        let (encoder, _) = film.ok_or_else(|| Failure::Outside("the film has no frames".to_owned()))?;
+        encoder.into_inner().map_err(unwritten)
     }
 }
 

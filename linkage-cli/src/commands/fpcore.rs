@@ -4,11 +4,12 @@ use super::compiled::of_drivers;
 use super::documents::Documents;
 use crate::arguments::Code;
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{self, form};
 
 pub fn run(arguments: &Code) -> Result<(), Failure> {
+    form(&arguments.output, "this code", &[("FPCore", &["fpcore", "txt"])])?;
     let mut cores = Vec::new();
-    for (_, one) in of_drivers(&arguments.source, Documents::of)? {
+    for (_, one) in of_drivers(&arguments.source, |lowered| Documents::of(&lowered))? {
         one.each(|document| cores.extend(document.fpcore().iter().map(ToString::to_string)))?;
     }
     if cores.is_empty() {

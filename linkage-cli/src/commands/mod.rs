@@ -8,9 +8,13 @@ mod documents;
 mod draw;
 mod fpcore;
 mod new;
+mod report;
 mod rust;
 mod sheet;
 mod table;
+
+pub use documents::Documents;
+pub use draw::drawing;
 
 use crate::arguments::Command;
 use crate::failure::Failure;
@@ -23,6 +27,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Table(arguments) => table::run(&arguments),
         Command::Draw(arguments) => draw::run(&arguments),
         Command::Animate(arguments) => animate::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),
         Command::Completions { shell } => completions::run(shell),

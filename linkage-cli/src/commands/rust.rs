@@ -8,10 +8,11 @@ use super::compiled::compiled;
 use crate::arguments::Code;
 use crate::failure::Failure;
 use crate::names::place;
-use crate::output;
+use crate::output::{self, form};
 use crate::source::read;
 
 pub fn run(arguments: &Code) -> Result<(), Failure> {
+    form(&arguments.output, "this code", &[("Rust", &["rs", "txt"])])?;
     let source = read(&arguments.source.file)?;
     let root = quote!(::linkage);
     let compiled = compiled(&source, |of| emit::driver(&of.program, Some(&of.derivation), &root))?;

@@ -1,55 +1,64 @@
-//! `linkage sheet`: the derivation for readers.
+//! `linkage sheet`: the derivation for readers, also with numbers at a position.
 
-use std::path::{Path, PathBuf};
+use linkage_report::sheet::Sheet;
 
 use super::compiled::of_drivers;
 use super::documents::Documents;
-use crate::arguments::{Sheet, SheetFormat};
+use crate::arguments::{self, SheetFormat};
 use crate::failure::Failure;
 use crate::names::listed;
-use crate::output;
-use crate::source::is_standard;
+use crate::output::{self, Form, form, next_to};
+use crate::position::Position;
 
 const LATEX: [&str; 2] =
     ["\\documentclass{article}\n\\usepackage{amsmath}\n\\allowdisplaybreaks\n\\begin{document}\n", "\\end{document}\n"];
 
-pub fn run(arguments: &Sheet) -> Result<(), Failure> {
-    let all = of_drivers(&arguments.source, Documents::of)?;
-    let mut text = String::new();
-    match arguments.format {
-        SheetFormat::Html => match all.as_slice() {
-            [(_, one)] => text = one.page()?,
-            several => {
-                let of = listed(&several.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>());
+const FORMATS: [SheetFormat; 3] = [SheetFormat::Html, SheetFormat::Latex, SheetFormat::Text];
+
+/// The forms of these formats.
+const FORMS: [Form; 3] =
+    [("HTML", &["html", "htm"]), ("LaTeX", &["tex", "latex", "ltx"]), ("text", &["txt", "text", "md"])];
+
+pub fn run(arguments: &arguments::Sheet) -> Result<(), Failure> {
+    let file = &arguments.numbers.source.file;
+    let (asked, by_ending) = (arguments.format, arguments.output.as_deref());
+    let of_format = |format: SheetFormat| FORMATS.iter().position(|other| *other == format).unwrap_or_default();
+    let place = match (asked, by_ending) {
+        (Some(format), Some(output)) => {
+            let place = of_format(format);
+            form(output, "this sheet", &FORMS[place..=place])?;
+            place
+        }
+        (Some(format), None) => of_format(format),
+        (None, Some(output)) => form(output, "a sheet", &FORMS)?.unwrap_or_default(),
+        (None, None) => 0,
+    };
+    let ending = FORMS[place].1.first().copied().unwrap_or_default();
+    let output = arguments.output.clone().unwrap_or_else(|| next_to(file, ending));
+    let text = sheets(arguments, FORMATS[place])?;
+    output::write(&output, text.as_bytes(), file)
+}
+
+/// The sheets of all mechanisms that are meant, or of one with numbers.
+fn sheets(arguments: &arguments::Sheet, format: SheetFormat) -> Result<String, Failure> {
+    let written = |sheet: &mut Sheet<'_>| match format {
+        SheetFormat::Html => sheet.to_html(),
+        SheetFormat::Latex => sheet.to_latex(),
+        SheetFormat::Text => sheet.to_text(),
+    };
+    let text = match Position::of(arguments)? {
+        Some((position, documents)) => documents.sheet(|sheet| written(position.add_to(sheet)))?,
+        None => {
+            let all = of_drivers(&arguments.numbers.source, |lowered| Documents::of(&lowered))?;
+            if let (SheetFormat::Html, [_, _, ..]) = (format, all.as_slice()) {
+                let of = listed(&all.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>());
                 let message = format!("a page has one mechanism, and the file has {of}: write --mechanism NAME");
                 return Err(Failure::Argument(message));
             }
-        },
-        SheetFormat::Latex => {
-            let [begin, end] = LATEX;
-            text += begin;
-            for (_, one) in &all {
-                one.each(|document| text += &document.to_latex())?;
-            }
-            text += end;
+            let all: Result<Vec<String>, _> = all.iter().map(|(_, one)| one.sheet(written)).collect();
+            all?.join("\n")
         }
-        SheetFormat::Text => {
-            for (_, one) in &all {
-                one.each(|document| text += &document.to_text())?;
-            }
-        }
-    }
-    output::write(&place(arguments), text.as_bytes(), &arguments.source.file)
-}
-
-/// The file to write: by default next to the file of the mechanism.
-fn place(arguments: &Sheet) -> PathBuf {
-    let ending = match arguments.format {
-        SheetFormat::Html => "html",
-        SheetFormat::Latex => "tex",
-        SheetFormat::Text => "txt",
     };
-    let file = &arguments.source.file;
-    let default = || if is_standard(file) { Path::new("-").to_path_buf() } else { file.with_extension(ending) };
-    arguments.output.clone().unwrap_or_else(default)
+    let [begin, end] = LATEX;
+    Ok(if format == SheetFormat::Latex { format!("{begin}{text}{end}") } else { text })
 }

@@ -44,6 +44,35 @@ fn wrong_arguments() {
     assert!(folder.run("shet a").messages.contains("'sheet'"));
 }
 
+/// The tip of a wrong argument is what to write instead, or where it belongs.
+#[test]
+fn tips_of_wrong_arguments() {
+    let folder = Folder::new();
+    folder.write("a.linkage", SLIDER_CRANK);
+    for (arguments, tip) in [
+        ("shet a.linkage", "a similar subcommand exists: 'sheet'"),
+        ("a.linkage", "a command comes before the file, as in `linkage check a.linkage`"),
+        ("table a.linkage --deg", "write `--degrees`"),
+        ("draw a.linkage --branhc x=1", "write `--branch`"),
+        ("draw a.linkage -at phi=1", "write `--at`"),
+        ("draw a.linkage --degrees", "`--degrees` is an argument of `linkage table`"),
+        ("rust a.linkage --columns x", "`--columns` is an argument of `linkage table`"),
+        ("table a.linkage -90deg", "a value follows its argument, as in `--from -90deg`"),
+        ("draw a.linkage --set r 2", "write `--set r=2`"),
+        ("draw a.linkage r=2", "the value of a parameter is written `--set r=2`, that of an input `--at r=2`"),
+        ("draw a.linkage --r 2", "the value of a parameter is written `--set r=2`, that of an input `--at r=2`"),
+        ("draw a.linkage --r=2", "the value of a parameter is written `--set r=2`, that of an input `--at r=2`"),
+        ("draw a.linkage a.linkage", "`linkage draw` takes one file"),
+        ("table a.linkage --steps 1.5", "write a whole number, such as `120`"),
+        ("animate a.linkage --png", ""),
+    ] {
+        let ran = folder.run(arguments);
+        assert_eq!((ran.code, ran.output.as_str()), (Some(2), ""), "{arguments}");
+        let tips: Vec<&str> = ran.messages.lines().filter_map(|line| line.strip_prefix("  tip: ")).collect();
+        assert_eq!(tips.concat(), tip, "{arguments}: {}", ran.messages);
+    }
+}
+
 #[test]
 fn outputs_that_cannot_be_written() {
     let folder = Folder::new();

@@ -110,11 +110,11 @@ fn names_and_values_that_do_not_exist() {
         ),
         ("table four.linkage --columns C_z", "the table has no column `C_z`; the nearest name is `C_x`"),
         ("draw five.linkage", "the parameter `d` has no value: write --set d=VALUE"),
-        ("animate four.linkage --seconds 0", "a film takes more than 0 seconds"),
+        ("animate four.linkage --seconds 0", "a film takes more than 0 and at most 600 seconds"),
         ("table four.linkage --from 1 --to 1", "--from and --to are equal"),
         ("table four.linkage --at theta2=1", "each input is held: leave out one --at"),
-        ("draw four.linkage -o four.pdf", "a picture is SVG or PNG: write -o NAME.svg, not `.pdf`"),
-        ("animate four.linkage -o four.mp4", "a film is SVG or GIF: write -o NAME.gif, not `.mp4`"),
+        ("draw four.linkage -o four.pdf", "a picture is SVG or PNG: write -o NAME.svg or NAME.png, not `.pdf`"),
+        ("animate four.linkage -o four.mp4", "a film is SVG or GIF: write -o NAME.svg or NAME.gif, not `.mp4`"),
     ] {
         folder.run(arguments).fails(2, &format!("error: {message}\n"));
     }

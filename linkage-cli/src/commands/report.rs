@@ -1,0 +1,61 @@
+//! `linkage report`: mobility, and all positions at one choice of inputs.
+
+use linkage_lent::Lender;
+use linkage_report::report::{ListedMode, Local, Modes, Report, ReportedModes};
+
+use super::documents::Documents;
+use super::draw::drawing;
+use crate::arguments;
+use crate::failure::Failure;
+use crate::figure::Figure;
+use crate::machine::{Machine, Motion};
+use crate::motion::held;
+use crate::output::{self, Form, form};
+
+const FORMS: [Form; 2] = [("text", &["txt", "text", "md"]), ("HTML", &["html", "htm"])];
+
+pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
+    let arguments::Report { numbers, place, output } = arguments;
+    let is_page = form(output, "a report", &FORMS)? == Some(1);
+    if !numbers.branch.is_empty() {
+        return Err(Failure::Argument("a report has all positions: leave out --branch".to_owned()));
+    }
+    let (machine, documents) = &Machine::with(numbers, Documents::of)?;
+    let inputs = held(machine, &place.at, None)?;
+    let positions = machine.positions(&inputs);
+    let of_unknown = |name: &str| machine.unknowns.iter().chain(&machine.inputs).find(|of| of.name.text == name);
+    let is_angle = |name: &str| of_unknown(name).is_some_and(|of| of.is_angle);
+    let modes = match &positions {
+        Ok(positions) => ReportedModes::Listed(Modes {
+            inputs: inputs.clone(),
+            modes: positions.iter().map(listed).collect(),
+            motions: Vec::new(),
+            circuits: Vec::new(),
+            followed: None,
+        }),
+        Err(why) => ReportedModes::Missing(why.clone()),
+    };
+    let lender = Lender::default();
+    let Some(derivation) = documents.derivation(&lender)? else { return Ok(()) };
+    let of_position = |(_, motion): &(String, Motion)| {
+        let are_angles = machine.unknowns.iter().map(|unknown| unknown.is_angle).collect();
+        let (pose, jacobian) = (motion.pose(), machine.jacobian(motion));
+        Local::new(&derivation, are_angles, jacobian, move |rates| machine.gamma(&pose, rates))
+    };
+    let at_modes: Vec<Local<'_>> = positions.iter().flatten().map(of_position).collect();
+    let report = Report::of_data(&derivation, is_angle, modes, &at_modes);
+    let text = match is_page {
+        false => report.to_string(),
+        true => {
+            let figure = Figure::of(machine)?;
+            let positions = positions.unwrap_or_default();
+            let pictures = positions.iter().filter_map(|(_, motion)| drawing(machine, &figure, motion).to_svg().ok());
+            report.to_html_with(&pictures.collect::<Vec<_>>())
+        }
+    };
+    output::write(output, text.as_bytes(), &numbers.source.file)
+}
+
+fn listed((branch, motion): &(String, Motion)) -> ListedMode {
+    ListedMode { branch: branch.clone(), unknowns: motion.unknowns.clone(), motion: None, transmission: Vec::new() }
+}
