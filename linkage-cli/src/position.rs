@@ -11,6 +11,11 @@ use crate::motion::held;
 
 pub struct Position {
     given: Vec<(String, f64)>,
+    /// None of parameters with values alone, at whose usual inputs there is no position.
+    numbers: Option<Numbers>,
+}
+
+struct Numbers {
     values: Values,
     /// Numbers by name, with their captions.
     tables: Vec<(&'static str, Vec<(String, f64)>)>,
@@ -22,37 +27,55 @@ impl Position {
     /// The position that arguments ask for, and the documents of its mechanism; none if they ask for no numbers.
     pub fn of(arguments: &arguments::Sheet) -> Result<Option<(Self, Documents)>, Failure> {
         let arguments::Sheet { numbers, place, rate, .. } = arguments;
-        if numbers.set.is_empty() && numbers.branch.is_empty() && place.at.is_empty() && rate.is_none() {
+        let is_asked = !numbers.branch.is_empty() || !place.at.is_empty() || rate.is_some();
+        if numbers.set.is_empty() && !is_asked {
             return Ok(None);
         }
         let (machine, documents) = Machine::with(numbers, Documents::of)?;
-        let inputs = held(&machine, &place.at, None)?;
-        let mut rates = vec![0.0; inputs.len()];
-        if let (Some(first), Some(rate)) = (rates.first_mut(), rate) {
-            *first = rate.number;
-        }
-        let motion = machine.motion(&inputs, &rates).map_err(Failure::Outside)?;
-        let figure = Figure::of(&machine)?;
-        let rates = rate.map(|_| rates.as_slice());
-        let (values, tables) = (values(&machine, &motion, rates), tables(&machine, &motion, rates));
-        let picture = drawing(&machine, &figure, &motion).to_svg().ok();
-        let given = machine.parameters().to_vec();
-        let caption = format!("The position at {}", machine.at(&inputs));
-        Ok(Some((Self { given, values, tables, picture, caption }, documents)))
+        let numbers = match Numbers::of(&machine, arguments) {
+            Err(Failure::Outside(why) | Failure::Argument(why)) if !is_asked => {
+                anstream::eprintln!("the sheet has no numbers of a position: {why}");
+                None
+            }
+            numbers => Some(numbers?),
+        };
+        Ok(Some((Self { given: machine.parameters().to_vec(), numbers }, documents)))
     }
 
     pub fn add_to<'s, 'd>(&self, sheet: &'s mut Sheet<'d>) -> &'s mut Sheet<'d> {
         for (name, value) in &self.given {
             sheet.given(name, *value);
         }
-        sheet.at(self.values.clone());
-        for (caption, rows) in &self.tables {
-            sheet.numbers(*caption, rows.iter().cloned());
-        }
-        if let Some(picture) = &self.picture {
-            sheet.picture(picture, &self.caption);
+        if let Some(Numbers { values, tables, picture, caption }) = &self.numbers {
+            sheet.at(values.clone());
+            for (caption, rows) in tables {
+                sheet.numbers(*caption, rows.iter().cloned());
+            }
+            if let Some(picture) = picture {
+                sheet.picture(picture, caption);
+            }
         }
         sheet
+    }
+}
+
+impl Numbers {
+    fn of(machine: &Machine, arguments: &arguments::Sheet) -> Result<Self, Failure> {
+        let arguments::Sheet { place, rate, .. } = arguments;
+        let inputs = held(machine, &place.at, None)?;
+        let mut rates = vec![0.0; inputs.len()];
+        if let (Some(first), Some(rate)) = (rates.first_mut(), rate) {
+            *first = rate.number;
+        }
+        let motion = machine.motion(&inputs, &rates).map_err(Failure::Outside)?;
+        let figure = Figure::of(machine)?;
+        let rates = rate.map(|_| rates.as_slice());
+        Ok(Self {
+            values: values(machine, &motion, rates),
+            tables: tables(machine, &motion, rates),
+            picture: drawing(machine, &figure, &motion).to_svg().ok(),
+            caption: format!("The position at {}", machine.at(&inputs)),
+        })
     }
 }
 

@@ -6,10 +6,12 @@ use crate::arguments::{self, TableFormat};
 use crate::failure::Failure;
 use crate::machine::{Coordinate, Machine, Motion};
 use crate::motion::Path;
-use crate::output;
+use crate::output::{self, Form, form};
 use crate::progress;
 
 pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
+    let forms: [Form; 2] = [("CSV", &["csv", "txt"]), ("JSON", &["json"])];
+    let is_json = form(&arguments.output, "a table", &forms)? == Some(1);
     let machine = Machine::of(&arguments.numbers)?;
     let path = Path::of(&machine, &arguments.along)?;
     let rate = arguments.rate.map_or(0.0, |value| value.number);
@@ -42,8 +44,8 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
     }
     let table = shown(&machine, table, arguments)?;
     let text = match arguments.format {
-        TableFormat::Csv => table.to_csv(),
-        TableFormat::Json => table.to_json() + "\n",
+        TableFormat::Csv if !is_json => table.to_csv(),
+        _ => table.to_json() + "\n",
     };
     output::write(&arguments.output, text.as_bytes(), &arguments.numbers.source.file)
 }

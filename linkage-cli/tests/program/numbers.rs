@@ -155,18 +155,19 @@ fn what_the_program_cannot_compute() {
 fn no_position() {
     let folder = folder();
     folder.write("four.svg", "old");
+    folder.write("four.csv", "old");
     let message =
         |at: &str| format!("error: FourBar cannot be assembled at theta2 = {at}: group theta3, theta4 does not close");
     for (arguments, at) in [
         ("draw four.linkage --set l2=300", "60°"),
         ("animate four.linkage --set l2=300", "0°"),
-        ("table four.linkage --set l2=300 -o four.svg", "0°"),
+        ("table four.linkage --set l2=300 -o four.csv", "0°"),
     ] {
         let ran = folder.run(arguments);
         assert_eq!((ran.code, ran.messages.lines().count()), (Some(1), 1), "{ran:?}");
         assert!(ran.messages.starts_with(&message(at)), "{}", ran.messages);
     }
-    assert_eq!(folder.read("four.svg"), "old");
+    assert_eq!((folder.read("four.svg"), folder.read("four.csv")), ("old".to_owned(), "old".to_owned()));
 }
 
 #[test]

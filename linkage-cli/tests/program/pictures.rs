@@ -45,6 +45,11 @@ fn a_sheet_has_the_numbers_of_a_position() {
     folder.run("sheet four.linkage --set l2=25").works("wrote four.html\n");
     let page = folder.read("four.html");
     assert!(page.contains("<figcaption>The position at theta2 = 60°</figcaption>") && page.contains("<mn>25</mn>"));
+    // Values are written also where there is no position, unless it is asked for.
+    let ran = folder.run("sheet four.linkage --set l2=300 -o four.txt");
+    assert!(ran.messages.starts_with("the sheet has no numbers of a position: FourBar cannot"), "{ran:?}");
+    assert!(ran.code == Some(0) && folder.read("four.txt").contains("l₂ = 300"));
+    assert_eq!(folder.run("sheet four.linkage --set l2=300 --at theta2=1").code, Some(1));
     let message = "error: slider.linkage has `Crank` and `Piston`: write --mechanism NAME\n";
     folder.write("slider.linkage", SLIDER_CRANK);
     folder.run("sheet slider.linkage --at phi=1").fails(2, message);
@@ -72,6 +77,8 @@ fn the_ending_of_a_file_says_its_form() {
     for (arguments, what) in [
         ("sheet four.linkage", "a sheet is HTML, LaTeX or text: write -o NAME.html, NAME.tex or NAME.txt"),
         ("sheet four.linkage --format latex", "this sheet is LaTeX: write -o NAME.tex"),
+        ("table four.linkage", "a table is CSV or JSON: write -o NAME.csv or NAME.json"),
+        ("report four.linkage", "a report is text or HTML: write -o NAME.txt or NAME.html"),
         ("draw four.linkage", "a picture is SVG or PNG: write -o NAME.svg or NAME.png"),
         ("animate four.linkage", "a film is SVG or GIF: write -o NAME.svg or NAME.gif"),
         ("rust four.linkage", "this code is Rust: write -o NAME.rs"),
@@ -82,6 +89,8 @@ fn the_ending_of_a_file_says_its_form() {
             folder.run(&format!("{arguments} -o four.{ending}")).fails(2, &message);
         }
     }
+    folder.run("table four.linkage --steps 1 -o four.json").works("wrote four.json\n");
+    assert!(folder.read("four.json").starts_with('{'));
     folder.run("sheet four.linkage -o four.txt").works("wrote four.txt\n");
     assert!(folder.read("four.txt").starts_with("FourBar\n"));
 }
@@ -104,7 +113,7 @@ fn a_loop_is_drawn_from_its_joint() {
     let folder = Folder::new();
     folder.write("from_origin.linkage", six_bar("loop l1@0 + l4@theta4 + l5@theta5 = l1@0 + l7@0 + l6@theta6;"));
     folder.write("from_pivot.linkage", six_bar("loop l4@theta4 + l5@theta5 = l7@0 + l6@theta6;"));
-    folder.write("from_joint.linkage", six_bar("loop l5@theta5 - l6@theta6 = l7@0 - l4@theta4;"));
+    folder.write("from_joint.linkage", six_bar("loop l5@theta5 - l6@theta6 - l7@0 + l4@theta4 = 0;"));
     let drawn = ["from_origin", "from_pivot", "from_joint"].map(|name| {
         let svg = folder.run(&format!("draw {name}.linkage -o -")).works("");
         [svg.matches("class=\"foot\"").count(), svg.matches("class=\"joint\"").count()]
