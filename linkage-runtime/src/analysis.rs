@@ -99,7 +99,7 @@ impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
         let (unknown_rates, input_rates) = M::rate_parts(&rates);
         let input_accelerations: PerInput<M> = input_accelerations.into();
         let form = Form { mechanism, pose, scales: Scales::of(mechanism, pose) };
-        let (still, held) = (Column::zeros(), Column::zeros());
+        let (still, held) = (unknown_rates.dim().zeros(), input_rates.dim().zeros());
         let jacobian_rates = form.columns(&unknown_rates, &input_rates);
         let jacobians_of_rates = Columns {
             unknowns: form.columns(&unknown_rates, &held).unknowns,
@@ -137,7 +137,10 @@ impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
     /// that of the input. None for several inputs.
     #[must_use]
     pub fn transmission_ratios(&self) -> Option<Column<T, U>> {
-        (V::COUNT == 1).then(|| self.ratios.columns().as_slice().first().copied()).flatten()
+        match self.ratios.columns().as_slice() {
+            [only] => Some(*only),
+            _ => None,
+        }
     }
 
     /// The determinant of the columns of [J A] that are left if those of a choice of inputs are taken out, in their order:
@@ -145,21 +148,22 @@ impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
     /// inputs. None unless the choice has as many different coordinates as there are inputs.
     #[must_use]
     pub fn determinant_of(&self, choice: &[usize]) -> Option<T> {
-        let count = U::COUNT + V::COUNT;
+        let Columns { unknowns, inputs } = &self.jacobian;
+        let (u, v) = inputs.dims();
+        let count = u.count() + v.count();
         let is_choice = |(place, coordinate): (usize, &usize)| {
             *coordinate < count && choice.iter().take(place).all(|other| other != coordinate)
         };
-        if choice.len() != V::COUNT || !choice.iter().enumerate().all(is_choice) {
+        if choice.len() != v.count() || !choice.iter().enumerate().all(is_choice) {
             return None;
         }
         let mut left = (0..count).filter(|coordinate| !choice.contains(coordinate));
-        let Columns { unknowns, inputs } = &self.jacobian;
-        let column = |coordinate: usize| match coordinate.checked_sub(U::COUNT) {
+        let column = |coordinate: usize| match coordinate.checked_sub(u.count()) {
             None => unknowns.column(coordinate),
             Some(input) => inputs.column(input),
         };
-        let columns = Column::from_fn(|_| left.next().map_or_else(Column::zeros, column));
-        Some(determinant(Matrix::from_columns(columns)))
+        let columns = u.column(|_| left.next().map_or_else(|| u.zeros(), column));
+        Some(determinant(u.columns(columns)))
     }
 
     fn numbers(&self) -> impl Iterator<Item = &T> + Clone {
@@ -186,21 +190,22 @@ impl<M: Mechanism> Form<'_, M> {
     fn columns(&self, unknowns: &PerUnknown<M>, inputs: &PerInput<M>) -> Columns<M::Scalar, M::U, M::V> {
         let of = &self.scales.coordinates;
         let fastest = unknowns.component_div(&of.unknowns).largest().max(inputs.component_div(&of.inputs).largest());
+        let (u, v) = (unknowns.dim(), inputs.dim());
         if fastest.is_zero() {
-            return Columns { unknowns: Matrix::zeros(), inputs: Matrix::zeros() };
+            return Columns { unknowns: u.zero_matrix(u), inputs: u.zero_matrix(v) };
         }
         let step = |scale: M::Scalar| power_of_two_below(scale * fastest);
         let quarter = |step: M::Scalar| (step * real::<M::Scalar>(4.0)).recip();
         Columns {
-            unknowns: Matrix::from_columns(Column::from_fn(|place| {
+            unknowns: u.columns(u.column(|place| {
                 let step = step(of.unknowns.part(place));
-                let along = Column::unit(place) * step;
+                let along = u.unit(place) * step;
                 let [one, other] = [*unknowns + along, *unknowns - along].map(|unknowns| self.gamma(unknowns, *inputs));
                 (one - other) * quarter(step)
             })),
-            inputs: Matrix::from_columns(Column::from_fn(|place| {
+            inputs: u.columns(v.column(|place| {
                 let step = step(of.inputs.part(place));
-                let along = Column::unit(place) * step;
+                let along = v.unit(place) * step;
                 let [one, other] = [*inputs + along, *inputs - along].map(|inputs| self.gamma(*unknowns, inputs));
                 (one - other) * quarter(step)
             })),
@@ -210,12 +215,12 @@ impl<M: Mechanism> Form<'_, M> {
 
 /// The determinant by elimination with partial pivoting.
 fn determinant<T: Real, N: Dim>(mut matrix: Matrix<T, N, N>) -> T {
-    let mut product = T::one();
-    for place in 0..N::COUNT {
+    let (mut product, count) = (T::one(), matrix.dims().0.count());
+    for place in 0..count {
         let larger = |best: usize, row: usize| {
             if matrix.part(row, place).abs() > matrix.part(best, place).abs() { row } else { best }
         };
-        let pivot_row = (place + 1..N::COUNT).fold(place, larger);
+        let pivot_row = (place + 1..count).fold(place, larger);
         if pivot_row != place {
             for column in matrix.columns_mut() {
                 column.as_mut_slice().swap(place, pivot_row);
@@ -227,7 +232,7 @@ fn determinant<T: Real, N: Dim>(mut matrix: Matrix<T, N, N>) -> T {
             return pivot;
         }
         product *= pivot;
-        for row in place + 1..N::COUNT {
+        for row in place + 1..count {
             let factor = matrix.part(row, place) / pivot;
             matrix.take_row(row, place, factor);
         }

@@ -9,24 +9,34 @@ use nalgebra::SVector;
 use crate::scalar::largest;
 use crate::{D, Dim, Real};
 
-/// A column of [`R::COUNT`](Dim::COUNT) entries; a vector if they are numbers.
+/// A column of as many entries as [`R`](Dim) says; a vector if they are numbers.
 ///
 /// It converts to and from nalgebra's [`SVector`] by `into`.
 #[derive(Clone, Copy)]
 pub struct Column<X: Copy + Debug, R: Dim>(R::Array<X>);
 
-impl<X: Copy + Debug, R: Dim> Column<X, R> {
+impl<X: Copy + Debug, R: Dim + Default> Column<X, R> {
     /// Builds the column whose entry at index i is `entry(i)`.
     #[inline]
     #[must_use]
     pub fn from_fn(entry: impl FnMut(usize) -> X) -> Self {
-        Self(R::array(entry))
+        R::default().column(entry)
     }
 
-    /// Builds the column of these entries; `None` if their number is not that of the column.
-    #[cfg(feature = "serde")]
-    pub(crate) fn from_slice(entries: &[X]) -> Option<Self> {
-        R::from_slice(entries).map(Self)
+    /// Builds a column of equal entries.
+    #[inline]
+    #[must_use]
+    pub fn repeat(entry: X) -> Self {
+        R::default().repeat(entry)
+    }
+}
+
+impl<X: Copy + Debug, R: Dim> Column<X, R> {
+    /// The number of entries.
+    #[inline]
+    #[must_use]
+    pub fn dim(&self) -> R {
+        R::of(&self.0)
     }
 
     /// The column of these entries.
@@ -39,13 +49,6 @@ impl<X: Copy + Debug, R: Dim> Column<X, R> {
     #[inline]
     pub(crate) fn into_array(self) -> R::Array<X> {
         self.0
-    }
-
-    /// Builds a column of equal entries.
-    #[inline]
-    #[must_use]
-    pub fn repeat(entry: X) -> Self {
-        Self::from_fn(|_| entry)
     }
 
     /// The entries.
@@ -93,37 +96,35 @@ impl<X: Copy + Debug, R: Dim> Column<X, R> {
     }
 }
 
-impl<T: Real, R: Dim> Column<T, R> {
+impl<T: Real, R: Dim + Default> Column<T, R> {
     /// Builds the column of these entries, padded with zeros.
     #[inline]
     #[must_use]
     pub fn from_iterator(entries: impl IntoIterator<Item = T>) -> Self {
-        let mut column = Self::zeros();
-        for (own, entry) in column.iter_mut().zip(entries) {
-            *own = entry;
-        }
-        column
+        R::default().padded(entries)
     }
 
     /// The zero vector.
     #[inline]
     #[must_use]
     pub fn zeros() -> Self {
-        Self::repeat(T::zero())
-    }
-
-    /// Returns an entry, or zero beyond the end; unlike indexing it cannot panic.
-    #[inline]
-    #[must_use]
-    pub fn part(&self, place: usize) -> T {
-        self.as_slice().get(place).copied().unwrap_or_else(T::zero)
+        R::default().zeros()
     }
 
     /// The unit vector with its 1 at this index.
     #[inline]
     #[must_use]
     pub fn unit(at: usize) -> Self {
-        Self::from_fn(|place| if place == at { T::one() } else { T::zero() })
+        R::default().unit(at)
+    }
+}
+
+impl<T: Real, R: Dim> Column<T, R> {
+    /// Returns an entry, or zero beyond the end; unlike indexing it cannot panic.
+    #[inline]
+    #[must_use]
+    pub fn part(&self, place: usize) -> T {
+        self.as_slice().get(place).copied().unwrap_or_else(T::zero)
     }
 
     /// The dot product.
@@ -165,7 +166,7 @@ impl<T: Real, R: Dim> Column<T, R> {
     #[inline]
     #[must_use]
     pub fn leading(&self) -> usize {
-        (0..R::COUNT).fold(0, |leading, place| if self[place].abs() > self[leading].abs() { place } else { leading })
+        (0..self.as_slice().len()).fold(0, |leading, place| if self[place].abs() > self[leading].abs() { place } else { leading })
     }
 
     /// The entrywise product.
@@ -370,7 +371,7 @@ impl<T: Real, R: Dim> MulAssign<T> for Column<T, R> {
     }
 }
 
-impl<T: Real, R: Dim> Sum for Column<T, R> {
+impl<T: Real, R: Dim + Default> Sum for Column<T, R> {
     fn sum<I: Iterator<Item = Self>>(columns: I) -> Self {
         columns.fold(Self::zeros(), |sum, column| sum + column)
     }

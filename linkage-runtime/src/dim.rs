@@ -1,55 +1,207 @@
-//! Numbers of coordinates as types.
+//! Numbers of coordinates.
 //!
 //! Generic algorithms take the numbers of unknowns and inputs from the types [`Mechanism::U`] and [`Mechanism::V`]
-//! instead of const parameters, so that the mechanism is the only parameter of their structs.
+//! instead of const parameters, so that the mechanism is the only parameter of their structs. The number itself is a
+//! value of that type: of [`D<N>`](D) there is one value, which takes no memory, so that emitted code is that of arrays;
+//! an [`UpTo<N>`](UpTo) holds the number of a mechanism that is read while the program runs.
 //!
 //! [`Mechanism::U`]: crate::Mechanism::U
 //! [`Mechanism::V`]: crate::Mechanism::V
 
-use core::fmt::Debug;
+use core::fmt::{self, Debug, Formatter};
+use core::iter::{Flatten, Take};
 
 use nalgebra::SVector;
 
-use crate::Real;
+use crate::{Column, Matrix, Real};
 
-/// A number as a type, with the array type and the vector type of that length.
+/// A number of coordinates, with the array type and the vector type of that length.
 #[diagnostic::on_unimplemented(message = "`{Self}` is not a dimension", note = "write `D<N>` with a number `N`")]
 pub trait Dim: Copy + Debug + Eq + 'static {
-    /// The number.
-    const COUNT: usize;
-    /// `[X; COUNT]`.
+    /// The largest number that a value of this type can be.
+    const CAPACITY: usize;
+    /// An array of that length.
     type Array<X: Copy + Debug>: Copy + Debug + AsRef<[X]> + AsMut<[X]> + IntoIterator<Item = X>;
-    /// nalgebra's vector of that length.
+    /// A vector of that length, of nalgebra if the number is a constant.
     type Vector<T: Real>: Copy + Debug + From<Self::Array<T>> + Into<Self::Array<T>>;
 
+    /// The dimension with this number; `None` if a value of this type cannot be it.
+    fn new(count: usize) -> Option<Self>;
+    /// The smallest number that a value of this type can be.
+    fn least() -> Self;
+    /// The number.
+    fn count(self) -> usize;
     /// Builds the array whose entry at index i is `entry(i)`.
-    fn array<X: Copy + Debug>(entry: impl FnMut(usize) -> X) -> Self::Array<X>;
-    /// Builds the array of these entries; `None` if their number is not [`COUNT`](Self::COUNT).
-    fn from_slice<X: Copy + Debug>(entries: &[X]) -> Option<Self::Array<X>>;
+    fn array<X: Copy + Debug>(self, entry: impl FnMut(usize) -> X) -> Self::Array<X>;
+    /// The length of an array.
+    fn of<X: Copy + Debug>(array: &Self::Array<X>) -> Self;
     /// Applies a function to each entry, without bounds checks.
     fn map<X: Copy + Debug, Y: Copy + Debug>(entries: Self::Array<X>, f: impl FnMut(X) -> Y) -> Self::Array<Y>;
+
+    /// The column whose entry at index i is `entry(i)`.
+    #[inline]
+    fn column<X: Copy + Debug>(self, entry: impl FnMut(usize) -> X) -> Column<X, Self> {
+        Column::of(self.array(entry))
+    }
+    /// The column of equal entries.
+    #[inline]
+    fn repeat<X: Copy + Debug>(self, entry: X) -> Column<X, Self> {
+        self.column(|_| entry)
+    }
+    /// The zero vector.
+    #[inline]
+    fn zeros<T: Real>(self) -> Column<T, Self> {
+        self.repeat(T::zero())
+    }
+    /// The unit vector with its 1 at this index.
+    #[inline]
+    fn unit<T: Real>(self, at: usize) -> Column<T, Self> {
+        self.column(|place| if place == at { T::one() } else { T::zero() })
+    }
+    /// The column of these entries, padded with zeros.
+    #[inline]
+    fn padded<T: Real>(self, entries: impl IntoIterator<Item = T>) -> Column<T, Self> {
+        let mut column = self.zeros();
+        for (own, entry) in column.iter_mut().zip(entries) {
+            *own = entry;
+        }
+        column
+    }
+    /// The matrix of these columns.
+    #[inline]
+    fn columns<T: Real, C: Dim>(self, columns: Column<Column<T, Self>, C>) -> Matrix<T, Self, C> {
+        Matrix::of(self, columns)
+    }
+    /// The matrix of so many columns, with the entry `entry(i, j)` at row i and column j.
+    #[inline]
+    fn matrix<T: Real, C: Dim>(self, columns: C, mut entry: impl FnMut(usize, usize) -> T) -> Matrix<T, Self, C> {
+        Matrix::of(self, columns.column(|column| self.column(|row| entry(row, column))))
+    }
+    /// The zero matrix of so many columns.
+    #[inline]
+    fn zero_matrix<T: Real, C: Dim>(self, columns: C) -> Matrix<T, Self, C> {
+        Matrix::of(self, columns.repeat(self.zeros()))
+    }
+    /// The identity matrix.
+    #[inline]
+    fn identity<T: Real>(self) -> Matrix<T, Self, Self> {
+        Matrix::of(self, self.column(|place| self.unit(place)))
+    }
 }
 
-/// The number `N` as a type.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// The number `N`, a constant.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
 pub struct D<const N: usize>;
 
 impl<const N: usize> Dim for D<N> {
-    const COUNT: usize = N;
+    const CAPACITY: usize = N;
     type Array<X: Copy + Debug> = [X; N];
     type Vector<T: Real> = SVector<T, N>;
 
     #[inline]
-    fn array<X: Copy + Debug>(entry: impl FnMut(usize) -> X) -> [X; N] {
+    fn new(count: usize) -> Option<Self> {
+        (count == N).then_some(Self)
+    }
+
+    #[inline]
+    fn least() -> Self {
+        Self
+    }
+
+    #[inline]
+    fn count(self) -> usize {
+        N
+    }
+
+    #[inline]
+    fn array<X: Copy + Debug>(self, entry: impl FnMut(usize) -> X) -> [X; N] {
         core::array::from_fn(entry)
     }
 
-    fn from_slice<X: Copy + Debug>(entries: &[X]) -> Option<[X; N]> {
-        entries.try_into().ok()
+    #[inline]
+    fn of<X: Copy + Debug>(_: &[X; N]) -> Self {
+        Self
     }
 
     #[inline]
     fn map<X: Copy + Debug, Y: Copy + Debug>(entries: [X; N], f: impl FnMut(X) -> Y) -> [Y; N] {
         entries.map(f)
+    }
+}
+
+/// A number up to `N`, which is known while the program runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UpTo<const N: usize>(usize);
+
+impl<const N: usize> Dim for UpTo<N> {
+    const CAPACITY: usize = N;
+    type Array<X: Copy + Debug> = Bounded<X, N>;
+    type Vector<T: Real> = Bounded<T, N>;
+
+    fn new(count: usize) -> Option<Self> {
+        (count <= N).then_some(Self(count))
+    }
+
+    fn least() -> Self {
+        Self(0)
+    }
+
+    fn count(self) -> usize {
+        self.0
+    }
+
+    fn array<X: Copy + Debug>(self, mut entry: impl FnMut(usize) -> X) -> Bounded<X, N> {
+        if self.0 == 0 {
+            return Bounded { entries: None, count: 0 };
+        }
+        // The places beyond the last entry repeat the first: no entry is computed for them.
+        let first = entry(0);
+        let entries = core::array::from_fn(|place| if (1..self.0).contains(&place) { entry(place) } else { first });
+        Bounded { entries: Some(entries), count: self.0 }
+    }
+
+    fn of<X: Copy + Debug>(array: &Bounded<X, N>) -> Self {
+        Self(array.count)
+    }
+
+    fn map<X: Copy + Debug, Y: Copy + Debug>(entries: Bounded<X, N>, mut f: impl FnMut(X) -> Y) -> Bounded<Y, N> {
+        let own = entries.as_ref();
+        // `array` asks for places of its own length only.
+        Self(entries.count).array(|place| f(own[place]))
+    }
+}
+
+/// An array of up to `N` entries.
+#[derive(Clone, Copy)]
+pub struct Bounded<X, const N: usize> {
+    /// None without entries, since there is then no value to fill the array with.
+    entries: Option<[X; N]>,
+    count: usize,
+}
+
+impl<X, const N: usize> AsRef<[X]> for Bounded<X, N> {
+    fn as_ref(&self) -> &[X] {
+        self.entries.as_ref().and_then(|entries| entries.get(..self.count)).unwrap_or_default()
+    }
+}
+
+impl<X, const N: usize> AsMut<[X]> for Bounded<X, N> {
+    fn as_mut(&mut self) -> &mut [X] {
+        self.entries.as_mut().and_then(|entries| entries.get_mut(..self.count)).unwrap_or_default()
+    }
+}
+
+impl<X: Debug, const N: usize> Debug for Bounded<X, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.as_ref().fmt(f)
+    }
+}
+
+impl<X, const N: usize> IntoIterator for Bounded<X, N> {
+    type Item = X;
+    type IntoIter = Take<Flatten<core::option::IntoIter<[X; N]>>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.entries.into_iter().flatten().take(self.count)
     }
 }

@@ -215,7 +215,8 @@ pub trait Kinematic:
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
     fn velocity_ratios(&self, _: &Self::Pose) -> Result<Ratios<Self, Self::U>, PositionError> {
         const { no_unknowns::<Self>() };
-        Ok(Matrix::zeros())
+        let (u, v, _) = self.dims();
+        Ok(u.zero_matrix(v))
     }
     /// The velocity ratios by name: for each input, in the order of [`INPUTS`](Mechanism::INPUTS), the rates of all
     /// coordinates while this input alone moves, at the rate 1.
@@ -224,7 +225,8 @@ pub trait Kinematic:
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
     fn ratios_by_input(&self, pose: &Self::Pose) -> Result<Column<Self::Rates, Self::V>, PositionError> {
         let ratios = self.velocity_ratios(pose)?;
-        Ok(Column::from_fn(|input| Self::rates(ratios.column(input), Column::unit(input))))
+        let (_, v) = ratios.dims();
+        Ok(v.column(|input| Self::rates(ratios.column(input), v.unit(input))))
     }
     /// The points. A mechanism without points needs no body of this and of the next three functions.
     ///
@@ -261,7 +263,7 @@ pub trait Kinematic:
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
     fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Ratios<Self, D<2>>>, PositionError> {
-        Ok(none::<Self::P, _, _>(Matrix::zeros()))
+        Ok(none::<Self::P, _, _>(D.zero_matrix(self.dims().1)))
     }
     /// The outputs. A mechanism without outputs needs no body of this and of the next three functions.
     ///
@@ -294,7 +296,7 @@ pub trait Kinematic:
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
     fn output_ratios(&self, _: &Self::Pose) -> Result<Self::Outputs<Ratios<Self, D<1>>>, PositionError> {
-        Ok(none::<Self::O, _, _>(Matrix::zeros()))
+        Ok(none::<Self::O, _, _>(D.zero_matrix(self.dims().1)))
     }
 
     /// Combines `u''` and `v''` into `q''`.
@@ -325,6 +327,6 @@ pub trait Kinematic:
 /// functions of its own.
 #[inline]
 fn none<N: Dim, Q: Quantity, G: From<N::Array<Q>>>(like: Q) -> G {
-    const { assert!(N::COUNT == 0, "a mechanism with points or outputs has functions that compute them") };
-    N::array(|_| like).into()
+    const { assert!(N::CAPACITY == 0, "a mechanism with points or outputs has functions that compute them") };
+    N::least().array(|_| like).into()
 }

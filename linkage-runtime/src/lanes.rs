@@ -64,9 +64,9 @@ pub trait Lanes: Sized {
     /// The assembly branch.
     type Branch: Copy + Debug;
     /// The number of given columns.
-    type Given: Dim;
+    type Given: Dim + Default;
     /// The number of found columns.
-    type Found: Dim;
+    type Found: Dim + Default;
 
     /// The name of the mechanism, as in error messages.
     const NAME: &'static str;
@@ -270,7 +270,7 @@ impl<'a, M: Lanes> Batch<'a, M> {
         // Local copies, for the same reason.
         let (branch, first) = (self.branch, self.block::<1>(0));
         let mut given = self.block::<W>(0);
-        let mut values = <M::Found as Dim>::array(|_| [M::Scalar::zero(); W]);
+        let mut values = M::Found::default().array(|_| [M::Scalar::zero(); W]);
         let mut rejected = 0;
         for (number, accepted) in accepted.chunks_mut(W).enumerate() {
             let from = number * W;
@@ -315,7 +315,7 @@ impl<'a, M: Lanes> Batch<'a, M> {
         let alone = <M::Given as Dim>::map(*given, |block| [block.get(lane).copied().unwrap_or_else(M::Scalar::zero)]);
         let found = exact::<M, QUANTITIES>(alone, self.branch);
         let is_found = found.is_ok();
-        let found = found.unwrap_or_else(|_| <M::Found as Dim>::array(|_| real(f64::NAN)));
+        let found = found.unwrap_or_else(|_| M::Found::default().array(|_| real(f64::NAN)));
         for (column, value) in values.as_mut().iter_mut().zip(found) {
             if let Some(place) = column.get_mut(lane) {
                 *place = value;

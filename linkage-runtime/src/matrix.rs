@@ -9,111 +9,132 @@ use crate::column::{Column, in_one_line};
 use crate::scalar::largest;
 use crate::{D, Dim, Real};
 
-/// A matrix of [`R::COUNT`](Dim::COUNT) rows and `C::COUNT` columns.
+/// A matrix of as many rows and columns as [`R`](Dim) and `C` say.
 ///
 /// It converts to and from nalgebra's [`SMatrix`] by `into`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Matrix<T: Real, R: Dim, C: Dim>(Column<Column<T, R>, C>);
+pub struct Matrix<T: Real, R: Dim, C: Dim> {
+    columns: Column<Column<T, R>, C>,
+    /// The number of rows, which a matrix without columns has too.
+    rows: R,
+}
 
 /// The rows in one line, `[[1, 2], [3, 4]]`, each entry with the precision asked for.
 impl<T: Real, R: Dim, C: Dim> Display for Matrix<T, R, C> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        in_one_line(f, (0..R::COUNT).map(|row| self.row(row)))
+        in_one_line(f, (0..self.rows.count()).map(|row| self.row(row)))
     }
 }
 
-impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
+impl<T: Real, R: Dim + Default, C: Dim + Default> Matrix<T, R, C> {
     /// Builds the matrix whose entry at row i and column j is `entry(i, j)`.
     #[inline]
     #[must_use]
-    pub fn from_fn(mut entry: impl FnMut(usize, usize) -> T) -> Self {
-        Self(Column::from_fn(|column| Column::from_fn(|row| entry(row, column))))
-    }
-
-    /// Builds the matrix of these columns.
-    #[inline]
-    #[must_use]
-    pub fn from_columns(columns: Column<Column<T, R>, C>) -> Self {
-        Self(columns)
-    }
-
-    /// Builds the matrix of these columns, padded with zeros.
-    ///
-    /// It is several times as fast as mapping an array of columns.
-    #[inline]
-    fn from_iterator(columns: impl IntoIterator<Item = Column<T, R>>) -> Self {
-        let mut matrix = Self::zeros();
-        for (own, column) in matrix.0.iter_mut().zip(columns) {
-            *own = column;
-        }
-        matrix
+    pub fn from_fn(entry: impl FnMut(usize, usize) -> T) -> Self {
+        R::default().matrix(C::default(), entry)
     }
 
     /// The zero matrix.
     #[inline]
     #[must_use]
     pub fn zeros() -> Self {
-        Self(Column::repeat(Column::zeros()))
+        R::default().zero_matrix(C::default())
+    }
+}
+
+impl<T: Real, R: Dim + Default, C: Dim> Matrix<T, R, C> {
+    /// Builds the matrix of these columns.
+    #[inline]
+    #[must_use]
+    pub fn from_columns(columns: Column<Column<T, R>, C>) -> Self {
+        R::default().columns(columns)
+    }
+}
+
+impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
+    /// Builds the matrix of these columns, with so many rows.
+    #[inline]
+    pub(crate) fn of(rows: R, columns: Column<Column<T, R>, C>) -> Self {
+        Self { columns, rows }
+    }
+
+    /// Builds the matrix of so many rows and columns from these columns, padded with zeros.
+    ///
+    /// It is several times as fast as mapping an array of columns.
+    #[inline]
+    fn padded(rows: R, count: C, columns: impl IntoIterator<Item = Column<T, R>>) -> Self {
+        let mut matrix = rows.zero_matrix(count);
+        for (own, column) in matrix.columns.iter_mut().zip(columns) {
+            *own = column;
+        }
+        matrix
+    }
+
+    /// The numbers of rows and columns.
+    #[inline]
+    #[must_use]
+    pub fn dims(&self) -> (R, C) {
+        (self.rows, self.columns.dim())
     }
 
     /// The columns.
     #[inline]
     #[must_use]
     pub fn columns(&self) -> &Column<Column<T, R>, C> {
-        &self.0
+        &self.columns
     }
 
     /// The columns, mutable.
     #[inline]
     #[must_use]
     pub fn columns_mut(&mut self) -> &mut Column<Column<T, R>, C> {
-        &mut self.0
+        &mut self.columns
     }
 
     /// Returns an entry, or zero outside the matrix; unlike indexing it cannot panic.
     #[inline]
     #[must_use]
     pub fn part(&self, row: usize, column: usize) -> T {
-        self.0.as_slice().get(column).map_or_else(T::zero, |column| column.part(row))
+        self.columns.as_slice().get(column).map_or_else(T::zero, |column| column.part(row))
     }
 
     /// Returns an entry, mutable, or `None` outside the matrix.
     #[inline]
     #[must_use]
     pub fn get_mut(&mut self, row: usize, column: usize) -> Option<&mut T> {
-        self.0.as_mut_slice().get_mut(column)?.as_mut_slice().get_mut(row)
+        self.columns.as_mut_slice().get_mut(column)?.as_mut_slice().get_mut(row)
     }
 
     /// Returns a column.
     #[inline]
     #[must_use]
     pub fn column(&self, column: usize) -> Column<T, R> {
-        self.0[column]
+        self.columns[column]
     }
 
     /// Returns a row; zeros outside the matrix.
     #[inline]
     #[must_use]
     pub fn row(&self, row: usize) -> Column<T, C> {
-        self.0.map(|column| column.part(row))
+        self.columns.map(|column| column.part(row))
     }
 
     /// Replaces a column.
     #[inline]
     pub fn set_column(&mut self, column: usize, entries: Column<T, R>) {
-        self.0[column] = entries;
+        self.columns[column] = entries;
     }
 
     /// The entries, column by column.
     #[inline]
     pub fn iter(&self) -> impl Iterator<Item = &T> + Clone {
-        self.0.iter().flat_map(Column::iter)
+        self.columns.iter().flat_map(Column::iter)
     }
 
     /// Multiplies a row by a factor.
     #[inline]
     pub fn scale_row(&mut self, row: usize, factor: T) {
-        for column in &mut self.0 {
+        for column in &mut self.columns {
             column[row] *= factor;
         }
     }
@@ -121,7 +142,7 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
     /// Subtracts `factor` times the row `other` from a row.
     #[inline]
     pub fn take_row(&mut self, row: usize, other: usize, factor: T) {
-        for column in &mut self.0 {
+        for column in &mut self.columns {
             let taken = factor * column.part(other);
             if let Some(entry) = column.as_mut_slice().get_mut(row) {
                 *entry -= taken;
@@ -132,14 +153,14 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
     /// Multiplies a column by a factor.
     #[inline]
     pub fn scale_column(&mut self, column: usize, factor: T) {
-        self.0[column] *= factor;
+        self.columns[column] *= factor;
     }
 
     /// Applies a function to each entry.
     #[inline]
     #[must_use]
     pub fn map(&self, mut f: impl FnMut(T) -> T) -> Self {
-        Self::from_iterator(self.0.iter().map(|column| column.map(&mut f)))
+        Self::padded(self.rows, self.columns.dim(), self.columns.iter().map(|column| column.map(&mut f)))
     }
 
     /// The magnitudes of the entries.
@@ -153,21 +174,21 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
     #[inline]
     #[must_use]
     pub fn transpose(&self) -> Matrix<T, C, R> {
-        Matrix::from_fn(|row, column| self[(column, row)])
+        self.columns.dim().matrix(self.rows, |row, column| self[(column, row)])
     }
 
     /// The transpose times a column.
     #[inline]
     #[must_use]
     pub fn tr_mul(&self, column: &Column<T, R>) -> Column<T, C> {
-        Column::from_iterator(self.0.iter().map(|own| own.dot(column)))
+        self.columns.dim().padded(self.columns.iter().map(|own| own.dot(column)))
     }
 
     /// The transpose times a matrix.
     #[inline]
     #[must_use]
     pub fn tr_mul_matrix<K: Dim>(&self, other: &Matrix<T, R, K>) -> Matrix<T, C, K> {
-        Matrix::from_iterator(other.0.iter().map(|column| self.tr_mul(column)))
+        Matrix::padded(self.columns.dim(), other.columns.dim(), other.columns.iter().map(|column| self.tr_mul(column)))
     }
 
     /// The largest magnitude; NaN if an entry is NaN.
@@ -185,19 +206,21 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
     }
 }
 
-impl<T: Real, N: Dim> Matrix<T, N, N> {
+impl<T: Real, N: Dim + Default> Matrix<T, N, N> {
     /// The identity matrix.
     #[inline]
     #[must_use]
     pub fn identity() -> Self {
-        Self(Column::from_fn(Column::unit))
+        N::default().identity()
     }
+}
 
+impl<T: Real, N: Dim> Matrix<T, N, N> {
     /// The diagonal.
     #[inline]
     #[must_use]
     pub fn diagonal(&self) -> Column<T, N> {
-        Column::from_fn(|place| self[(place, place)])
+        self.rows.column(|place| self[(place, place)])
     }
 }
 
@@ -206,14 +229,14 @@ impl<T: Real, R: Dim, C: Dim> Index<(usize, usize)> for Matrix<T, R, C> {
 
     #[inline]
     fn index(&self, (row, column): (usize, usize)) -> &T {
-        &self.0[column][row]
+        &self.columns[column][row]
     }
 }
 
 impl<T: Real, R: Dim, C: Dim> IndexMut<(usize, usize)> for Matrix<T, R, C> {
     #[inline]
     fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut T {
-        &mut self.0[column][row]
+        &mut self.columns[column][row]
     }
 }
 
@@ -227,7 +250,7 @@ impl<T: Real, const R: usize, const C: usize> From<SMatrix<T, R, C>> for Matrix<
 impl<T: Real, const R: usize, const C: usize> From<[[T; R]; C]> for Matrix<T, D<R>, D<C>> {
     #[inline]
     fn from(columns: [[T; R]; C]) -> Self {
-        Self::from_iterator(columns.iter().map(|&column| Column::from(column)))
+        Self::padded(D, D, columns.iter().map(|&column| Column::from(column)))
     }
 }
 
@@ -235,7 +258,7 @@ impl<T: Real, const R: usize, const C: usize> From<Matrix<T, D<R>, D<C>>> for [[
     /// The columns.
     #[inline]
     fn from(matrix: Matrix<T, D<R>, D<C>>) -> Self {
-        matrix.0.into_array().map(Column::into_array)
+        matrix.columns.into_array().map(Column::into_array)
     }
 }
 
@@ -243,7 +266,7 @@ impl<T: Real, const R: usize, const C: usize> From<Matrix<T, D<R>, D<C>>> for SM
     #[inline]
     fn from(matrix: Matrix<T, D<R>, D<C>>) -> Self {
         let mut columns = [[T::zero(); R]; C];
-        for (own, &column) in columns.iter_mut().zip(&matrix.0) {
+        for (own, &column) in columns.iter_mut().zip(&matrix.columns) {
             *own = column.into();
         }
         Self::from(columns)
@@ -255,7 +278,7 @@ impl<T: Real, R: Dim, C: Dim> Mul<Column<T, C>> for Matrix<T, R, C> {
 
     #[inline]
     fn mul(self, factors: Column<T, C>) -> Column<T, R> {
-        self.0.iter().zip(&factors).fold(Column::zeros(), |sum, (&column, &factor)| sum + column * factor)
+        self.columns.iter().zip(&factors).fold(self.rows.zeros(), |sum, (&column, &factor)| sum + column * factor)
     }
 }
 
@@ -264,7 +287,7 @@ impl<T: Real, R: Dim, K: Dim, C: Dim> Mul<Matrix<T, K, C>> for Matrix<T, R, K> {
 
     #[inline]
     fn mul(self, other: Matrix<T, K, C>) -> Matrix<T, R, C> {
-        Matrix::from_iterator(other.0.iter().map(|&column| self * column))
+        Matrix::padded(self.rows, other.columns.dim(), other.columns.iter().map(|&column| self * column))
     }
 }
 
@@ -282,7 +305,7 @@ impl<T: Real, R: Dim, C: Dim> Add for Matrix<T, R, C> {
 
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self(self.0.zip_map(&other.0, |one, other| one + other))
+        Self { columns: self.columns.zip_map(&other.columns, |one, other| one + other), ..self }
     }
 }
 
@@ -298,7 +321,7 @@ impl<T: Real, R: Dim, C: Dim> Sub for Matrix<T, R, C> {
 
     #[inline]
     fn sub(self, other: Self) -> Self {
-        Self(self.0.zip_map(&other.0, |one, other| one - other))
+        Self { columns: self.columns.zip_map(&other.columns, |one, other| one - other), ..self }
     }
 }
 

@@ -76,6 +76,8 @@ pub trait Mechanism {
     /// The names of the coordinates and outputs that have a range, in the order of declaration.
     const RANGES: &'static [&'static str] = &[];
 
+    /// The numbers of unknowns, of inputs and of groups.
+    fn dims(&self) -> (Self::U, Self::V, Self::G);
     /// Combines u and v into q.
     fn coordinates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Coordinates;
     /// Splits q into u and v.
@@ -98,37 +100,41 @@ pub trait Mechanism {
     #[inline]
     fn residual(&self, _: &Self::Pose) -> PerUnknown<Self> {
         const { no_unknowns::<Self>() };
-        Column::zeros()
+        self.dims().0.zeros()
     }
     /// The sum of the magnitudes of the terms of each residual.
     #[inline]
     fn residual_scales(&self, _: &Self::Pose) -> PerUnknown<Self> {
         const { no_unknowns::<Self>() };
-        Column::zeros()
+        self.dims().0.zeros()
     }
     /// J, the derivative of Psi by u.
     #[inline]
     fn jacobian_unknowns(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U> {
         const { no_unknowns::<Self>() };
-        Matrix::zeros()
+        let (u, _, _) = self.dims();
+        u.zero_matrix(u)
     }
     /// A, the derivative of Psi by v.
     #[inline]
     fn jacobian_inputs(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V> {
         const { no_unknowns::<Self>() };
-        Matrix::zeros()
+        let (u, v, _) = self.dims();
+        u.zero_matrix(v)
     }
     /// The largest magnitude that each entry of J can have at any angles, with the lengths of this pose.
     #[inline]
     fn jacobian_unknowns_scales(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::U> {
         const { no_unknowns::<Self>() };
-        Matrix::zeros()
+        let (u, _, _) = self.dims();
+        u.zero_matrix(u)
     }
     /// The largest magnitude that each entry of A can have at any angles, with the lengths of this pose.
     #[inline]
     fn jacobian_inputs_scales(&self, _: &Self::Pose) -> Matrix<Self::Scalar, Self::U, Self::V> {
         const { no_unknowns::<Self>() };
-        Matrix::zeros()
+        let (u, v, _) = self.dims();
+        u.zero_matrix(v)
     }
     /// det J, 1 without unknowns.
     #[inline]
@@ -140,13 +146,13 @@ pub trait Mechanism {
     #[inline]
     fn block_determinants(&self, _: &Self::Pose) -> Column<Self::Scalar, Self::G> {
         const { no_unknowns::<Self>() };
-        Column::zeros()
+        self.dims().2.zeros()
     }
     /// The quadratic velocity term (Psi_q q')_q q'.
     #[inline]
     fn gamma(&self, _: &Self::Pose, _: &Self::Rates) -> PerUnknown<Self> {
         const { no_unknowns::<Self>() };
-        Column::zeros()
+        self.dims().0.zeros()
     }
     /// Solves J x = `right`.
     ///
@@ -244,7 +250,7 @@ impl<M: Mechanism + ?Sized> Display for Named<M> {
 
 /// Does not compile for a mechanism with unknowns, which has equations of its own.
 pub(crate) const fn no_unknowns<M: Mechanism + ?Sized>() {
-    assert!(M::U::COUNT == 0, "a mechanism with unknowns has functions that compute its equations");
+    assert!(M::U::CAPACITY == 0, "a mechanism with unknowns has functions that compute its equations");
 }
 
 /// A mechanism whose position has a closed form.

@@ -18,7 +18,7 @@ impl<X: Copy + Debug + Serialize, R: Dim> Serialize for Column<X, R> {
 }
 
 /// A sequence of another length is an error.
-impl<'de, X: Copy + Debug + Deserialize<'de>, R: Dim> Deserialize<'de> for Column<X, R> {
+impl<'de, X: Copy + Debug + Deserialize<'de>, R: Dim + Default> Deserialize<'de> for Column<X, R> {
     fn deserialize<F: Deserializer<'de>>(deserializer: F) -> Result<Self, F::Error> {
         deserializer.deserialize_seq(Entries(PhantomData))
     }
@@ -27,23 +27,25 @@ impl<'de, X: Copy + Debug + Deserialize<'de>, R: Dim> Deserialize<'de> for Colum
 /// Reads the entries of a column.
 struct Entries<X, R>(PhantomData<(X, R)>);
 
-impl<'de, X: Copy + Debug + Deserialize<'de>, R: Dim> Visitor<'de> for Entries<X, R> {
+impl<'de, X: Copy + Debug + Deserialize<'de>, R: Dim + Default> Visitor<'de> for Entries<X, R> {
     type Value = Column<X, R>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "a sequence of length {}", R::COUNT)
+        write!(f, "a sequence of length {}", R::default().count())
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Column<X, R>, A::Error> {
         let Some(first) = entries.next_element()? else {
-            return Column::from_slice(&[]).ok_or_else(|| Error::invalid_length(0, &self));
+            // There is an array of no entries only.
+            let empty = R::new(0).filter(|none| *none == R::default());
+            return empty.map(|none| none.column(|_| unreachable!())).ok_or_else(|| Error::invalid_length(0, &self));
         };
         let mut column = Column::repeat(first);
         for (place, entry) in column.iter_mut().enumerate().skip(1) {
             *entry = entries.next_element()?.ok_or_else(|| Error::invalid_length(place, &self))?;
         }
-        if R::COUNT == 0 || entries.next_element::<IgnoredAny>()?.is_some() {
-            return Err(Error::invalid_length(R::COUNT + 1, &self));
+        if R::default().count() == 0 || entries.next_element::<IgnoredAny>()?.is_some() {
+            return Err(Error::invalid_length(R::default().count() + 1, &self));
         }
         Ok(column)
     }
@@ -56,7 +58,7 @@ impl<T: Real + Serialize, R: Dim, C: Dim> Serialize for Matrix<T, R, C> {
     }
 }
 
-impl<'de, T: Real + Deserialize<'de>, R: Dim, C: Dim> Deserialize<'de> for Matrix<T, R, C> {
+impl<'de, T: Real + Deserialize<'de>, R: Dim + Default, C: Dim + Default> Deserialize<'de> for Matrix<T, R, C> {
     fn deserialize<F: Deserializer<'de>>(deserializer: F) -> Result<Self, F::Error> {
         Deserialize::deserialize(deserializer).map(Self::from_columns)
     }

@@ -186,7 +186,7 @@ fn equilibrated<T: Real, R: Dim, C: Dim>(
 ) -> (Matrix<T, R, C>, Column<T, C>) {
     let scales = largest_entries(largest, divisors).map(scale_or_one);
     let columns = matrix.columns().zip_map(&scales, |column, scale| column.component_div(divisors).map(|x| x / scale));
-    (Matrix::from_columns(columns), scales)
+    (divisors.dim().columns(columns), scales)
 }
 
 /// The threshold up to which a singular value of `count` unknowns is zero.
@@ -202,7 +202,8 @@ fn threshold<T: Real>(count: usize) -> T {
 pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity<M>, PositionError> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let Equilibrated { unknowns: j, inputs: a, unknown_scales, input_scales, .. } = &equilibrated;
-    let zero = threshold::<M::Scalar>(M::U::COUNT);
+    let (u, v, g) = mechanism.dims();
+    let zero = threshold::<M::Scalar>(u.count());
     let right = Decomposition::of(*j);
     let rank = right.rank(zero);
     // The left null vectors l, l J = 0, restrict the inputs to (l A) v' = 0.
@@ -213,7 +214,7 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
     }
     let conditions = Decomposition::of(conditions);
     let conditions_rank = conditions.rank(zero);
-    let exchanges = Matrix::<M::Scalar, M::U, M::V>::from_fn(|unknown, input| {
+    let exchanges = u.matrix(v, |unknown, input| {
         let mut exchanged = *j;
         exchanged.set_column(unknown, a.column(input));
         let sigma_min = Decomposition::of(exchanged).least();
@@ -223,7 +224,7 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
     finite(M::NAME, "the determinant", [determinant])?;
     all_finite(M::NAME, "a singular value", right.values.iter())?;
     let blocks = Blocks::of(mechanism, pose);
-    let groups = Column::<_, M::G>::from_fn(|group| measure(&blocks, group));
+    let groups = g.column(|group| measure(&blocks, group));
     let measures = groups.iter().flat_map(|group| [&group.determinant, &group.regularity, &group.sigma_min]);
     all_finite(M::NAME, "the determinant", measures)?;
     let (free, admissible) = (in_units(right.vectors, unknown_scales), in_units(conditions.vectors, input_scales));
@@ -236,7 +237,7 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
         rank_with_inputs: rank + conditions_rank,
         free,
         admissible,
-        admissible_count: M::V::COUNT - conditions_rank,
+        admissible_count: v.count() - conditions_rank,
         exchanges,
     })
 }
@@ -268,7 +269,7 @@ pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<
 
 /// Converts vectors of the equilibrated system to rates; the rate of the largest entry is 1.
 fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) -> Matrix<T, N, N> {
-    Matrix::from_columns(vectors.columns().map(|vector| {
+    scales.dim().columns(vectors.columns().map(|vector| {
         let leading = vector.leading();
         let rates = vector.component_div(scales);
         rates.map(|rate| rate / scale_or_one(rates[leading]))
@@ -278,7 +279,7 @@ fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) ->
 fn measure<M: Mechanism>(blocks: &Blocks<M>, group: usize) -> GroupMeasure<M::Scalar> {
     let members = &M::GROUPS[group];
     // The rest of the diagonal is larger than any singular value of the block.
-    let count = u32::try_from(M::U::COUNT).map_or(f64::MAX, f64::from);
+    let count = u32::try_from(blocks.unknowns()).map_or(f64::MAX, f64::from);
     let sigma_min = Decomposition::of(blocks.equilibrated(members, real(count))).least();
     let is_regular = sigma_min > threshold(members.unknowns.len());
     let (determinant, regularity) = (blocks.determinants()[group], blocks.regularity(group));
@@ -286,6 +287,11 @@ fn measure<M: Mechanism>(blocks: &Blocks<M>, group: usize) -> GroupMeasure<M::Sc
 }
 
 impl<M: Mechanism> Singularity<M> {
+    /// The number of unknowns.
+    fn count(&self) -> usize {
+        self.free.dims().0.count()
+    }
+
     /// det J.
     #[must_use]
     pub fn determinant(&self) -> M::Scalar {
@@ -301,7 +307,7 @@ impl<M: Mechanism> Singularity<M> {
     /// True if the rank of J is less than the number of unknowns: the inputs cannot drive the mechanism.
     #[must_use]
     pub fn is_singular(&self) -> bool {
-        self.rank < M::U::COUNT
+        self.rank < self.count()
     }
 
     /// The rank of [J A]. If it is less than the number of unknowns, the mechanism is singular for every choice of
@@ -325,17 +331,19 @@ impl<M: Mechanism> Singularity<M> {
     /// A basis of the rates u' that are possible while the inputs rest; empty if J is regular. The rate of the largest
     /// entry of each is 1.
     pub fn free(&self) -> impl Iterator<Item = PerUnknown<M>> + Clone {
-        (self.rank..M::U::COUNT).map(|column| self.free.column(column))
+        (self.rank..self.count()).map(|column| self.free.column(column))
     }
 
     /// A basis of the possible rates v' of the inputs: as many as there are inputs if J is regular.
     pub fn admissible(&self) -> impl Iterator<Item = PerInput<M>> + Clone {
-        (M::V::COUNT - self.admissible_count..M::V::COUNT).map(|column| self.admissible.column(column))
+        let (_, v) = self.admissible.dims();
+        (v.count() - self.admissible_count..v.count()).map(|column| self.admissible.column(column))
     }
 
     /// The exchanges of one input for one unknown that make J regular.
     pub fn drivers(&self) -> impl Iterator<Item = Exchange<M::Scalar>> + Clone {
-        let pairs = (0..M::V::COUNT).flat_map(|input| (0..M::U::COUNT).map(move |unknown| (unknown, input)));
+        let (u, v) = self.exchanges.dims();
+        let pairs = (0..v.count()).flat_map(move |input| (0..u.count()).map(move |unknown| (unknown, input)));
         pairs.filter_map(|(unknown, input)| {
             let sigma_min = self.exchanges[(unknown, input)];
             let exchange = Exchange { unknown: M::UNKNOWNS[unknown], input: M::INPUTS[input], sigma_min };
@@ -383,7 +391,7 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
             M::NAME,
             to_f64(self.determinant),
             self.rank,
-            M::U::COUNT,
+            self.count(),
             to_f64(self.sigma_min)
         )?;
         for group in self.groups() {
@@ -396,7 +404,7 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
         }
         if self.admissible_count == 0 {
             writeln!(f, "no input can move")?;
-        } else if self.admissible_count < M::V::COUNT {
+        } else if self.admissible_count < self.admissible.dims().1.count() {
             for admissible in self.admissible() {
                 write!(f, "admissible:")?;
                 rates(f, M::INPUTS, admissible.iter())?;

@@ -8,7 +8,7 @@ use crate::jacobian::ulp::ulps;
 use crate::mechanism::{finite_position, other_group};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
-use crate::{Column, D, InputError, Mechanism, PerInput, PerUnknown, PositionError, newton_any_branch, real};
+use crate::{D, Dim, InputError, Mechanism, PerInput, PerUnknown, PositionError, newton_any_branch, real};
 
 /// Positions of a mechanism with one input at `N` evenly spaced inputs, interpolated by cubic Hermite polynomials whose
 /// slopes are the velocity ratios. The table stores 2 `U` `N` numbers.
@@ -76,7 +76,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
             input,
             step,
             inverse_step: M::Scalar::one() / step,
-            entries: [[Column::zeros(); 2]; N],
+            entries: [[mechanism.dims().0.zeros(); 2]; N],
             advance: None,
             error: M::Scalar::zero(),
         };
@@ -130,7 +130,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     #[inline]
     fn cubic(&self, index: usize, t: M::Scalar) -> PerUnknown<M> {
         let ([u0, s0], [u1, s1]) = (&self.entries[index], &self.entries[index + 1]);
-        Column::from_fn(|row| {
+        u0.dim().column(|row| {
             let (way, sum) = (u1[row] - u0[row], s0[row] + s1[row]);
             let cubic = sum - way - way;
             u0[row] + t * (s0[row] + t * ((way - s0[row] - cubic) + t * cubic))

@@ -79,8 +79,13 @@ where
     const GROUPS: &'static [Group] = M::GROUPS;
     const RANGES: &'static [&'static str] = M::RANGES;
 
+    fn dims(&self) -> (M::U, D<1>, M::G) {
+        let (u, _, g) = self.mechanism.dims();
+        (u, D, g)
+    }
+
     fn coordinates(unknowns: PerUnknown<M>, inputs: PerInput<Self>) -> Self::Coordinates {
-        AlongCoordinates { q: M::coordinates(unknowns, PerInput::<M>::zeros()), parameter: inputs[0] }
+        AlongCoordinates { q: M::coordinates(unknowns, M::V::least().zeros()), parameter: inputs[0] }
     }
 
     fn parts(at: &Self::Coordinates) -> (PerUnknown<M>, PerInput<Self>) {
@@ -88,7 +93,7 @@ where
     }
 
     fn rates(unknowns: PerUnknown<M>, inputs: PerInput<Self>) -> Self::Rates {
-        AlongRates { rates: M::rates(unknowns, PerInput::<M>::zeros()), parameter: inputs[0] }
+        AlongRates { rates: M::rates(unknowns, M::V::least().zeros()), parameter: inputs[0] }
     }
 
     fn rate_parts(along: &Self::Rates) -> (PerUnknown<M>, PerInput<Self>) {
@@ -125,7 +130,7 @@ where
     }
 
     fn jacobian_inputs(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, D<1>> {
-        Matrix::from_columns([self.mechanism.jacobian_inputs(&at.pose) * at.slope].into())
+        self.dims().0.columns([self.mechanism.jacobian_inputs(&at.pose) * at.slope].into())
     }
 
     fn jacobian_unknowns_scales(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, M::U> {
@@ -133,7 +138,7 @@ where
     }
 
     fn jacobian_inputs_scales(&self, at: &Self::Pose) -> Matrix<M::Scalar, M::U, D<1>> {
-        Matrix::from_columns([self.mechanism.jacobian_inputs_scales(&at.pose) * at.slope.abs()].into())
+        self.dims().0.columns([self.mechanism.jacobian_inputs_scales(&at.pose) * at.slope.abs()].into())
     }
 
     fn determinant(&self, at: &Self::Pose) -> M::Scalar {

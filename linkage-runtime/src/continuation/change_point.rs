@@ -21,7 +21,7 @@ use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{Cholesky, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::largest;
-use crate::{Column, D, Dim, Matrix, Mechanism, PathError, PerInput, PerUnknown, real};
+use crate::{Column, D, Dim, Matrix, Mechanism, PathError, PerUnknown, real};
 
 /// The most Newton steps; a search from the path takes three to five.
 const MOST_ITERATIONS: usize = 12;
@@ -104,7 +104,7 @@ where
         reach: M::Scalar,
         direction: &Vector<M>,
     ) -> Result<Option<Crossing<M>>, PathError> {
-        let (at, none) = (self.linear(guess)?, Held::<M>::repeat(None));
+        let (at, none) = (self.linear(guess)?, self.mechanism.dims().0.repeat(None));
         // A simple crossing first; then one with the rank deficiency that the pivots suggest.
         let likely = Elimination::<M>::new(at.jacobian).count_after_largest_drop();
         for open in [1, likely].into_iter().take(if likely == 1 { 1 } else { 2 }) {
@@ -165,7 +165,7 @@ where
                 groups.insert(place);
             }
         }
-        let mut tangents = [Vector::<M>::zero(); MOST_TANGENTS];
+        let mut tangents = [Vector::<M>::zero(self.dims()); MOST_TANGENTS];
         tangents[0] = tangent;
         let touch = Some(Touch { groups, tangents: lines });
         let groups = self.singular_groups(&q);
@@ -180,8 +180,9 @@ where
         reach: M::Scalar,
         held: &Held<M>,
     ) -> Result<Option<M::Coordinates>, PathError> {
-        let mut inner = (0..M::U::COUNT + 1).filter(|column| !held.iter().any(|held| *held == Some(*column)));
-        let outside = Held::<M>::from_fn(|row| if held[row].is_none() { inner.next() } else { None });
+        let (u, ..) = self.mechanism.dims();
+        let mut inner = (0..u.count() + 1).filter(|column| !held.iter().any(|held| *held == Some(*column)));
+        let outside = u.column(|row| if held[row].is_none() { inner.next() } else { None });
         let Some(last) = inner.next() else { return Ok(None) };
         let mut q = *guess;
         for _ in 0..MOST_ITERATIONS {
@@ -210,33 +211,32 @@ where
     /// For each equation outside the part that N combines, a coordinate that this part does not contain; `None` if the part
     /// is the whole, or its equations do not leave one coordinate free.
     fn held(&self, q: &M::Coordinates, elimination: &Elimination<M>) -> Result<Option<Held<M>>, PathError> {
-        let unit =
-            |row| PerUnknown::<M>::from_fn(|other| if other == row { M::Scalar::one() } else { M::Scalar::zero() });
-        let weights = PerUnknown::<M>::from_fn(|row| elimination.left_null_product(&unit(row)).sum().abs());
+        let (u, v, _) = self.mechanism.dims();
+        let weights = u.column(|row| elimination.left_null_product(&u.unit(row)).sum().abs());
         let mut rows = weights.map(|weight| weight > weights.largest() * real(LEAST_WEIGHT));
         // At an irregular position nearby no entry is zero by chance.
         let apart = |place: usize| real::<M::Scalar>(f64::sin(1.0 + place as f64));
         let aside = Vector::<M> {
-            unknowns: PerUnknown::<M>::from_fn(apart),
-            inputs: PerInput::<M>::from_fn(|_| apart(M::U::COUNT)),
+            unknowns: u.column(apart),
+            inputs: v.column(|_| apart(u.count())),
         };
         // Some equations have no value there.
         let Ok(at) = self.linear(&self.moved(q, &aside)) else { return Ok(None) };
         let contains = |row: usize, column: usize| !at.jacobian.entry(row, column).is_zero();
-        let columns = 0..M::U::COUNT + 1;
+        let columns = 0..u.count() + 1;
         let in_part =
-            |rows: &Column<bool, M::U>, column: usize| (0..M::U::COUNT).any(|row| rows[row] && contains(row, column));
+            |rows: &Column<bool, M::U>, column: usize| (0..u.count()).any(|row| rows[row] && contains(row, column));
         // Equations without other coordinates belong to it, too.
         let found = rows;
-        for row in 0..M::U::COUNT {
+        for row in 0..u.count() {
             rows[row] |= columns.clone().all(|column| !contains(row, column) || in_part(&found, column));
         }
         let count = rows.iter().filter(|&&is_part| is_part).count();
-        if count == M::U::COUNT || columns.clone().filter(|&column| in_part(&rows, column)).count() != count + 1 {
+        if count == u.count() || columns.clone().filter(|&column| in_part(&rows, column)).count() != count + 1 {
             return Ok(None);
         }
         let mut others = columns.filter(|&column| !in_part(&rows, column));
-        Ok(Some(Held::<M>::from_fn(|row| if rows[row] { None } else { others.next() })))
+        Ok(Some(u.column(|row| if rows[row] { None } else { others.next() })))
     }
 
     /// Psi and [J A] of a part of the mechanism: the coordinates of the other equations are held.
@@ -314,15 +314,16 @@ where
         part: &Vector<M>,
     ) -> Option<Vector<M>> {
         let count = elimination.free().count();
-        if count > M::U::COUNT {
+        let (u, ..) = self.mechanism.dims();
+        if count > u.count() {
             return None;
         }
-        let mut normal = with_units_from::<M>(count, Matrix::zeros());
-        let mut right = PerUnknown::<M>::zeros();
+        let mut normal = with_units_from::<M>(count, u.zero_matrix(u));
+        let mut right = u.zeros();
         for column in elimination.free() {
             let along = elimination.null_vector(column);
             let slopes = elimination.slope(column) + self.mixed(q, elimination, part, &along);
-            let mut turns = Matrix::<M::Scalar, M::U, M::U>::zeros();
+            let mut turns = u.zero_matrix(u);
             for (place, other) in elimination.free().enumerate() {
                 turns.set_column(place, self.mixed(q, elimination, &elimination.null_vector(other), &along));
             }
@@ -337,7 +338,7 @@ where
         }
         let solution = cholesky.solve(&right);
         let parts = elimination.free().zip(solution.iter());
-        Some(parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null_vector(column) * part))
+        Some(parts.fold(Vector::<M>::zero(self.dims()), |sum, (column, &part)| sum + elimination.null_vector(column) * part))
     }
 
     /// True if N Psi and its slopes are zero.
@@ -360,7 +361,7 @@ where
         if !self.is_crossing(&at, &elimination) {
             return Ok(None);
         }
-        let mut tangents = [Vector::<M>::zero(); MOST_TANGENTS];
+        let mut tangents = [Vector::<M>::zero(self.dims()); MOST_TANGENTS];
         let (mut count, mut is_complete) = (0, false);
         if defect < DIMENSIONS {
             let cone = self.cone(&q, &elimination, direction);
@@ -419,7 +420,8 @@ where
         let slopes = at.jacobian.along(direction);
         let mut tangent = (*direction + elimination.solve(&-slopes)).normalized();
         let count = elimination.free().count();
-        if count > M::U::COUNT || !tangent.is_finite() {
+        let (u, ..) = self.mechanism.dims();
+        if count > u.count() || !tangent.is_finite() {
             return None;
         }
         for _ in 0..MOST_ITERATIONS {
@@ -427,19 +429,19 @@ where
             if values.largest() <= ulps(EQUAL_ULPS) {
                 break;
             }
-            let mut turns = Matrix::<M::Scalar, M::U, M::U>::zeros();
-            let mut along = PerUnknown::<M>::zeros();
+            let mut turns = u.zero_matrix(u);
+            let mut along = u.zeros();
             for (place, column) in elimination.free().enumerate() {
                 let null = elimination.null_vector(column);
                 along[place] = null.dot(&tangent);
                 turns.set_column(place, self.mixed(q, elimination, &tangent, &null) * real(2.0));
             }
-            let products = Matrix::from_fn(|row, column| along[row] * along[column]);
+            let products = u.matrix(u, |row, column| along[row] * along[column]);
             let normal = with_units_from::<M>(count, turns.tr_mul_matrix(&turns) + products);
             let solution = Cholesky::new(&normal)?.solve(&-turns.tr_mul(&values));
             let parts = elimination.free().zip(solution.iter());
             let step =
-                parts.fold(Vector::<M>::zero(), |sum, (column, &part)| sum + elimination.null_vector(column) * part);
+                parts.fold(Vector::<M>::zero(self.dims()), |sum, (column, &part)| sum + elimination.null_vector(column) * part);
             tangent = (tangent + step).normalized();
         }
         let left = self.mixed(q, elimination, &tangent, &tangent).largest();
@@ -459,7 +461,7 @@ fn with_units_from<M: Mechanism>(
     count: usize,
     mut normal: Matrix<M::Scalar, M::U, M::U>,
 ) -> Matrix<M::Scalar, M::U, M::U> {
-    for unused in count..M::U::COUNT {
+    for unused in count..normal.dims().0.count() {
         normal[(unused, unused)] = M::Scalar::one();
     }
     normal

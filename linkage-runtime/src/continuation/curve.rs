@@ -43,6 +43,11 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         Self { mechanism, scales }
     }
 
+    /// The numbers of unknowns and inputs.
+    pub(super) fn dims(&self) -> (M::U, D<1>) {
+        (self.mechanism.dims().0, D)
+    }
+
     /// q + `by`, where `by` is nondimensional.
     pub(super) fn moved(&self, q: &M::Coordinates, by: &Vector<M>) -> M::Coordinates {
         let Vector::<M> { unknowns, inputs } = coordinates::<M>(q) + by.scaled(&self.scales.coordinates);

@@ -252,7 +252,7 @@ where
 
     /// Gives a place exactly this input and corrects the other coordinates, unless the input is at rest.
     pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError> {
-        self.with_exact(place, M::U::COUNT, input)
+        self.with_exact(place, self.mechanism.dims().0.count(), input)
     }
 
     /// Gives a place exactly this value of a coordinate, by its column in [J A], and corrects the others, unless it is at
@@ -260,7 +260,7 @@ where
     pub(super) fn with_exact(&self, place: Place<M>, column: usize, value: M::Scalar) -> Result<Place<M>, PathError> {
         let q = Self::with_coordinate(&place.q, column, value);
         let moves = place.tangent.get(column).abs() > nearly_zero() && place.regularity > nearly_zero();
-        if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(column))? {
+        if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(place.tangent.dims(), column))? {
             return Ok(self.place(q, &elimination, &place.tangent));
         }
         Ok(Place { q, ..place })

@@ -1,7 +1,7 @@
 //! Paths of the inputs of a mechanism by one parameter.
 
 use crate::scalar::arithmetic::*;
-use crate::{InputError, Mechanism, PerInput};
+use crate::{Dim, InputError, Mechanism, PerInput};
 
 /// The inputs of a mechanism as functions v(s) of one parameter.
 ///
@@ -58,8 +58,9 @@ where
     fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
         let held: PerInput<M> = self.held.into();
         let unit = |place: usize| if place == INPUT { M::Scalar::one() } else { M::Scalar::zero() };
-        let inputs = PerInput::<M>::from_fn(|place| if place == INPUT { parameter } else { held[place] });
-        [inputs, PerInput::<M>::from_fn(unit), PerInput::<M>::zeros()]
+        let v = held.dim();
+        let inputs = v.column(|place| if place == INPUT { parameter } else { held[place] });
+        [inputs, v.column(unit), v.zeros()]
     }
 
     fn length_scale(mechanism: &M, pose: &M::Pose) -> M::Scalar {
@@ -83,7 +84,7 @@ impl<M: Mechanism> InputPath<M> for Line<M::Inputs> {
     fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
         let [from, to]: [PerInput<M>; 2] = [self.from.into(), self.to.into()];
         let inputs = from * (M::Scalar::one() - parameter) + to * parameter;
-        [inputs, to - from, PerInput::<M>::zeros()]
+        [inputs, to - from, from.dim().zeros()]
     }
 
     fn range(&self) -> Result<Option<[M::Scalar; 2]>, InputError> {

@@ -62,7 +62,7 @@ where
     /// Gives a place at an end of a range exactly this value, if a coordinate has the range.
     pub(super) fn at_joint_end(&self, place: Place<M>, joint: &JointEnd<M::Scalar>) -> Result<Place<M>, PathError> {
         let column = M::UNKNOWNS.iter().chain(M::INPUTS).position(|name| *name == joint.of);
-        let Some(column) = column.filter(|column| *column <= M::U::COUNT) else { return Ok(place) };
+        let Some(column) = column.filter(|column| *column <= self.mechanism.dims().0.count()) else { return Ok(place) };
         let (unknowns, inputs) = M::parts(&place.q);
         let value = unknowns.iter().chain(&inputs).nth(column).copied();
         // An angle keeps its turns.

@@ -423,7 +423,7 @@ impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
                 Direction::Along(rates) => Some(rates),
                 Direction::Increasing | Direction::Decreasing => None,
             };
-            let along = rates.map_or(Vector::<M>::zero(), |rates| self.direction(&rates));
+            let along = rates.map_or(Vector::<M>::zero(self.dims()), |rates| self.direction(&rates));
             if let Some(crossing) = self.crossing(&q, nearly_zero(), &along)? {
                 let group = crossing.groups.first();
                 let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: M::NAME, group }) };

@@ -109,7 +109,7 @@ where
             (tangent, orientation) = (*forward, M::Scalar::zero());
         }
         let [determinants, slopes] = self.determinants_along(&q, &tangent);
-        let (bend, last_but_one) = (Vector::<M>::zero(), elimination.last_but_one());
+        let (bend, last_but_one) = (Vector::<M>::zero(self.dims()), elimination.last_but_one());
         Place { q, tangent, bend, orientation, determinants, slopes, regularity, last_but_one }
     }
 
@@ -168,7 +168,7 @@ where
         to: &Place<M>,
         length: M::Scalar,
     ) -> Result<Option<M::Scalar>, PathError> {
-        if M::U::COUNT < 2 {
+        if self.mechanism.dims().0.count() < 2 {
             return Ok(None);
         }
         let sum = from.last_but_one + to.last_but_one;
@@ -218,7 +218,7 @@ where
         Place {
             q: crossing.q,
             tangent,
-            bend: Vector::<M>::zero(),
+            bend: Vector::<M>::zero(self.dims()),
             orientation,
             determinants,
             slopes,

@@ -40,8 +40,9 @@ pub fn contraction<T: Real, C: Dim>(
     count: usize,
 ) -> Option<Column<T, C>> {
     let least = real::<T>(LEAST_PIVOT_ULPS) * T::default_epsilon();
-    let identity = Matrix::<T, C, C>::identity();
-    let mut matrix = Matrix::<T, C, C>::from_fn(|row, column| identity[(row, column)] - gain[(row, column)]);
+    let (c, _) = gain.dims();
+    let identity = c.identity::<T>();
+    let mut matrix = c.matrix(c, |row, column| identity[(row, column)] - gain[(row, column)]);
     for step in 0..count {
         let pivot = matrix[(step, step)];
         let is_positive = pivot > least && pivot.is_finite();

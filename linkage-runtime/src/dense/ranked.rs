@@ -28,9 +28,10 @@ impl<T: Real, C: Dim> Ranked<T, C> {
 
     fn new(matrix: &Matrix<T, C, C>, (order, count): (&Column<usize, C>, usize), tolerance: T, exchange: bool) -> Self {
         let mut order = *order;
-        let (mut lower, mut pivots) = (Matrix::zeros(), Column::zeros());
+        let (c, _) = matrix.dims();
+        let (mut lower, mut pivots) = (c.zero_matrix(c), c.zeros());
         // The diagonal after the elimination of the rows taken.
-        let mut remaining: Column<T, C> = Column::from_fn(|row| matrix[(row, row)]);
+        let mut remaining = matrix.diagonal();
         let mut rank = 0;
         while rank < count {
             // A row of zeros counts as dependent.
@@ -66,7 +67,7 @@ impl<T: Real, C: Dim> Ranked<T, C> {
     /// Solves A x = `side` for the independent rows; both are indexed in pivot order.
     #[inline]
     pub fn solve(&self, side: impl Fn(usize) -> T) -> Column<T, C> {
-        let mut x = Column::zeros();
+        let mut x = self.pivots.dim().zeros();
         for place in 0..self.rank {
             let row = self.order[place];
             x[place] = (0..place).fold(side(row), |sum, before| sum - self.lower[(row, before)] * x[before]);
@@ -80,7 +81,7 @@ impl<T: Real, C: Dim> Ranked<T, C> {
     /// Returns the coefficients of a row as a combination of the independent rows, in pivot order.
     #[inline]
     pub fn combination(&self, place: usize) -> Column<T, C> {
-        let mut x = Column::zeros();
+        let mut x = self.pivots.dim().zeros();
         if place < self.rank {
             x[place] = T::one();
             return x;

@@ -15,7 +15,7 @@ use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::{
-    Column, Dim, Kinematic, Mechanism, OutputMotion, PathError, PerInput, PointMotion, PositionError, Real, real,
+    Dim, Kinematic, Mechanism, OutputMotion, PathError, PointMotion, PositionError, Real, real,
 };
 
 /// The most turns that are searched with 360 steps each; a longer range has longer steps.
@@ -329,11 +329,11 @@ fn along_tangent<M: Driven>(
     let [_, slope, _] = range.mechanism().inputs_at(input);
     let (m, position) = (range.driven(), range.mechanism().position_of(&near));
     let (pose, rates) = (m.pose_at(&position), M::Of::rates(unknown_rates, slope * along[0]));
-    let accelerations = M::Of::accelerations(Column::zeros(), PerInput::<M::Of>::zeros());
+    let accelerations = M::Of::accelerations(unknown_rates.dim().zeros(), slope.dim().zeros());
     let points = M::Of::each_point(m.points(&pose)?);
     let velocities = M::Of::each_point(m.point_velocities(&pose, &rates)?);
     let centripetal = M::Of::each_point(m.point_accelerations(&pose, &rates, &accelerations)?);
-    let points = <M::Of as Kinematic>::P::array(|at| PointMotion {
+    let points = velocities.dim().array(|at| PointMotion {
         position: points[at],
         velocity: velocities[at],
         acceleration: centripetal[at],
@@ -341,7 +341,7 @@ fn along_tangent<M: Driven>(
     let values = M::Of::each_output(m.outputs(&pose)?);
     let output_rates = M::Of::each_output(m.output_rates(&pose, &rates)?);
     let bends = M::Of::each_output(m.output_accelerations(&pose, &rates, &accelerations)?);
-    let outputs = <M::Of as Kinematic>::O::array(|at| OutputMotion {
+    let outputs = values.dim().array(|at| OutputMotion {
         value: values[at],
         rate: output_rates[at],
         acceleration: bends[at],

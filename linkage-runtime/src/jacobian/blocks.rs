@@ -4,7 +4,7 @@ use super::scales::scale_or_one;
 use super::{EliminationOf, Jacobian};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, largest, relative, smallest};
-use crate::{Column, Group, Matrix, Mechanism, PerUnknown};
+use crate::{Column, Dim, Group, Matrix, Mechanism, PerUnknown};
 
 /// The diagonal blocks of J, one for each group.
 pub struct Blocks<M: Mechanism> {
@@ -14,6 +14,8 @@ pub struct Blocks<M: Mechanism> {
     /// The scales of the residuals: the sums of the magnitudes of their terms.
     residual_scales: PerUnknown<M>,
     determinants: Column<M::Scalar, M::G>,
+    /// The number of inputs.
+    inputs: M::V,
 }
 
 impl<M: Mechanism> Blocks<M> {
@@ -24,7 +26,13 @@ impl<M: Mechanism> Blocks<M> {
             scales: mechanism.jacobian_unknowns_scales(pose),
             residual_scales: mechanism.residual_scales(pose),
             determinants: mechanism.block_determinants(pose),
+            inputs: mechanism.dims().1,
         }
+    }
+
+    /// The number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.residual_scales.dim().count()
     }
 
     /// The determinants of the blocks.
@@ -46,7 +54,7 @@ impl<M: Mechanism> Blocks<M> {
             }
             _ => {
                 let unknowns = self.equilibrated(members, M::Scalar::one());
-                let pivots = EliminationOf::<M>::new(Jacobian { unknowns, inputs: Matrix::zeros() }).pivots();
+                let pivots = EliminationOf::<M>::new(Jacobian { unknowns, inputs: unknowns.dims().0.zero_matrix(self.inputs) }).pivots();
                 return smallest(pivots);
             }
         };
@@ -72,7 +80,7 @@ impl<M: Mechanism> Blocks<M> {
     /// `diagonal` times the identity.
     pub fn equilibrated(&self, group: &Group, diagonal: M::Scalar) -> Matrix<M::Scalar, M::U, M::U> {
         let rows = self.residual_scales.map(scale_or_one);
-        let mut matrix = Matrix::identity() * diagonal;
+        let mut matrix = self.jacobian.dims().0.identity() * diagonal;
         for (column, &unknown) in group.unknowns.iter().enumerate() {
             let possible = group.equations.iter().map(|&row| self.scales.part(row, unknown) / rows.part(row));
             let scale = scale_or_one(largest(possible));

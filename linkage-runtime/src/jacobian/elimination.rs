@@ -34,8 +34,8 @@ pub struct Elimination<T: Real, U: Dim, V: Dim> {
 }
 
 impl<U: Dim> Order<U> {
-    fn none() -> Self {
-        Self { rows: Column::from_fn(|row| row), columns: Column::repeat(usize::MAX), pivots: 0 }
+    fn none(u: U) -> Self {
+        Self { rows: u.column(|row| row), columns: u.repeat(usize::MAX), pivots: 0 }
     }
 
     /// The columns of the pivots.
@@ -43,9 +43,9 @@ impl<U: Dim> Order<U> {
         self.columns.as_slice().get(..self.pivots).unwrap_or_default()
     }
 
-    /// The columns without a pivot: the independent coordinates.
-    pub fn free<V: Dim>(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..U::COUNT + V::COUNT).filter(|column| !self.dependent().contains(column))
+    /// The columns without a pivot, with so many inputs: the independent coordinates.
+    pub fn free<V: Dim>(&self, v: V) -> impl Iterator<Item = usize> + '_ {
+        (0..self.rows.dim().count() + v.count()).filter(|column| !self.dependent().contains(column))
     }
 
     fn open_rows(&self) -> &[usize] {
@@ -66,6 +66,11 @@ impl<U: Dim> Order<U> {
 }
 
 impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
+    fn begin(jacobian: Jacobian<T, U, V>) -> Self {
+        let (u, _) = jacobian.dims();
+        Self { jacobian, lower: u.zero_matrix(u), order: Order::none(u) }
+    }
+
     /// Eliminates with all pivots.
     pub fn new(jacobian: Jacobian<T, U, V>) -> Self {
         Self::all_but(0, jacobian)
@@ -73,8 +78,8 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
 
     /// Eliminates with all pivots but the last `open`, so that `open` rows have none.
     pub fn all_but(open: usize, jacobian: Jacobian<T, U, V>) -> Self {
-        let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
-        while elimination.order.pivots + open < U::COUNT {
+        let mut elimination = Self::begin(jacobian);
+        while elimination.order.pivots + open < elimination.rows() {
             elimination.eliminate_largest(&|_| true);
         }
         elimination
@@ -82,9 +87,10 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
 
     /// Eliminates with pivots in columns of unknowns and of inputs that are not held; held inputs stay independent.
     pub fn holding(held: &Column<bool, V>, jacobian: Jacobian<T, U, V>) -> Self {
-        let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
-        while elimination.order.pivots < U::COUNT {
-            elimination.eliminate_largest(&|column| column < U::COUNT || !held[column - U::COUNT]);
+        let mut elimination = Self::begin(jacobian);
+        let rows = elimination.rows();
+        while elimination.order.pivots < rows {
+            elimination.eliminate_largest(&|column| column < rows || !held[column - rows]);
         }
         elimination
     }
@@ -101,13 +107,18 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     }
 
     fn with_accepted_pivots(order: &Order<U>, jacobian: Jacobian<T, U, V>, is_accepted: impl Fn(T) -> bool) -> Self {
-        let mut elimination = Self { jacobian, lower: Matrix::zeros(), order: Order::none() };
+        let mut elimination = Self::begin(jacobian);
         for (&row, &column) in order.rows.iter().zip(order.dependent()) {
             if is_accepted(elimination.entry(row, column)) {
                 elimination.eliminate(row, column);
             }
         }
         elimination
+    }
+
+    /// The number of rows, that of the unknowns.
+    fn rows(&self) -> usize {
+        self.jacobian.dims().0.count()
     }
 
     /// The rows and columns of the pivots.
@@ -118,17 +129,17 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     /// The pivots, which decrease with complete pivoting; zero for open rows.
     pub fn pivots(&self) -> Column<T, U> {
         let places = self.order.rows.iter().zip(self.order.dependent());
-        Column::from_iterator(places.map(|(&row, &column)| self.entry(row, column)))
+        self.order.rows.dim().padded(places.map(|(&row, &column)| self.entry(row, column)))
     }
 
     /// The last pivot divided by the first: 0 where [J A] loses rank.
     pub fn regularity(&self) -> T {
-        self.relative_pivot(U::COUNT.checked_sub(1))
+        self.relative_pivot(self.rows().checked_sub(1))
     }
 
     /// The last but one pivot divided by the first: 0 where the rank deficiency of [J A] is at least two.
     pub fn last_but_one(&self) -> T {
-        self.relative_pivot(U::COUNT.checked_sub(2))
+        self.relative_pivot(self.rows().checked_sub(2))
     }
 
     /// A pivot divided by the first; 1 if the pivot does not exist.
@@ -151,10 +162,10 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     pub fn count_after_largest_drop(&self) -> usize {
         let pivots = self.pivots();
         let mut widest = (T::one(), 1);
-        for next in 1..U::COUNT {
+        for next in 1..self.rows() {
             let share = (pivots[next] / pivots[next - 1]).abs();
             if share < widest.0 {
-                widest = (share, U::COUNT - next);
+                widest = (share, self.rows() - next);
             }
         }
         widest.1
@@ -162,30 +173,34 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
 
     /// The columns without a pivot.
     pub fn free(&self) -> impl Iterator<Item = usize> + '_ {
-        self.order.free::<V>()
+        self.order.free(self.jacobian.dims().1)
     }
 
     /// The rows without a pivot, in the order of [J A].
     pub fn open_rows(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..U::COUNT).filter(|row| self.order.open_rows().contains(row))
+        (0..self.rows()).filter(|row| self.order.open_rows().contains(row))
+    }
+
+    fn zero(&self) -> Vector<T, U, V> {
+        Vector::zero(self.jacobian.dims())
     }
 
     /// The unit vector with these parts along the null vectors of the free columns.
     pub fn in_null_space(&self, parts: impl Iterator<Item = T>) -> Vector<T, U, V> {
         let sum =
-            self.free().zip(parts).fold(Vector::zero(), |sum, (column, part)| sum + self.null_vector(column) * part);
+            self.free().zip(parts).fold(self.zero(), |sum, (column, part)| sum + self.null_vector(column) * part);
         sum.normalized()
     }
 
     /// The vector x that is 1 at this free column and 0 at the others, with [J A] x = 0 in the rows with a pivot.
     pub fn null_vector(&self, free: usize) -> Vector<T, U, V> {
-        self.back_substituted(Vector::unit(free), |row| -self.entry(row, free))
+        self.back_substituted(Vector::unit(self.jacobian.dims(), free), |row| -self.entry(row, free))
     }
 
     /// Solves [J A] x = `right` in the rows with a pivot, with x zero in the free columns.
     pub fn solve(&self, right: &Column<T, U>) -> Vector<T, U, V> {
         let reduced = self.forward_substituted(right);
-        self.back_substituted(Vector::zero(), |row| reduced[row])
+        self.back_substituted(self.zero(), |row| reduced[row])
     }
 
     /// The products of the left null vectors and `right`, L^-1 `right`, in the open rows; zero in the others.
@@ -199,7 +214,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
     pub fn left_null_error(&self, noise: &Column<T, U>) -> Column<T, U> {
         self.in_open_rows(|row| {
             // The row of the inverse of L.
-            let mut inverse = Column::<T, U>::unit(row);
+            let mut inverse = noise.dim().unit(row);
             for (step, &row) in self.order.rows.iter().take(self.order.pivots).enumerate().rev() {
                 let below = self.order.rows.iter().skip(step + 1);
                 let sum = below.fold(T::zero(), |sum, &below| sum + inverse.part(below) * self.lower.part(below, step));
@@ -219,14 +234,13 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
 
     fn in_open_rows(&self, value: impl Fn(usize) -> T) -> Column<T, U> {
         let open = self.order.open_rows();
-        Column::from_fn(|row| if open.contains(&row) { value(row) } else { T::zero() })
+        self.order.rows.dim().column(|row| if open.contains(&row) { value(row) } else { T::zero() })
     }
 
     fn entry(&self, row: usize, column: usize) -> T {
-        if column < U::COUNT {
-            self.jacobian.unknowns.part(row, column)
-        } else {
-            self.jacobian.inputs.part(row, column - U::COUNT)
+        match column.checked_sub(self.rows()) {
+            None => self.jacobian.unknowns.part(row, column),
+            Some(input) => self.jacobian.inputs.part(row, input),
         }
     }
 
@@ -306,18 +320,18 @@ impl<T: Real, U: Dim> Elimination<T, U, D<1>> {
     pub fn orientation(&self, tangent: &Vector<T, U, D<1>>) -> T {
         let free = self.first_free();
         // The sign of the permutation from rows to columns, the tangent's row with the free column.
-        let mut columns = Column::<usize, U>::repeat(free);
+        let mut columns = self.order.rows.dim().repeat(free);
         for (&row, &column) in self.order.rows.iter().zip(self.order.dependent()) {
             columns[row] = column;
         }
         let column = |row: usize| columns.as_slice().get(row).copied().unwrap_or(free);
-        let odd = (0..=U::COUNT).flat_map(|row| (0..row).map(move |above| (above, row)));
+        let odd = (0..=self.rows()).flat_map(|row| (0..row).map(move |above| (above, row)));
         let is_odd = odd.filter(|&(above, row)| column(above) > column(row)).count() % 2 == 1;
         let volume = self.pivots().iter().fold(tangent.dot(&self.null_vector(free)), |volume, &pivot| volume * pivot);
         if is_odd { -volume } else { volume }
     }
 
     fn first_free(&self) -> usize {
-        self.free().next().unwrap_or(U::COUNT)
+        self.free().next().unwrap_or(self.rows())
     }
 }

@@ -34,7 +34,7 @@ impl<T: Real, U: Dim, V: Dim> Scales<T, U, V> {
         let by_inputs = mechanism.jacobian_inputs_scales(pose);
         let terms = mechanism.residual_scales(pose);
         // The scale of a residual is its largest derivative by an angle, or without angles the sum of its terms.
-        let residuals = Column::from_fn(|row| {
+        let residuals = terms.dim().column(|row| {
             let of_unknowns = of_angles(&by_unknowns.row(row), M::UNKNOWN_ANGLES);
             let of_angles = larger(of_unknowns, of_angles(&by_inputs.row(row), M::INPUT_ANGLES));
             scale_or_one(if of_angles.is_zero() { terms.part(row) } else { of_angles })
@@ -63,6 +63,12 @@ impl<T: Real, U: Dim, V: Dim> Jacobian<T, U, V> {
         self.unknowns * vector.unknowns + self.inputs * vector.inputs
     }
 
+    /// The numbers of unknowns and inputs.
+    #[inline]
+    pub fn dims(&self) -> (U, V) {
+        self.inputs.dims()
+    }
+
     /// The magnitudes of the entries.
     pub fn abs(&self) -> Self {
         Self { unknowns: self.unknowns.abs(), inputs: self.inputs.abs() }
@@ -70,13 +76,17 @@ impl<T: Real, U: Dim, V: Dim> Jacobian<T, U, V> {
 
     /// An entry; columns from `U` on are inputs.
     pub fn entry(&self, row: usize, column: usize) -> T {
-        if column < U::COUNT { self.unknowns[(row, column)] } else { self.inputs[(row, column - U::COUNT)] }
+        match column.checked_sub(self.dims().0.count()) {
+            None => self.unknowns[(row, column)],
+            Some(input) => self.inputs[(row, input)],
+        }
     }
 
     /// Fixes a coordinate: no equation depends on it.
     pub fn fix(&mut self, column: usize) {
-        for row in 0..U::COUNT {
-            match column.checked_sub(U::COUNT) {
+        let (u, _) = self.dims();
+        for row in 0..u.count() {
+            match column.checked_sub(u.count()) {
                 None => self.unknowns[(row, column)] = T::zero(),
                 Some(input) => self.inputs[(row, input)] = T::zero(),
             }
@@ -85,9 +95,10 @@ impl<T: Real, U: Dim, V: Dim> Jacobian<T, U, V> {
 
     /// Replaces an equation by one that holds a coordinate.
     pub fn hold(&mut self, row: usize, held: usize) {
-        for column in 0..U::COUNT + V::COUNT {
+        let (u, v) = self.dims();
+        for column in 0..u.count() + v.count() {
             let entry = if column == held { T::one() } else { T::zero() };
-            match column.checked_sub(U::COUNT) {
+            match column.checked_sub(u.count()) {
                 None => self.unknowns[(row, column)] = entry,
                 Some(input) => self.inputs[(row, input)] = entry,
             }
@@ -122,7 +133,7 @@ fn of_coordinates<T: Real, U: Dim, C: Dim>(
     free: T,
 ) -> Column<T, C> {
     let entries = largest_entries(sizes, residuals);
-    Column::from_fn(|place| match entries.part(place) {
+    entries.dim().column(|place| match entries.part(place) {
         _ if angles.get(place) == Some(&true) => T::one(),
         none if none.is_zero() => free,
         entry => entry.recip(),
@@ -134,5 +145,5 @@ fn relative_to<T: Real, U: Dim, C: Dim>(
     residuals: &Column<T, U>,
     coordinates: &Column<T, C>,
 ) -> Matrix<T, U, C> {
-    Matrix::from_fn(|row, column| matrix[(row, column)] * coordinates[column] / residuals[row])
+    residuals.dim().matrix(coordinates.dim(), |row, column| matrix[(row, column)] * coordinates[column] / residuals[row])
 }

@@ -11,7 +11,7 @@ use crate::{Column, Dim, Real};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default"))
 )]
 pub struct Vector<T: Real, U: Dim, V: Dim> {
     /// The components along the unknowns.
@@ -21,32 +21,41 @@ pub struct Vector<T: Real, U: Dim, V: Dim> {
 }
 
 impl<T: Real, U: Dim, V: Dim> Vector<T, U, V> {
-    /// The zero vector.
+    /// The zero vector, with so many unknowns and inputs.
     #[must_use]
-    pub fn zero() -> Self {
-        Self { unknowns: Column::zeros(), inputs: Column::zeros() }
+    pub fn zero((u, v): (U, V)) -> Self {
+        Self { unknowns: u.zeros(), inputs: v.zeros() }
     }
 
-    /// The unit vector of a coordinate, by its column in [J A]; columns from `U` on are inputs.
+    /// The unit vector of a coordinate, by its column in [J A]; columns from the number of unknowns on are inputs.
     #[must_use]
-    pub fn unit(column: usize) -> Self {
-        let mut vector = Self::zero();
+    pub fn unit(dims: (U, V), column: usize) -> Self {
+        let mut vector = Self::zero(dims);
         vector.set(column, T::one());
         vector
+    }
+
+    /// The numbers of unknowns and inputs.
+    #[inline]
+    #[must_use]
+    pub fn dims(&self) -> (U, V) {
+        (self.unknowns.dim(), self.inputs.dim())
     }
 
     /// Returns a coordinate, by its column in [J A].
     #[must_use]
     pub fn get(&self, column: usize) -> T {
-        if column < U::COUNT { self.unknowns[column] } else { self.inputs[column - U::COUNT] }
+        match column.checked_sub(self.unknowns.dim().count()) {
+            None => self.unknowns[column],
+            Some(input) => self.inputs[input],
+        }
     }
 
     /// Sets a coordinate, by its column in [J A].
     pub fn set(&mut self, column: usize, value: T) {
-        if column < U::COUNT {
-            self.unknowns[column] = value;
-        } else {
-            self.inputs[column - U::COUNT] = value;
+        match column.checked_sub(self.unknowns.dim().count()) {
+            None => self.unknowns[column] = value,
+            Some(input) => self.inputs[input] = value,
         }
     }
 

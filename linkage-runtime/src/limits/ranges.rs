@@ -10,7 +10,7 @@ use super::touch::in_turn_of;
 use crate::jacobian::{ScalesOf as Scales, first_zero};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
-use crate::{Column, Mechanism, PositionError, RangeEnd, Ranged, real};
+use crate::{Dim, Mechanism, PositionError, RangeEnd, Ranged, real};
 
 /// The most steps that narrow an interval to two neighbouring numbers.
 const NARROWINGS: usize = 80;
@@ -185,7 +185,7 @@ impl<M: Mechanism> Searched<'_, M> {
         let here = room(&sample.position);
         let pose = self.mechanism.pose_at(&sample.position);
         let by_inputs = self.mechanism.jacobian_inputs(&pose);
-        let by_input = by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(Column::zeros);
+        let by_input = by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(|| self.mechanism.dims().0.zeros());
         let Ok(slopes) = self.mechanism.solve_jacobian(&pose, &by_input) else {
             return [sample.input, here, unknown()];
         };

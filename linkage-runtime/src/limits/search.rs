@@ -207,7 +207,7 @@ impl<M: Mechanism> Searched<'_, M> {
             };
         }
         let (Some(after), Some(before)) = (after, before) else { return Ok(None) };
-        for group in 0..M::G::COUNT {
+        for group in 0..self.mechanism.dims().2.count() {
             let falls = after.determinant(group) < here.determinant(group);
             let rises = before.determinant(group) < there.determinant(group);
             if falls

@@ -9,7 +9,7 @@ use super::walk::Walked;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{EliminationOf as Elimination, Jacobian};
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, Matrix, Mechanism, PerUnknown, PositionError, Real, real};
+use crate::{Column, Dim, Mechanism, PerUnknown, PositionError, Real, real};
 
 /// The distances of positions from the input at which the motion stops, in the order in which they are found, divided by the
 /// range of the search. They are mirrored at the touch. The interpolation through all eight is exact up to the
@@ -33,7 +33,8 @@ impl<M: Mechanism> Searched<'_, M> {
     ) -> Result<Option<Sample<M>>, PositionError> {
         let Some(index) = M::GROUPS.iter().position(|other| other.name == group) else { return Ok(None) };
         let mut here = at;
-        let mut nodes = [(end, PerUnknown::<M>::zeros()); 2 * BEFORE];
+        let (u, ..) = self.mechanism.dims();
+        let mut nodes = [(end, u.zeros()); 2 * BEFORE];
         // The square root of the determinant is proportional to the distance.
         let mut roots = [M::Scalar::zero(); BEFORE];
         for ((node, root), distance) in nodes.iter_mut().zip(&mut roots).zip(DISTANCES) {
@@ -52,7 +53,7 @@ impl<M: Mechanism> Searched<'_, M> {
         let before = nodes;
         for (count, (mirrored, _)) in before.iter().take(BEFORE).rev().enumerate() {
             let input = touch + (touch - *mirrored);
-            let expected = interpolated(nodes.get(..BEFORE + count).unwrap_or_default(), input);
+            let expected = interpolated(u, nodes.get(..BEFORE + count).unwrap_or_default(), input);
             let Found::Assembled(found) = self.at(&M::with_unknowns(&position, expected), input)? else {
                 return Ok(None);
             };
@@ -61,7 +62,7 @@ impl<M: Mechanism> Searched<'_, M> {
             }
             beyond = Some(found);
         }
-        let middle = M::with_unknowns(&self.at_input(&position, touch), interpolated(&nodes, touch));
+        let middle = M::with_unknowns(&self.at_input(&position, touch), interpolated(u, &nodes, touch));
         Ok(beyond.filter(|_| self.is_position(&middle)))
     }
 
@@ -69,7 +70,8 @@ impl<M: Mechanism> Searched<'_, M> {
     /// but for N Psi, with the left null vector N. It is a position if N Psi is zero, up to what rounding can make of zero.
     fn is_position(&self, q: &M::Coordinates) -> bool {
         let pose = self.mechanism.pose_at(q);
-        let jacobian = Jacobian { unknowns: self.mechanism.jacobian_unknowns(&pose), inputs: Matrix::zeros() };
+        let (u, v, _) = self.mechanism.dims();
+        let jacobian = Jacobian { unknowns: self.mechanism.jacobian_unknowns(&pose), inputs: u.zero_matrix(v) };
         let elimination = Elimination::<M>::all_but(1, jacobian);
         let (residual, terms) = (self.mechanism.residual(&pose), self.mechanism.residual_scales(&pose));
         let height = elimination.left_null_product(&residual);
@@ -84,14 +86,14 @@ impl<M: Mechanism> Searched<'_, M> {
 pub(super) fn in_turn_of<M: Mechanism>(unknowns: PerUnknown<M>, others: &PerUnknown<M>) -> PerUnknown<M> {
     let turn = M::Scalar::two_pi();
     let each = unknowns.iter().zip(others).zip(M::UNKNOWN_ANGLES);
-    PerUnknown::<M>::from_iterator(each.map(|((&unknown, &other), &is_angle)| {
+    others.dim().padded(each.map(|((&unknown, &other), &is_angle)| {
         if is_angle { unknown + ((other - unknown) / turn).round() * turn } else { unknown }
     }))
 }
 
 /// The polynomial through these nodes, by Lagrange's formula.
-fn interpolated<T: Real, U: Dim>(nodes: &[(T, Column<T, U>)], at: T) -> Column<T, U> {
-    nodes.iter().enumerate().fold(Column::zeros(), |sum, (place, &(here, value))| {
+fn interpolated<T: Real, U: Dim>(u: U, nodes: &[(T, Column<T, U>)], at: T) -> Column<T, U> {
+    nodes.iter().enumerate().fold(u.zeros(), |sum, (place, &(here, value))| {
         let others = nodes.iter().enumerate().filter(|(other, _)| *other != place);
         let weight = others.fold(T::one(), |weight, (_, &(there, _))| weight * ((at - there) / (here - there)));
         sum + value * weight

@@ -2,7 +2,7 @@
 
 use super::searched::{Found, Sample, Searched};
 use crate::scalar::arithmetic::*;
-use crate::{Column, Mechanism, PositionError, real};
+use crate::{Dim, Mechanism, PositionError, real};
 
 /// The first step, divided by the range of the search. Each is at most twice as long as the one before.
 const FIRST: f64 = 1.0 / 1_048_576.0;
@@ -73,7 +73,7 @@ impl<M: Mechanism> Searched<'_, M> {
     pub(super) fn along(&self, from: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError> {
         let pose = self.mechanism.pose_at(&from.position);
         let by_inputs = self.mechanism.jacobian_inputs(&pose);
-        let by_input = by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(Column::zeros);
+        let by_input = by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(|| self.mechanism.dims().0.zeros());
         let unknowns = M::unknowns(&from.position);
         let guess = match self.mechanism.solve_jacobian(&pose, &by_input) {
             Ok(slopes) => unknowns - slopes * (input - from.input),

@@ -102,6 +102,6 @@ pub(super) fn motion_at<M: Kinematic>(
         rate: output_rates[place],
         acceleration: output_accelerations[place],
     };
-    let (points, outputs) = (<M::P as Dim>::array(point).into(), <M::O as Dim>::array(output).into());
+    let (points, outputs) = (points.dim().array(point).into(), outputs.dim().array(output).into());
     Ok(Motion { position: *q, rates, accelerations, points, outputs })
 }

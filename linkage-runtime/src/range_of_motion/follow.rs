@@ -12,7 +12,7 @@ use crate::jacobian::ulp::nearly_zero;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Mechanism, PathError, PerUnknown, real};
+use crate::{Dim, Mechanism, PathError, real};
 
 /// A position at which a step ended.
 pub(super) struct Step<M: Mechanism> {
@@ -163,7 +163,7 @@ fn has_counted<M: Driven>(mechanism: &M, position: &M::Coordinates, start: &M::C
     let ((unknowns, inputs), (from, first)) = (M::parts(position), M::parts(start));
     let turned = (unknowns.iter().zip(&from).zip(M::UNKNOWN_ANGLES))
         .map(|((to, from), is_angle)| if *is_angle { *from + whole(*to - *from) } else { *from });
-    let turned = M::coordinates(PerUnknown::<M>::from_iterator(turned), first + (inputs - first).map(whole));
+    let turned = M::coordinates(from.dim().padded(turned), first + (inputs - first).map(whole));
     (0..M::RANGES.len()).any(|place| {
         let [Some(one), Some(other)] = [start, &turned].map(|q| mechanism.ranged(place, q)) else { return false };
         let scale = [Some(one.value), Some(other.value), one.least, one.most].into_iter().flatten();

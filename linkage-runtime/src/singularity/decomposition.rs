@@ -19,11 +19,12 @@ pub(super) struct Decomposition<T: Real, N: Dim> {
 impl<T: Real, N: Dim> Decomposition<T, N> {
     /// Decomposes a matrix of finite numbers, none much larger than 1.
     pub(super) fn of<R: Dim>(matrix: Matrix<T, R, N>) -> Self {
-        let (mut columns, mut vectors) = (matrix, Matrix::<T, N, N>::identity());
+        let (_, n) = matrix.dims();
+        let (mut columns, mut vectors) = (matrix, n.identity());
         for _ in 0..MOST_SWEEPS {
             let mut is_done = true;
-            for first in 0..N::COUNT {
-                for second in first + 1..N::COUNT {
+            for first in 0..n.count() {
+                for second in first + 1..n.count() {
                     let (a, b) = (columns.column(first).norm(), columns.column(second).norm());
                     let product = columns.column(first).dot(&columns.column(second));
                     if product.abs() <= T::default_epsilon() * a * b {
@@ -43,10 +44,10 @@ impl<T: Real, N: Dim> Decomposition<T, N> {
                 break;
             }
         }
-        let mut values = Column::<T, N>::from_fn(|column| columns.column(column).norm());
-        for place in 0..N::COUNT {
+        let mut values = n.column(|column| columns.column(column).norm());
+        for place in 0..n.count() {
             let largest =
-                (place..N::COUNT).fold(place, |best, other| if values[other] > values[best] { other } else { best });
+                (place..n.count()).fold(place, |best, other| if values[other] > values[best] { other } else { best });
             values.as_mut_slice().swap(place, largest);
             vectors.columns_mut().as_mut_slice().swap(place, largest);
         }
@@ -65,7 +66,7 @@ impl<T: Real, N: Dim> Decomposition<T, N> {
 }
 
 fn rotate<T: Real, R: Dim, N: Dim>(matrix: &mut Matrix<T, R, N>, first: usize, second: usize, cosine: T, sine: T) {
-    for row in 0..R::COUNT {
+    for row in 0..matrix.dims().0.count() {
         let (x, y) = (matrix[(row, first)], matrix[(row, second)]);
         matrix[(row, first)] = cosine * x - sine * y;
         matrix[(row, second)] = sine * x + cosine * y;
