@@ -5,7 +5,7 @@ use crate::scene::{Accelerations, Coordinates, Inputs, Rates};
 use crate::simulation::Loads;
 use crate::{ContactLaw, Equations, MotionError, Scene};
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, Mechanism, PerInput};
+use linkage_runtime::{Column, Dim, Mechanism, PerInput};
 
 /// The prescribed acceleration of each input, or None.
 type Laws<S> = Column<Option<<S as Scene>::Scalar>, <S as Scene>::V>;
@@ -88,7 +88,7 @@ fn loads_with<S: Scene>(
     let (free, _) = ReducedEquations::unprescribed(scene, t, &S::state(q, &rates.into()))?;
     let residual = motion.residual(&free);
     let drives: PerInput<S::Mechanism> =
-        Column::from_fn(|input| laws[input].map_or_else(S::Scalar::zero, |_| residual[input]));
+        rates.dim().column(|input| laws[input].map_or_else(S::Scalar::zero, |_| residual[input]));
     let (all, accelerations) = moving(scene, t, q, &rates, &motion)?;
     Loads {
         contacts: motion.forces,

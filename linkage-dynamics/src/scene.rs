@@ -61,6 +61,11 @@ pub trait Scene {
 
     /// The kinematics.
     fn mechanism(&self) -> &Self::Mechanism;
+    /// The number of frictions and stops. A scene needs a body of it if it is not a constant.
+    #[inline]
+    fn contact_count(&self) -> Self::Contacts {
+        Dim::least()
+    }
     /// y = (q, v').
     fn state(q: &Coordinates<Self>, input_rates: &Inputs<Self>) -> StateColumn<Self>;
     /// Splits y into q and v'.
@@ -113,7 +118,7 @@ pub trait Scene {
         _: &Coordinates<Self>,
         _: &Rates<Self>,
     ) -> Result<BearingsOf<Self>, MotionError> {
-        Ok(Column::repeat(None))
+        Ok(self.contact_count().repeat(None))
     }
     /// M and F of `M q'' + Psi_q' lambda = F` in all coordinates, at the rates `q'`: they hold for any choice of
     /// independent coordinates.
@@ -239,9 +244,10 @@ pub trait Scene {
             }
         }
         let state = self.project(&Self::state(q, input_rates))?;
-        if Self::Contacts::COUNT > 0 {
+        if self.contact_count().count() > 0 {
             let q = Self::parts(&state).q;
-            let rest = Self::Mechanism::rates(Column::zeros(), Column::zeros());
+            let (u, v, _) = self.mechanism().dims();
+            let rest = Self::Mechanism::rates(u.zeros(), v.zeros());
             let scales = Scales::of(self.mechanism(), &self.mechanism().pose_at(&q));
             for Contact { name, along, law } in self.contacts(t, &q, &rest)? {
                 if let ContactLaw::Stop { lower, upper, .. } = law {
@@ -327,8 +333,9 @@ pub(crate) fn sign<T: Real>(value: T) -> i8 {
 
 /// The sign of an expression of time alone.
 pub(crate) fn sign_at<S: Scene + ?Sized>(scene: &S, place: usize, t: S::Scalar) -> i8 {
-    let q = S::Mechanism::coordinates(Column::zeros(), Column::zeros());
-    let rates = S::Mechanism::rates(Column::zeros(), Column::zeros());
+    let (u, v, _) = scene.mechanism().dims();
+    let q = S::Mechanism::coordinates(u.zeros(), v.zeros());
+    let rates = S::Mechanism::rates(u.zeros(), v.zeros());
     sign(scene.kink(place, t, &q, &rates))
 }
 
@@ -366,7 +373,7 @@ pub(crate) fn one_sided<S: Scene + ?Sized>(
         return laws;
     }
     let beside = scene.prescribed(near);
-    Column::from_fn(|input| {
+    laws.dim().column(|input| {
         let (law, beside) = (laws[input]?, beside[input]?);
         Some(Prescribed { value: law.value, ..beside })
     })
@@ -384,7 +391,7 @@ pub(crate) fn coordinate_name<M: Mechanism>(column: usize) -> &'static str {
     serde(bound(
         serialize = "S::Scalar: serde::Serialize, Inputs<S>: serde::Serialize, S::Reactions: serde::Serialize",
         deserialize = "S::Scalar: serde::Deserialize<'de>, Inputs<S>: serde::Deserialize<'de>, \
-                       S::Reactions: serde::Deserialize<'de>"
+                       S::Reactions: serde::Deserialize<'de>, S::Contacts: Default, S::U: Default, S::V: Default"
     ))
 )]
 pub struct Loads<S: Scene> {

@@ -76,8 +76,11 @@ pub trait Mechanism {
     /// The names of the coordinates and outputs that have a range, in the order of declaration.
     const RANGES: &'static [&'static str] = &[];
 
-    /// The numbers of unknowns, of inputs and of groups.
-    fn dims(&self) -> (Self::U, Self::V, Self::G);
+    /// The numbers of unknowns, of inputs and of groups. A mechanism needs a body of it if one is not a constant.
+    #[inline]
+    fn dims(&self) -> (Self::U, Self::V, Self::G) {
+        (Dim::least(), Dim::least(), Dim::least())
+    }
     /// Combines u and v into q.
     fn coordinates(unknowns: PerUnknown<Self>, inputs: PerInput<Self>) -> Self::Coordinates;
     /// Splits q into u and v.

@@ -13,7 +13,7 @@ use linkage_runtime::{Column, Dim, Matrix, PositionError, Real};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default, C: Default"))
 )]
 pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
     /// The components of R: two of a pin, the normal force of a guide and zero.
@@ -26,7 +26,7 @@ pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default, C: Default"))
 )]
 pub struct ReactionRow<T: Real, U: Dim, V: Dim, C: Dim> {
     /// Its value without accelerations, multipliers and contact forces.
@@ -46,7 +46,7 @@ pub struct ReactionRow<T: Real, U: Dim, V: Dim, C: Dim> {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"))
 )]
 pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
     /// The components of R.
@@ -58,7 +58,7 @@ pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"))
 )]
 pub struct ReducedReaction<T: Real, V: Dim, C: Dim> {
     /// Its value without accelerations and contact forces.
@@ -75,13 +75,13 @@ pub(crate) type Bearings<T, V, C> = Column<Option<ReducedBearing<T, V, C>>, C>;
 impl<T: Real, U: Dim, V: Dim, C: Dim> ReactionRow<T, U, V, C> {
     /// A component that is zero: the second one of a guide.
     #[must_use]
-    pub fn zero() -> Self {
+    pub fn zero((u, v, c): (U, V, C)) -> Self {
         Self {
             constant: T::zero(),
-            unknowns: Column::zeros(),
-            inputs: Column::zeros(),
-            rows: Column::zeros(),
-            contacts: Column::zeros(),
+            unknowns: u.zeros(),
+            inputs: v.zeros(),
+            rows: u.zeros(),
+            contacts: c.zeros(),
         }
     }
 }
@@ -89,8 +89,8 @@ impl<T: Real, U: Dim, V: Dim, C: Dim> ReactionRow<T, U, V, C> {
 impl<T: Real, V: Dim, C: Dim> ReducedReaction<T, V, C> {
     /// A component that is zero: the second one of a guide.
     #[must_use]
-    pub fn zero() -> Self {
-        Self { constant: T::zero(), accelerations: Column::zeros(), contacts: Column::zeros() }
+    pub fn zero((v, c): (V, C)) -> Self {
+        Self { constant: T::zero(), accelerations: v.zeros(), contacts: c.zeros() }
     }
 
     fn is_finite(&self) -> bool {
@@ -121,10 +121,10 @@ impl<T: Real, U: Dim, V: Dim, C: Dim> Reduction<'_, T, U, V, C> {
         bearings: &Column<Option<Bearing<T, U, V, C>>, C>,
         mut solve: impl FnMut(&Column<T, U>) -> Result<(Column<T, U>, Column<T, V>), MotionError>,
     ) -> Result<Bearings<T, V, C>, MotionError> {
-        let mut reduced = Column::repeat(None);
+        let mut reduced = self.contacts.dim().repeat(None);
         for (place, bearing) in bearings.iter().enumerate() {
             let Some(Bearing { components }) = bearing else { continue };
-            let mut found = [ReducedReaction::zero(); 2];
+            let mut found = [ReducedReaction::zero((self.basis.1.dims().1, self.contacts.dim())); 2];
             for (found, row) in found.iter_mut().zip(components) {
                 *found = self.reaction(row, &solve(&row.rows)?);
             }
@@ -151,7 +151,7 @@ impl<T: Real, U: Dim, V: Dim, C: Dim> Reduction<'_, T, U, V, C> {
         ReducedReaction {
             constant: row.constant + forces + quadratic,
             accelerations: self.basis.0.tr_mul(&by_unknowns) + self.basis.1.tr_mul(&by_inputs),
-            contacts: Column::from_fn(|place| {
+            contacts: self.contacts.dim().column(|place| {
                 let along = &self.contacts[place].along;
                 row.contacts[place] + along.unknowns.dot(of_unknowns) + along.inputs.dot(of_inputs)
             }),

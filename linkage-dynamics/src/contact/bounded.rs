@@ -44,6 +44,7 @@ pub(super) fn bounded<T: Real, C: Dim>(
     matrix: &Matrix<T, C, C>,
     bounds: &Column<Option<Bounds<T>>, C>,
 ) -> Result<Solution<T, C>, usize> {
+    let c = bounds.dim();
     let start = |bounds: &Option<Bounds<T>>| match bounds {
         Some(Bounds { lower, upper, bias }) if !lower.is_finite() || (bias.0 < T::zero() && upper.is_finite()) => {
             *upper
@@ -51,12 +52,12 @@ pub(super) fn bounded<T: Real, C: Dim>(
         Some(Bounds { lower, .. }) => *lower,
         None => T::zero(),
     };
-    let forces = Column::from_fn(|place| start(&bounds[place]));
-    let mut search = Search { matrix, bounds, forces, free: Column::repeat(0), count: 0 };
-    let mut stuck = Column::repeat(false);
+    let forces = c.column(|place| start(&bounds[place]));
+    let mut search = Search { matrix, bounds, forces, free: c.repeat(0), count: 0 };
+    let mut stuck = c.repeat(false);
     // The limit on iterations: 2 of 2 000 000 random sets of six contacts reach it (tests/choices.rs).
-    for _ in 0..32 * (C::COUNT + 1) {
-        let slack: Column<T, C> = Column::from_fn(|place| search.slack(place));
+    for _ in 0..32 * (c.count() + 1) {
+        let slack: Column<T, C> = c.column(|place| search.slack(place));
         let Some(next) = search.next(&slack, &stuck) else {
             return Ok(Solution { forces: search.forces, slack });
         };
@@ -66,10 +67,10 @@ pub(super) fn bounded<T: Real, C: Dim>(
             // No force moved: only rounding error released it. It stays fixed until another one moves.
             stuck[next] = true;
         } else {
-            stuck = Column::repeat(false);
+            stuck = c.repeat(false);
         }
     }
-    Err((0..C::COUNT).find(|&place| bounds[place].is_some()).unwrap_or(0))
+    Err((0..c.count()).find(|&place| bounds[place].is_some()).unwrap_or(0))
 }
 
 impl<T: Real, C: Dim> Search<'_, T, C> {
@@ -93,7 +94,7 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
     /// Returns the fixed contact whose release decreases the function most; None at the minimum.
     fn next(&self, slack: &Column<T, C>, stuck: &Column<bool, C>) -> Option<usize> {
         let mut best: Option<(usize, T)> = None;
-        for place in 0..C::COUNT {
+        for place in 0..self.forces.dim().count() {
             let Some(Bounds { lower, upper, .. }) = self.bounds[place] else { continue };
             let force = self.forces[place];
             let gains = (slack[place] < T::zero() && force < upper) || (slack[place] > T::zero() && force > lower);
@@ -117,7 +118,7 @@ impl<T: Real, C: Dim> Search<'_, T, C> {
         self.count += 1;
         loop {
             let factors = Ranked::in_order(self.matrix, &self.free, self.count, held_tolerance());
-            let mut direction = Column::zeros();
+            let mut direction = self.forces.dim().zeros();
             // If the new row depends on the others, the forces move along the null space of A up to a bound.
             let is_endless = factors.rank < self.count;
             if is_endless {

@@ -22,7 +22,7 @@ pub enum Change {
 
 /// Returns the change of each contact from modes before an event to its state after it, in the order of the scene.
 pub(crate) fn changes<T: Real, C: Dim>(before: &Column<Mode, C>, after: &Contacts<T, C>) -> Column<Option<Change>, C> {
-    Column::from_fn(|place| match (before[place], after.modes[place]) {
+    before.dim().column(|place| match (before[place], after.modes[place]) {
         // A hit with a rebound does not change the mode.
         (Mode::Open, Mode::Open) => after.is_hit[place].then_some(Change::Impact),
         (before, after) if before == after => None,

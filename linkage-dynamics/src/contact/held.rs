@@ -39,6 +39,7 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
         is_requested: impl Fn(usize) -> bool,
     ) -> Result<Self, MotionError> {
         let ReducedEquations { scene, coordinates, mass, contacts, .. } = equations;
+        let (v, c) = equations.dims();
         let inertia = Inertia::new(*scene, coordinates, mass)?;
         let (mut side, mut size) = (equations.forces, equations.forces.abs());
         for (contact, &force) in contacts.iter().zip(forces) {
@@ -49,13 +50,13 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
         // Without the coordinates that affect no contact, such as prescribed ones.
         let affects = |at: usize| {
             contacts.iter().any(|contact| !contact.row[at].is_zero())
-                || (0..V::COUNT).any(|other| other != at && !mass[(at, other)].is_zero())
+                || (0..v.count()).any(|other| other != at && !mass[(at, other)].is_zero())
         };
-        let terms = (0..V::COUNT).filter(|&at| affects(at)).map(|at| side[at] * acceleration[at]);
+        let terms = (0..v.count()).filter(|&at| affects(at)).map(|at| side[at] * acceleration[at]);
         let squared = terms.fold(T::zero(), |sum, term| sum + term).max(T::zero());
-        let mut columns = Matrix::<T, V, C>::zeros();
-        let mut matrix = Matrix::<T, C, C>::zeros();
-        let mut bias = Column::repeat((T::zero(), T::zero()));
+        let mut columns = v.zero_matrix(c);
+        let mut matrix = c.zero_matrix(c);
+        let mut bias = c.repeat((T::zero(), T::zero()));
         for (place, contact) in contacts.iter().enumerate().filter(|(place, _)| is_requested(*place)) {
             columns.set_column(place, inertia.solve(&contact.row));
             let terms = contact.row.component_mul(&acceleration);
@@ -94,7 +95,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// Those of [`Response::new`].
     #[inline(always)]
     pub(super) fn new(equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Result<Self, MotionError> {
-        let forces = Column::from_fn(|place| slipping(modes[place], &equations.contacts[place].law));
+        let forces = modes.dim().column(|place| slipping(modes[place], &equations.contacts[place].law));
         Self::with_forces(equations, modes, &forces)
     }
 
@@ -110,8 +111,8 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         forces: &Column<T, C>,
     ) -> Result<Self, MotionError> {
         let response = Response::new(equations, forces, |place| modes[place].is_held())?;
-        let (mut order, mut count) = (Column::repeat(0), 0);
-        for place in (0..C::COUNT).filter(|&place| modes[place].is_held()) {
+        let (mut order, mut count) = (modes.dim().repeat(0), 0);
+        for place in (0..modes.dim().count()).filter(|&place| modes[place].is_held()) {
             order[count] = place;
             count += 1;
         }
@@ -145,10 +146,10 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// Corrects x so that S x + `rest` = 0 holds exactly for the held contacts, not only to rounding error: it solves
     /// for one coordinate of each. The rate of a resting block is then exactly 0.
     fn enforce(&self, equations: &ReducedEquations<T, V, C>, x: &mut Column<T, V>, rest: impl Fn(usize) -> T) {
-        let rank = self.factors.rank;
-        let mut rows = Column::<_, C>::repeat(Column::<T, V>::zeros());
-        let mut pivots = Column::<_, C>::repeat(0);
-        let mut sides = Column::<T, C>::zeros();
+        let (rank, (v, c)) = (self.factors.rank, equations.dims());
+        let mut rows = c.repeat(v.zeros());
+        let mut pivots = c.repeat(0);
+        let mut sides = c.zeros();
         for (place, &contact) in self.factors.order.iter().enumerate().take(rank) {
             rows[place] = equations.contacts[contact].row;
             sides[place] = -rest(contact);
@@ -156,7 +157,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         // Dividing by the diagonal inertia makes the pivot choice independent of units.
         let weight = |row: &Column<T, V>, at: usize| row[at] * row[at] / equations.mass[(at, at)];
         let heaviest = |row: &Column<T, V>| {
-            (1..V::COUNT).fold(0, |best, at| if weight(row, at) > weight(row, best) { at } else { best })
+            (1..v.count()).fold(0, |best, at| if weight(row, at) > weight(row, best) { at } else { best })
         };
         reduce_rows(
             &mut rows.as_mut_slice()[..rank],
@@ -172,7 +173,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         for place in 0..rank {
             let pivot = pivots[place];
             let mut sum = sides[place];
-            for at in (0..V::COUNT).filter(|at| !pivots.as_slice()[..rank].contains(at)) {
+            for at in (0..v.count()).filter(|at| !pivots.as_slice()[..rank].contains(at)) {
                 sum -= rows[place][at] * x[at];
             }
             x[pivot] = sum / rows[place][pivot];

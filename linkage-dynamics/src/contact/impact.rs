@@ -8,7 +8,7 @@ use super::bounded::{Bounds, bounded};
 use super::held::Response;
 use super::reduced::ReducedEquations;
 use crate::MotionError;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use linkage_runtime::{Column, Dim, Real, real};
 
 /// A stop that takes part in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,11 +35,11 @@ pub(super) fn impact<T: Real, V: Dim, C: Dim>(
     equations: &ReducedEquations<T, V, C>,
     struck: &Column<Option<Struck<T>>, C>,
 ) -> Result<After<T, V, C>, MotionError> {
-    let response = Response::new(equations, &Column::zeros(), |place| struck[place].is_some())?;
+    let response = Response::new(equations, &struck.dim().zeros(), |place| struck[place].is_some())?;
     // All rows are oriented inward.
     let inward = struck.map(|struck| struck.map_or(T::zero(), |struck| struck.inward));
-    let matrix = Matrix::from_fn(|row, column| response.matrix[(row, column)] * inward[row] * inward[column]);
-    let bounds = Column::from_fn(|place| {
+    let matrix = struck.dim().matrix(struck.dim(), |row, column| response.matrix[(row, column)] * inward[row] * inward[column]);
+    let bounds = struck.dim().column(|place| {
         let Struck { inward, restitution } = struck[place]?;
         let (rate, size) = equations.contacts[place].rate(&equations.rates);
         let factor = T::one() + restitution;

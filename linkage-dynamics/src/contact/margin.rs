@@ -34,15 +34,15 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         modes: &Column<Mode, C>,
         mut limits: impl FnMut(&Column<T, C>) -> Option<Column<T, C>>,
     ) -> Column<T, C> {
-        let (rank, count) = (self.factors.rank, self.factors.count);
+        let (rank, count, c) = (self.factors.rank, self.factors.count, modes.dim());
         let tolerances = self.force_tolerances();
-        let mut margins = Column::repeat(T::one());
-        let mut found = Column::<_, C>::repeat(false);
+        let mut margins = c.repeat(T::one());
+        let mut found = c.repeat(false);
         let combinations: Column<Column<T, C>, C> =
-            Column::from_fn(|place| if place < count { self.factors.combination(place) } else { Column::zeros() });
+            c.column(|place| if place < count { self.factors.combination(place) } else { c.zeros() });
         // s' of each contact in pivot order, 0 within rounding error.
         let motion = |z: &Column<T, C>| -> Column<T, C> {
-            Column::from_fn(|place| {
+            c.column(|place| {
                 let terms = combinations[place].iter().zip(z).map(|(&c, &z)| c * z);
                 let (sum, size) =
                     terms.fold((T::zero(), T::zero()), |(sum, size), term| (sum + term, size + term.abs()));
@@ -60,7 +60,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             if !(0..count).all(is_allowed) {
                 return;
             }
-            let mut rates = Column::zeros();
+            let mut rates = c.zeros();
             for (&contact, &moved) in self.factors.order.iter().zip(&moved).take(count) {
                 rates[contact] = moved;
             }
@@ -83,12 +83,12 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
         };
         if rank == count || rank == 1 {
             for place in 0..rank {
-                let mut z = Column::zeros();
+                let mut z = c.zeros();
                 z[place] = T::one();
                 both(&z);
             }
         } else if rank > 1 {
-            each_choice::<C>(count, rank - 1, |still| {
+            each_choice(c, count, rank - 1, |still| {
                 if let Some(z) = motion_with_rest(&combinations, still, rank) {
                     both(&z);
                 }
@@ -119,7 +119,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
             let terms = order.iter().zip(&self.forces).take(*rank);
             terms.fold(self.response.bias[row].1, |size, (&other, &force)| size + (matrix[(row, other)] * force).abs())
         };
-        let mut tolerances = Column::zeros();
+        let mut tolerances = self.forces.dim().zeros();
         for (place, &contact) in order.iter().enumerate().take(*count) {
             let entry = matrix[(contact, contact)];
             tolerances[contact] = if place < *rank {
@@ -136,8 +136,8 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
 }
 
 /// Visits every combination of `many` of the numbers below `count`.
-fn each_choice<C: Dim>(count: usize, many: usize, mut visit: impl FnMut(&[usize])) {
-    let mut chosen: Column<usize, C> = Column::from_fn(|place| place);
+fn each_choice<C: Dim>(c: C, count: usize, many: usize, mut visit: impl FnMut(&[usize])) {
+    let mut chosen: Column<usize, C> = c.column(|place| place);
     loop {
         visit(&chosen.as_slice()[..many]);
         let Some(place) = (0..many).rev().find(|&place| chosen[place] + many < count + place) else { return };
@@ -154,7 +154,8 @@ fn motion_with_rest<T: Real, C: Dim>(
     still: &[usize],
     rank: usize,
 ) -> Option<Column<T, C>> {
-    let (mut rows, mut pivots) = (Column::<Column<T, C>, C>::repeat(Column::zeros()), Column::<_, C>::repeat(0));
+    let c = combinations.dim();
+    let (mut rows, mut pivots) = (c.repeat(c.zeros()), c.repeat(0));
     for (row, &place) in rows.iter_mut().zip(still) {
         *row = combinations[place];
     }
@@ -175,7 +176,7 @@ fn motion_with_rest<T: Real, C: Dim>(
         |_, _, _| {},
     )?;
     let free = (0..rank).find(|at| !pivots.as_slice()[..still.len()].contains(at))?;
-    let mut z = Column::zeros();
+    let mut z = c.zeros();
     z[free] = T::one();
     for (row, &pivot) in rows.iter().zip(&pivots).take(still.len()) {
         z[pivot] = -row[free] / row[pivot];

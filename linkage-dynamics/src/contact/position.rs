@@ -27,7 +27,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         most: T,
     ) -> Result<Option<Column<T, V>>, MotionError> {
         let mut moved = *equations;
-        moved.rates = Column::zeros();
+        moved.rates = equations.dims().0.zeros();
         let mut has_left = false;
         for (place, contact) in moved.contacts.iter_mut().enumerate() {
             contact.drift = T::zero();

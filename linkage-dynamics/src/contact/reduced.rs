@@ -113,22 +113,28 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
         let StateParts { q, input_rates } = S::parts(state);
         let input_rates: PerInput<S::Mechanism> = input_rates.into();
         let rates = S::Mechanism::rates(ratios * input_rates, input_rates);
-        let (identity, none) = (Matrix::identity(), Column::zeros());
+        let (u, v) = ratios.dims();
+        let (identity, none) = (v.identity(), v.zeros());
         let (basis, bias) = ((&ratios, &identity), (&bias, &none));
         let found = scene.contacts(t, &q, &rates)?;
-        let mut bearings = Column::repeat(None);
+        let mut bearings = scene.contact_count().repeat(None);
         if S::BEARINGS {
             let mechanism = scene.mechanism();
             let pose = mechanism.pose_at(&q);
             let all = scene.unreduced(t, &q, &rates)?;
             let reduction = Reduction { basis, bias, all: &all, contacts: &found };
             bearings = reduction.bearings(S::NAME, &scene.bearings(t, &q, &rates)?, |rows| {
-                Ok((mechanism.solve_jacobian(&pose, rows)?, Column::zeros()))
+                Ok((mechanism.solve_jacobian(&pose, rows)?, v.zeros()))
             })?;
         }
         let contacts = found.map(|contact| ReducedContact::new(&contact, basis, bias));
-        let coordinates = Column::from_fn(|input| coordinate_name::<S::Mechanism>(S::U::COUNT + input));
+        let coordinates = v.column(|input| coordinate_name::<S::Mechanism>(u.count() + input));
         Ok((Self { scene: S::NAME, coordinates, mass, forces, rates: input_rates, contacts, bearings }, rates))
+    }
+
+    /// The numbers of coordinates and of contacts.
+    pub(crate) fn dims(&self) -> (V, C) {
+        (self.forces.dim(), self.contacts.dim())
     }
 
     /// True if the limit of a friction depends on a reaction.
@@ -141,8 +147,9 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
     pub fn prescribe(&mut self, at: usize, acceleration: T) {
         self.forces -= self.mass.column(at) * acceleration;
         self.forces[at] = acceleration;
-        let identity = Matrix::identity();
-        self.mass = Matrix::from_fn(|row, column| {
+        let (v, _) = self.dims();
+        let identity = v.identity();
+        self.mass = v.matrix(v, |row, column| {
             let of = if row == at || column == at { &identity } else { &self.mass };
             of[(row, column)]
         });

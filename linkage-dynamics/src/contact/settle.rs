@@ -59,11 +59,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ) -> Result<Column<T, V>, MotionError> {
         let mut equations = evaluate(rates)?;
         // The mode in which each contact with s' = 0 would be held; None for the others.
-        let mut at_rest: Column<Option<Mode>, C> = Column::from_fn(|place| self.at_rest(place, &equations));
+        let mut at_rest: Column<Option<Mode>, C> = self.modes.dim().column(|place| self.at_rest(place, &equations));
         // A contact that is released from rest begins with s' = 0, without the error of the step. One that goes on
         // slipping keeps its rate, however small: s' passes zero at a dead centre while the mechanism moves.
         let mut resting = self.modes;
-        self.is_hit = Column::repeat(false);
+        self.is_hit = self.modes.dim().repeat(false);
         let mut impacts = 0;
         // An impact may move another s towards a stop that it touches.
         while let Some(struck) = self.struck(&equations, &at_rest, is_together) {
@@ -73,7 +73,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 return Err(MotionError::ContactWithoutEnd { scene, contact, t: to_f64(t) });
             }
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
-            resting = Column::repeat(Mode::Open);
+            resting = self.modes.dim().repeat(Mode::Open);
             impacts += 1;
             // Without rebound nothing is approached after one impact.
             if is_together {
@@ -145,7 +145,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         is_together: bool,
     ) -> Option<Column<Option<Struck<T>>, C>> {
         let mut hit = false;
-        let struck = Column::from_fn(|place| {
+        let struck = at_rest.dim().column(|place| {
             let contact = &equations.contacts[place];
             let ContactLaw::Stop { lower, upper, restitution } = contact.law else { return None };
             if let Some(side) = at_rest[place] {
@@ -173,7 +173,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ) -> Result<ReducedEquations<T, V, C>, MotionError> {
         let least = T::default_epsilon().sqrt();
         let mut has_ended = false;
-        for place in (0..C::COUNT).filter(|&place| at_rest[place].is_none()) {
+        for place in (0..at_rest.dim().count()).filter(|&place| at_rest[place].is_none()) {
             let Some(of) = &mut struck[place] else { continue };
             let rate = equations.contacts[place].rate(&equations.rates).0.abs();
             self.hardest[place] = self.hardest[place].max(rate);
@@ -188,13 +188,13 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let After { rates, .. } = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
         // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
-        let forces = Column::from_fn(|place| {
+        let forces = at_rest.dim().column(|place| {
             let contact = &after.contacts[place];
             slipping(slip_or_stick(contact.rate(&after.rates)), &contact.law)
         });
         let free = Response::new(&after, &forces, |place| struck[place].is_some())?;
         let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
-        let (mut has_ended, mut too_short) = (false, Column::<_, C>::repeat(false));
+        let (mut has_ended, mut too_short) = (false, at_rest.dim().repeat(false));
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
             // The rebound rate, and the acceleration back towards the stop, by frictions that slip too: a flight takes 2 rate / back and rises by
@@ -211,7 +211,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         if has_ended {
             self.join_touched(equations, &mut struck);
         }
-        let mut pushed = Column::zeros();
+        let mut pushed = at_rest.dim().zeros();
         if has_ended || struck.iter().flatten().any(|of| of.restitution.is_zero()) {
             let After { rates, impulses } = impact(equations, &struck)?;
             after = evaluate(&rates)?;
@@ -247,7 +247,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             }
         }
         if at_rest.iter().any(Option::is_some) {
-            let resting = Column::from_fn(|place| at_rest[place].unwrap_or(Mode::Open));
+            let resting = at_rest.dim().column(|place| at_rest[place].unwrap_or(Mode::Open));
             after.rates = Held::new(&after, &resting)?.rates(&after);
         }
         Ok(after)
@@ -278,11 +278,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             return Ok(());
         }
         let slips = |place: usize| at_rest[place].is_none();
-        let forces = Column::from_fn(|place| {
+        let forces = at_rest.dim().column(|place| {
             if slips(place) { slipping(self.modes[place], &equations.contacts[place].law) } else { T::zero() }
         });
         let response = Response::new(equations, &forces, |place| !slips(place))?;
-        let held = Self { modes: Column::from_fn(|place| at_rest[place].unwrap_or(Mode::Open)), ..*self };
+        let held = Self { modes: at_rest.dim().column(|place| at_rest[place].unwrap_or(Mode::Open)), ..*self };
         let solution = bounded(&response.matrix, &held.bounds(&response, equations)).map_err(|place| {
             MotionError::NoContactForces { scene: equations.scene, contact: equations.contacts[place].name }
         })?;
@@ -298,7 +298,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             // The series of bounces has ended, either resting on the stop or leaving it from rest.
             self.hardest[place] = T::zero();
         }
-        let sizes = Column::from_fn(|place| {
+        let sizes = at_rest.dim().column(|place| {
             let terms =
                 solution.forces.iter().enumerate().map(|(other, &force)| response.matrix[(place, other)] * force);
             terms.fold(response.bias[place].1, |size, term| size + term.abs())

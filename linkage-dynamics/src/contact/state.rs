@@ -24,7 +24,7 @@ use linkage_runtime::{Column, Dim, Real, real};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, C: Default"))
 )]
 pub struct Contacts<T: Real, C: Dim> {
     /// The mode of each contact, in the order of the scene.
@@ -42,7 +42,7 @@ pub struct Contacts<T: Real, C: Dim> {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, V: Default"))
 )]
 pub struct ContactReview<T: Real, V: Dim> {
     /// The rates v' with s' = 0 of the held contacts.
@@ -74,10 +74,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     pub fn begin<V: Dim>(
         t: T,
         rates: &Column<T, V>,
-        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
     ) -> Result<(Self, Column<T, V>), MotionError> {
-        let mut contacts = Self::open();
-        let rates = contacts.start(t, rates, evaluate)?;
+        let equations = evaluate(rates)?;
+        let mut contacts = Self::open(equations.contacts.dim());
+        let rates = contacts.start_from(&equations, t, rates, evaluate)?;
         Ok((contacts, rates))
     }
 
@@ -86,10 +87,19 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         &mut self,
         t: T,
         rates: &Column<T, V>,
+        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+    ) -> Result<Column<T, V>, MotionError> {
+        let equations = evaluate(rates)?;
+        self.start_from(&equations, t, rates, evaluate)
+    }
+
+    fn start_from<V: Dim>(
+        &mut self,
+        equations: &ReducedEquations<T, V, C>,
+        t: T,
+        rates: &Column<T, V>,
         evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
     ) -> Result<Column<T, V>, MotionError> {
-        let mut evaluate = evaluate;
-        let equations = evaluate(rates)?;
         for (contact, &resolution) in equations.contacts.iter().zip(&self.resolution) {
             if let ContactLaw::Stop { lower, upper, .. } = contact.law {
                 within(equations.scene, contact.name, (contact.value, resolution), [lower, upper])?;
@@ -101,12 +111,13 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// Contacts in given modes, for [`motion`](Self::motion) at one state.
     #[must_use]
     pub fn in_modes(modes: Column<Mode, C>) -> Self {
-        Self { modes, hardest: Column::zeros(), resolution: Column::zeros(), is_hit: Column::repeat(false) }
+        let c = modes.dim();
+        Self { modes, hardest: c.zeros(), resolution: c.zeros(), is_hit: c.repeat(false) }
     }
 
     /// All contacts open.
-    pub(crate) fn open() -> Self {
-        Self::in_modes(Column::repeat(Mode::Open))
+    pub(crate) fn open(c: C) -> Self {
+        Self::in_modes(c.repeat(Mode::Open))
     }
 
     /// Sets the error of each s where it exceeds the rounding error of its value: a solved coordinate is only as
@@ -165,14 +176,14 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             return reaction::motion(equations, &self.modes);
         }
         let held = Held::new(equations, &self.modes)?;
-        let mut forces = Column::<T, C>::zeros();
+        let mut forces = self.modes.dim().zeros();
         for (place, contact) in equations.contacts.iter().enumerate() {
             forces[place] = slipping(self.modes[place], &contact.law);
         }
         if held.factors.rank < held.factors.count {
             // One solution within the limits. If there is none, the event functions report the contact.
             if let Ok(solution) = bounded(&held.response.matrix, &self.bounds(&held.response, equations)) {
-                for place in (0..C::COUNT).filter(|&place| self.modes[place].is_held()) {
+                for place in (0..self.modes.dim().count()).filter(|&place| self.modes[place].is_held()) {
                     forces[place] = solution.forces[place];
                 }
             }
@@ -202,7 +213,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// # Errors
     /// Those of [`motion`](Self::motion).
     pub fn events<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, C>, MotionError> {
-        let mut values = Column::repeat(T::one());
+        let mut values = self.modes.dim().repeat(T::one());
         if self.modes.iter().any(|mode| mode.is_held()) {
             values = if equations.has_bearings() {
                 reaction::margins(equations, &self.modes)?
@@ -229,7 +240,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         equations: &ReducedEquations<T, V, C>,
     ) -> Result<Column<Guard<T>, C>, MotionError> {
         let values = self.events(equations)?;
-        Ok(Column::from_fn(|place| {
+        Ok(self.modes.dim().column(|place| {
             let contact = &equations.contacts[place];
             let (rate, size) = contact.rate(&equations.rates);
             match (self.modes[place], contact.law) {
@@ -249,8 +260,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
 
     /// The direction in which the event functions pass through zero.
     #[must_use]
-    pub fn crossings() -> Column<Crossing, C> {
-        Column::repeat(Crossing::Falling)
+    pub fn crossings(&self) -> Column<Crossing, C> {
+        self.modes.dim().repeat(Crossing::Falling)
     }
 
     /// Returns the rates v' with s' = 0 of the held contacts, and whether the modes are still valid: rounding error and
@@ -291,7 +302,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         equations: &ReducedEquations<T, V, C>,
     ) -> Column<Option<Bounds<T>>, C> {
         let endless = real::<T>(f64::INFINITY);
-        Column::from_fn(|place| {
+        self.modes.dim().column(|place| {
             let [lower, upper] = match (self.modes[place], equations.contacts[place].law) {
                 (Mode::Stick, ContactLaw::Friction { limit }) => [-limit, limit],
                 (Mode::AtLower, _) => [T::zero(), endless],

@@ -22,7 +22,7 @@ const LEAST_TOLERANCE_ULPS: f64 = 10.0;
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
     serde(
-        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"),
+        bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, N: Default"),
         try_from = "Written<T, N>"
     )
 )]
@@ -34,7 +34,7 @@ pub struct Tolerance<T: Real, N: Dim> {
 /// A tolerance that has been read, not yet checked.
 #[cfg(feature = "serde")]
 #[derive(serde::Deserialize)]
-#[serde(bound(deserialize = "T: serde::Deserialize<'de>"))]
+#[serde(bound(deserialize = "T: serde::Deserialize<'de>, N: Default"))]
 struct Written<T: Real, N: Dim> {
     relative: f64,
     scale: Column<T, N>,
@@ -74,22 +74,22 @@ impl<T: Real, N: Dim> Tolerance<T, N> {
 
     /// The root mean square of the components of a change at `y`, each divided by its allowed error.
     pub(super) fn relative_change(&self, change: &Column<T, N>, y: &Column<T, N>) -> f64 {
-        self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(N::COUNT as f64)
+        self.norm(change, |i| to_f64(y[i]).abs()) / ComplexField::sqrt(change.dim().count() as f64)
     }
 
     /// sqrt(sum (`v_i` / allowed)^2), where the allowed error is that of a component of magnitude `size(i)`; safe from
     /// overflow of the squares.
     fn norm(&self, v: &Column<T, N>, size: impl Fn(usize) -> f64) -> f64 {
         let part = |i: usize| to_f64(v[i]) / self.allowed(i, size(i));
-        let sum = (0..N::COUNT).fold(0.0, |sum, i| sum + part(i) * part(i));
+        let sum = (0..v.dim().count()).fold(0.0, |sum, i| sum + part(i) * part(i));
         if sum < f64::INFINITY {
             return ComplexField::sqrt(sum);
         }
-        let most = (0..N::COUNT).fold(0.0, |most: f64, i| most.max(part(i).abs()));
+        let most = (0..v.dim().count()).fold(0.0, |most: f64, i| most.max(part(i).abs()));
         if most == f64::INFINITY {
             return most;
         }
-        let sum = (0..N::COUNT).fold(0.0, |sum, i| sum + (part(i) / most) * (part(i) / most));
+        let sum = (0..v.dim().count()).fold(0.0, |sum, i| sum + (part(i) / most) * (part(i) / most));
         most * ComplexField::sqrt(sum)
     }
 }
@@ -130,7 +130,7 @@ pub(super) fn error<T: Real, N: Dim>(
     // With the error estimates E5 = first and E3 = second: |h| E, E^2 = E5^2 E5^2 / (E5^2 + E3^2 / 100) / N, rearranged
     // so that squares of small errors do not underflow.
     let ratio = second / first;
-    h.abs() * first / ComplexField::sqrt(N::COUNT as f64 * (1.0 + 0.01 * ratio * ratio))
+    h.abs() * first / ComplexField::sqrt(y.dim().count() as f64 * (1.0 + 0.01 * ratio * ratio))
 }
 
 /// The length of the first trial step by the norms of the allowed errors: h = 0.01 |y| / |f|, then h from

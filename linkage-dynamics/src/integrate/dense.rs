@@ -24,7 +24,7 @@ pub struct Interpolant<T: Real, N: Dim> {
 impl<T: Real, N: Dim> Interpolant<T, N> {
     /// A constant state: a step of length zero.
     pub(super) fn constant(t: T, state: Column<T, N>) -> Self {
-        let mut coefficients = [Column::zeros(); COEFFICIENTS];
+        let mut coefficients = [state.dim().zeros(); COEFFICIENTS];
         coefficients[0] = state;
         Self { start: t, length: T::zero(), coefficients, used: 1 }
     }
@@ -40,7 +40,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
     pub(super) fn cubic(start: T, length: T, states: [&Column<T, N>; 2], slopes: [&Column<T, N>; 2]) -> Self {
         let difference = *states[1] - *states[0];
         let first = *slopes[0] * length - difference;
-        let mut coefficients = [Column::zeros(); COEFFICIENTS];
+        let mut coefficients = [states[0].dim().zeros(); COEFFICIENTS];
         coefficients[0] = *states[0];
         coefficients[1] = difference;
         coefficients[2] = first;
@@ -60,7 +60,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
     /// A bound of the way of each component within the step, for a cubic.
     pub(crate) fn way(&self) -> Column<T, N> {
         let moves = self.coefficients[..self.used].iter().skip(1);
-        moves.fold(Column::zeros(), |way, coefficient| way + coefficient.map(|entry| entry.abs()))
+        moves.fold(self.coefficients[0].dim().zeros(), |way, coefficient| way + coefficient.map(|entry| entry.abs()))
     }
 
     /// The times of the start and the end of the step.

@@ -119,10 +119,10 @@ impl EventSign {
 }
 
 impl<K: Dim, C: Dim> EventSigns<K, C> {
-    pub(super) fn new(crossings: Column<Crossing, K>) -> Self {
+    pub(super) fn new(crossings: Column<Crossing, K>, guards: C) -> Self {
         Self {
             events: crossings.map(|crossing| EventSign::new(Some(crossing))),
-            guards: Column::repeat(EventSign::new(None)),
+            guards: guards.repeat(EventSign::new(None)),
         }
     }
 
@@ -164,11 +164,12 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
 
     /// Takes the next undelivered event; returns its index, and true if it has occurred too often at this time.
     pub(super) fn take_pending(&mut self) -> (usize, bool) {
+        let events = self.events.dim().count();
         let next = self.each_mut().enumerate().find(|(_, function)| function.is_pending);
         next.map_or((0, false), |(event, function)| {
             function.is_pending = false;
             function.count += 1;
-            (event, function.count > if event < K::COUNT { 1 } else { MAX_REPEATS })
+            (event, function.count > if event < events { 1 } else { MAX_REPEATS })
         })
     }
 
@@ -187,7 +188,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         for (function, guard) in self.guards.iter_mut().zip(&now.guards) {
             function.sign = if guard.value > 0.0 || !guard.is_known { 1 } else { 0 };
         }
-        if K::COUNT > 0 {
+        if self.events.dim().count() > 0 {
             let next = system.events(later, after)?.map(to_f64);
             if !next.iter().all(|value| value.is_finite()) {
                 return Err(MotionError::NotFinite { quantity: "an event function", t: to_f64(later) });

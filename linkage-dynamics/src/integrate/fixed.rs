@@ -7,7 +7,7 @@ use super::tableau::{self, SLOPES, Stage, Weights};
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, D, real};
+use linkage_runtime::{Column, Dim, D, real};
 
 /// Kutta's method of order 4 (Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993),
 /// table 1.2 of section II.1).
@@ -83,7 +83,7 @@ impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
     pub fn step(&mut self) -> Result<(), MotionError> {
         let (t, h) = (self.t(), self.length);
         let y = self.system.before_step(t, &self.state)?.unwrap_or(self.state);
-        let mut slopes = [Column::zeros(); SLOPES];
+        let mut slopes = [y.dim().zeros(); SLOPES];
         slopes[0] = self.system.rate(t, &y)?;
         tableau::evaluate(|t, y| self.system.rate(t, y), STAGES, 1, (t, &y), h, &mut slopes)?;
         let next = y + tableau::combination(&slopes, SOLUTION) * h;

@@ -29,7 +29,7 @@ pub struct Counts {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, N: Default"))
 )]
 pub struct Step<T: Real, N: Dim> {
     /// The time.

@@ -12,7 +12,7 @@ use super::tableau::{self, Method, SLOPES};
 use super::{Outputs, step};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, InputError};
+use linkage_runtime::{Dim, InputError};
 
 /// The largest correction of a state by projection, divided by the tolerance, after which the rate computed before it
 /// is still used.
@@ -39,7 +39,7 @@ impl<S: System, M: Method> Integration<S, M> {
             within("the time", to_f64(t), f64::MIN, f64::MAX)?;
         }
         finite("the initial state", start, &y)?;
-        let signs = EventSigns::new(system.crossings());
+        let signs = EventSigns::new(system.crossings(), system.counts().1);
         Ok(Self {
             method: PhantomData,
             system,
@@ -55,7 +55,7 @@ impl<S: System, M: Method> Integration<S, M> {
             place: Place::Boundary,
             from: (start, y),
             to: (start, y),
-            slopes: [Column::zeros(); SLOPES],
+            slopes: [y.dim().zeros(); SLOPES],
             interpolant: Some(Interpolant::constant(start, y)),
             has_rate: false,
             controller: Controller::new(),
@@ -231,7 +231,7 @@ impl<S: System, M: Method> Integration<S, M> {
                     (0.0, true)
                 }
             };
-            let found = if S::Events::COUNT + S::Guards::COUNT > 0 { self.search(from) } else { Ok(Found::Nothing) };
+            let found = if self.signs.each().next().is_some() { self.search(from) } else { Ok(Found::Nothing) };
             let length = to_f64(self.to.0 - self.from.0).abs();
             // An event function may be undefined between the ends of a long step.
             undefined = found.as_ref().err().copied();

@@ -50,11 +50,12 @@ pub(super) fn sampled<S: System>(
     (t, state): (S::Scalar, &StateOf<S>),
 ) -> Result<SampleOf<S>, MotionError> {
     let unknown = FunctionSample { value: 0.0, rate: 0.0, is_known: false };
-    let (mut events, mut guards) = (Column::repeat(unknown), Column::repeat(unknown));
-    if S::Events::COUNT > 0 {
+    let (of_events, of_guards) = system.counts();
+    let (mut events, mut guards) = (of_events.repeat(unknown), of_guards.repeat(unknown));
+    if of_events.count() > 0 {
         events = system.events(t, state)?.map(|value| FunctionSample { value: to_f64(value), ..unknown });
     }
-    if S::Guards::COUNT > 0 {
+    if of_guards.count() > 0 {
         guards = system.guards(t, state)?.map(|Guard { value, rate }| FunctionSample {
             value: to_f64(value),
             rate: rate.map_or(0.0, |rate| to_f64(rate * length)),

@@ -28,7 +28,7 @@ pub(super) struct Samples<C: Dim> {
 
 impl<C: Dim> Samples<C> {
     pub(super) fn new(largest: Column<f64, C>) -> Self {
-        Self { values: [Column::repeat(None); 4], count: 0, largest }
+        Self { values: [largest.dim().repeat(None); 4], count: 0, largest }
     }
 
     pub(super) fn push(&mut self, values: Column<Option<f64>, C>) {
@@ -46,7 +46,7 @@ impl<C: Dim> Samples<C> {
     pub(super) fn are_too_coarse(&self) -> bool {
         let [a, b, c, d] = &self.values;
         self.are_enough()
-            && (0..C::COUNT).any(|i| {
+            && (0..self.largest.dim().count()).any(|i| {
                 let (Some(a), Some(b), Some(c), Some(d)) = (a[i], b[i], c[i], d[i]) else { return false };
                 let size = a.abs().max(b.abs()).max(c.abs()).max(d.abs()).max(NEGLIGIBLE * self.largest[i]);
                 (a - d - 3.0 * (b - c)).abs() > ON_A_PARABOLA * size

@@ -55,7 +55,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
     ) -> Result<Found<S>, MotionError> {
         let mut course = SampledStep { system, step, resolution };
         // Guards with known rates are examined at the ends of four parts.
-        let (signs, mut parts) = (*self, if C::COUNT > 0 { parts.next_multiple_of(4) } else { parts });
+        let (signs, mut parts) = (*self, if self.guards.dim().count() > 0 { parts.next_multiple_of(4) } else { parts });
         loop {
             let found = if is_cubic {
                 self.search_cubic(&mut course, parts)?
@@ -135,7 +135,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
                         .map(|sample| [sample[place].value - quarters[0][place].value.min(0.0), sample[place].rate]),
                 )
         };
-        Ok(if (0..C::COUNT).any(passes) { Found::Perhaps } else { Found::Nothing })
+        Ok(if (0..self.guards.dim().count()).any(passes) { Found::Perhaps } else { Found::Nothing })
     }
 
     fn any_extremum(&self, before: &Sample<K, C>, here: &Sample<K, C>) -> bool {
@@ -150,11 +150,11 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         samples: [&Sample<K, C>; P],
         is_so: impl Fn(&EventSign, [&FunctionSample; P]) -> bool,
     ) -> bool {
-        let events = (0..K::COUNT)
+        let events = (0..self.events.dim().count())
             .any(|i| self.events[i].sign != 0 && is_so(&self.events[i], samples.map(|sample| &sample.events[i])));
         let unknown = |i: usize| samples.iter().all(|sample| !sample.guards[i].is_known);
         let guards = |i: usize| is_so(&self.guards[i], samples.map(|sample| &sample.guards[i]));
-        events || (0..C::COUNT).any(|i| self.guards[i].sign != 0 && unknown(i) && guards(i))
+        events || (0..self.guards.dim().count()).any(|i| self.guards[i].sign != 0 && unknown(i) && guards(i))
     }
 
     /// Searches the dense output for the first events.
@@ -183,7 +183,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             if happened.is_none() {
                 happened = self.bracket(course, before, &here)?;
             }
-            if happened.is_some() && (C::COUNT == 0 || samples.are_enough()) {
+            if happened.is_some() && (self.guards.dim().count() == 0 || samples.are_enough()) {
                 break;
             }
             before = here;
@@ -200,15 +200,15 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
     ) -> Result<Option<(f64, f64)>, MotionError> {
         let mut before = before;
         // Each of the other functions has at most one extremum here.
-        for _ in 0..K::COUNT + C::COUNT {
+        for _ in 0..self.each().count() {
             let Some(turn) = self.first_beyond_extremum(course, &before, here)? else { break };
-            let found = self.refine(course, (&before, &turn), &Column::repeat(f64::INFINITY), &mut { MAX_SAMPLES })?;
+            let found = self.refine(course, (&before, &turn), &self.guards.dim().repeat(f64::INFINITY), &mut { MAX_SAMPLES })?;
             if found.is_some() {
                 return Ok(found);
             }
             before = turn;
         }
-        self.refine(course, (&before, here), &Column::repeat(f64::INFINITY), &mut { MAX_SAMPLES })
+        self.refine(course, (&before, here), &self.guards.dim().repeat(f64::INFINITY), &mut { MAX_SAMPLES })
     }
 
     /// Returns the fractions of the step around the first event between two samples, and updates the signs up to there.
@@ -225,7 +225,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         // Near an extremum an error of the time of sqrt(resolution) changes the value by its rounding error only.
         let near = ComplexField::sqrt(course.resolution) / width;
         let by_part = |sample: &FunctionSample, base: f64| [sample.value - base, sample.rate * width];
-        let courses: Column<Option<Course>, C> = Column::from_fn(|place| {
+        let courses: Column<Option<Course>, C> = self.guards.dim().column(|place| {
             let (start, end) = (&before.guards[place], &here.guards[place]);
             let is_known = [start, end].iter().all(|sample| self.guards[place].has_known_course(sample));
             let base = start.value.min(0.0);
@@ -242,7 +242,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             if at > before.at && at < here.at {
                 *left -= 1;
                 let between = course.sample(at)?;
-                let errors = Column::from_fn(|place| match &courses[place] {
+                let errors = courses.dim().column(|place| match &courses[place] {
                     Some(of) if x == 0.5 => {
                         let base = before.guards[place].value.min(0.0);
                         of.error_of_half(by_part(&between.guards[place], base))

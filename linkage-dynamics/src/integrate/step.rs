@@ -9,7 +9,7 @@ use super::tableau::{self, Method, Weights};
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Dim, real};
+use linkage_runtime::real;
 
 impl<S: System, M: Method> Integration<S, M> {
     /// Takes a step.
@@ -29,7 +29,7 @@ impl<S: System, M: Method> Integration<S, M> {
             self.controller.length = Some(self.first_length(span));
         }
         let epsilon = to_f64(S::Scalar::default_epsilon());
-        if S::Events::COUNT + S::Guards::COUNT > 0 && is_new {
+        if self.signs.each().next().is_some() && is_new {
             let little = real::<S::Scalar>(ComplexField::sqrt(epsilon) * direction * self.length());
             let after = y + self.slopes[0] * little;
             let before = self.signs;

@@ -92,7 +92,7 @@ fn dominant<T: Real, N: Dim>(
 ) -> Option<Eigenvalue> {
     let inner = |a: &Column<T, N>, b: &Column<T, N>| {
         let part = |v: &Column<T, N>, i: usize| to_f64(v[i]) / tolerance.allowed(i, to_f64(y[i]).abs());
-        (0..N::COUNT).fold(0.0, |sum, i| sum + part(a, i) * part(b, i))
+        (0..a.dim().count()).fold(0.0, |sum, i| sum + part(a, i) * part(b, i))
     };
     let norm = |a: &Column<T, N>| ComplexField::sqrt(inner(a, a));
     let size = norm(difference);

@@ -48,6 +48,12 @@ pub trait System {
         None
     }
 
+    /// The numbers of events and of guards. A system needs a body of it if one is not a constant.
+    #[inline]
+    fn counts(&self) -> (Self::Events, Self::Guards) {
+        (Dim::least(), Dim::least())
+    }
+
     /// The functions whose zeros are the events.
     ///
     /// # Errors
@@ -57,7 +63,7 @@ pub trait System {
 
     /// The direction in which each must pass through zero.
     fn crossings(&self) -> Column<Crossing, Self::Events> {
-        Column::repeat(Crossing::Either)
+        self.counts().0.repeat(Crossing::Either)
     }
 
     /// The guards: where one falls below zero the law of the rate changes. Examples: the reserve of a sticking
@@ -71,7 +77,7 @@ pub trait System {
         y: &StateOf<Self>,
     ) -> Result<Column<Guard<Self::Scalar>, Self::Guards>, MotionError> {
         let _ = (t, y);
-        Ok(Column::repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
+        Ok(self.counts().1.repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
     }
 
     /// The action at event `event`; events at the same time are handled in the order of their numbers.

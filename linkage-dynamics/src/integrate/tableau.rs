@@ -69,9 +69,9 @@ pub trait Method {
 pub(super) fn combination<T: Real, N: Dim>(slopes: &Slopes<T, N>, weights: Weights) -> Column<T, N> {
     // Entry by entry: with operators of columns or in place the loop over the weights is not unrolled, and each slope is
     // stored and read again, a fifth of the time of a pendulum.
-    weights.iter().fold(Column::zeros(), |sum, &(j, weight)| {
+    weights.iter().fold(slopes[0].dim().zeros(), |sum, &(j, weight)| {
         let (slope, weight) = (&slopes[j], real::<T>(weight));
-        Column::from_fn(|place| sum[place] + slope[place] * weight)
+        sum.dim().column(|place| sum[place] + slope[place] * weight)
     })
 }
 

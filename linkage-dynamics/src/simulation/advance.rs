@@ -82,7 +82,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             self.count_passage(&projected);
             let corner = if holds { self.corner(step.t) } else { None };
             let result = match (step.event, corner) {
-                (Some(event), _) if event < W::Events::COUNT => self.happens(event, &mut state),
+                (Some(event), _) if event < self.watched_events() => self.happens(event, &mut state),
                 (None, Some(corner)) => self.cross(&corner, &mut state, &kept),
                 (None, None) if holds => {
                     state.kink = self.integration.system().corners.passed;
@@ -106,6 +106,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
     }
 
+    /// The number of the user's events.
+    fn watched_events(&self) -> usize {
+        self.integration.system().watch.crossings().dim().count()
+    }
+
     /// The end of a step, or the event within it, on the constraints and on the stops that were held in the step; `is_long`
     /// if it can be repeated with a shorter length.
     fn end_of(
@@ -122,7 +127,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             on_stops => on_stops?,
         };
         let (kept, holds) = motion.reviewed(contacts, step.t, &projected)?;
-        let event = step.event.filter(|&event| event < W::Events::COUNT);
+        let event = step.event.filter(|&event| event < self.watched_events());
         let state = State { event, ..motion.state(step.t, &kept)? };
         Ok(End { projected, kept, holds, state })
     }
@@ -137,7 +142,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             return Err(motion.corners.explained(S::NAME, motion.of_reactions(self.integration.state(), error)));
         };
         // Contacts are numbered after the user's events.
-        let Some(place) = event.checked_sub(W::Events::COUNT) else { return Err(error) };
+        let Some(place) = event.checked_sub(self.watched_events()) else { return Err(error) };
         let contact = self.integration.system().names.iter().nth(place).copied().unwrap_or_default();
         let error = MotionError::ContactWithoutEnd { scene: S::NAME, contact, t };
         if !self.integration.continue_after_repeats() {

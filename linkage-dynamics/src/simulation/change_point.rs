@@ -15,7 +15,7 @@ use crate::{Coordinates, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::jacobian::EliminationOf as Elimination;
 use linkage_runtime::jacobian::ulp::nearly_zero;
-use linkage_runtime::{Column, Dim, Mechanism, PerInput, real};
+use linkage_runtime::{Dim, Mechanism, PerInput, real};
 
 /// The largest residual at the change point, in ulps of the residual scales. At a quarter or four times this value all
 /// simulation tests pass.
@@ -88,7 +88,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let speed = self.scaled_norm(&velocity);
         let pivots = &independent.pivots;
         let smaller = |least, at| if pivots[at].abs() < pivots[least].abs() { at } else { least };
-        let smallest = (1..S::U::COUNT).fold(0, smaller);
+        let smallest = (1..pivots.dim().count()).fold(0, smaller);
         let Some(line) = self.line_across(independent, &factors, &q, smallest) else { return Ahead::Clear };
         // The time until the pivot is zero, by linear extrapolation.
         let approach = self.across(independent, &line.along).dot(&rates);
@@ -124,7 +124,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let value = independent.pivots[pivot];
         let little = S::Scalar::default_epsilon().sqrt();
         let (unknowns, inputs) = factors.basis();
-        let mut slope = Column::zeros();
+        let mut slope = scales.dim().zeros();
         for (column, slope) in slope.iter_mut().enumerate() {
             let step = scales[column] * little;
             let by = Change::<S> { unknowns: unknowns.column(column) * step, inputs: inputs.column(column) * step };
@@ -178,7 +178,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let one = S::Scalar::one();
         Sheet {
             independent: *line.independent,
-            vanishes: Column::repeat(false),
+            vanishes: line.independent.pivots.dim().repeat(false),
             centre: line.independent.of(&line.start.q) + line.along * line.distance,
             reach: line.along,
             across: self.across(line.independent, &line.along),
@@ -211,7 +211,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         for node in middle..NODES {
             let x = real::<S::Scalar>(ABSCISSAE[node]);
             let known = weights(&ABSCISSAE[..node], x).zip(&sheet.nodes);
-            let guess = known.fold(Change::<S>::zero(), |sum, (weight, node)| sum + node.q * weight);
+            let guess = known.fold(Change::<S>::zero(self.dims()), |sum, (weight, node)| sum + node.q * weight);
             let most = half * x * real(MAX_CORRECTION);
             sheet.nodes[node] = self.node(independent, (&sheet.z(node), guess), &reach, most)?;
         }
@@ -259,7 +259,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// divided by its scale.
     fn is_crossing(&self, sheet: &SheetOf<S>) -> bool {
         let mechanism = self.scene.mechanism();
-        let mut crossings = (0..S::U::COUNT).filter(|&pivot| sheet.vanishes[pivot]);
+        let mut crossings = (0..sheet.vanishes.dim().count()).filter(|&pivot| sheet.vanishes[pivot]);
         crossings.all(|pivot| {
             let q = sheet.position(sheet.zero_of(pivot));
             let pose = mechanism.pose_at(&S::Mechanism::coordinates(q.unknowns, q.inputs));

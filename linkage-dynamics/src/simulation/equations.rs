@@ -83,7 +83,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         // Prescribed coordinates follow their laws.
         for (input, law) in self.prescribed(t).iter().enumerate() {
             let Some(law) = law else { continue };
-            if let Some(at) = independent.free.iter().position(|&free| free == S::U::COUNT + input) {
+            if let Some(at) = independent.free.iter().position(|&free| free == self.dims().0.count() + input) {
                 equations.prescribe(at, law.acceleration);
             }
         }
@@ -110,7 +110,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let forces = unknowns.tr_mul(&left_unknowns) + inputs.tr_mul(&left_inputs);
         let (basis, bias) = ((&unknowns, &inputs), (&bias.unknowns, &bias.inputs));
         let found = self.scene.contacts(t, q, &rates)?;
-        let mut bearings = Column::repeat(None);
+        let mut bearings = self.scene.contact_count().repeat(None);
         if S::BEARINGS {
             let reduction = Reduction { basis, bias, all: &all, contacts: &found };
             bearings = reduction.bearings(S::NAME, &self.scene.bearings(t, q, &rates)?, |rows| {
@@ -169,6 +169,11 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
     fn events(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Column<S::Scalar, W::Events>, MotionError> {
         let state = self.state(t, y)?;
         self.watch.values(&state)
+    }
+
+    #[inline]
+    fn counts(&self) -> (W::Events, S::Contacts) {
+        (self.watch.crossings().dim(), self.scene.contact_count())
     }
 
     fn crossings(&self) -> Column<Crossing, W::Events> {

@@ -13,7 +13,7 @@ use linkage_runtime::__shared::{smallest, to_f64};
 use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Blocks, EliminationOf as Elimination, Scales};
-use linkage_runtime::{Column, Dim, Mechanism, PositionError, real};
+use linkage_runtime::{Dim, Mechanism, PositionError, real};
 
 /// Below this regularity of the best choice of coordinates a failed step is ascribed to forces in joints. In the tests
 /// steps fail at 0.0005 to 0.003.
@@ -46,7 +46,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             return error;
         }
         let mechanism = self.scene.mechanism();
-        let freely = Independent::choose(mechanism, &mechanism.pose_at(&q), &self.scales, &Column::repeat(false));
+        let freely = Independent::choose(mechanism, &mechanism.pose_at(&q), &self.scales, &mechanism.dims().1.repeat(false));
         if freely.regularity() < real(NEXT_TO_CHANGE_POINT) { self.no_reactions_error(&q) } else { error }
     }
 
@@ -76,7 +76,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// quadratic form N (Psi_q x)_q x, where N is the left null vector of [J A] and x in its null space. `None` where
     /// the position is not a crossing of two motions.
     fn crossing_rates(&self, q: &Coordinates<S>) -> Option<CrossingRates> {
-        if S::V::COUNT != 1 {
+        if self.dims().1.count() != 1 {
             return None;
         }
         let mechanism = self.scene.mechanism();
@@ -116,7 +116,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     pub(super) fn no_coordinates_error(&self, t: S::Scalar, q: &Coordinates<S>) -> MotionError {
         let mechanism = self.scene.mechanism();
         let is_driven = self.prescribed_inputs(t).iter().any(|&held| held);
-        let freely = Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &Column::repeat(false));
+        let freely = Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &mechanism.dims().1.repeat(false));
         let is_regular = freely.regularity() > nearly_zero();
         if is_driven && is_regular {
             self.singular_error(q)
@@ -143,6 +143,6 @@ pub(super) fn start_error<S: Scene>(scene: &S, q: &Coordinates<S>, error: Motion
     let mechanism = scene.mechanism();
     let pose = mechanism.pose_at(q);
     let motion = Motion::new(Held::Borrowed(scene), Scales::of(mechanism, &pose), [S::Scalar::zero(); 2]);
-    let freely = Independent::choose(mechanism, &pose, &motion.scales, &Column::repeat(false));
+    let freely = Independent::choose(mechanism, &pose, &motion.scales, &mechanism.dims().1.repeat(false));
     if freely.regularity() <= nearly_zero() { motion.change_point_error(q) } else { error }
 }

@@ -44,7 +44,7 @@ impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
     ) -> Self {
         let elimination = Elimination::holding(prescribed, scales.jacobian(mechanism, pose));
         let mut left = elimination.free();
-        let free = Column::from_fn(|_| left.next().unwrap_or(U::COUNT));
+        let free = prescribed.dim().column(|_| left.next().unwrap_or(scales.residuals.dim().count()));
         Self { order: *elimination.order(), free, pivots: elimination.pivots() }
     }
 
@@ -57,6 +57,12 @@ impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
     ) -> Factors<T, U, V> {
         let elimination = Elimination::in_order(&self.order, scales.jacobian(mechanism, pose));
         Factors { elimination, free: self.free, scales: *scales }
+    }
+
+    /// The place of an input among the independent coordinates.
+    pub(super) fn place_of(&self, input: usize) -> Option<usize> {
+        let count = self.pivots.dim().count();
+        self.free.iter().position(|&free| free == count + input)
     }
 
     /// Extracts the independent components of coordinates or rates.
@@ -88,7 +94,8 @@ impl<T: Real, U: Dim, V: Dim> Factors<T, U, V> {
             let column = self.elimination.null_vector(free).scaled(scales);
             (column.unknowns / scales.get(free), column.inputs / scales.get(free))
         });
-        (Matrix::from_columns(columns.map(|column| column.0)), Matrix::from_columns(columns.map(|column| column.1)))
+        let (u, v) = scales.dims();
+        (u.columns(columns.map(|column| column.0)), v.columns(columns.map(|column| column.1)))
     }
 
     /// q' from z'.

@@ -52,8 +52,7 @@ fn defects<T: Real>(length: T, a: &Prescribed<T>, (b, scales): &Law<T>) -> [T; 2
 
 /// The place of an input among the independent coordinates.
 fn place_of<S: Scene>(parametrisation: &ParametrisationOf<S>, input: usize) -> Option<usize> {
-    let place = |free: &Column<usize, S::V>| free.iter().position(|&free| free == S::U::COUNT + input);
-    parametrisation.independent().map_or(Some(input), |independent| place(&independent.free))
+    parametrisation.independent().map_or(Some(input), |independent| independent.place_of(input))
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {
@@ -69,7 +68,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let inputs_before = S::Mechanism::inputs(&q_before);
         let inputs = S::Mechanism::inputs(&q);
         let laws = self.prescribed(t);
-        (0..S::V::COUNT).find(|&input| {
+        (0..self.dims().1.count()).find(|&input| {
             let Some(law) = laws[input] else { return false };
             let scale = self.scales.coordinates.inputs[input];
             let place = place_of::<S>(&self.parametrisation, input);
@@ -113,7 +112,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             }
         }
         let [value, rate] = defects(b.0 - a.0, &a.1.0, &b.1);
-        let effect = coordinate_name::<S::Mechanism>(S::U::COUNT + input);
+        let effect = coordinate_name::<S::Mechanism>(self.dims().0.count() + input);
         (value > most || rate > most).then_some(Corner { before: a.0, after: b.0, effect })
     }
 
@@ -129,7 +128,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             None => ReducedEquations::unprescribed(&*self.scene, t, y)?.0,
             Some((independent, frame)) => self.unprescribed_by(independent, &frame, (t, y))?.0,
         };
-        equations.forces = Column::zeros();
+        equations.forces = rates.dim().zeros();
         for (input, is_prescribed) in self.prescribed_inputs(t).into_iter().enumerate() {
             if let Some(place) = place_of::<S>(&self.parametrisation, input).filter(|_| is_prescribed) {
                 equations.prescribe(place, jumps[input]);
@@ -142,7 +141,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The jumps of prescribed rates from those of y to these laws; zero where they are rounding errors.
     fn jumps(&self, y: &StateColumn<S>, laws: &Laws<S>, frequency: S::Scalar) -> PerInput<S::Mechanism> {
         let rates = Self::unpack(y).1;
-        Column::from_fn(|input| {
+        rates.dim().column(|input| {
             let (Some(law), Some(place)) = (laws[input], place_of::<S>(&self.parametrisation, input)) else {
                 return S::Scalar::zero();
             };
@@ -172,7 +171,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let size = law.value.abs() + inputs[input].abs() + self.scales.coordinates.inputs[input];
             let near = (law.value - inputs[input]).abs() <= most * size;
             if !near {
-                let coordinate = coordinate_name::<S::Mechanism>(S::U::COUNT + input);
+                let coordinate = coordinate_name::<S::Mechanism>(self.dims().0.count() + input);
                 return Err(MotionError::DriveJumps { scene: S::NAME, coordinate, t: to_f64(after) });
             }
         }
@@ -184,7 +183,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         self.corners.from = after;
         let kicked = self.projected(after, &Self::pack(&q, &rates))?;
         if !has_jump {
-            return Ok((kicked, Column::repeat(None)));
+            return Ok((kicked, self.scene.contact_count().repeat(None)));
         }
         self.resumed(after, &kicked)
     }
@@ -195,7 +194,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let jumps = self.jumps(y, &self.prescribed(t), S::Scalar::zero());
         let (before, after) = (Self::unpack(y).1, Self::unpack(&projected).1);
         let least = S::Scalar::default_epsilon().sqrt();
-        let has_jump = (0..S::V::COUNT).any(|i| jumps[i].abs() > least * (before[i].abs() + after[i].abs()));
+        let has_jump = (0..jumps.dim().count()).any(|i| jumps[i].abs() > least * (before[i].abs() + after[i].abs()));
         if !has_jump {
             return Ok(projected);
         }

@@ -211,13 +211,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let here = value(&q, &velocity);
         let ulps = S::Scalar::default_epsilon() * real(NOISE_ULPS);
         let mut sum = S::Scalar::zero();
-        for column in 0..S::U::COUNT + S::V::COUNT {
-            let mut error = Change::<S> { unknowns: Column::zeros(), inputs: Column::zeros() };
+        let (u, v) = self.dims();
+        for column in 0..u.count() + v.count() {
+            let mut error = Change::<S>::zero((u, v));
             let of = |error: &mut Change<S>, size: S::Scalar| {
-                if column < S::U::COUNT {
+                if column < u.count() {
                     error.unknowns[column] = size * ulps;
                 } else {
-                    error.inputs[column - S::U::COUNT] = size * ulps;
+                    error.inputs[column - u.count()] = size * ulps;
                 }
             };
             let scale = scales.get(column);

@@ -15,7 +15,7 @@ use linkage_runtime::__shared::{all_finite, smallest};
 use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Elimination, Iteration, Jacobian, ScalesOf, contract, correction};
-use linkage_runtime::{Column, D, Dim, Matrix, Mechanism, PerInput, Real, newton, real};
+use linkage_runtime::{Column, D, Dim, Mechanism, PerInput, Real, newton, real};
 
 /// The parametrisation of a scene.
 pub(super) type ParametrisationOf<S> = Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
@@ -73,7 +73,8 @@ pub struct Motion<'a, S: Scene, W> {
 impl<'a, S: Scene> Motion<'a, S, Unwatched> {
     /// Starts in the inputs, with all contacts open. The motion is from the first to the second time.
     pub(super) fn new(scene: Held<'a, S>, scales: ScalesOf<S::Mechanism>, [start, end]: [S::Scalar; 2]) -> Self {
-        let (contacts, names) = (Contacts::open(), Column::repeat(""));
+        let count = scene.contact_count();
+        let (contacts, names) = (Contacts::open(count), count.repeat(""));
         let (parametrisation, uncertainty, corners) = (Parametrisation::Inputs, None, Corners::new(start, end));
         Self { scene, watch: Unwatched, scales, parametrisation, contacts, names, uncertainty, corners }
     }
@@ -84,6 +85,13 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     pub(super) fn watched<W2>(self, watch: W2) -> Motion<'a, S, W2> {
         let Self { scene, scales, parametrisation, contacts, names, uncertainty, corners, .. } = self;
         Motion { scene, watch, scales, parametrisation, contacts, names, uncertainty, corners }
+    }
+
+    /// The numbers of unknowns and inputs.
+    #[inline]
+    pub(super) fn dims(&self) -> (S::U, S::V) {
+        let (u, v, _) = self.scene.mechanism().dims();
+        (u, v)
     }
 
     /// Packs a position and the rates of the independent coordinates into y.
@@ -175,8 +183,8 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
             }
             Parametrisation::Over(sheet) => {
                 // v' = N_v z'.
-                let (_, inputs) = self.frame_on(sheet, q, &Column::zeros())?.basis;
-                let jacobian = Jacobian::<S::Scalar, S::V, D<0>> { unknowns: inputs, inputs: Matrix::zeros() };
+                let (_, inputs) = self.frame_on(sheet, q, &rates.dim().zeros())?.basis;
+                let jacobian = Jacobian::<S::Scalar, S::V, D<0>> { unknowns: inputs, inputs: rates.dim().zero_matrix(D) };
                 let elimination = Elimination::new(jacobian);
                 let is_regular = elimination.regularity() > nearly_zero();
                 if !is_regular {
@@ -193,7 +201,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter()))?;
         let rates = S::Mechanism::rates(unknowns, inputs);
         let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
-        Ok(State { t, q, rates, event: None, kink: None, contacts: Column::from_fn(touch) })
+        Ok(State { t, q, rates, event: None, kink: None, contacts: self.names.dim().column(touch) })
     }
 
     /// Projects y onto the constraints, with prescribed inputs set to their laws.
@@ -205,7 +213,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
             if let Some(law) = law {
                 inputs[input] = law.value;
                 let place =
-                    |independent: &Choice<S>| independent.free.iter().position(|&free| free == S::U::COUNT + input);
+                    |independent: &Choice<S>| independent.free.iter().position(|&free| free == self.dims().0.count() + input);
                 let at = self.parametrisation.independent().map_or(Some(input), place);
                 if let Some(at) = at {
                     rates[at] = law.rate;
@@ -231,7 +239,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         let mechanism = self.scene.mechanism();
         let enough = S::Scalar::default_epsilon().sqrt() * real(LAST_CORRECTION_SQRT_EPSILONS);
         let projected = self.newton_near(q, enough, |pose| {
-            Ok(Some(Change::<S> { unknowns: correction(mechanism, pose)?, inputs: Column::zeros() }))
+            Ok(Some(Change::<S> { unknowns: correction(mechanism, pose)?, inputs: self.dims().1.zeros() }))
         })?;
         // No convergence nearby: the damped search returns a position or the error.
         projected.map_or_else(|| Ok(newton(mechanism, q)?.coordinates), Ok)

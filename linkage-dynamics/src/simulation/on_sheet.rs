@@ -127,7 +127,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             // A motion begins on its sheet before the line, where another change point may be near.
             (has_signs && line.is_as_regular(real(LEAST_PIVOT_RATIO), &pivots)).then(exact)
         };
-        let frame = if S::V::COUNT == 1 {
+        let frame = if rates.dim().count() == 1 {
             // There is one line.
             let speed = sheet.across.dot(rates);
             on(sheet, speed * speed)
@@ -166,7 +166,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let z = sheet.centre + sheet.reach * real(x);
             let exact = self.node(&sheet.independent, (&z, guess.q), &sheet.reach, reach * real(CHECKED))?;
             errors.position = larger(errors.position, self.scaled_norm(&(exact.q - guess.q)));
-            for column in 0..S::V::COUNT {
+            for column in 0..free.dim().count() {
                 let [exact, guess] = [&exact, &guess].map(|node| Change::<S> {
                     unknowns: node.basis.0.column(column),
                     inputs: node.basis.1.column(column),

@@ -156,7 +156,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let y = *self.integration.state();
         let motion = self.integration.system();
         let Parametrisation::Over(sheet) = &motion.parametrisation else { return Ok(()) };
-        if S::V::COUNT == 1 {
+        if motion.dims().1.count() == 1 {
             return Ok(());
         }
         let (q, rates) = Motion::<S, W>::unpack(&y);

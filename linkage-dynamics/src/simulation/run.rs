@@ -86,12 +86,12 @@ fn begin<S: Scene>(
     end: S::Scalar,
 ) -> Result<Begun<S>, MotionError> {
     let y = motion.off_kinks(t, &y).filter(|_| motion.scene.derivative(motion.beside(t), &y).is_err()).unwrap_or(y);
-    if S::Contacts::COUNT > 0 && end < t {
+    if motion.names.dim().count() > 0 && end < t {
         let contacts = motion.contacts_alone(t, &y)?.contacts;
         let contact = contacts.iter().next().map(|contact| contact.name).unwrap_or_default();
         return Err(MotionError::Irreversible { scene: S::NAME, contact });
     }
-    let y = if S::Contacts::COUNT > 0 { motion.begin(t, &y)? } else { y };
+    let y = if motion.names.dim().count() > 0 { motion.begin(t, &y)? } else { y };
     let velocity = motion.velocity(&y)?;
     let (_, accelerations) = Motion::<S, Unwatched>::unpack(&motion.scene.derivative(motion.beside(t), &y)?);
     let speed = motion.scaled_norm(&velocity);

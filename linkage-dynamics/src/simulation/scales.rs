@@ -30,7 +30,7 @@ pub(crate) fn resolution_by_inputs<M: Mechanism>(
     let by_inputs = mechanism.jacobian_inputs(&pose);
     let inputs: Column<_, M::V> = M::inputs(q).abs().zip_map(&scales.coordinates.inputs, M::Scalar::max);
     let mut size = M::Scalar::zero();
-    for input in 0..M::V::COUNT {
+    for input in 0..inputs.dim().count() {
         let unknowns = mechanism.solve_jacobian(&pose, &by_inputs.column(input))?;
         size += (along.inputs[input] - along.unknowns.dot(&unknowns)).abs() * inputs[input];
     }

@@ -115,7 +115,7 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
     /// q at x on the line, interpolated.
     pub(super) fn position(&self, x: T) -> Vector<T, U, V> {
         let terms = weights(&ABSCISSAE, x).zip(&self.nodes);
-        let mut q = terms.fold(Vector::zero(), |sum, (weight, node)| sum + node.q * weight);
+        let mut q = terms.fold(Vector::zero(self.nodes[0].q.dims()), |sum, (weight, node)| sum + node.q * weight);
         let z = self.centre + self.reach * x;
         for (&column, &value) in self.independent.free.iter().zip(&z) {
             q.set(column, value);
@@ -125,8 +125,9 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
 
     /// All values at x on the line, interpolated.
     pub(super) fn at(&self, x: T) -> Node<T, U, V> {
-        let mut basis = (Matrix::zeros(), Matrix::zeros());
-        let (mut bias, mut pivots) = (Vector::zero(), Column::zeros());
+        let (u, v) = self.nodes[0].q.dims();
+        let mut basis = (u.zero_matrix(v), v.zero_matrix(v));
+        let (mut bias, mut pivots) = (Vector::zero((u, v)), u.zeros());
         for (weight, node) in weights(&ABSCISSAE, x).zip(&self.nodes) {
             basis = (basis.0 + node.basis.0 * weight, basis.1 + node.basis.1 * weight);
             bias = bias + node.bias * weight;
@@ -160,7 +161,7 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
     /// True if a position with these pivots is on the other side of the crossing than the first node.
     pub(super) fn is_beyond(&self, pivots: &Column<T, U>) -> bool {
         let first = &self.nodes[0].pivots;
-        (0..U::COUNT).any(|pivot| self.vanishes[pivot] && pivots[pivot] * first[pivot] < T::zero())
+        (0..pivots.dim().count()).any(|pivot| self.vanishes[pivot] && pivots[pivot] * first[pivot] < T::zero())
     }
 
     /// Sets the pivots at the edges of the interpolated part from those of the nodes; returns true if each keeps its
@@ -168,7 +169,7 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
     pub(super) fn set_edges(&mut self) -> bool {
         let [before, after] = INTERPOLATED.map(|node| self.nodes[node].pivots);
         self.independent.pivots = before.zip_map(&after, |a, b| if b.abs() < a.abs() { b } else { a });
-        self.vanishes = Column::from_fn(|pivot| before[pivot] * after[pivot] < T::zero());
+        self.vanishes = before.dim().column(|pivot| before[pivot] * after[pivot] < T::zero());
         let keeps = |pivot: usize| {
             let half = NODES / 2;
             self.nodes.iter().enumerate().all(|(node, there)| {
@@ -176,7 +177,7 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
                 there.pivots[pivot] * own > T::zero()
             })
         };
-        (0..U::COUNT).all(keeps) && self.vanishes.iter().any(|&vanishes| vanishes)
+        (0..before.dim().count()).all(keeps) && self.vanishes.iter().any(|&vanishes| vanishes)
     }
 
     /// The zero on the line of a pivot that vanishes, by interpolation.
@@ -198,7 +199,7 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
     pub(super) fn crossing(&self) -> Option<T> {
         let [before, after] = INTERPOLATED.map(|node| self.nodes[node].pivots);
         let change = |pivot: usize| (after[pivot] - before[pivot]).abs();
-        let all = (0..U::COUNT).filter(|&pivot| before[pivot] * after[pivot] < T::zero());
+        let all = (0..before.dim().count()).filter(|&pivot| before[pivot] * after[pivot] < T::zero());
         all.reduce(|best, pivot| if change(pivot) > change(best) { pivot } else { best })
             .map(|pivot| self.zero_of(pivot))
     }

@@ -8,7 +8,7 @@ use crate::scene::Loads;
 use crate::scene::coordinate_name;
 use crate::{Accelerations, Equations, Mode, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput};
+use linkage_runtime::{Column, Dim, Mechanism, PerInput};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
@@ -55,9 +55,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
             bias: S::Scalar::zero(),
             law: contact.law,
         });
-        let coordinates = Column::from_fn(|input| coordinate_name::<S::Mechanism>(S::U::COUNT + input));
-        let (mass, forces) = (Matrix::identity(), Column::zeros());
-        let (rates, bearings) = (velocity.inputs, Column::repeat(None));
+        let (u, v) = self.dims();
+        let coordinates = v.column(|input| coordinate_name::<S::Mechanism>(u.count() + input));
+        let (mass, forces) = (v.identity(), v.zeros());
+        let (rates, bearings) = (velocity.inputs, contacts.dim().repeat(None));
         Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts, bearings })
     }
 
@@ -80,7 +81,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let (q, _) = Self::unpack(y);
         let velocity = self.velocity(y)?;
         let contacts = self.scene.contacts(t, &q, &S::Mechanism::rates(velocity.unknowns, velocity.inputs))?;
-        let mut resolution = Column::zeros();
+        let mut resolution = contacts.dim().zeros();
         for (resolution, Contact { along, .. }) in resolution.iter_mut().zip(&contacts) {
             *resolution = match self.parametrisation {
                 Parametrisation::Inputs => resolution_by_inputs(self.scene.mechanism(), &self.scales, &q, along)?,
@@ -120,8 +121,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Settles the contacts at y.
     fn changed(&mut self, t: S::Scalar, y: &StateColumn<S>, settling: Settling) -> Result<Changed<S>, MotionError> {
-        if S::Contacts::COUNT == 0 {
-            return Ok((*y, Column::repeat(None)));
+        if self.names.dim().count() == 0 {
+            return Ok((*y, self.names.dim().repeat(None)));
         }
         let (q, rates) = Self::unpack(y);
         // In the change point itself a change of a contact may lead to any of the motions that cross.
@@ -150,7 +151,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         t: S::Scalar,
         y: &StateColumn<S>,
     ) -> Result<(StateColumn<S>, bool), MotionError> {
-        if S::Contacts::COUNT == 0 {
+        if self.names.dim().count() == 0 {
             return Ok((*y, true));
         }
         if contacts.modes.iter().all(|&mode| mode == Mode::Open)
@@ -194,17 +195,17 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         let (free, places) = match self.frame(&q, &rates)? {
-            None => (ReducedEquations::unprescribed(&*self.scene, t, y)?.0, Column::from_fn(Some)),
+            None => (ReducedEquations::unprescribed(&*self.scene, t, y)?.0, rates.dim().column(Some)),
             Some((independent, frame)) => {
-                let place = |input: usize| independent.free.iter().position(|&free| free == S::U::COUNT + input);
-                (self.unprescribed_by(independent, &frame, (t, y))?.0, Column::from_fn(place))
+                let place = |input: usize| independent.free.iter().position(|&free| free == self.dims().0.count() + input);
+                (self.unprescribed_by(independent, &frame, (t, y))?.0, rates.dim().column(place))
             }
         };
         let motion = contacts.motion(&self.equations(t, y)?).map_err(|error| error.at(t))?;
         let residual = motion.residual(&free);
         let places: Column<Option<usize>, S::V> = places;
         let prescribed = self.prescribed_inputs(t);
-        let drives: PerInput<S::Mechanism> = Column::from_fn(|input| match places[input] {
+        let drives: PerInput<S::Mechanism> = places.dim().column(|input| match places[input] {
             Some(place) if prescribed[input] => residual[place],
             _ => S::Scalar::zero(),
         });

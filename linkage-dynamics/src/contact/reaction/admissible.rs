@@ -17,7 +17,7 @@ use super::search::Cell;
 use crate::contact::bounded::{Bounds, bounded};
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use linkage_runtime::{Column, Dim, Real, real};
 
 /// The limit on updates of the limits. Each divides their error by about 1 / (friction coefficient).
 const MOST_UPDATES: usize = 40;
@@ -87,7 +87,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     }
 
     fn bounded(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..C::COUNT).filter(|&place| self.is_bounded[place])
+        (0..self.is_bounded.dim().count()).filter(|&place| self.is_bounded[place])
     }
 
     pub(super) fn is_admissible(&self, forces: &Column<T, C>) -> bool {
@@ -103,8 +103,8 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
 
     /// Forces on a line, those with the least relative excess; None if they exceed a bound.
     fn on_line(&self, family: &Family<T, C>) -> Option<Column<T, C>> {
-        let mut places = [Column::<T, C>::zeros(); ROOTS_PER_CONTACT];
-        let mut known = [Column::<bool, C>::repeat(false); ROOTS_PER_CONTACT];
+        let mut places = [self.is_bounded.dim().zeros(); ROOTS_PER_CONTACT];
+        let mut known = [self.is_bounded.dim().repeat(false); ROOTS_PER_CONTACT];
         let along = family.columns[0];
         for place in self.bounded() {
             let roots = self.bounds_on_line(place, family);
@@ -115,7 +115,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
         }
         let of = |y: T| family.base + along * y;
         let all = || {
-            let of_rank = |k: usize| (0..C::COUNT).filter(move |&at| known[k][at]).map(move |at| places[k][at]);
+            let of_rank = |k: usize| (0..self.is_bounded.dim().count()).filter(move |&at| known[k][at]).map(move |at| places[k][at]);
             (0..ROOTS_PER_CONTACT).flat_map(of_rank)
         };
         for y in all() {
@@ -162,7 +162,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     /// Forces within limits that are updated until they repeat. `start` has the forces of the other contacts.
     fn by_updates(&self, start: &Column<T, C>) -> Option<Column<T, C>> {
         let moving: Column<T, C> =
-            Column::from_fn(|place| if self.is_bounded[place] { T::zero() } else { start[place] });
+            self.is_bounded.dim().column(|place| if self.is_bounded[place] { T::zero() } else { start[place] });
         let mut forces = *start;
         for _ in 0..MOST_UPDATES {
             let next = self.within_limits(&moving, &forces)?;
@@ -183,7 +183,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     /// contacts.
     pub(super) fn within_limits(&self, moving: &Column<T, C>, forces: &Column<T, C>) -> Option<Column<T, C>> {
         let endless = real::<T>(f64::INFINITY);
-        let bounds = Column::from_fn(|place| {
+        let bounds = self.is_bounded.dim().column(|place| {
             if !self.is_bounded[place] {
                 return None;
             }
@@ -230,13 +230,13 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     fn by_subdivision(&self, family: &Family<T, C>, budget: &mut Budget) -> Existence<T, C> {
         let count = family.spares;
         let (zero, one, half) = (T::zero(), T::one(), real::<T>(0.5));
-        let ones: Column<T, C> = Column::from_fn(|at| if at < count { one } else { zero });
+        let ones: Column<T, C> = self.is_bounded.dim().column(|at| if at < count { one } else { zero });
         if let Some(radius) = self.greatest(family).and_then(|most| self.radius(family, &most)) {
             // Each force is below a bound: the parameters, forces of contacts, fill one cell.
-            let cell = Cell { scale: [one, zero], centre: Column::zeros(), radius: ones };
+            let cell = Cell { scale: [one, zero], centre: self.is_bounded.dim().zeros(), radius: ones };
             return self.explore(&family.in_units(&radius), &cell, budget);
         }
-        let units: Column<T, C> = Column::from_fn(|at| if at < count { self.unit(family, at) } else { zero });
+        let units: Column<T, C> = self.is_bounded.dim().column(|at| if at < count { self.unit(family, at) } else { zero });
         let family = family.in_units(&units);
         // The face where s is 1, and those where a parameter is 1 or -1.
         let sides = (0..count).flat_map(|at| [Some((at, one)), Some((at, -one))]);
@@ -245,8 +245,8 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
             let side = |place: usize| fixed.filter(|&(at, _)| at == place).map(|(_, sign)| sign);
             let cell = Cell {
                 scale: if fixed.is_none() { [one, zero] } else { [half, half] },
-                centre: Column::from_fn(|place| side(place).unwrap_or(zero)),
-                radius: Column::from_fn(|place| if side(place).is_some() { zero } else { ones[place] }),
+                centre: self.is_bounded.dim().column(|place| side(place).unwrap_or(zero)),
+                radius: self.is_bounded.dim().column(|place| if side(place).is_some() { zero } else { ones[place] }),
             };
             match self.explore(&family, &cell, budget) {
                 Existence::Excluded => {}
@@ -259,14 +259,14 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
 
     /// The greatest magnitudes of the bounded forces: u <= c |r| + G u where the spectral radius of G is below 1.
     fn greatest(&self, family: &Family<T, C>) -> Option<Column<T, C>> {
-        let mut gain = Matrix::<T, C, C>::zeros();
-        let mut side = Column::<T, C>::zeros();
+        let mut gain = self.is_bounded.dim().zero_matrix(self.is_bounded.dim());
+        let mut side = self.is_bounded.dim().zeros();
         for place in self.bounded() {
             match (self.problem.equations.contacts[place].law, &self.problem.reactions[place]) {
                 (ContactLaw::Friction { limit }, _) => side[place] = limit,
                 (ContactLaw::Bearing { .. }, Some(Reaction { factor, by, .. })) => {
                     let moving: Column<T, C> =
-                        Column::from_fn(|at| if self.is_bounded[at] { T::zero() } else { family.base[at] });
+                        self.is_bounded.dim().column(|at| if self.is_bounded[at] { T::zero() } else { family.base[at] });
                     side[place] = *factor * length(self.problem.reactions[place].as_ref()?.at(&moving));
                     for other in self.bounded() {
                         *gain.get_mut(place, other)? = *factor * length([by[0][other], by[1][other]]);
@@ -275,12 +275,12 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
                 _ => return None,
             }
         }
-        contraction(&gain, side, C::COUNT)
+        contraction(&gain, side, self.is_bounded.dim().count())
     }
 
     /// The range of each parameter: that of a force that only this parameter changes by 1.
     fn radius(&self, family: &Family<T, C>, most: &Column<T, C>) -> Option<Column<T, C>> {
-        let mut radius = Column::zeros();
+        let mut radius = self.is_bounded.dim().zeros();
         for at in 0..family.spares {
             let only = |place: usize| {
                 let mut others = (0..family.spares).filter(|&other| other != at);
@@ -289,7 +289,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
                     && family.base[place].is_zero()
                     && others.all(|other| family.columns[other][place].is_zero())
             };
-            radius[at] = most[(0..C::COUNT).find(|&place| only(place))?] * real(1.0 + 1e-9);
+            radius[at] = most[(0..self.is_bounded.dim().count()).find(|&place| only(place))?] * real(1.0 + 1e-9);
         }
         Some(radius)
     }
@@ -301,7 +301,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
         let scale = cell.scale[0];
         if scale > T::zero() {
             let forces =
-                family.at(&Column::from_fn(|at| if at < family.spares { cell.centre[at] / scale } else { T::zero() }));
+                family.at(&self.is_bounded.dim().column(|at| if at < family.spares { cell.centre[at] / scale } else { T::zero() }));
             if self.is_admissible(&forces) {
                 return Existence::Found(forces);
             }

@@ -98,7 +98,7 @@ fn options(side: Mode) -> &'static [Mode] {
 impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
     /// Visits all modes of the contacts from `place` on.
     fn visit(&mut self, place: usize, modes: &mut Column<Mode, C>) -> Result<(), Failure> {
-        if place == C::COUNT {
+        if place == self.at_rest.dim().count() {
             return self.examine(modes);
         }
         let Some(side) = self.at_rest[place] else { return self.visit(place + 1, modes) };
@@ -154,7 +154,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
         let is_bounded = modes.map(Mode::is_held);
         let is_slipping = slipping_within(problem, modes);
         let relaxed =
-            HeldForces { problem, modes, is_bounded: Column::from_fn(|at| is_bounded[at] || is_slipping[at]) };
+            HeldForces { problem, modes, is_bounded: modes.dim().column(|at| is_bounded[at] || is_slipping[at]) };
         if let Existence::Excluded = relaxed.admissible(&family.relaxed(), &mut self.budget) {
             return Ok(());
         }
@@ -179,7 +179,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
 
     /// True if every contact that is not held departs in the direction of its mode.
     fn departs(&self, modes: &Column<Mode, C>, forces: &Column<T, C>) -> bool {
-        (0..C::COUNT).all(|place| match self.at_rest[place] {
+        (0..self.at_rest.dim().count()).all(|place| match self.at_rest[place] {
             Some(side) if !modes[place].is_held() => self.problem.departs(place, (modes[place], side), forces),
             _ => true,
         })
@@ -189,8 +189,8 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
     fn is_part_of_another(&self, modes: &Column<Mode, C>, family: &Family<T, C>) -> bool {
         let problem = self.problem;
         let rank = |also: Option<usize>| {
-            let (mut order, mut count) = (Column::repeat(0), 0);
-            for place in (0..C::COUNT).filter(|&place| modes[place].is_held() || also == Some(place)) {
+            let (mut order, mut count) = (self.at_rest.dim().repeat(0), 0);
+            for place in (0..self.at_rest.dim().count()).filter(|&place| modes[place].is_held() || also == Some(place)) {
                 order[count] = place;
                 count += 1;
             }
@@ -198,7 +198,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
         };
         let of_held = rank(None);
         let is_free = |place: usize| self.at_rest[place].is_some() && !modes[place].is_held();
-        (0..C::COUNT)
+        (0..self.at_rest.dim().count())
             .filter(|&place| is_free(place))
             .any(|place| rank(Some(place)) == of_held && problem.stands(place, &family.base))
     }
@@ -215,13 +215,13 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
             !problem.stands(place, forces)
         };
         let is_at_rest = |place: usize| self.at_rest[place].is_some();
-        Family::new(problem, &found.modes).spares == 0 && (0..C::COUNT).filter(|&place| is_at_rest(place)).all(is_clear)
+        Family::new(problem, &found.modes).spares == 0 && (0..self.at_rest.dim().count()).filter(|&place| is_at_rest(place)).all(is_clear)
     }
 
     fn is_known(&self, found: &Found<T, V, C>) -> bool {
         self.found.as_ref().is_some_and(|known| {
             let tolerance = T::default_epsilon().sqrt();
-            (0..V::COUNT).all(|at| {
+            (0..found.acceleration.dim().count()).all(|at| {
                 let size = known.size[at].max(found.size[at]);
                 (known.acceleration[at] - found.acceleration[at]).abs() <= tolerance * size
             })
@@ -237,7 +237,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
                     let is_friction = !matches!(self.problem.equations.contacts[place].law, ContactLaw::Stop { .. });
                     known.modes[place] != found.modes[place] && is_friction
                 };
-                let contact = (0..C::COUNT).find(differs).map(|place| self.problem.equations.contacts[place].name);
+                let contact = (0..self.at_rest.dim().count()).find(differs).map(|place| self.problem.equations.contacts[place].name);
                 return Err(Failure::Several(contact.unwrap_or_else(|| self.problem.strongest())));
             }
             Some(known) if held(known) >= held(&found) => {}
@@ -253,13 +253,13 @@ fn by_updates<T: Real, V: Dim, C: Dim>(
     modes: &Column<Mode, C>,
     at_rest: &Column<Option<Mode>, C>,
 ) -> Option<Column<Mode, C>> {
-    let held = Column::from_fn(|place| at_rest[place].unwrap_or(modes[place]));
+    let held = at_rest.dim().column(|place| at_rest[place].unwrap_or(modes[place]));
     let search = HeldForces { problem, modes: &held, is_bounded: at_rest.map(|side| side.is_some()) };
     let sign = |place: usize| if modes[place] == Mode::SlipForward { -T::one() } else { T::one() };
     let is_slipping = slipping_within(problem, modes);
     let mut forces = problem.given(&held);
     for _ in 0..MOST_UPDATES {
-        let moving: Column<T, C> = Column::from_fn(|place| match at_rest[place] {
+        let moving: Column<T, C> = at_rest.dim().column(|place| match at_rest[place] {
             Some(_) => T::zero(),
             None if is_slipping[place] => sign(place) * problem.limit(place, &forces),
             None => forces[place],

@@ -27,8 +27,9 @@ pub(super) struct Family<T: Real, C: Dim> {
 impl<T: Real, C: Dim> Family<T, C> {
     pub(super) fn new<V: Dim>(problem: &Problem<'_, T, V, C>, modes: &Column<Mode, C>) -> Self {
         let matrix = &problem.response.matrix;
-        let (mut order, mut count) = (Column::repeat(0), 0);
-        for place in (0..C::COUNT).filter(|&place| modes[place].is_held()) {
+        let c = modes.dim();
+        let (mut order, mut count) = (c.repeat(0), 0);
+        for place in (0..c.count()).filter(|&place| modes[place].is_held()) {
             order[count] = place;
             count += 1;
         }
@@ -43,8 +44,8 @@ impl<T: Real, C: Dim> Family<T, C> {
         held(&factors.solve(|row| -problem.along(row, &given).0), &mut base);
         let mut family = Self {
             base,
-            columns: Column::repeat(Column::zeros()),
-            slipping: Column::repeat(0),
+            columns: c.repeat(c.zeros()),
+            slipping: c.repeat(0),
             slips: 0,
             is_consistent: true,
             spares: 0,
@@ -55,7 +56,7 @@ impl<T: Real, C: Dim> Family<T, C> {
                 (ContactLaw::Bearing { .. }, Mode::SlipBackward) => T::one(),
                 _ => continue,
             };
-            let mut column = Column::zeros();
+            let mut column = c.zeros();
             held(&factors.solve(|row| -matrix[(row, place)] * sign), &mut column);
             column[place] = sign;
             family.columns[family.slips] = column;
@@ -66,7 +67,7 @@ impl<T: Real, C: Dim> Family<T, C> {
             let contact = factors.order[dependent];
             let (sum, size) = problem.along(contact, &base);
             family.is_consistent &= sum.abs() <= held_tolerance::<T>() * size;
-            let mut column = Column::zeros();
+            let mut column = c.zeros();
             held(&-factors.combination(dependent), &mut column);
             column[contact] = T::one();
             family.columns[family.slips + family.spares] = column;
@@ -82,11 +83,11 @@ impl<T: Real, C: Dim> Family<T, C> {
 
     /// The family with the magnitudes of the slipping forces set.
     pub(super) fn with_slips(&self, magnitudes: &Column<T, C>) -> Self {
-        let mut columns = Column::repeat(Column::zeros());
+        let mut columns = self.base.dim().repeat(self.base.dim().zeros());
         for (own, &column) in columns.iter_mut().zip(self.columns.as_slice().iter().skip(self.slips)) {
             *own = column;
         }
-        let set: Column<T, C> = Column::from_fn(|place| if place < self.slips { magnitudes[place] } else { T::zero() });
+        let set: Column<T, C> = self.base.dim().column(|place| if place < self.slips { magnitudes[place] } else { T::zero() });
         Self { base: self.at(&set), columns, slips: 0, ..*self }
     }
 
@@ -102,7 +103,7 @@ impl<T: Real, C: Dim> Family<T, C> {
 
     /// The equations for the magnitudes of the slipping forces, at zero forces of the redundant contacts.
     pub(super) fn slips<V: Dim>(&self, problem: &Problem<'_, T, V, C>) -> Slips<T, C> {
-        let mut slips = Slips::none();
+        let mut slips = Slips::none(self.base.dim());
         slips.count = self.slips;
         for row in 0..self.slips {
             let Some(reaction) = &problem.reactions[self.slipping[row]] else { continue };
@@ -132,7 +133,7 @@ impl<T: Real, C: Dim> Family<T, C> {
     /// True if no x changes the accelerations.
     pub(super) fn is_still<V: Dim>(&self, problem: &Problem<'_, T, V, C>) -> bool {
         self.columns.iter().take(self.slips + self.spares).all(|column| {
-            (0..V::COUNT).all(|row| {
+            (0..problem.response.acceleration.dim().count()).all(|row| {
                 let terms = problem.response.columns.row(row).component_mul(column);
                 terms.sum().abs() <= held_tolerance::<T>() * terms.abs().sum()
             })
@@ -150,7 +151,7 @@ impl<T: Real, C: Dim> Family<T, C> {
             return None;
         }
         let along = self.columns[pivot];
-        let mut columns = Column::repeat(Column::zeros());
+        let mut columns = self.base.dim().repeat(self.base.dim().zeros());
         let others = (0..count).filter(|&at| at != pivot);
         for (own, at) in columns.iter_mut().zip(others) {
             *own = self.columns[at] - along * (slopes[at] / slope);

@@ -53,7 +53,7 @@ pub(super) fn motion<T: Real, V: Dim, C: Dim>(
     let problem = Problem::new(equations)?;
     let InModes { forces, are_unique, .. } =
         in_modes(&problem, modes).map_err(|failure| failure.of(equations.scene))?;
-    let moving = Column::from_fn(|place| if modes[place].is_held() { T::zero() } else { forces[place] });
+    let moving = modes.dim().column(|place| if modes[place].is_held() { T::zero() } else { forces[place] });
     let acceleration = Held::with_forces(equations, modes, &moving)?.acceleration(equations);
     Ok(ContactMotion { acceleration, forces, are_unique })
 }
@@ -74,7 +74,7 @@ pub(super) fn margins<T: Real, V: Dim, C: Dim>(
     let found = in_modes(&problem, modes).map_err(|failure| failure.of(equations.scene))?;
     let forces = &found.forces;
     let Some(are_admissible) = found.are_admissible else {
-        return Ok(Column::from_fn(|place| {
+        return Ok(modes.dim().column(|place| {
             let mode = modes[place];
             if !mode.is_held() {
                 return T::one();
@@ -82,11 +82,11 @@ pub(super) fn margins<T: Real, V: Dim, C: Dim>(
             problem.margin(place, mode, forces) + problem.force_tolerance(place, forces)
         }));
     };
-    let moving = Column::from_fn(|place| if modes[place].is_held() { T::zero() } else { forces[place] });
+    let moving = modes.dim().column(|place| if modes[place].is_held() { T::zero() } else { forces[place] });
     let held = Held::with_forces(equations, modes, &moving)?;
     let margins = held.margins_by(modes, |rates| limits_in(&problem, modes, rates, forces));
     let least = -held_tolerance::<T>();
-    Ok(Column::from_fn(|place| match margins[place] {
+    Ok(modes.dim().column(|place| match margins[place] {
         _ if !modes[place].is_held() => T::one(),
         margin if are_admissible => margin.max(T::zero()),
         margin => margin.min(least),

@@ -53,7 +53,7 @@ pub(super) fn limits_in<T: Real, V: Dim, C: Dim>(
     rates: &Column<T, C>,
     otherwise: &Column<T, C>,
 ) -> Option<Column<T, C>> {
-    let moving = Column::from_fn(|place| match modes[place] {
+    let moving = modes.dim().column(|place| match modes[place] {
         Mode::Stick if rates[place] > T::zero() => Mode::SlipForward,
         Mode::Stick if rates[place] < T::zero() => Mode::SlipBackward,
         Mode::AtLower | Mode::AtUpper if !rates[place].is_zero() => Mode::Open,
@@ -69,7 +69,7 @@ pub(super) fn limits_in<T: Real, V: Dim, C: Dim>(
             _ => {}
         }
     }
-    Some(Column::from_fn(|place| problem.limit(place, &forces)))
+    Some(modes.dim().column(|place| problem.limit(place, &forces)))
 }
 
 pub(super) fn in_modes<T: Real, V: Dim, C: Dim>(
@@ -130,7 +130,7 @@ fn departs<T: Real, V: Dim, C: Dim>(
     forces: &Column<T, C>,
 ) -> bool {
     let is_beginning = |place: usize| is_negligible(problem.equations.contacts[place].rate(&problem.equations.rates));
-    (0..C::COUNT).all(|place| match modes[place] {
+    (0..modes.dim().count()).all(|place| match modes[place] {
         mode @ (Mode::SlipForward | Mode::SlipBackward) if is_beginning(place) => {
             problem.departs(place, (mode, Mode::Stick), forces)
         }
@@ -150,7 +150,7 @@ pub(super) fn slipping_within<T: Real, V: Dim, C: Dim>(
     problem: &Problem<'_, T, V, C>,
     modes: &Column<Mode, C>,
 ) -> Column<bool, C> {
-    Column::from_fn(|place| {
+    modes.dim().column(|place| {
         let is_bearing = matches!(problem.equations.contacts[place].law, ContactLaw::Bearing { .. });
         is_bearing && matches!(modes[place], Mode::SlipForward | Mode::SlipBackward)
     })
@@ -165,8 +165,8 @@ pub(super) fn in_family<T: Real, V: Dim, C: Dim>(
 ) -> Option<Column<T, C>> {
     let is_slipping = slipping_within(held.problem, held.modes);
     let magnitudes = |forces: &Column<T, C>| {
-        let places = (0..C::COUNT).filter(|&place| is_slipping[place]);
-        Column::<T, C>::from_iterator(places.map(|place| held.problem.limit(place, forces)))
+        let places = (0..is_slipping.dim().count()).filter(|&place| is_slipping[place]);
+        is_slipping.dim().padded(places.map(|place| held.problem.limit(place, forces)))
     };
     let mut slips = magnitudes(&family.base);
     for _ in 0..MOST_UPDATES {

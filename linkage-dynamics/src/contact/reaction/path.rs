@@ -13,7 +13,7 @@ use super::problem::length;
 use crate::contact::Mode;
 use crate::contact::tolerance::held_tolerance;
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use linkage_runtime::{Column, Dim, Real, real};
 
 /// The limit on iterations for the forces at one point of the path, and on bisections.
 const MOST_ITERATIONS: usize = 500;
@@ -33,11 +33,11 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     /// Decides whether frictions of one motion hold; None if this needs a search. `start` has the forces of the other
     /// contacts.
     pub(super) fn on_path(&self, start: &Column<T, C>) -> Option<Existence<T, C>> {
-        let matrix = &self.problem.response.matrix;
-        let held = || (0..C::COUNT).filter(|&place| self.is_bounded[place]);
+        let (matrix, c) = (&self.problem.response.matrix, self.is_bounded.dim());
+        let held = || (0..c.count()).filter(|&place| self.is_bounded[place]);
         let pivot = held().reduce(|a, b| if matrix[(b, b)] > matrix[(a, a)] { b } else { a })?;
         let ratio = |place: usize| matrix[(place, pivot)] / matrix[(pivot, pivot)];
-        let ratios = Column::from_fn(|place| if self.is_bounded[place] { ratio(place) } else { T::zero() });
+        let ratios = c.column(|place| if self.is_bounded[place] { ratio(place) } else { T::zero() });
         let is_of_motion = |place: usize| {
             let (entry, ratio) = (matrix[(place, place)], ratios[place]);
             let rest = entry - ratio * ratio * matrix[(pivot, pivot)];
@@ -46,19 +46,19 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
         if !held().all(is_of_motion) {
             return None;
         }
-        let gain = Matrix::<T, C, C>::from_fn(|row, column| match &self.problem.reactions[row] {
+        let gain = c.matrix(c, |row, column| match &self.problem.reactions[row] {
             Some(reaction) if self.is_bounded[row] && self.is_bounded[column] => {
                 reaction.factor * length([0, 1].map(|k| reaction.by[k][column]))
             }
             _ => T::zero(),
         });
-        contraction(&gain, Column::repeat(T::one()), C::COUNT)?;
+        contraction(&gain, c.repeat(T::one()), c.count())?;
         let is_decisive = held().all(|column| {
             let share = held().fold(T::zero(), |sum, row| sum + ratios[row].abs() * gain[(row, column)]);
             share <= ratios[column].abs() * real(0.5)
         });
         let moving: Column<T, C> =
-            Column::from_fn(|place| if self.is_bounded[place] { T::zero() } else { start[place] });
+            c.column(|place| if self.is_bounded[place] { T::zero() } else { start[place] });
         let path = Path { held: self, pivot, ratios, moving };
         let found = path.zero()?;
         match found {
@@ -103,7 +103,7 @@ impl<T: Real, V: Dim, C: Dim> Path<'_, T, V, C> {
     fn at(&self, x: T, start: &Column<T, C>) -> Option<Column<T, C>> {
         let mut forces = *start;
         for _ in 0..MOST_ITERATIONS {
-            let next = Column::from_fn(|place| {
+            let next = self.ratios.dim().column(|place| {
                 let ratio = self.ratios[place];
                 if ratio.is_zero() {
                     return self.moving[place];

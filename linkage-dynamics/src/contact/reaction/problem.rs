@@ -5,7 +5,7 @@ use crate::contact::held::{Response, slipping};
 use crate::contact::tolerance::{held_tolerance, sum_tolerance};
 use crate::contact::{ContactLaw, Mode, ReducedEquations};
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Column, Dim, Matrix, PositionError, Real, real};
+use linkage_runtime::{Column, Dim, PositionError, Real, real};
 
 /// A reaction as a function of the contact forces.
 #[derive(Debug, Clone, Copy)]
@@ -56,13 +56,14 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
     /// # Errors
     /// Those of [`Response::new`]; [`PositionError::NotFinite`] with the name of a contact without a reaction.
     pub(super) fn new(equations: &'a ReducedEquations<T, V, C>) -> Result<Self, MotionError> {
-        let response = Response::new(equations, &Column::zeros(), |_| true)?;
-        let mut reactions = Column::repeat(None);
+        let (_, c) = equations.dims();
+        let response = Response::new(equations, &c.zeros(), |_| true)?;
+        let mut reactions = c.repeat(None);
         for (place, contact) in equations.contacts.iter().enumerate() {
             let ContactLaw::Bearing { factor } = contact.law else { continue };
             let not_finite = PositionError::NotFinite { mechanism: equations.scene, quantity: contact.name };
             let Some(bearing) = equations.bearings[place] else { return Err(not_finite.into()) };
-            let (mut base, mut size, mut by) = ([T::zero(); 2], T::zero(), [Column::zeros(); 2]);
+            let (mut base, mut size, mut by) = ([T::zero(); 2], T::zero(), [c.zeros(); 2]);
             for (k, row) in bearing.components.iter().enumerate() {
                 let terms = row.accelerations.component_mul(&response.acceleration);
                 base[k] = row.constant + terms.sum();
@@ -156,9 +157,10 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
     /// The greatest magnitudes of the forces in these modes: u <= c |r| + G u where the spectral radius of G is below 1;
     /// None if a force has no bound.
     fn most(&self, modes: &Column<Mode, C>) -> Option<Column<T, C>> {
-        let mut gain = Matrix::<T, C, C>::zeros();
-        let mut side = Column::<T, C>::zeros();
-        for place in 0..C::COUNT {
+        let c = modes.dim();
+        let mut gain = c.zero_matrix(c);
+        let mut side = c.zeros();
+        for place in 0..c.count() {
             match (self.equations.contacts[place].law, &self.reactions[place]) {
                 (ContactLaw::Friction { limit }, _) => side[place] = limit,
                 (ContactLaw::Bearing { .. }, Some(Reaction { factor, base, by, .. })) => {
@@ -171,16 +173,17 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
                 _ => {}
             }
         }
-        contraction(&gain, side, C::COUNT)
+        contraction(&gain, side, c.count())
     }
 
     /// True if a friction that is held would need more than twice the force that all forces can give: at a dead centre of
     /// s it cannot hold s, whose acceleration no force changes. Closer to the limit the forces themselves are compared.
     pub(super) fn is_beyond_reach(&self, modes: &Column<Mode, C>) -> bool {
+        let c = modes.dim();
         let Some(most) = self.most(modes) else { return false };
-        (0..C::COUNT).filter(|&place| modes[place].is_held()).any(|place| {
+        (0..c.count()).filter(|&place| modes[place].is_held()).any(|place| {
             let (bias, size) = self.response.bias[place];
-            let reach = (0..C::COUNT).map(|other| self.response.matrix[(place, other)].abs() * most[other]);
+            let reach = (0..c.count()).map(|other| self.response.matrix[(place, other)].abs() * most[other]);
             let reach = reach.fold(T::zero(), |sum, term| sum + term);
             bias.abs() > reach * real(2.0) + held_tolerance::<T>() * size
         })
@@ -188,7 +191,7 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
 
     /// The forces of the contacts that do not depend on any reaction: those that slip with a given limit.
     pub(super) fn given(&self, modes: &Column<Mode, C>) -> Column<T, C> {
-        Column::from_fn(|place| slipping(modes[place], &self.equations.contacts[place].law))
+        modes.dim().column(|place| slipping(modes[place], &self.equations.contacts[place].law))
     }
 
     /// The contact to name in an error: the bearing whose limit depends most on its own force.
@@ -197,7 +200,7 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
             let reaction = self.reactions[place].as_ref()?;
             Some(reaction.factor * length([0, 1].map(|k| reaction.by[k][place])))
         };
-        let bearings = (0..C::COUNT).filter_map(|place| Some((place, gain(place)?)));
+        let bearings = (0..self.reactions.dim().count()).filter_map(|place| Some((place, gain(place)?)));
         let strongest = bearings.reduce(|best, other| if other.1 > best.1 { other } else { best });
         strongest.map_or("", |(place, _)| self.equations.contacts[place].name)
     }

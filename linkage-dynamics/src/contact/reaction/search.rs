@@ -68,14 +68,14 @@ impl<T: Real, C: Dim> Cell<T, C> {
 }
 
 /// The cells of a face of the cube: the coordinate with this index is 1, s for None.
-fn face<T: Real, C: Dim>(fixed: Option<usize>) -> Cell<T, C> {
+fn face<T: Real, C: Dim>(c: C, fixed: Option<usize>) -> Cell<T, C> {
     let half = real::<T>(0.5);
     let side = |is_fixed: bool| if is_fixed { [T::one(), T::zero()] } else { [half, half] };
     let of = |at: usize| side(fixed == Some(at));
     Cell {
         scale: side(fixed.is_none()),
-        centre: Column::from_fn(|at| of(at)[0]),
-        radius: Column::from_fn(|at| of(at)[1]),
+        centre: c.column(|at| of(at)[0]),
+        radius: c.column(|at| of(at)[1]),
     }
 }
 
@@ -85,14 +85,14 @@ impl<T: Real, C: Dim> Slips<T, C> {
         let loads = (0..self.count).map(|row| self.factors[row] * length(self.base[row]));
         let unit = loads.fold(T::zero(), T::max);
         if unit.is_zero() {
-            roots.add(Column::zeros());
+            roots.add(self.factors.dim().zeros());
             roots.is_complete = false;
             return;
         }
         let scaled = Self { base: self.base.map(|base| base.map(|component| component / unit)), ..*self };
-        scaled.explore(&face(None), None, unit, roots, budget);
+        scaled.explore(&face(self.factors.dim(), None), None, unit, roots, budget);
         for fixed in 0..self.count {
-            scaled.explore(&face(Some(fixed)), Some(fixed), unit, roots, budget);
+            scaled.explore(&face(self.factors.dim(), Some(fixed)), Some(fixed), unit, roots, budget);
         }
     }
 
@@ -135,15 +135,15 @@ impl<T: Real, C: Dim> Slips<T, C> {
             square
         };
         let slope = square(&slope, &by_scale);
-        let mut inverse = Matrix::<T, C, C>::zeros();
+        let mut inverse = self.factors.dim().zero_matrix(self.factors.dim());
         for at in 0..count {
-            let Some(column) = solve(slope, Column::unit(at), count) else { return false };
+            let Some(column) = solve(slope, self.factors.dim().unit(at), count) else { return false };
             inverse.set_column(at, column);
         }
         let radius = |at: usize| if fixed == Some(at) { cell.scale[1] } else { cell.radius[at] };
         let wide = |at: usize| radius(at) * real(1.25);
         // The change of the derivative within the cell, times the radii.
-        let mut change = Column::<T, C>::zeros();
+        let mut change = self.factors.dim().zeros();
         for row in 0..count {
             let (_, size, spread) = cell.lengths(self.base[row], |at| self.by[row][at], count);
             let spread = spread * real(1.25);
@@ -181,7 +181,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
             return false;
         }
         if scale > real(LEAST_SCALE) && t.iter().take(count).all(|&t| t >= -T::default_epsilon()) {
-            roots.add(Column::from_fn(|at| if at < count { t[at].max(T::zero()) / scale * unit } else { T::zero() }));
+            roots.add(self.factors.dim().column(|at| if at < count { t[at].max(T::zero()) / scale * unit } else { T::zero() }));
         }
         true
     }

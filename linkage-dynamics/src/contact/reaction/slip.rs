@@ -49,8 +49,8 @@ pub(super) struct Roots<T: Real, C: Dim> {
 }
 
 impl<T: Real, C: Dim> Roots<T, C> {
-    pub(super) fn none() -> Self {
-        Self { found: [Column::zeros(); MOST_ROOTS], count: 0, is_complete: true }
+    pub(super) fn none(c: C) -> Self {
+        Self { found: [c.zeros(); MOST_ROOTS], count: 0, is_complete: true }
     }
 
     pub(super) fn as_slice(&self) -> &[Column<T, C>] {
@@ -75,19 +75,19 @@ impl<T: Real, C: Dim> Roots<T, C> {
 }
 
 impl<T: Real, C: Dim> Slips<T, C> {
-    pub(super) fn none() -> Self {
+    pub(super) fn none(c: C) -> Self {
         let zero = [T::zero(); 2];
         Self {
             count: 0,
-            factors: Column::zeros(),
-            base: Column::repeat(zero),
-            by: Column::repeat(Column::repeat(zero)),
+            factors: c.zeros(),
+            base: c.repeat(zero),
+            by: c.repeat(c.repeat(zero)),
         }
     }
 
     /// Finds all t.
     pub(super) fn solve(&self, budget: &mut Budget) -> Roots<T, C> {
-        let mut roots = Roots::none();
+        let mut roots = Roots::none(self.factors.dim());
         if self.solve_unique(&mut roots) {
             return roots;
         }
@@ -101,7 +101,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
     /// Returns true if t is unique or its equation quadratic: then it is solved.
     fn solve_unique(&self, roots: &mut Roots<T, C>) -> bool {
         match self.count {
-            0 => roots.add(Column::zeros()),
+            0 => roots.add(self.factors.dim().zeros()),
             1 => self.quadratic(roots),
             _ => {
                 let Some(weights) = self.weights() else { return false };
@@ -120,12 +120,12 @@ impl<T: Real, C: Dim> Slips<T, C> {
 
     /// G.
     fn gain(&self) -> Matrix<T, C, C> {
-        Matrix::from_fn(|row, column| self.factors[row] * length(self.by[row][column]))
+        self.factors.dim().matrix(self.factors.dim(), |row, column| self.factors[row] * length(self.by[row][column]))
     }
 
     /// Weights w > 0 with G w < w: in their maximum norm the right side is a contraction.
     fn weights(&self) -> Option<Column<T, C>> {
-        contraction(&self.gain(), Column::repeat(T::one()), self.count)
+        contraction(&self.gain(), self.factors.dim().repeat(T::one()), self.count)
     }
 
     /// True if t is unique at any r.
@@ -141,7 +141,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
 
     /// c |r + P t|.
     fn image(&self, t: &Column<T, C>) -> Column<T, C> {
-        Column::from_fn(
+        self.factors.dim().column(
             |row| {
                 if row < self.count { self.factors[row] * length(self.reaction(row, t)) } else { T::zero() }
             },
@@ -150,7 +150,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
 
     /// The derivative of t - c |r + P t|. That of |R| at R = 0 counts as zero.
     fn slope(&self, t: &Column<T, C>) -> Matrix<T, C, C> {
-        let mut slope = Matrix::identity();
+        let mut slope = self.factors.dim().identity();
         for row in 0..self.count {
             let reaction = self.reaction(row, t);
             let size = length(reaction);
@@ -173,7 +173,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
     fn iterate(&self, weights: &Column<T, C>) -> Option<Column<T, C>> {
         let norm = |residual: &Column<T, C>| residual.component_div(&weights.map(|w| w.max(T::one()))).largest();
         let residual = |t: &Column<T, C>| *t - self.image(t);
-        let mut t = self.image(&Column::zeros());
+        let mut t = self.image(&self.factors.dim().zeros());
         let mut size = norm(&residual(&t));
         for _ in 0..MOST_ITERATIONS {
             let enough = T::default_epsilon() * norm(&t);
@@ -200,7 +200,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
         let (c, r, p) = (self.factors[0], self.base[0], self.by[0][0]);
         let load = length(r);
         if load.is_zero() || c.is_zero() {
-            roots.add(Column::zeros());
+            roots.add(self.factors.dim().zeros());
             roots.is_complete &= c * length(p) != T::one();
             return;
         }
@@ -214,14 +214,14 @@ impl<T: Real, C: Dim> Slips<T, C> {
         for divisor in [root - along, -root - along] {
             let t = c * load / divisor;
             if divisor > T::zero() && t.is_finite() {
-                roots.add(Column::from_fn(|row| if row == 0 { t } else { T::zero() }));
+                roots.add(self.factors.dim().column(|row| if row == 0 { t } else { T::zero() }));
             }
         }
     }
 
     /// The t with these signs of the forces in the guides, one bit each: t = +-c R is linear.
     fn solve_with_signs(&self, signs: usize, guides: usize, roots: &mut Roots<T, C>, budget: &mut Budget) {
-        let (mut order, mut place) = (Column::<usize, C>::repeat(0), 0);
+        let (mut order, mut place) = (self.factors.dim().repeat(0), 0);
         for row in (0..self.count).filter(|&row| self.is_guide(row)) {
             order[place] = row;
             place += 1;
@@ -235,20 +235,21 @@ impl<T: Real, C: Dim> Slips<T, C> {
             let factor = self.factors[order[place]];
             if signs >> place & 1 == 0 { factor } else { -factor }
         };
-        let identity = Matrix::<T, C, C>::identity();
-        let system = Matrix::from_fn(|row, column| {
+        let c = self.factors.dim();
+        let identity = c.identity::<T>();
+        let system = c.matrix(c, |row, column| {
             let by = if row < guides && column < guides { self.by[order[row]][order[column]][0] } else { T::zero() };
             let factor = if row < guides { factor(row) } else { T::zero() };
             identity[(row, column)] - factor * by
         });
         let side = |entry: &dyn Fn(usize) -> T| {
-            Column::from_fn(|row| if row < guides { factor(row) * entry(row) } else { T::zero() })
+            c.column(|row| if row < guides { factor(row) * entry(row) } else { T::zero() })
         };
         let Some(base) = solve(system, side(&|row| self.base[order[row]][0]), guides) else {
             roots.is_complete = false;
             return;
         };
-        let mut columns = Column::<Column<T, C>, C>::repeat(Column::zeros());
+        let mut columns = self.factors.dim().repeat(self.factors.dim().zeros());
         for pin in guides..self.count {
             match solve(system, side(&|row| self.by[order[row]][order[pin]][0]), guides) {
                 Some(column) => columns[pin] = column,
@@ -257,7 +258,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
         }
         let pins = self.without_guides((&order, guides), &base, &columns);
         for t in pins.pin_roots(budget, &mut roots.is_complete).as_slice() {
-            let (mut root, mut is_root) = (Column::zeros(), true);
+            let (mut root, mut is_root) = (self.factors.dim().zeros(), true);
             for (pin, &t) in t.iter().enumerate().take(pins.count) {
                 root[order[guides + pin]] = t;
             }
@@ -281,7 +282,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
         base: &Column<T, C>,
         columns: &Column<Column<T, C>, C>,
     ) -> Self {
-        let mut pins = Self::none();
+        let mut pins = Self::none(self.factors.dim());
         pins.count = self.count - guides;
         let through = |row: usize, start: [T; 2], along: &Column<T, C>| {
             (0..guides).fold(start, |[x, y], guide| {
@@ -302,7 +303,7 @@ impl<T: Real, C: Dim> Slips<T, C> {
     }
 
     fn pin_roots(&self, budget: &mut Budget, is_complete: &mut bool) -> Roots<T, C> {
-        let mut roots = Roots::none();
+        let mut roots = Roots::none(self.factors.dim());
         if !self.solve_unique(&mut roots) {
             self.search(&mut roots, budget);
         }
@@ -313,8 +314,8 @@ impl<T: Real, C: Dim> Slips<T, C> {
     /// The derivative and the residual in homogeneous coordinates: t_j = c_j |r_j s + P t|, with the number s.
     pub(super) fn homogeneous(&self, s: T, t: &Column<T, C>) -> Homogeneous<T, C> {
         let scaled = Self { base: self.base.map(|base| base.map(|component| component * s)), ..*self };
-        let residual = Column::from_fn(|row| if row < self.count { t[row] } else { T::zero() }) - scaled.image(t);
-        let mut by_scale = Column::zeros();
+        let residual = self.factors.dim().column(|row| if row < self.count { t[row] } else { T::zero() }) - scaled.image(t);
+        let mut by_scale = self.factors.dim().zeros();
         for row in 0..self.count {
             let reaction = scaled.reaction(row, t);
             let size = length(reaction);
