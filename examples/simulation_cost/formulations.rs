@@ -64,7 +64,7 @@ where
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     pub fn new(problem: &'a Problem<S>, hold: Hold) -> Result<Self, PositionError> {
-        const { assert!(N == 2 * U + S::V::COUNT) };
+        const { assert!(N == 2 * U + S::V::CAPACITY) };
         let mechanism = problem.scene.mechanism();
         let StateParts { q, input_rates } = S::parts(&problem.start);
         let (pose, of_inputs) = (mechanism.pose_at(&q), input_rates.into());
@@ -88,7 +88,7 @@ where
         let pose = mechanism.pose_at(&q);
         let (j, a) = (mechanism.jacobian_unknowns(&pose), mechanism.jacobian_inputs(&pose));
         let all = self.problem.scene.unreduced(t, &q, &by_name)?;
-        let (inputs, multipliers) = (U, U + S::V::COUNT);
+        let (inputs, multipliers) = (U, U + rates.1.dim().count());
         let mut matrix = SMatrix::<f64, N, N>::zeros();
         place(&mut matrix, (0, 0), &all.unknowns);
         place(&mut matrix, (0, inputs), &all.mixed);
@@ -101,7 +101,7 @@ where
         }
         let right = all.unknown_forces.iter().chain(&all.input_forces).chain(&closures).copied();
         let solution = matrix.lu().solve(&SVector::<f64, N>::from_iterator(right)).ok_or(DEPENDENT)?;
-        let accelerations = (Column::from_fn(|row| solution[row]), Column::from_fn(|row| solution[inputs + row]));
+        let accelerations = (rates.0.dim().column(|row| solution[row]), rates.1.dim().column(|row| solution[inputs + row]));
         Ok(Moving { q: rates, rates: accelerations })
     }
 

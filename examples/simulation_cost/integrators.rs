@@ -7,7 +7,7 @@ use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use linkage::integrate::{Dop853, Dopri5, Integration, Method, Tolerance};
 use linkage::nalgebra::SVector;
 use linkage::simulation::{Start, simulate};
-use linkage::{Column, D, MotionError, Scene, StateParts};
+use linkage::{D, Dim, MotionError, Scene, StateParts};
 
 use super::list::{
     DIFFERENTIAL_EQUATIONS_5, DIFFERENTIAL_EQUATIONS_8, INTEGRATE_5, INTEGRATE_8, ODE_SOLVERS_5, ODE_SOLVERS_8,
@@ -72,7 +72,7 @@ impl<S: Scene<Scalar = f64>> Problem<S> {
     fn integrated<M: Method>(&self, tolerance: f64) -> End<S> {
         let end = || {
             let rate = |t: f64, y: &State<S>| self.scene.derivative(t, y);
-            let tolerance = Tolerance::new(tolerance, Column::repeat(1.0))?;
+            let tolerance = Tolerance::new(tolerance, self.start.dim().repeat(1.0))?;
             let mut motion = Integration::<_, M>::new(rate, (0.0, self.start), self.end, tolerance)?;
             motion.finish(|_, _| true)?;
             Ok((*motion.state(), motion.counts().evaluations))
@@ -83,7 +83,7 @@ impl<S: Scene<Scalar = f64>> Problem<S> {
     /// y', or NaN on an error, for integrators without error handling.
     #[inline]
     pub fn rate(&self, t: f64, y: &State<S>) -> State<S> {
-        self.scene.derivative(t, y).unwrap_or_else(|_| Column::repeat(f64::NAN))
+        self.scene.derivative(t, y).unwrap_or_else(|_| y.dim().repeat(f64::NAN))
     }
 }
 

@@ -32,6 +32,13 @@ impl<X: Copy + Debug, R: Dim + Default> Column<X, R> {
 }
 
 impl<X: Copy + Debug, R: Dim> Column<X, R> {
+    /// Builds the column of these entries; `None` if it cannot have so many.
+    #[inline]
+    #[must_use]
+    pub fn from_slice(entries: &[X]) -> Option<Self> {
+        R::new(entries.len()).map(|count| count.column(|place| entries[place]))
+    }
+
     /// The number of entries.
     #[inline]
     #[must_use]

@@ -71,11 +71,11 @@ pub trait Formulas: Sized {
     message = "`{Self}` has no formulas over intervals",
     note = "add `derive intervals;` to its mechanism"
 )]
-pub trait Certifiable: Mechanism<Scalar = f64> {
+pub trait Certifiable: Mechanism<Scalar = f64, U: Default, V: Default, G: Default> {
     /// The number of parameters.
-    type P: Dim;
+    type P: Dim + Default;
     /// The number of quantities: two components of each point, then the outputs.
-    type Q: Dim;
+    type Q: Dim + Default;
     /// The mechanism over another kind of number.
     type Over<N: Number>: Formulas<Number = N, P = Self::P, U = Self::U, V = Self::V, Q = Self::Q>;
 

@@ -36,9 +36,7 @@ impl<'de, X: Copy + Debug + Deserialize<'de>, R: Dim + Default> Visitor<'de> for
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut entries: A) -> Result<Column<X, R>, A::Error> {
         let Some(first) = entries.next_element()? else {
-            // There is an array of no entries only.
-            let empty = R::new(0).filter(|none| *none == R::default());
-            return empty.map(|none| none.column(|_| unreachable!())).ok_or_else(|| Error::invalid_length(0, &self));
+            return Column::from_slice(&[]).ok_or_else(|| Error::invalid_length(0, &self));
         };
         let mut column = Column::repeat(first);
         for (place, entry) in column.iter_mut().enumerate().skip(1) {

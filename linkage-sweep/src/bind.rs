@@ -62,7 +62,7 @@ pub fn bind<M: Lanes>(base: &M, plan: &Plan) -> Result<Bound<M::Scalar>, SweepEr
             }
         }
     }
-    let mut parameters: Given<M, M::Scalar> = M::Given::array(|_| real(0.0));
+    let mut parameters: Given<M, M::Scalar> = M::Given::default().array(|_| real(0.0));
     base.write_parameters(&mut parameters);
     let sources = sources.into_iter().zip(parameters).enumerate().map(|(column, (source, parameter))| match source {
         Some(source) => Ok(source),

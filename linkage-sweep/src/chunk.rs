@@ -125,7 +125,7 @@ impl<M: Lanes> Chunk<M> {
                 resize(values, real(0.0), rows)?;
             }
         }
-        let given = M::Given::array(|column| match (sources.get(column), self.given.get(column)) {
+        let given = M::Given::default().array(|column| match (sources.get(column), self.given.get(column)) {
             (Some(Source::Constant(value)), _) => Values::Same(*value),
             (_, values) => Values::Each(values.map_or(&[], Vec::as_slice)),
         });

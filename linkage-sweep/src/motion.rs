@@ -45,7 +45,7 @@ where
             // A mechanism with closed forms has the inputs next to the parameters.
             inputs.push((row, numbers[M::PARAMETERS]));
         }
-        let given: Given<M, [<M as Lanes>::Scalar; 1]> = M::Given::array(|column| [parameters[column]]);
+        let given: Given<M, [<M as Lanes>::Scalar; 1]> = M::Given::default().array(|column| [parameters[column]]);
         let design = M::design(&given, 0);
         let position = |input| {
             let pose = design.assemble(PerInput::<M>::from([input]).into(), self.branch())?;

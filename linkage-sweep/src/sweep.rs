@@ -187,7 +187,7 @@ impl<M: Lanes> Sweep<M> {
 
     /// The reason why a row with these given numbers is rejected; those of constant columns may be missing.
     pub(crate) fn reason(&self, number: impl Fn(usize) -> Option<M::Scalar>) -> Option<PositionError> {
-        let given = M::Given::array(|column| match self.bound.sources.get(column) {
+        let given = M::Given::default().array(|column| match self.bound.sources.get(column) {
             Some(Source::Constant(value)) => Values::Same(*value),
             _ => Values::Same(number(column).unwrap_or_else(|| real(f64::NAN))),
         });

@@ -143,13 +143,13 @@ pub(crate) use {fixtures, higher_orders, orders_of_unknowns, own};
 /// # Panics
 /// If there are more or fewer numbers.
 pub fn named<M: Kinematic, G: From<PerCoordinate<M>>>(list: &[M::Scalar]) -> G {
-    let numbers: PerCoordinate<M> = M::N::from_slice(list).expect("a number for each coordinate").into();
-    G::from(numbers)
+    let count = M::N::new(list.len()).expect("a number for each coordinate");
+    G::from(count.array(|place| list[place]).into())
 }
 
 /// The inputs of a mechanism by name.
 pub(crate) fn inputs<M: Mechanism>(list: &[M::Scalar]) -> M::Inputs {
-    PerInput::<M>::from_fn(|index| list[index]).into()
+    PerInput::<M>::from_slice(list).expect("a number for each input").into()
 }
 
 /// The entries of a list as an array.

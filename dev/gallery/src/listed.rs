@@ -452,12 +452,13 @@ fn numbers<M: Kinematic>(by_name: impl Into<PerCoordinate<M>>) -> Vec<M::Scalar>
 
 /// A list as a column.
 fn column<T: Real, R: Dim>(list: &[T]) -> Column<T, R> {
-    Column::from_fn(|place| list[place])
+    Column::from_slice(list).expect("as many numbers as coordinates")
 }
 
 /// A matrix of any size.
 fn matrix<T: Real, R: Dim, C: Dim>(matrix: Matrix<T, R, C>) -> DMatrix<T> {
-    DMatrix::from_iterator(R::COUNT, C::COUNT, matrix.iter().copied())
+    let (rows, columns) = matrix.dims();
+    DMatrix::from_iterator(rows.count(), columns.count(), matrix.iter().copied())
 }
 
 /// Positions, velocities and accelerations of points.

@@ -129,7 +129,7 @@ impl<M: Certifiable> Certificate<M> {
         let outside = EncloseError::Outside { mechanism: M::NAME, input, inputs: self.inputs };
         let unknowns = self.unknowns_at(input).ok_or(outside)?;
         let q: Vec<Interval> = unknowns.iter().copied().chain([input]).collect();
-        let unknowns = self.system.scales.iter().copied().take(M::U::COUNT).collect();
+        let unknowns = self.system.scales.iter().copied().take(M::U::default().count()).collect();
         let sizes = Sizes { rows: self.system.rows.clone(), unknowns };
         PoseBox::of_numbers(self.system.numbers(&q), &sizes)
     }

@@ -204,7 +204,7 @@ impl<M: Certifiable> Certificate<M> {
     #[must_use]
     pub fn quantity(&self, index: usize) -> Option<Enclosure> {
         let measure = Measure::Quantity(index);
-        (index < <<M as Certifiable>::Q as Dim>::COUNT).then(|| enclosure(&self.system, &self.tubes, measure))
+        (index < <M as Certifiable>::Q::default().count()).then(|| enclosure(&self.system, &self.tubes, measure))
     }
 
     /// Encloses the smallest and the largest derivative of each unknown by the input over the motion: the velocity

@@ -97,7 +97,7 @@ impl<M: Certifiable> System<M> {
 
     /// The number of unknowns.
     pub(super) fn count(&self) -> usize {
-        M::U::COUNT
+        M::U::default().count()
     }
 
     /// The unknowns and the moving input of a position; `None` if its other inputs are not those of the system.
@@ -112,7 +112,7 @@ impl<M: Certifiable> System<M> {
     pub(super) fn is_angle(&self, coordinate: usize) -> bool {
         let input = M::INPUT_ANGLES.get(self.moving);
         let own = M::UNKNOWN_ANGLES.get(coordinate);
-        own.or(if coordinate == M::U::COUNT { input } else { None }).copied().unwrap_or_default()
+        own.or(if coordinate == M::U::default().count() { input } else { None }).copied().unwrap_or_default()
     }
 
     /// The name of the moving input.
@@ -122,7 +122,7 @@ impl<M: Certifiable> System<M> {
 
     /// A value of the moving input for readers.
     pub(super) fn shown_input(&self, value: f64) -> Shown {
-        Shown { value, is_angle: self.is_angle(M::U::COUNT) }
+        Shown { value, is_angle: self.is_angle(M::U::default().count()) }
     }
 
     /// The words about parameters that have tolerances.
@@ -132,7 +132,7 @@ impl<M: Certifiable> System<M> {
 
     /// True if Psi is the same after these full turns of the unknowns and of the moving input.
     pub(super) fn repeats(&self, turns: &[i64]) -> bool {
-        let (unknowns, moving) = turns.split_at(M::U::COUNT.min(turns.len()));
+        let (unknowns, moving) = turns.split_at(M::U::default().count().min(turns.len()));
         let inputs: Vec<i64> = (0..self.inputs.len())
             .map(|place| moving.first().copied().filter(|_| place == self.moving).unwrap_or_default())
             .collect();
@@ -148,7 +148,7 @@ impl<M: Certifiable> System<M> {
     fn split<N: Number>(&self, q: &[N]) -> (Column<N, M::U>, Column<N, M::V>) {
         let at = |place: usize| q.get(place).copied().unwrap_or_else(N::unknown);
         let fixed = |place: usize| self.inputs.get(place).map_or_else(N::unknown, |&value| N::exactly(value));
-        let input = |place| if place == self.moving { at(M::U::COUNT) } else { fixed(place) };
+        let input = |place| if place == self.moving { at(M::U::default().count()) } else { fixed(place) };
         (Column::from_fn(at), Column::from_fn(input))
     }
 
@@ -235,7 +235,7 @@ impl<M: Certifiable> System<M> {
         let own = self.jacobian(Dimensions::All, q);
         let j = self.emitted.jacobian_unknowns(&unknowns, &inputs);
         let a = self.emitted.jacobian_inputs(&unknowns, &inputs);
-        let (of_unknowns, of_input) = own.split_at(M::U::COUNT);
+        let (of_unknowns, of_input) = own.split_at(M::U::default().count());
         if !of_unknowns.iter().zip(j.iter()).all(|(own, emitted)| intersect(own, emitted.as_slice())) {
             return Err(contradiction("J"));
         }

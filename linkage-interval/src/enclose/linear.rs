@@ -51,7 +51,7 @@ impl Linear {
     /// J over the box of these numbers.
     pub(super) fn of<M: Certifiable>(numbers: &[Interval], sizes: &Sizes) -> Result<Self, EncloseError> {
         let column = |place| psi::<M, _>(&unit_line(numbers, place)).iter().map(|psi| psi.first).collect();
-        let columns: Vec<Vec<Interval>> = (0..M::U::COUNT).map(column).collect();
+        let columns: Vec<Vec<Interval>> = (0..M::U::default().count()).map(column).collect();
         let users = M::USER_FUNCTIONS.iter().copied().chain(std::iter::repeat(None));
         let norm_of = |(group, user): (&Group, Option<&'static str>)| norm_of_group::<M>(group, user, &columns, sizes);
         let norms: Vec<f64> = M::GROUPS.iter().zip(users).map(norm_of).collect::<Result<_, _>>()?;
@@ -117,12 +117,12 @@ fn no_bounds<M: Certifiable>(row: usize, derivative: &'static str) -> EncloseErr
 
 /// Psi along a curve of its numbers: the unknowns, then the inputs, then the parameters.
 pub(super) fn psi<M: Certifiable, N: Number>(numbers: &[N]) -> Vec<N> {
-    let (unknowns, inputs) = (M::U::COUNT, M::V::COUNT);
+    let (unknowns, inputs) = (M::U::default().count(), M::V::default().count());
     let formulas = M::Over::<N>::with_parameters(column(numbers, unknowns + inputs));
     formulas.residual(&column(numbers, 0), &column(numbers, unknowns)).iter().copied().collect()
 }
 
 /// The column of the numbers from this index on.
-pub(super) fn column<N: Number, R: Dim>(numbers: &[N], from: usize) -> Column<N, R> {
+pub(super) fn column<N: Number, R: Dim + Default>(numbers: &[N], from: usize) -> Column<N, R> {
     Column::from_fn(|place| numbers.get(from + place).copied().unwrap_or_else(N::unknown))
 }

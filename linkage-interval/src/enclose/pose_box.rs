@@ -102,13 +102,13 @@ impl<M: Certifiable> PoseBox<M> {
     /// The inputs.
     #[must_use]
     pub fn inputs(&self) -> Column<Interval, M::V> {
-        column(&self.numbers, M::U::COUNT)
+        column(&self.numbers, M::U::default().count())
     }
 
     /// The parameters.
     #[must_use]
     pub fn parameters(&self) -> Column<Interval, <M as Certifiable>::P> {
-        column(&self.numbers, M::U::COUNT + M::V::COUNT)
+        column(&self.numbers, M::U::default().count() + M::V::default().count())
     }
 
     /// For each group an upper bound of the norm of I - Y J over the box, below 1, where Y is about the inverse of its
@@ -123,7 +123,7 @@ impl<M: Certifiable> PoseBox<M> {
     /// # Errors
     /// [`EncloseError::NoBounds`] if A has none.
     pub fn velocity_ratios(&self) -> Result<IntervalColumns<M, M::V>, EncloseError> {
-        self.by_each(M::U::COUNT, "A")
+        self.by_each(M::U::default().count(), "A")
     }
 
     /// u' = W v': the rates of the unknowns for all rates of the inputs in these intervals.
@@ -132,7 +132,7 @@ impl<M: Certifiable> PoseBox<M> {
     /// [`EncloseError::Invalid`] if a rate is infinite, [`EncloseError::NoBounds`] if A has no bounds.
     pub fn velocity(&self, input_rates: &Column<Interval, M::V>) -> Result<Column<Interval, M::U>, EncloseError> {
         all_finite::<M>("rate", M::INPUTS, input_rates.as_slice())?;
-        let curve = lines(&self.numbers, &self.direction(M::U::COUNT, input_rates.as_slice()));
+        let curve = lines(&self.numbers, &self.direction(M::U::default().count(), input_rates.as_slice()));
         Ok(column(&self.solver(Order::First, "A v'").solve::<M>(&curve)?, 0))
     }
 
@@ -152,9 +152,9 @@ impl<M: Certifiable> PoseBox<M> {
         all_finite::<M>("rate", M::UNKNOWNS, unknown_rates.as_slice())?;
         all_finite::<M>("rate", M::INPUTS, input_rates.as_slice())?;
         all_finite::<M>("acceleration", M::INPUTS, input_accelerations.as_slice())?;
-        let mut first = self.direction(M::U::COUNT, input_rates.as_slice());
+        let mut first = self.direction(M::U::default().count(), input_rates.as_slice());
         first.iter_mut().zip(unknown_rates).for_each(|(own, &rate)| *own = rate);
-        let second = self.direction(M::U::COUNT, input_accelerations.as_slice());
+        let second = self.direction(M::U::default().count(), input_accelerations.as_slice());
         let parts = self.numbers.iter().zip(first).zip(second);
         let curve: Vec<_> = parts.map(|((&value, first), second)| Series { value, first, second }).collect();
         Ok(column(&self.solver(Order::Second, "A v'' + gamma").solve::<M>(&curve)?, 0))
@@ -166,14 +166,14 @@ impl<M: Certifiable> PoseBox<M> {
     /// # Errors
     /// [`EncloseError::NoBounds`] if Psi_p has none.
     pub fn sensitivity(&self) -> Result<IntervalColumns<M, <M as Certifiable>::P>, EncloseError> {
-        self.by_each(M::U::COUNT + M::V::COUNT, "Psi_p")
+        self.by_each(M::U::default().count() + M::V::default().count(), "Psi_p")
     }
 
     /// The rates of the unknowns while one number grows with rate 1, for each of those from this index on.
-    fn by_each<C: Dim>(&self, from: usize, derivative: &'static str) -> Result<IntervalColumns<M, C>, EncloseError> {
+    fn by_each<C: Dim + Default>(&self, from: usize, derivative: &'static str) -> Result<IntervalColumns<M, C>, EncloseError> {
         let solver = self.solver(Order::First, derivative);
         let by = |place| solver.solve::<M>(&lines(&self.numbers, &self.direction(from + place, &[Interval::one()])));
-        let all: Vec<Vec<Interval>> = (0..C::COUNT).map(by).collect::<Result<_, _>>()?;
+        let all: Vec<Vec<Interval>> = (0..C::default().count()).map(by).collect::<Result<_, _>>()?;
         Ok(Column::from_fn(|place| column(all.get(place).map_or(&[], Vec::as_slice), 0)))
     }
 

@@ -66,7 +66,7 @@ pub(super) fn parts<S: Scene<Scalar = f64>>(
             }
         }),
     ));
-    if S::Contacts::COUNT > 0 {
+    if scene.contact_count().count() > 0 {
         works.push((
             "contacts: laws of frictions and stops",
             Box::new(move || {

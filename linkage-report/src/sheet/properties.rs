@@ -4,7 +4,7 @@ use std::fmt;
 
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Column, Kinematic, PerInput, PerUnknown, PositionError, position};
+use linkage_runtime::{Dim, Kinematic, PerInput, PerUnknown, PositionError, position};
 
 use super::number;
 
@@ -71,7 +71,7 @@ pub fn ratio_properties<M: Kinematic<Scalar = f64>>(
 
     let (mut single, mut derivatives, mut displacements) = (Vec::new(), Vec::new(), Vec::new());
     for (input, of_input) in quotients.iter().enumerate() {
-        let unit = Column::unit(input);
+        let unit = ratios.dims().1.unit(input);
         let column = ratios.column(input);
         single.extend(numbers(of_input, column, unknown_rates(unit)?));
         let step = steps.part(input);

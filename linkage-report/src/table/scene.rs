@@ -132,7 +132,7 @@ impl Table {
             let cause = cause.err();
             rows.push((row, cause));
         }
-        let loads = load_columns::<S>(names.as_deref(), has_energy, |_| true);
+        let loads = load_columns(scene, names.as_deref(), has_energy, |_| true);
         let mut table = Self::of_columns(columns::<M>(rate).into_iter().chain(loads));
         for (row, cause) in rows {
             table.push_partial(&row, cause);
@@ -175,6 +175,7 @@ pub(super) fn contact_names<S: Scene>(
 
 /// The columns of the loads and the energy, with the forces of these drives.
 pub(super) fn load_columns<S: Scene>(
+    scene: &S,
     contacts: Option<&[&str]>,
     has_energy: bool,
     is_driven: impl Fn(usize) -> bool,
@@ -191,7 +192,7 @@ pub(super) fn load_columns<S: Scene>(
     if !all.is_empty() {
         all.push(("drive_power".to_owned(), Quantity::Power));
     }
-    for place in 0..S::Contacts::COUNT {
+    for place in 0..scene.contact_count().count() {
         let name = contacts.and_then(|names| names.get(place));
         all.push((name.map_or_else(|| format!("contact {}", place + 1), |&name| name.to_owned()), Quantity::Plain));
     }

@@ -127,7 +127,7 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
         let inputs = coordinates(S::Mechanism::INPUTS, S::Mechanism::INPUT_ANGLES);
         let unknowns = coordinates(S::Mechanism::UNKNOWNS, S::Mechanism::UNKNOWN_ANGLES);
         let has_energy = matches!(energy(scene, state), Ok(Some(_)));
-        let loads = load_columns::<S>(contacts.as_deref(), has_energy, |input| is_driven[input]);
+        let loads = load_columns(scene, contacts.as_deref(), has_energy, |input| is_driven[input]);
         let motion = time.chain(inputs).chain(unknowns).chain(points_and_outputs::<S::Mechanism>());
         Self { table: Table::of_columns(motion.chain(loads)), is_driven, error: None }
     }
@@ -180,9 +180,12 @@ fn moving<S>(scene: &S, state: &State<S>, accelerations: Option<Accelerations<S>
 where
     S: Scene<Scalar = f64, Mechanism: Kinematic>,
 {
-    let nothing = || Accelerations::<S> { unknowns: Column::repeat(f64::NAN), inputs: Column::repeat(f64::NAN) };
-    let Accelerations::<S> { unknowns: of_unknowns, inputs: of_inputs } = accelerations.unwrap_or_else(nothing);
     let (unknowns, inputs) = S::Mechanism::parts(&state.q);
+    let nothing = || Accelerations::<S> {
+        unknowns: unknowns.dim().repeat(f64::NAN),
+        inputs: inputs.dim().repeat(f64::NAN),
+    };
+    let Accelerations::<S> { unknowns: of_unknowns, inputs: of_inputs } = accelerations.unwrap_or_else(nothing);
     let (unknown_rates, input_rates) = S::Mechanism::rate_parts(&state.rates);
     let mut row = vec![state.t];
     let each = inputs.iter().zip(&input_rates).zip(&of_inputs);
@@ -192,7 +195,7 @@ where
 
     let jumps = jumps(state);
     let smooth = accelerations.filter(|_| !jumps).map(|all| S::Mechanism::accelerations(all.unknowns, all.inputs));
-    let (p, o) = (<S::Mechanism as Kinematic>::P::COUNT, <S::Mechanism as Kinematic>::O::COUNT);
+    let (p, o) = (S::Mechanism::POINTS.len(), S::Mechanism::OUTPUTS.len());
     match quantities(scene.mechanism(), &state.q, &state.rates, smooth) {
         Ok(numbers) => {
             row.extend(numbers);
