@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use linkage::accuracy::{Newton, PositionMethod, Reached};
 use linkage::derivation::Operations;
-use linkage::{Assembly, D, Mechanism, PerUnknown, PositionError, Real, position};
+use linkage::{Assembly, D, Dim, Mechanism, PerUnknown, PositionError, Real, position};
 
 use super::comparison::{Point, Work};
 use linkage_examples::accuracy_cost::oracle::Case;
@@ -111,7 +111,7 @@ pub fn given<M: Mechanism<V = D<1>> + 'static>(
 
 /// Reference values as coordinates.
 pub fn coordinates<M: Mechanism<V = D<1>>>(unknowns: &[f64], input: f64) -> M::Coordinates {
-    M::coordinates(PerUnknown::<M>::from_fn(|row| scalar(unknowns[row])), [scalar(input)].into())
+    M::coordinates(M::U::least().column(|row| scalar(unknowns[row])), [scalar(input)].into())
 }
 
 /// The position near a case.

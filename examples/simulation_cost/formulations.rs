@@ -101,7 +101,8 @@ where
         }
         let right = all.unknown_forces.iter().chain(&all.input_forces).chain(&closures).copied();
         let solution = matrix.lu().solve(&SVector::<f64, N>::from_iterator(right)).ok_or(DEPENDENT)?;
-        let accelerations = (rates.0.dim().column(|row| solution[row]), rates.1.dim().column(|row| solution[inputs + row]));
+        let accelerations =
+            (rates.0.dim().column(|row| solution[row]), rates.1.dim().column(|row| solution[inputs + row]));
         Ok(Moving { q: rates, rates: accelerations })
     }
 

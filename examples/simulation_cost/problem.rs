@@ -34,7 +34,10 @@ impl<S: Scene<Scalar = f64>> Problem<S> {
         let error = (*y - self.expected).abs();
         // `max` would ignore a NaN.
         let largest = |most: f64, &error: &f64| if error.is_nan() { f64::INFINITY } else { most.max(error) };
-        error.iter().take(self.scene.mechanism().dims().0.count() + self.scene.mechanism().dims().1.count()).fold(0.0, largest)
+        error
+            .iter()
+            .take(self.scene.mechanism().dims().0.count() + self.scene.mechanism().dims().1.count())
+            .fold(0.0, largest)
     }
 
     /// The largest residual of the constraints.

@@ -9,7 +9,10 @@ use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default"
+    ))
 )]
 pub struct Equations<T: Real, U: Dim, V: Dim> {
     /// M.

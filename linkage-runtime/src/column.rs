@@ -173,7 +173,8 @@ impl<T: Real, R: Dim> Column<T, R> {
     #[inline]
     #[must_use]
     pub fn leading(&self) -> usize {
-        (0..self.as_slice().len()).fold(0, |leading, place| if self[place].abs() > self[leading].abs() { place } else { leading })
+        (0..self.as_slice().len())
+            .fold(0, |leading, place| if self[place].abs() > self[leading].abs() { place } else { leading })
     }
 
     /// The entrywise product.

@@ -89,7 +89,7 @@ fn agrees<M: Kinematic<Scalar = f64>>(m: &M, guess: &M::Coordinates, input_rates
     let ratios = m.velocity_ratios(&pose).unwrap();
     for (input, by_name) in m.ratios_by_input(&pose).unwrap().iter().enumerate() {
         let (column, unit) = M::rate_parts(by_name);
-        assert_eq!((bits(column), bits(unit)), (bits(ratios.column(input)), bits(Column::<f64, M::V>::unit(input))));
+        assert_eq!((bits(column), bits(unit)), (bits(ratios.column(input)), bits(M::V::least().unit::<f64>(input))));
     }
     let (second, given_back) = M::acceleration_parts(&accelerations);
     assert_eq!(bits(given_back), bits(given.into()));
@@ -156,7 +156,7 @@ fn points_and_outputs_by_name() {
     assert_eq!(lines[0], "Cart 1.000000 0.000000");
     assert_eq!(<FourBar as Kinematic>::POINTS, FourBarPoints::<f64>::NAMES);
     assert_eq!(<FourBar as Kinematic>::OUTPUTS, FourBarOutputs::<f64>::NAMES);
-    assert_eq!(<<FourBar as Kinematic>::N as Dim>::COUNT, FourBarCoordinates::<f64>::NAMES.len());
+    assert_eq!(<<FourBar as Kinematic>::N as Dim>::CAPACITY, FourBarCoordinates::<f64>::NAMES.len());
 }
 
 /// Functions of the user with names of functions of `Mechanism` are not called by emitted code.

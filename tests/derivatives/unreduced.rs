@@ -1,7 +1,7 @@
 //! Inertia and forces in all coordinates: reduced by W they are the emitted mass matrix and forces.
 
 use linkage::nalgebra::SMatrix;
-use linkage::{Column, D, Matrix, Mechanism, MotionError, Scene};
+use linkage::{Column, D, Dim, Matrix, Mechanism, MotionError, Scene};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -32,7 +32,7 @@ fn agree<S, M, const U: usize>(
     let mut compared = 0;
     for _ in 0..POSES {
         let v = M::inputs(&near).map(|value| value + random.random_range(-spread..spread));
-        let input_rates = Column::from_fn(|_| random.random_range(-8.0..8.0));
+        let input_rates = v.dim().column(|_| random.random_range(-8.0..8.0));
         let t = random.random_range(-5.0..5.0);
         let Ok(found) = linkage::position::newton(mechanism, &M::with_inputs(&near, v)) else { continue };
         let q = found.coordinates;

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use linkage::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Table};
 use linkage::nalgebra::SVector;
 use linkage::price::{Cost, cheapest, frontier};
-use linkage::{D, InputError, Kinematic, Mechanism, PerInput, PerUnknown, PositionError, Real};
+use linkage::{D, Dim, InputError, Kinematic, Mechanism, PerInput, PositionError, Real};
 use linkage_double::DoubleDouble;
 
 use linkage_examples::accuracy_cost::dominance::dominated;
@@ -30,7 +30,7 @@ fn scalar<T: Real>(value: f64) -> T {
 }
 
 fn inputs<M: Mechanism>(input: f64) -> PerInput<M> {
-    PerInput::<M>::from_fn(|_| scalar(input))
+    M::V::least().column(|_| scalar(input))
 }
 
 fn mechanism<F: Fixture, T: Real>(case: &Case) -> In<F, T> {
@@ -39,7 +39,7 @@ fn mechanism<F: Fixture, T: Real>(case: &Case) -> In<F, T> {
 }
 
 fn coordinates<M: Mechanism>(unknowns: &[f64], input: f64) -> M::Coordinates {
-    M::coordinates(PerUnknown::<M>::from_fn(|index| scalar(unknowns[index])), inputs::<M>(input))
+    M::coordinates(M::U::least().column(|index| scalar(unknowns[index])), inputs::<M>(input))
 }
 
 fn near<F: Fixture, T: Real>(case: &Case) -> ReachedIn<F, T> {

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use linkage::kinematic::{FullKinematics, Kinematics};
 use linkage::lanes::Lanes;
-use linkage::{Dim, OutputMotion, PerInput, PerUnknown, PointMotion, Real, real};
+use linkage::{Dim, OutputMotion, PointMotion, Real, real};
 use linkage_gallery::Fixture;
 
 /// The scalar of a mechanism.
@@ -16,7 +16,7 @@ where
     M: Lanes + Fixture<Scalar = S<M>>,
     S<M>: Bits,
 {
-    let inputs = M::V::COUNT;
+    let inputs = M::V::CAPACITY;
     // A mechanism without closed form starts from all coordinates, and on the branch of these.
     if M::START != inputs {
         return !in_lane.iter().any(|value| value.is_nan());
@@ -24,8 +24,8 @@ where
     let (parameters, rest) = given.split_at(M::PARAMETERS);
     let (start, rest) = rest.split_at(inputs);
     let (rates, accelerations) = rest.split_at(inputs);
-    let of_inputs = |list: &[S<M>]| PerInput::<M>::from_fn(|index| list[index]);
-    let q = M::coordinates(PerUnknown::<M>::from_fn(|_| real(0.0)), of_inputs(start));
+    let of_inputs = |list: &[S<M>]| M::V::least().column(|index| list[index]);
+    let q = M::coordinates(M::U::least().column(|_| real(0.0)), of_inputs(start));
     let (rates, accelerations) = (of_inputs(rates).into(), of_inputs(accelerations).into());
     let (machine, branch) = (<M as Fixture>::with_parameters(parameters), M::branches()[0]);
     let Kinematics { rates: first, accelerations: second, .. } =

@@ -100,9 +100,9 @@ fn angles<T: Real>() -> Vec<T> {
 
 /// The given columns of a turn at the rate and acceleration 1.
 fn given<'a, M: Lanes>(design: &M, angles: &'a [M::Scalar]) -> Given<M, Values<'a, M::Scalar>> {
-    let mut parameters = <M::Given as Dim>::array(|_| real::<M::Scalar>(1.0));
+    let mut parameters = M::Given::default().array(|_| real::<M::Scalar>(1.0));
     design.write_parameters(&mut parameters);
-    <M::Given as Dim>::array(|place| match M::GIVEN[place] == "th" {
+    M::Given::default().array(|place| match M::GIVEN[place] == "th" {
         true => Values::Each(angles),
         false => Values::Same(parameters.as_ref()[place]),
     })

@@ -74,7 +74,7 @@ where
     M: Lanes + Fixture<Scalar = S<M>>,
     S<M>: Bits,
 {
-    let mut of_design = <M::Given as Dim>::array(|_| real::<S<M>>(0.0));
+    let mut of_design = M::Given::default().array(|_| real::<S<M>>(0.0));
     design.write_parameters(&mut of_design);
     let spread = random.random_range(0.0..0.1);
     let mut number = |place: usize, at_design: S<M>| {
@@ -100,7 +100,7 @@ where
         .collect();
     // Every second batch is of one design.
     let is_one_design = random.random_bool(0.5);
-    let given: Given<M, Values<'_, S<M>>> = <M::Given as Dim>::array(|place| {
+    let given: Given<M, Values<'_, S<M>>> = M::Given::default().array(|place| {
         let is_same = place < M::PARAMETERS && is_one_design || random.random_bool(0.1);
         if is_same { Values::Same(columns[place][0]) } else { Values::Each(&columns[place]) }
     });

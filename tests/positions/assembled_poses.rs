@@ -28,7 +28,7 @@ linkage! {
 /// Determinants and velocity ratios of a pose against those of the matrices that it gives.
 fn agrees_with_its_matrices<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, pose: &M::Pose) {
     let jacobian = m.jacobian_unknowns(pose);
-    let jacobian = DMatrix::from_fn(M::U::COUNT, M::U::COUNT, |row, column| jacobian[(row, column)]);
+    let jacobian = DMatrix::from_fn(M::U::CAPACITY, M::U::CAPACITY, |row, column| jacobian[(row, column)]);
     let determinant = jacobian.clone().lu().determinant();
     let size: f64 = jacobian.column_iter().map(|column| column.norm()).product();
     close("det J", m.determinant(pose), determinant, 1e-12 * size.max(1e-3));

@@ -187,7 +187,7 @@ fn numerical_rank(matrix: &DMatrix<f64>) -> usize {
 /// vectors of J, the inputs that A leaves admissible, and the exchanges.
 fn brute_force<M: Mechanism<Scalar = f64>>(m: &M, pose: &M::Pose) -> bool {
     let found = singularity::report(m, pose).unwrap();
-    let (u, v) = (M::U::COUNT, M::V::COUNT);
+    let (u, v) = (M::U::CAPACITY, M::V::CAPACITY);
     let (j, a) = (m.jacobian_unknowns(pose), m.jacobian_inputs(pose));
     let dynamic = DMatrix::from_iterator(u, u, j.iter().copied());
     let by_inputs = DMatrix::from_iterator(u, v, a.iter().copied());

@@ -13,7 +13,10 @@ use linkage_runtime::{Column, Dim, Matrix, PositionError, Real};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default, C: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default, C: Default"
+    ))
 )]
 pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
     /// The components of R: two of a pin, the normal force of a guide and zero.
@@ -26,7 +29,10 @@ pub struct Bearing<T: Real, U: Dim, V: Dim, C: Dim> {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default, C: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default, C: Default"
+    ))
 )]
 pub struct ReactionRow<T: Real, U: Dim, V: Dim, C: Dim> {
     /// Its value without accelerations, multipliers and contact forces.
@@ -46,7 +52,10 @@ pub struct ReactionRow<T: Real, U: Dim, V: Dim, C: Dim> {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"
+    ))
 )]
 pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
     /// The components of R.
@@ -58,7 +67,10 @@ pub struct ReducedBearing<T: Real, V: Dim, C: Dim> {
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"
+    ))
 )]
 pub struct ReducedReaction<T: Real, V: Dim, C: Dim> {
     /// Its value without accelerations and contact forces.
@@ -76,13 +88,7 @@ impl<T: Real, U: Dim, V: Dim, C: Dim> ReactionRow<T, U, V, C> {
     /// A component that is zero: the second one of a guide.
     #[must_use]
     pub fn zero((u, v, c): (U, V, C)) -> Self {
-        Self {
-            constant: T::zero(),
-            unknowns: u.zeros(),
-            inputs: v.zeros(),
-            rows: u.zeros(),
-            contacts: c.zeros(),
-        }
+        Self { constant: T::zero(), unknowns: u.zeros(), inputs: v.zeros(), rows: u.zeros(), contacts: c.zeros() }
     }
 }
 

@@ -38,7 +38,8 @@ pub(super) fn impact<T: Real, V: Dim, C: Dim>(
     let response = Response::new(equations, &struck.dim().zeros(), |place| struck[place].is_some())?;
     // All rows are oriented inward.
     let inward = struck.map(|struck| struck.map_or(T::zero(), |struck| struck.inward));
-    let matrix = struck.dim().matrix(struck.dim(), |row, column| response.matrix[(row, column)] * inward[row] * inward[column]);
+    let matrix =
+        struck.dim().matrix(struck.dim(), |row, column| response.matrix[(row, column)] * inward[row] * inward[column]);
     let bounds = struck.dim().column(|place| {
         let Struck { inward, restitution } = struck[place]?;
         let (rate, size) = equations.contacts[place].rate(&equations.rates);

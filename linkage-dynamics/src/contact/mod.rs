@@ -52,7 +52,10 @@ pub use validate::{validate_contacts, validate_stops};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default"
+    ))
 )]
 pub struct ContactCoordinate<T: Real, U: Dim, V: Dim> {
     /// s.

@@ -9,7 +9,10 @@ use linkage_runtime::{Column, Dim, Real};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, V: Default, C: Default"
+    ))
 )]
 pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
     /// `v''`.

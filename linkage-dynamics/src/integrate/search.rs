@@ -202,7 +202,8 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         // Each of the other functions has at most one extremum here.
         for _ in 0..self.each().count() {
             let Some(turn) = self.first_beyond_extremum(course, &before, here)? else { break };
-            let found = self.refine(course, (&before, &turn), &self.guards.dim().repeat(f64::INFINITY), &mut { MAX_SAMPLES })?;
+            let found =
+                self.refine(course, (&before, &turn), &self.guards.dim().repeat(f64::INFINITY), &mut { MAX_SAMPLES })?;
             if found.is_some() {
                 return Ok(found);
             }

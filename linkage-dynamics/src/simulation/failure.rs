@@ -46,7 +46,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
             return error;
         }
         let mechanism = self.scene.mechanism();
-        let freely = Independent::choose(mechanism, &mechanism.pose_at(&q), &self.scales, &mechanism.dims().1.repeat(false));
+        let freely =
+            Independent::choose(mechanism, &mechanism.pose_at(&q), &self.scales, &mechanism.dims().1.repeat(false));
         if freely.regularity() < real(NEXT_TO_CHANGE_POINT) { self.no_reactions_error(&q) } else { error }
     }
 
@@ -116,7 +117,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
     pub(super) fn no_coordinates_error(&self, t: S::Scalar, q: &Coordinates<S>) -> MotionError {
         let mechanism = self.scene.mechanism();
         let is_driven = self.prescribed_inputs(t).iter().any(|&held| held);
-        let freely = Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &mechanism.dims().1.repeat(false));
+        let freely =
+            Independent::choose(mechanism, &mechanism.pose_at(q), &self.scales, &mechanism.dims().1.repeat(false));
         let is_regular = freely.regularity() > nearly_zero();
         if is_driven && is_regular {
             self.singular_error(q)

@@ -184,7 +184,8 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
             Parametrisation::Over(sheet) => {
                 // v' = N_v z'.
                 let (_, inputs) = self.frame_on(sheet, q, &rates.dim().zeros())?.basis;
-                let jacobian = Jacobian::<S::Scalar, S::V, D<0>> { unknowns: inputs, inputs: rates.dim().zero_matrix(D) };
+                let jacobian =
+                    Jacobian::<S::Scalar, S::V, D<0>> { unknowns: inputs, inputs: rates.dim().zero_matrix(D) };
                 let elimination = Elimination::new(jacobian);
                 let is_regular = elimination.regularity() > nearly_zero();
                 if !is_regular {
@@ -212,8 +213,9 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         for (input, law) in laws.iter().enumerate() {
             if let Some(law) = law {
                 inputs[input] = law.value;
-                let place =
-                    |independent: &Choice<S>| independent.free.iter().position(|&free| free == self.dims().0.count() + input);
+                let place = |independent: &Choice<S>| {
+                    independent.free.iter().position(|&free| free == self.dims().0.count() + input)
+                };
                 let at = self.parametrisation.independent().map_or(Some(input), place);
                 if let Some(at) = at {
                     rates[at] = law.rate;

@@ -197,7 +197,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let (free, places) = match self.frame(&q, &rates)? {
             None => (ReducedEquations::unprescribed(&*self.scene, t, y)?.0, rates.dim().column(Some)),
             Some((independent, frame)) => {
-                let place = |input: usize| independent.free.iter().position(|&free| free == self.dims().0.count() + input);
+                let place =
+                    |input: usize| independent.free.iter().position(|&free| free == self.dims().0.count() + input);
                 (self.unprescribed_by(independent, &frame, (t, y))?.0, rates.dim().column(place))
             }
         };

@@ -170,7 +170,11 @@ impl<M: Certifiable> PoseBox<M> {
     }
 
     /// The rates of the unknowns while one number grows with rate 1, for each of those from this index on.
-    fn by_each<C: Dim + Default>(&self, from: usize, derivative: &'static str) -> Result<IntervalColumns<M, C>, EncloseError> {
+    fn by_each<C: Dim + Default>(
+        &self,
+        from: usize,
+        derivative: &'static str,
+    ) -> Result<IntervalColumns<M, C>, EncloseError> {
         let solver = self.solver(Order::First, derivative);
         let by = |place| solver.solve::<M>(&lines(&self.numbers, &self.direction(from + place, &[Interval::one()])));
         let all: Vec<Vec<Interval>> = (0..C::default().count()).map(by).collect::<Result<_, _>>()?;

@@ -181,10 +181,8 @@ where
     S: Scene<Scalar = f64, Mechanism: Kinematic>,
 {
     let (unknowns, inputs) = S::Mechanism::parts(&state.q);
-    let nothing = || Accelerations::<S> {
-        unknowns: unknowns.dim().repeat(f64::NAN),
-        inputs: inputs.dim().repeat(f64::NAN),
-    };
+    let nothing =
+        || Accelerations::<S> { unknowns: unknowns.dim().repeat(f64::NAN), inputs: inputs.dim().repeat(f64::NAN) };
     let Accelerations::<S> { unknowns: of_unknowns, inputs: of_inputs } = accelerations.unwrap_or_else(nothing);
     let (unknown_rates, input_rates) = S::Mechanism::rate_parts(&state.rates);
     let mut row = vec![state.t];

@@ -216,10 +216,7 @@ where
         let mut rows = weights.map(|weight| weight > weights.largest() * real(LEAST_WEIGHT));
         // At an irregular position nearby no entry is zero by chance.
         let apart = |place: usize| real::<M::Scalar>(f64::sin(1.0 + place as f64));
-        let aside = Vector::<M> {
-            unknowns: u.column(apart),
-            inputs: v.column(|_| apart(u.count())),
-        };
+        let aside = Vector::<M> { unknowns: u.column(apart), inputs: v.column(|_| apart(u.count())) };
         // Some equations have no value there.
         let Ok(at) = self.linear(&self.moved(q, &aside)) else { return Ok(None) };
         let contains = |row: usize, column: usize| !at.jacobian.entry(row, column).is_zero();
@@ -338,7 +335,11 @@ where
         }
         let solution = cholesky.solve(&right);
         let parts = elimination.free().zip(solution.iter());
-        Some(parts.fold(Vector::<M>::zero(self.dims()), |sum, (column, &part)| sum + elimination.null_vector(column) * part))
+        Some(
+            parts.fold(Vector::<M>::zero(self.dims()), |sum, (column, &part)| {
+                sum + elimination.null_vector(column) * part
+            }),
+        )
     }
 
     /// True if N Psi and its slopes are zero.
@@ -440,8 +441,9 @@ where
             let normal = with_units_from::<M>(count, turns.tr_mul_matrix(&turns) + products);
             let solution = Cholesky::new(&normal)?.solve(&-turns.tr_mul(&values));
             let parts = elimination.free().zip(solution.iter());
-            let step =
-                parts.fold(Vector::<M>::zero(self.dims()), |sum, (column, &part)| sum + elimination.null_vector(column) * part);
+            let step = parts.fold(Vector::<M>::zero(self.dims()), |sum, (column, &part)| {
+                sum + elimination.null_vector(column) * part
+            });
             tangent = (tangent + step).normalized();
         }
         let left = self.mixed(q, elimination, &tangent, &tangent).largest();

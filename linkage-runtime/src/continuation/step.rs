@@ -38,7 +38,8 @@ where
             Some((target, distance)) => {
                 let guess = curve.moved(&from.q, &(from.tangent * distance));
                 let guess = Curve::<'_, M>::with_input(&guess, target);
-                let found = curve.correct(guess, &Vector::<M>::unit(from.tangent.dims(), from.tangent.unknowns.dim().count()))?;
+                let found = curve
+                    .correct(guess, &Vector::<M>::unit(from.tangent.dims(), from.tangent.unknowns.dim().count()))?;
                 found.map(|(q, elimination)| curve.place(q, &elimination, &from.tangent))
             }
             None => curve.at(from, trial)?,

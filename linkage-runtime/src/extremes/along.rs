@@ -14,9 +14,7 @@ use crate::kinematic::MotionOf;
 use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{
-    Dim, Kinematic, Mechanism, OutputMotion, PathError, PointMotion, PositionError, Real, real,
-};
+use crate::{Dim, Kinematic, Mechanism, OutputMotion, PathError, PointMotion, PositionError, Real, real};
 
 /// The most turns that are searched with 360 steps each; a longer range has longer steps.
 const MOST_TURNS: f64 = 64.0;
@@ -341,11 +339,8 @@ fn along_tangent<M: Driven>(
     let values = M::Of::each_output(m.outputs(&pose)?);
     let output_rates = M::Of::each_output(m.output_rates(&pose, &rates)?);
     let bends = M::Of::each_output(m.output_accelerations(&pose, &rates, &accelerations)?);
-    let outputs = values.dim().array(|at| OutputMotion {
-        value: values[at],
-        rate: output_rates[at],
-        acceleration: bends[at],
-    });
+    let outputs =
+        values.dim().array(|at| OutputMotion { value: values[at], rate: output_rates[at], acceleration: bends[at] });
     let (points, outputs) = (points.into(), outputs.into());
     Ok((MotionOf::<M::Of> { position, rates, accelerations, points, outputs }, along[0]))
 }

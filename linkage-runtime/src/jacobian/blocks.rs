@@ -54,7 +54,9 @@ impl<M: Mechanism> Blocks<M> {
             }
             _ => {
                 let unknowns = self.equilibrated(members, M::Scalar::one());
-                let pivots = EliminationOf::<M>::new(Jacobian { unknowns, inputs: unknowns.dims().0.zero_matrix(self.inputs) }).pivots();
+                let pivots =
+                    EliminationOf::<M>::new(Jacobian { unknowns, inputs: unknowns.dims().0.zero_matrix(self.inputs) })
+                        .pivots();
                 return smallest(pivots);
             }
         };

@@ -187,8 +187,7 @@ impl<T: Real, U: Dim, V: Dim> Elimination<T, U, V> {
 
     /// The unit vector with these parts along the null vectors of the free columns.
     pub fn in_null_space(&self, parts: impl Iterator<Item = T>) -> Vector<T, U, V> {
-        let sum =
-            self.free().zip(parts).fold(self.zero(), |sum, (column, part)| sum + self.null_vector(column) * part);
+        let sum = self.free().zip(parts).fold(self.zero(), |sum, (column, part)| sum + self.null_vector(column) * part);
         sum.normalized()
     }
 

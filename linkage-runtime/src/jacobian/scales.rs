@@ -145,5 +145,7 @@ fn relative_to<T: Real, U: Dim, C: Dim>(
     residuals: &Column<T, U>,
     coordinates: &Column<T, C>,
 ) -> Matrix<T, U, C> {
-    residuals.dim().matrix(coordinates.dim(), |row, column| matrix[(row, column)] * coordinates[column] / residuals[row])
+    residuals
+        .dim()
+        .matrix(coordinates.dim(), |row, column| matrix[(row, column)] * coordinates[column] / residuals[row])
 }

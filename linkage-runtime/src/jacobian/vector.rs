@@ -11,7 +11,10 @@ use crate::{Column, Dim, Real};
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize, serde::Deserialize),
-    serde(bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default"))
+    serde(bound(
+        serialize = "T: serde::Serialize",
+        deserialize = "T: serde::Deserialize<'de>, U: Default, V: Default"
+    ))
 )]
 pub struct Vector<T: Real, U: Dim, V: Dim> {
     /// The components along the unknowns.

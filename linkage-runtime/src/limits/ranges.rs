@@ -185,7 +185,8 @@ impl<M: Mechanism> Searched<'_, M> {
         let here = room(&sample.position);
         let pose = self.mechanism.pose_at(&sample.position);
         let by_inputs = self.mechanism.jacobian_inputs(&pose);
-        let by_input = by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(|| self.mechanism.dims().0.zeros());
+        let by_input =
+            by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(|| self.mechanism.dims().0.zeros());
         let Ok(slopes) = self.mechanism.solve_jacobian(&pose, &by_input) else {
             return [sample.input, here, unknown()];
         };

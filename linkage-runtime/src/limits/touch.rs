@@ -86,9 +86,11 @@ impl<M: Mechanism> Searched<'_, M> {
 pub(super) fn in_turn_of<M: Mechanism>(unknowns: PerUnknown<M>, others: &PerUnknown<M>) -> PerUnknown<M> {
     let turn = M::Scalar::two_pi();
     let each = unknowns.iter().zip(others).zip(M::UNKNOWN_ANGLES);
-    others.dim().padded(each.map(|((&unknown, &other), &is_angle)| {
-        if is_angle { unknown + ((other - unknown) / turn).round() * turn } else { unknown }
-    }))
+    others.dim().padded(each.map(
+        |((&unknown, &other), &is_angle)| {
+            if is_angle { unknown + ((other - unknown) / turn).round() * turn } else { unknown }
+        },
+    ))
 }
 
 /// The polynomial through these nodes, by Lagrange's formula.

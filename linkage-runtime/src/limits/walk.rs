@@ -73,7 +73,8 @@ impl<M: Mechanism> Searched<'_, M> {
     pub(super) fn along(&self, from: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError> {
         let pose = self.mechanism.pose_at(&from.position);
         let by_inputs = self.mechanism.jacobian_inputs(&pose);
-        let by_input = by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(|| self.mechanism.dims().0.zeros());
+        let by_input =
+            by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(|| self.mechanism.dims().0.zeros());
         let unknowns = M::unknowns(&from.position);
         let guess = match self.mechanism.solve_jacobian(&pose, &by_input) {
             Ok(slopes) => unknowns - slopes * (input - from.input),

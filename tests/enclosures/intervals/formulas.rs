@@ -78,7 +78,7 @@ impl<M: Fixture<Scalar = f64> + Certifiable + Default> Enclosable for Of<M> {
         M::USER_FUNCTIONS
     }
     fn repeats(&self, turns: &[i64]) -> bool {
-        let (unknowns, inputs) = turns.split_at(M::U::COUNT);
+        let (unknowns, inputs) = turns.split_at(M::U::CAPACITY);
         let turns_of_inputs = Column::from_fn(|place: usize| inputs[place]);
         Certify::new(&M::default()).repeats(&Column::from_fn(|place: usize| unknowns[place]), &turns_of_inputs)
     }
@@ -155,8 +155,7 @@ pub fn values<M: Certifiable, T: Number>(at: &At<T>) -> Vec<T> {
 
 /// A column of these numbers.
 pub fn column<T: Number, R: Dim>(entries: &[T]) -> Column<T, R> {
-    assert_eq!(entries.len(), R::COUNT);
-    Column::from_fn(|place| entries[place])
+    Column::from_slice(entries).expect("as many entries")
 }
 
 /// The nodes of the derivation in the order of `values`.

@@ -22,12 +22,12 @@ use linkage_gallery::three_link_arm::*;
 fn the_traits_meet_no_unknowns() {
     fn check<M: Assembly<Scalar = f64>>(m: &M, q: &M::Coordinates) {
         let pose = m.pose_at(q);
-        assert_eq!((M::U::COUNT, M::G::COUNT, M::GROUPS.len(), M::UNKNOWNS.len()), (0, 0, 0, 0));
+        assert_eq!((M::U::CAPACITY, M::G::CAPACITY, M::GROUPS.len(), M::UNKNOWNS.len()), (0, 0, 0, 0));
         assert_eq!((m.residual(&pose).iter().count(), m.jacobian_inputs(&pose).iter().count()), (0, 0));
         assert_eq!(m.determinant(&pose), 1.0);
         let report = singularity::report(m, &pose).unwrap();
         assert!(!report.is_singular() && report.rank_with_inputs() == 0 && report.drivers().count() == 0);
-        assert_eq!(report.admissible().count(), M::V::COUNT);
+        assert_eq!(report.admissible().count(), M::V::CAPACITY);
         assert_eq!(singularity::sigma_min(m, &pose), Ok(1.0));
         assert_eq!(singularity::accuracy(m, &pose).unwrap().residual, 0.0);
         let found = newton(m, q).unwrap();

@@ -1,6 +1,6 @@
 //! Balance of energy and power.
 
-use linkage::{Mechanism, PerInput, PerUnknown};
+use linkage::{Dim, Mechanism, PerInput};
 use num_dual::Dual64;
 
 use super::machines::*;
@@ -14,8 +14,8 @@ where
 {
     let ((u, v), (du, dv)) = (M::parts(q), M::rate_parts(rates));
     W::coordinates(
-        PerUnknown::<W>::from_fn(|index| Dual64::new(u[index], du[index])),
-        PerInput::<W>::from_fn(|index| Dual64::new(v[index], dv[index])),
+        u.dim().column(|index| Dual64::new(u[index], du[index])),
+        v.dim().column(|index| Dual64::new(v[index], dv[index])),
     )
 }
 
@@ -26,7 +26,7 @@ where
     W: Mechanism<Scalar = Dual64, V = M::V>,
 {
     let [rates, accelerations]: [PerInput<M>; 2] = [rates.into(), accelerations.into()];
-    PerInput::<W>::from_fn(|index| Dual64::new(rates[index], accelerations[index])).into()
+    rates.dim().column(|index| Dual64::new(rates[index], accelerations[index])).into()
 }
 
 /// Compares dE/dt along the motion of a scene, by dual numbers, with the power of what drives and brakes.

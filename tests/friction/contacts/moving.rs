@@ -2,7 +2,7 @@
 
 use linkage::contact::{ContactReview, Contacts, ReducedEquations};
 use linkage::integrate::{Action, Crossing, System, Tolerance, dop853};
-use linkage::{Column, D, Mode, MotionError, Scene, StateParts};
+use linkage::{Column, D, Dim, Mode, MotionError, Scene, StateParts};
 
 type State<S> = Column<f64, <S as Scene>::State>;
 type Modes<S> = Column<Mode, <S as Scene>::Contacts>;
@@ -52,7 +52,7 @@ impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
     }
 
     fn crossings(&self) -> Column<Crossing, S::Contacts> {
-        Contacts::<f64, S::Contacts>::crossings()
+        self.contacts.crossings()
     }
 
     fn at_event(&mut self, _: usize, t: f64, y: &State<S>) -> Result<Action<State<S>>, MotionError> {
@@ -89,7 +89,7 @@ pub(super) struct End<S: Scene<Scalar = f64>> {
 
 pub(super) fn run<S: Scene<Scalar = f64>>(scene: &S, y: State<S>, end: f64) -> End<S> {
     let (moving, y) = Moving::start(scene, 0.0, &y).unwrap();
-    let tolerance = Tolerance::new(1e-13, Column::repeat(1.0)).unwrap();
+    let tolerance = Tolerance::new(1e-13, y.dim().repeat(1.0)).unwrap();
     let mut motion = dop853(moving, (0.0, y), end, tolerance).unwrap();
     let mut states = Vec::new();
     motion

@@ -43,13 +43,13 @@ fn stride(random: &mut SmallRng) -> f64 {
 fn difference<M: Mechanism<Scalar = f64>>(one: &M::Coordinates, two: &M::Coordinates) -> f64 {
     let (one, two) = (M::unknowns(one), M::unknowns(two));
     let is_length = |index: &usize| !M::UNKNOWN_ANGLES[*index];
-    let largest = (0..M::U::COUNT).filter(is_length).map(|index| two[index].abs()).fold(0.0, f64::max);
+    let largest = (0..M::U::CAPACITY).filter(is_length).map(|index| two[index].abs()).fold(0.0, f64::max);
     let part = |index: usize| match one[index] - two[index] {
         turn if M::UNKNOWN_ANGLES[index] => 2.0 * (turn / 2.0).sin().abs(),
         length => length.abs() / largest,
     };
     // If a length is exactly zero in both, there is no difference.
-    (0..M::U::COUNT).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
+    (0..M::U::CAPACITY).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
 }
 
 /// Sends the input to random values, from one of the positions that `starts` has at an input. Every position on the way
@@ -184,7 +184,7 @@ fn from_a_random_guess<M: Fixture<Scalar = f64>>(
     inputs: PerInput<M>,
     random: &mut SmallRng,
 ) -> Option<M::Coordinates> {
-    let guess: Vec<f64> = (0..M::U::COUNT + M::V::COUNT).map(|_| random.random_range(-PI..PI)).collect();
+    let guess: Vec<f64> = (0..M::U::CAPACITY + M::V::CAPACITY).map(|_| random.random_range(-PI..PI)).collect();
     let guess = M::with_inputs(&named::<M, _>(&guess), inputs);
     Some(newton(m, &M::coordinates_of(&m.pose_at(&guess))).ok()?.coordinates)
 }
@@ -242,7 +242,7 @@ fn round<M: Mechanism<Scalar = f64>>(scale: f64, s: f64) -> [PerInput<M>; 3] {
             [radius * (cosine + f64::from(u8::from(index.is_multiple_of(2)))), -radius * sine, -radius * cosine]
         }
     };
-    [0, 1, 2].map(|order| PerInput::<M>::from_fn(|index| parts(index)[order]))
+    [0, 1, 2].map(|order| M::V::least().column(|index| parts(index)[order]))
 }
 
 macro_rules! walks {

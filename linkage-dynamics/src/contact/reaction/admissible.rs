@@ -115,7 +115,9 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
         }
         let of = |y: T| family.base + along * y;
         let all = || {
-            let of_rank = |k: usize| (0..self.is_bounded.dim().count()).filter(move |&at| known[k][at]).map(move |at| places[k][at]);
+            let of_rank = |k: usize| {
+                (0..self.is_bounded.dim().count()).filter(move |&at| known[k][at]).map(move |at| places[k][at])
+            };
             (0..ROOTS_PER_CONTACT).flat_map(of_rank)
         };
         for y in all() {
@@ -236,7 +238,8 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
             let cell = Cell { scale: [one, zero], centre: self.is_bounded.dim().zeros(), radius: ones };
             return self.explore(&family.in_units(&radius), &cell, budget);
         }
-        let units: Column<T, C> = self.is_bounded.dim().column(|at| if at < count { self.unit(family, at) } else { zero });
+        let units: Column<T, C> =
+            self.is_bounded.dim().column(|at| if at < count { self.unit(family, at) } else { zero });
         let family = family.in_units(&units);
         // The face where s is 1, and those where a parameter is 1 or -1.
         let sides = (0..count).flat_map(|at| [Some((at, one)), Some((at, -one))]);
@@ -265,8 +268,10 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
             match (self.problem.equations.contacts[place].law, &self.problem.reactions[place]) {
                 (ContactLaw::Friction { limit }, _) => side[place] = limit,
                 (ContactLaw::Bearing { .. }, Some(Reaction { factor, by, .. })) => {
-                    let moving: Column<T, C> =
-                        self.is_bounded.dim().column(|at| if self.is_bounded[at] { T::zero() } else { family.base[at] });
+                    let moving: Column<T, C> = self
+                        .is_bounded
+                        .dim()
+                        .column(|at| if self.is_bounded[at] { T::zero() } else { family.base[at] });
                     side[place] = *factor * length(self.problem.reactions[place].as_ref()?.at(&moving));
                     for other in self.bounded() {
                         *gain.get_mut(place, other)? = *factor * length([by[0][other], by[1][other]]);
@@ -300,8 +305,10 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
         }
         let scale = cell.scale[0];
         if scale > T::zero() {
-            let forces =
-                family.at(&self.is_bounded.dim().column(|at| if at < family.spares { cell.centre[at] / scale } else { T::zero() }));
+            let forces = family.at(&self
+                .is_bounded
+                .dim()
+                .column(|at| if at < family.spares { cell.centre[at] / scale } else { T::zero() }));
             if self.is_admissible(&forces) {
                 return Existence::Found(forces);
             }

@@ -190,7 +190,8 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
         let problem = self.problem;
         let rank = |also: Option<usize>| {
             let (mut order, mut count) = (self.at_rest.dim().repeat(0), 0);
-            for place in (0..self.at_rest.dim().count()).filter(|&place| modes[place].is_held() || also == Some(place)) {
+            for place in (0..self.at_rest.dim().count()).filter(|&place| modes[place].is_held() || also == Some(place))
+            {
                 order[count] = place;
                 count += 1;
             }
@@ -215,7 +216,8 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
             !problem.stands(place, forces)
         };
         let is_at_rest = |place: usize| self.at_rest[place].is_some();
-        Family::new(problem, &found.modes).spares == 0 && (0..self.at_rest.dim().count()).filter(|&place| is_at_rest(place)).all(is_clear)
+        Family::new(problem, &found.modes).spares == 0
+            && (0..self.at_rest.dim().count()).filter(|&place| is_at_rest(place)).all(is_clear)
     }
 
     fn is_known(&self, found: &Found<T, V, C>) -> bool {
@@ -237,7 +239,9 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
                     let is_friction = !matches!(self.problem.equations.contacts[place].law, ContactLaw::Stop { .. });
                     known.modes[place] != found.modes[place] && is_friction
                 };
-                let contact = (0..self.at_rest.dim().count()).find(differs).map(|place| self.problem.equations.contacts[place].name);
+                let contact = (0..self.at_rest.dim().count())
+                    .find(differs)
+                    .map(|place| self.problem.equations.contacts[place].name);
                 return Err(Failure::Several(contact.unwrap_or_else(|| self.problem.strongest())));
             }
             Some(known) if held(known) >= held(&found) => {}

@@ -87,7 +87,8 @@ impl<T: Real, C: Dim> Family<T, C> {
         for (own, &column) in columns.iter_mut().zip(self.columns.as_slice().iter().skip(self.slips)) {
             *own = column;
         }
-        let set: Column<T, C> = self.base.dim().column(|place| if place < self.slips { magnitudes[place] } else { T::zero() });
+        let set: Column<T, C> =
+            self.base.dim().column(|place| if place < self.slips { magnitudes[place] } else { T::zero() });
         Self { base: self.at(&set), columns, slips: 0, ..*self }
     }
 

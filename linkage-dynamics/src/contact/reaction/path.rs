@@ -57,8 +57,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
             let share = held().fold(T::zero(), |sum, row| sum + ratios[row].abs() * gain[(row, column)]);
             share <= ratios[column].abs() * real(0.5)
         });
-        let moving: Column<T, C> =
-            c.column(|place| if self.is_bounded[place] { T::zero() } else { start[place] });
+        let moving: Column<T, C> = c.column(|place| if self.is_bounded[place] { T::zero() } else { start[place] });
         let path = Path { held: self, pivot, ratios, moving };
         let found = path.zero()?;
         match found {

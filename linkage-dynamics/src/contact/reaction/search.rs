@@ -72,11 +72,7 @@ fn face<T: Real, C: Dim>(c: C, fixed: Option<usize>) -> Cell<T, C> {
     let half = real::<T>(0.5);
     let side = |is_fixed: bool| if is_fixed { [T::one(), T::zero()] } else { [half, half] };
     let of = |at: usize| side(fixed == Some(at));
-    Cell {
-        scale: side(fixed.is_none()),
-        centre: c.column(|at| of(at)[0]),
-        radius: c.column(|at| of(at)[1]),
-    }
+    Cell { scale: side(fixed.is_none()), centre: c.column(|at| of(at)[0]), radius: c.column(|at| of(at)[1]) }
 }
 
 impl<T: Real, C: Dim> Slips<T, C> {
@@ -181,7 +177,11 @@ impl<T: Real, C: Dim> Slips<T, C> {
             return false;
         }
         if scale > real(LEAST_SCALE) && t.iter().take(count).all(|&t| t >= -T::default_epsilon()) {
-            roots.add(self.factors.dim().column(|at| if at < count { t[at].max(T::zero()) / scale * unit } else { T::zero() }));
+            roots.add(
+                self.factors
+                    .dim()
+                    .column(|at| if at < count { t[at].max(T::zero()) / scale * unit } else { T::zero() }),
+            );
         }
         true
     }

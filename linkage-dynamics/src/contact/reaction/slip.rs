@@ -77,12 +77,7 @@ impl<T: Real, C: Dim> Roots<T, C> {
 impl<T: Real, C: Dim> Slips<T, C> {
     pub(super) fn none(c: C) -> Self {
         let zero = [T::zero(); 2];
-        Self {
-            count: 0,
-            factors: c.zeros(),
-            base: c.repeat(zero),
-            by: c.repeat(c.repeat(zero)),
-        }
+        Self { count: 0, factors: c.zeros(), base: c.repeat(zero), by: c.repeat(c.repeat(zero)) }
     }
 
     /// Finds all t.
@@ -141,11 +136,9 @@ impl<T: Real, C: Dim> Slips<T, C> {
 
     /// c |r + P t|.
     fn image(&self, t: &Column<T, C>) -> Column<T, C> {
-        self.factors.dim().column(
-            |row| {
-                if row < self.count { self.factors[row] * length(self.reaction(row, t)) } else { T::zero() }
-            },
-        )
+        self.factors
+            .dim()
+            .column(|row| if row < self.count { self.factors[row] * length(self.reaction(row, t)) } else { T::zero() })
     }
 
     /// The derivative of t - c |r + P t|. That of |R| at R = 0 counts as zero.
@@ -314,7 +307,8 @@ impl<T: Real, C: Dim> Slips<T, C> {
     /// The derivative and the residual in homogeneous coordinates: t_j = c_j |r_j s + P t|, with the number s.
     pub(super) fn homogeneous(&self, s: T, t: &Column<T, C>) -> Homogeneous<T, C> {
         let scaled = Self { base: self.base.map(|base| base.map(|component| component * s)), ..*self };
-        let residual = self.factors.dim().column(|row| if row < self.count { t[row] } else { T::zero() }) - scaled.image(t);
+        let residual =
+            self.factors.dim().column(|row| if row < self.count { t[row] } else { T::zero() }) - scaled.image(t);
         let mut by_scale = self.factors.dim().zeros();
         for row in 0..self.count {
             let reaction = scaled.reaction(row, t);

@@ -22,7 +22,7 @@ fn vector(random: &mut SmallRng, length: f64) -> [f64; 2] {
 /// p_1 (t_1 - t_1') = R - R' - p_2 (t_2 - t_2') and r = R - p t.
 fn pins(random: &mut SmallRng) -> (Slips<f64, D<2>>, [Column<f64, D<2>>; 2]) {
     let t: [Column<f64, D<2>>; 2] = [0, 1].map(|_| Column::from_fn(|_| random.random_range(0.1..2.0)));
-    let mut slips = Slips::none();
+    let mut slips = Slips::none(D);
     slips.count = 2;
     for row in 0..2 {
         slips.factors[row] = random.random_range(0.2..1.5);
@@ -91,7 +91,7 @@ fn a_cell_is_decided_by_its_own_solution() {
         let own_scale = near(None, scale);
         let own = Column::<_, D<2>>::from_fn(|at| near(Some(at), t[at]));
         let cell = Cell { scale: own_scale, centre: own.map(|of| of[0]), radius: own.map(|of| of[1]) };
-        let mut roots = Roots::none();
+        let mut roots = Roots::none(D);
         if !slips.is_decided(&cell, fixed, 1.0, &mut roots) {
             continue;
         }
@@ -161,7 +161,7 @@ fn stuck(random: &mut SmallRng, givens: usize, shares: [f64; 3]) -> (Equations, 
                 accelerations: [random.random_range(-1.0..1.0)].into(),
                 contacts: Column::from_fn(|_| random.random_range(-4.0..4.0)),
             };
-            let components = [row(), if is_guide { ReducedReaction::zero() } else { row() }];
+            let components = [row(), if is_guide { ReducedReaction::zero((D, D)) } else { row() }];
             bearings[place] = Some(ReducedBearing { components });
             ContactLaw::Bearing { factor: limit / at_rest(&components, &forces) }
         };

@@ -154,9 +154,10 @@ impl<const C: usize> Scene for Particle<C> {
         _: &Rates<Self>,
     ) -> Result<Column<Option<Bearing<f64, D<2>, D<1>, D<C>>>, D<C>>, MotionError> {
         // The constraints exert -lambda on the particle.
-        let row = |of: [f64; 2]| ReactionRow { rows: of.map(|component| -component).into(), ..ReactionRow::zero() };
+        let row =
+            |of: [f64; 2]| ReactionRow { rows: of.map(|component| -component).into(), ..ReactionRow::zero((D, D, D)) };
         let components = match self.normal {
-            Some(normal) => [row(normal), ReactionRow::zero()],
+            Some(normal) => [row(normal), ReactionRow::zero((D, D, D))],
             None => [row([1.0, 0.0]), row([0.0, 1.0])],
         };
         Ok(Column::repeat(Some(Bearing { components })))

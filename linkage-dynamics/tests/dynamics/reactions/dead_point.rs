@@ -103,7 +103,7 @@ impl Scene for Journal {
         _: &[f64; 3],
         _: &[f64; 3],
     ) -> Result<Column<Option<Bearing<f64, D<2>, D<1>, D<1>>>, D<1>>, MotionError> {
-        let row = |of: [f64; 2]| ReactionRow { rows: of.into(), ..ReactionRow::zero() };
+        let row = |of: [f64; 2]| ReactionRow { rows: of.into(), ..ReactionRow::zero((D, D, D)) };
         Ok([Some(Bearing { components: [row([-1.0, 0.0]), row([0.0, -1.0])] })].into())
     }
     fn unreduced(&self, _: f64, _: &[f64; 3], _: &[f64; 3]) -> Result<Unreduced<f64, D<2>, D<1>>, MotionError> {

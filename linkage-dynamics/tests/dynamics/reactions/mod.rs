@@ -33,7 +33,7 @@ fn reaction<const V: usize, const C: usize>(
 
 /// The reaction of a guide.
 fn guide<const V: usize, const C: usize>(normal: Reaction<V, C>) -> Option<ReducedBearing<f64, D<V>, D<C>>> {
-    Some(ReducedBearing { components: [normal, ReducedReaction::zero()] })
+    Some(ReducedBearing { components: [normal, ReducedReaction::zero((D, D))] })
 }
 
 /// A friction by a reaction with this row and rate of s.

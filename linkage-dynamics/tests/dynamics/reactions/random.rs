@@ -5,7 +5,7 @@ use super::{Equations, solved};
 use linkage_dynamics::contact::{ReducedBearing, ReducedContact, ReducedEquations, ReducedReaction};
 use linkage_dynamics::{ContactLaw, Mode, MotionError};
 use linkage_runtime::nalgebra::{SMatrix, SVector};
-use linkage_runtime::{Column, Matrix};
+use linkage_runtime::{Column, D, Matrix};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -45,7 +45,7 @@ fn random<const V: usize, const C: usize>(random: &mut SmallRng) -> Equations<V,
             accelerations: Column::from_fn(|_| random.random_range(-1.0..1.0)),
             contacts: Column::from_fn(|_| random.random_range(-1.0..1.0)),
         };
-        Some(ReducedBearing { components: [row(), if is_guide { ReducedReaction::zero() } else { row() }] })
+        Some(ReducedBearing { components: [row(), if is_guide { ReducedReaction::zero((D, D)) } else { row() }] })
     });
     ReducedEquations {
         scene: "Random",

@@ -237,7 +237,7 @@ fn painleves_rod_has_no_acceleration_or_two() {
 #[test]
 fn a_pin_without_load_slips_with_force_zero() {
     let unloaded = |gain: f64| {
-        let components = [reaction(0.0, [0.0], [gain]), ReducedReaction::zero()];
+        let components = [reaction(0.0, [0.0], [gain]), ReducedReaction::zero((D, D))];
         Some(ReducedBearing { components })
     };
     for gain in [0.0, 0.5, 3.0] {
@@ -261,7 +261,7 @@ fn a_pin_without_load_slips_with_force_zero() {
 /// the law, and none is chosen.
 #[test]
 fn a_pin_that_any_friction_loads_enough_is_undecided() {
-    let components = [reaction(0.0, [0.0], [2.0]), ReducedReaction::zero()];
+    let components = [reaction(0.0, [0.0], [2.0]), ReducedReaction::zero((D, D))];
     for rate in [1.0, -1.0] {
         let pin = (bearing("friction", 0.5, [1.0], rate), Some(ReducedBearing { components }));
         let found = solved(&equations([[2.0]], [5.0], [pin])).unwrap_err();

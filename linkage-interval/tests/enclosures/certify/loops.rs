@@ -37,9 +37,9 @@ pub enum Fault {
 
 /// A mechanism as data.
 pub trait Shape: Copy + Debug + PartialEq + 'static {
-    type P: Dim;
-    type U: Dim;
-    type Q: Dim;
+    type P: Dim + Default;
+    type U: Dim + Default;
+    type Q: Dim + Default;
     const LOOPS: &'static [&'static [Term]];
     /// Points as sums of vectors.
     const POINTS: &'static [&'static [Term]] = &[];

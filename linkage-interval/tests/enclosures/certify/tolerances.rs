@@ -25,7 +25,7 @@ fn compare<S: Shape>(parameters: Column<f64, S::P>, start: Column<f64, S::U>, qu
     };
     let found = of(&certificate);
     let mut corners = vec![[f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY]; quantities];
-    for corner in 0_u32..1 << S::P::COUNT {
+    for corner in 0_u32..1 << S::P::CAPACITY {
         let sign = |place: usize| if corner >> place & 1 == 1 { 1.0 } else { -1.0 };
         let at = Column::from_fn(|place| parameters[place] * (1.0 + sign(place) * TOLERANCE));
         let at_corner = certify::turn(&Loops::<S, f64>::new(at), &start).unwrap();
