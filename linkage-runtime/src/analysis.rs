@@ -29,7 +29,7 @@
 //! assert!((first - second).largest() < 1e-13 * second.largest());
 //! // With one input the velocity ratios are the transmission ratios.
 //! assert_eq!(at.transmission_ratios(), Some(at.ratios.column(0)));
-//! # Ok::<(), linkage::PositionError>(())
+//! # Ok::<(), linkage::PositionError<M::Name>>(())
 //! ```
 
 use nalgebra::{Matrix2, Point2, Vector2};
@@ -38,7 +38,7 @@ use crate::error::all_finite;
 use crate::jacobian::Scales;
 use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, Kinematic, Matrix, Mechanism, PerInput, PerUnknown, PointMotion, PositionError, Real, real};
+use crate::{Name, Column, Dim, Kinematic, Matrix, Mechanism, PerInput, PerUnknown, PointMotion, PositionError, Real, real};
 
 /// The columns of a matrix by the unknowns, and those by the inputs: J and A, for instance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,7 +91,7 @@ impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
         pose: &M::Pose,
         input_rates: impl Into<M::Inputs>,
         input_accelerations: impl Into<M::Inputs>,
-    ) -> Result<Self, PositionError> {
+    ) -> Result<Self, PositionError<M::Name>> {
         let (input_rates, input_accelerations) = (input_rates.into(), input_accelerations.into());
         let rates = mechanism.velocity(pose, input_rates)?;
         let ratios = mechanism.velocity_ratios(pose)?;
@@ -129,7 +129,7 @@ impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
             terms: [driven, turned, moved, sum],
             accelerations: [first, second],
         };
-        all_finite(M::NAME, "the analysis", found.numbers())?;
+        all_finite(mechanism.name(), Name::from_static("the analysis"), found.numbers())?;
         Ok(found)
     }
 

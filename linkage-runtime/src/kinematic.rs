@@ -99,7 +99,7 @@ impl<Q: Copy + Debug + PartialEq> Quantity for Q {}
 ///     m: &M,
 ///     q: &M::Coordinates,
 ///     input_rates: M::Inputs,
-/// ) -> Result<Option<(&'static str, f64)>, PositionError> {
+/// ) -> Result<Option<(&'static str, f64)>, PositionError<Self::Name>> {
 ///     let pose = m.pose_at(q);
 ///     let rates = m.velocity(&pose, input_rates)?;
 ///     let speeds = M::each_point(m.point_velocities(&pose, &rates)?).map(|velocity| velocity.norm());
@@ -151,7 +151,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a rate is not finite.
-    fn velocity(&self, pose: &Self::Pose, input_rates: Self::Inputs) -> Result<Self::Rates, PositionError>;
+    fn velocity(&self, pose: &Self::Pose, input_rates: Self::Inputs) -> Result<Self::Rates, PositionError<Self::Name>>;
     /// The accelerations `q''` at the rates `q'` and the accelerations `v''` of the inputs.
     ///
     /// # Errors
@@ -161,7 +161,7 @@ pub trait Kinematic:
         pose: &Self::Pose,
         rates: &Self::Rates,
         input_accelerations: Self::Inputs,
-    ) -> Result<Self::Accelerations, PositionError>;
+    ) -> Result<Self::Accelerations, PositionError<Self::Name>>;
     /// The position at the inputs of `guess` on this branch, with its rates and accelerations, in one computation. Groups
     /// without a closed form are solved by Newton's method from the guess; a position in closed form depends on the inputs
     /// alone, and at a change point a branch may jump to another motion.
@@ -174,7 +174,7 @@ pub trait Kinematic:
         branch: Self::Branch,
         input_rates: Self::Inputs,
         input_accelerations: Self::Inputs,
-    ) -> Result<KinematicsOf<Self>, PositionError>;
+    ) -> Result<KinematicsOf<Self>, PositionError<Self::Name>>;
     /// The rates, the accelerations, and the motion of points and outputs at the coordinates q of a position, in one
     /// computation.
     ///
@@ -186,7 +186,7 @@ pub trait Kinematic:
         q: &Self::Coordinates,
         input_rates: Self::Inputs,
         input_accelerations: Self::Inputs,
-    ) -> Result<MotionOf<Self>, PositionError>;
+    ) -> Result<MotionOf<Self>, PositionError<Self::Name>>;
 
     /// [`kinematics`](Self::kinematics) with the motion of points and outputs. A mechanism without points and outputs
     /// needs no body of it.
@@ -199,7 +199,7 @@ pub trait Kinematic:
         branch: Self::Branch,
         input_rates: Self::Inputs,
         input_accelerations: Self::Inputs,
-    ) -> Result<FullKinematicsOf<Self>, PositionError> {
+    ) -> Result<FullKinematicsOf<Self>, PositionError<Self::Name>> {
         let Kinematics { pose, rates, accelerations } =
             self.kinematics(guess, branch, input_rates, input_accelerations)?;
         let zero = Self::Scalar::zero();
@@ -213,7 +213,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
-    fn velocity_ratios(&self, _: &Self::Pose) -> Result<Ratios<Self, Self::U>, PositionError> {
+    fn velocity_ratios(&self, _: &Self::Pose) -> Result<Ratios<Self, Self::U>, PositionError<Self::Name>> {
         const { no_unknowns::<Self>() };
         let (u, v, _) = self.dims();
         Ok(u.zero_matrix(v))
@@ -223,7 +223,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
-    fn ratios_by_input(&self, pose: &Self::Pose) -> Result<Column<Self::Rates, Self::V>, PositionError> {
+    fn ratios_by_input(&self, pose: &Self::Pose) -> Result<Column<Self::Rates, Self::V>, PositionError<Self::Name>> {
         let ratios = self.velocity_ratios(pose)?;
         let (_, v) = ratios.dims();
         Ok(v.column(|input| Self::rates(ratios.column(input), v.unit(input))))
@@ -232,7 +232,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
-    fn points(&self, _: &Self::Pose) -> Result<Self::Points<Point2<Self::Scalar>>, PositionError> {
+    fn points(&self, _: &Self::Pose) -> Result<Self::Points<Point2<Self::Scalar>>, PositionError<Self::Name>> {
         Ok(none::<Self::P, _, _>(Point2::origin()))
     }
     /// The velocities of the points at the rates q'.
@@ -243,7 +243,7 @@ pub trait Kinematic:
         &self,
         _: &Self::Pose,
         _: &Self::Rates,
-    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionError> {
+    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionError<Self::Name>> {
         Ok(none::<Self::P, _, _>(Vector2::zeros()))
     }
     /// The accelerations of the points at the rates `q'` and the accelerations `q''`.
@@ -255,28 +255,28 @@ pub trait Kinematic:
         _: &Self::Pose,
         _: &Self::Rates,
         _: &Self::Accelerations,
-    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionError> {
+    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionError<Self::Name>> {
         Ok(none::<Self::P, _, _>(Vector2::zeros()))
     }
     /// For each point the matrix of its velocity by the rates of the inputs.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
-    fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Ratios<Self, D<2>>>, PositionError> {
+    fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Ratios<Self, D<2>>>, PositionError<Self::Name>> {
         Ok(none::<Self::P, _, _>(D.zero_matrix(self.dims().1)))
     }
     /// The outputs. A mechanism without outputs needs no body of this and of the next three functions.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
-    fn outputs(&self, _: &Self::Pose) -> Result<Self::Outputs<Self::Scalar>, PositionError> {
+    fn outputs(&self, _: &Self::Pose) -> Result<Self::Outputs<Self::Scalar>, PositionError<Self::Name>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// The rates of the outputs at the rates q'.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
-    fn output_rates(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionError> {
+    fn output_rates(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionError<Self::Name>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// The second derivatives of the outputs at the rates `q'` and the accelerations `q''`.
@@ -288,14 +288,14 @@ pub trait Kinematic:
         _: &Self::Pose,
         _: &Self::Rates,
         _: &Self::Accelerations,
-    ) -> Result<Self::Outputs<Self::Scalar>, PositionError> {
+    ) -> Result<Self::Outputs<Self::Scalar>, PositionError<Self::Name>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// For each output the row of its rate by the rates of the inputs.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
-    fn output_ratios(&self, _: &Self::Pose) -> Result<Self::Outputs<Ratios<Self, D<1>>>, PositionError> {
+    fn output_ratios(&self, _: &Self::Pose) -> Result<Self::Outputs<Ratios<Self, D<1>>>, PositionError<Self::Name>> {
         Ok(none::<Self::O, _, _>(D.zero_matrix(self.dims().1)))
     }
 

@@ -79,7 +79,7 @@ mod wide;
 pub use branch::{Assembled, Elbow, Side, Slider, Slope};
 pub use column::Column;
 pub use dim::{D, Dim, UpTo};
-pub use error::{InputError, InputValues, Name, PathError, PositionError};
+pub use error::{BorrowedName, InputError, InputValues, Name, PathError, PositionError};
 pub use formulas::{Certifiable, Formulas};
 pub use joints::{Joint, JointForces};
 pub use kinematic::Kinematic;

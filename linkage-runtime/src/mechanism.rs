@@ -7,18 +7,18 @@ use crate::linear::same_signs;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::shown::Shown;
-use crate::{Column, Dim, InputError, Matrix, PositionError, Ranged, Real};
+use crate::{BorrowedName, Column, Dim, InputError, Matrix, Name, PositionError, Ranged, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Group {
+pub struct Group<'m, N = &'static str> {
     /// The unknowns by name, as in error messages.
-    pub name: &'static str,
+    pub name: N,
     /// The constraints that determine them: rows of J.
-    pub equations: &'static [usize],
+    pub equations: &'m [usize],
     /// The unknowns: columns of J.
-    pub unknowns: &'static [usize],
+    pub unknowns: &'m [usize],
 }
 
 /// A number for each dependent coordinate of a mechanism, or for each constraint.
@@ -43,6 +43,8 @@ pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
 pub trait Mechanism {
     /// The type of lengths and angles.
     type Scalar: Real;
+    /// The type of its names: `&'static str` in emitted code; those of a mechanism at run time are borrowed.
+    type Name: BorrowedName;
     /// The number of dependent coordinates.
     type U: Dim;
     /// The number of independent coordinates.
@@ -72,9 +74,70 @@ pub trait Mechanism {
     /// True for each input that is an angle.
     const INPUT_ANGLES: &'static [bool];
     /// The groups, in the order in which they are solved.
-    const GROUPS: &'static [Group];
+    const GROUPS: &'static [Group<'static>];
     /// The names of the coordinates and outputs that have a range, in the order of declaration.
     const RANGES: &'static [&'static str] = &[];
+
+    /// The name of the mechanism, as in error messages. Here and below: the names of emitted code are constants, those of a
+    /// mechanism at run time are of its value.
+    #[inline]
+    fn name(&self) -> Self::Name {
+        Self::Name::from_static(Self::NAME)
+    }
+    /// The name of an unknown, by its column of J; empty beyond the last.
+    #[inline]
+    fn unknown_name(&self, place: usize) -> Self::Name {
+        Self::Name::from_static(Self::UNKNOWNS.get(place).copied().unwrap_or_default())
+    }
+    /// The name of an input, by its column of A; empty beyond the last.
+    #[inline]
+    fn input_name(&self, place: usize) -> Self::Name {
+        Self::Name::from_static(Self::INPUTS.get(place).copied().unwrap_or_default())
+    }
+    /// True for each unknown that is an angle.
+    #[inline]
+    fn unknown_angles(&self) -> &[bool] {
+        Self::UNKNOWN_ANGLES
+    }
+    /// True for each input that is an angle.
+    #[inline]
+    fn input_angles(&self) -> &[bool] {
+        Self::INPUT_ANGLES
+    }
+    /// A group, in the order in which they are solved; none beyond the last.
+    #[inline]
+    fn group(&self, place: usize) -> Option<Group<'_, Self::Name>> {
+        let Group { name, equations, unknowns } = *Self::GROUPS.get(place)?;
+        Some(Group { name: Self::Name::from_static(name), equations, unknowns })
+    }
+    /// All groups, as a list that can be kept.
+    #[inline]
+    fn group_list(&self) -> <Self::Name as BorrowedName>::Groups {
+        Self::Name::static_groups(Self::GROUPS)
+    }
+    /// The name of a coordinate or an output that has a range, in the order of declaration; none beyond the last.
+    #[inline]
+    fn range_name(&self, place: usize) -> Option<Self::Name> {
+        Self::RANGES.get(place).copied().map(Self::Name::from_static)
+    }
+    /// The groups, in the order in which they are solved.
+    #[inline]
+    fn groups(&self) -> impl Iterator<Item = Group<'_, Self::Name>> + Clone {
+        (0..self.dims().2.count()).filter_map(|place| self.group(place))
+    }
+    /// The names of the coordinates and outputs that have a range, in the order of declaration.
+    #[inline]
+    fn range_names(&self) -> impl Iterator<Item = Self::Name> + Clone {
+        (0..).map_while(|place| self.range_name(place))
+    }
+    /// The name of a coordinate, by its column of [J A]; empty beyond the last.
+    #[inline]
+    fn coordinate_name(&self, column: usize) -> Self::Name {
+        match column.checked_sub(self.dims().0.count()) {
+            None => self.unknown_name(column),
+            Some(input) => self.input_name(input),
+        }
+    }
 
     /// The numbers of unknowns, of inputs and of groups. A mechanism needs a body of it if one is not a constant.
     #[inline]
@@ -162,7 +225,7 @@ pub trait Mechanism {
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the solution is not finite.
     #[inline]
-    fn solve_jacobian(&self, _: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError> {
+    fn solve_jacobian(&self, _: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError<Self::Name>> {
         const { no_unknowns::<Self>() };
         Ok(*right)
     }
@@ -178,7 +241,7 @@ pub trait Mechanism {
     /// # Errors
     /// [`PositionError::NotImplied`] if one does not.
     #[inline]
-    fn check_implied(&self, _: &Self::Coordinates) -> Result<(), PositionError> {
+    fn check_implied(&self, _: &Self::Coordinates) -> Result<(), PositionError<Self::Name>> {
         Ok(())
     }
 
@@ -191,10 +254,10 @@ pub trait Mechanism {
     ///
     /// # Errors
     /// [`InputError::EmptyJointRange`] for a range whose ends are not numbers or not in order.
-    fn is_within_ranges(&self, q: &Self::Coordinates) -> Result<bool, InputError> {
-        let mut all = (0..).zip(Self::RANGES).filter_map(|(place, name)| Some((self.ranged(place, q)?, name)));
+    fn is_within_ranges(&self, q: &Self::Coordinates) -> Result<bool, InputError<Self::Name>> {
+        let mut all = (0..).zip(self.range_names()).filter_map(|(place, name)| Some((self.ranged(place, q)?, name)));
         all.try_fold(true, |are_within, (ranged, name)| {
-            ranged.check_ends(Self::NAME, name)?;
+            ranged.check_ends(self.name(), name)?;
             Ok(are_within && ranged.is_within())
         })
     }
@@ -222,8 +285,8 @@ pub trait Mechanism {
     /// The coordinates q as one line for readers, the inputs first, with angles in degrees: `theta = 60°, s = 0.25`. A precision,
     /// as in `{:.2}`, is the number of decimals; without one there are seven digits.
     #[inline]
-    fn named(&self, q: &Self::Coordinates) -> Named<Self> {
-        Named(*q)
+    fn named(&self, q: &Self::Coordinates) -> Named<'_, Self> {
+        Named { mechanism: self, q: *q }
     }
     /// True if the determinant of each block of J has the same sign at both positions: if not, they belong to different
     /// assembly branches. NaN counts as negative.
@@ -234,14 +297,22 @@ pub trait Mechanism {
 }
 
 /// The coordinates of a position by name, in one line. Made by [`Mechanism::named`].
-#[derive(Debug)]
-pub struct Named<M: Mechanism + ?Sized>(M::Coordinates);
+pub struct Named<'m, M: Mechanism + ?Sized> {
+    mechanism: &'m M,
+    q: M::Coordinates,
+}
 
-impl<M: Mechanism + ?Sized> Display for Named<M> {
+impl<M: Mechanism + ?Sized> Debug for Named<'_, M> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let (unknowns, inputs) = M::parts(&self.0);
-        let inputs = inputs.into_iter().zip(M::INPUTS).zip(M::INPUT_ANGLES);
-        let unknowns = unknowns.into_iter().zip(M::UNKNOWNS).zip(M::UNKNOWN_ANGLES);
+        f.debug_tuple("Named").field(&self.q).finish()
+    }
+}
+
+impl<M: Mechanism + ?Sized> Display for Named<'_, M> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (m, (unknowns, inputs)) = (self.mechanism, M::parts(&self.q));
+        let inputs = inputs.into_iter().zip((0..).map(|place| m.input_name(place))).zip(m.input_angles());
+        let unknowns = unknowns.into_iter().zip((0..).map(|place| m.unknown_name(place))).zip(m.unknown_angles());
         for (place, ((value, name), &is_angle)) in inputs.chain(unknowns).enumerate() {
             f.write_str(if place == 0 { "" } else { ", " })?;
             write!(f, "{name} = ")?;
@@ -271,14 +342,14 @@ pub trait Assembly: Mechanism {
     /// # Errors
     /// [`PositionError::Unbuildable`] if a group cannot be assembled, [`PositionError::Undetermined`] if it has
     /// infinitely many positions, [`PositionError::NotFinite`] if a number is not finite.
-    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, PositionError>;
+    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, PositionError<Self::Name>>;
     /// Computes the position at the inputs of a guess on this branch. If the full turns of an angle matter, as with
     /// gears, those nearest to the guess are used instead of those of the branch.
     ///
     /// # Errors
     /// Those of [`assemble`](Self::assemble), and [`InputError::OutOfRange`](crate::InputError::OutOfRange) if a guess
     /// is more turns away than a branch can count.
-    fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError> {
+    fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError<Self::Name>> {
         self.assemble(Self::inputs(guess).into(), branch)
     }
 }
@@ -299,7 +370,7 @@ pub trait Branches: Mechanism {
     fn all_positions(
         &self,
         inputs: Self::Inputs,
-    ) -> Result<impl Iterator<Item = (Self::Branch, Self::Coordinates)>, PositionError>;
+    ) -> Result<impl Iterator<Item = (Self::Branch, Self::Coordinates)>, PositionError<Self::Name>>;
 }
 
 /// Returns an error if a number of the coordinates or of their pose is infinite or NaN.
@@ -307,12 +378,12 @@ pub trait Branches: Mechanism {
 /// # Errors
 /// [`PositionError::NotFinite`].
 #[inline]
-pub(crate) fn finite_position<M: Mechanism>(q: &M::Coordinates, pose: &M::Pose) -> Result<(), PositionError> {
-    finite_coordinates::<M>(q)?;
+pub(crate) fn finite_position<M: Mechanism>(mechanism: &M, q: &M::Coordinates, pose: &M::Pose) -> Result<(), PositionError<M::Name>> {
+    finite_coordinates(mechanism, q)?;
     if M::is_finite(pose) {
         Ok(())
     } else {
-        Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the position" })
+        Err(PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("the position") })
     }
 }
 
@@ -321,24 +392,24 @@ pub(crate) fn finite_position<M: Mechanism>(q: &M::Coordinates, pose: &M::Pose) 
 /// # Errors
 /// [`PositionError::NotFinite`].
 #[inline]
-pub(crate) fn finite_coordinates<M: Mechanism>(q: &M::Coordinates) -> Result<(), PositionError> {
+pub(crate) fn finite_coordinates<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<(), PositionError<M::Name>> {
     let (unknowns, inputs) = M::parts(q);
-    all_finite(M::NAME, "the position", unknowns.iter().chain(inputs.iter()))
+    all_finite(mechanism.name(), Name::from_static("the position"), unknowns.iter().chain(inputs.iter()))
 }
 
 /// Returns the error of the first value that is not in its range.
 ///
 /// # Errors
 /// [`InputError::EmptyJointRange`], [`InputError::OutOfRange`].
-pub(crate) fn check_ranges<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<(), InputError> {
-    let mut all = (0..).zip(M::RANGES).filter_map(|(place, name)| Some((mechanism.ranged(place, q)?, name)));
-    all.try_for_each(|(ranged, name)| ranged.check(M::NAME, name))
+pub(crate) fn check_ranges<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<(), InputError<M::Name>> {
+    let mut all = (0..).zip(mechanism.range_names()).filter_map(|(place, name)| Some((mechanism.ranged(place, q)?, name)));
+    all.try_for_each(|(ranged, name)| ranged.check(mechanism.name(), name))
 }
 
 /// Returns the name of the first group whose determinant changes its sign from one position to another.
-pub(crate) fn other_group<M: Mechanism>(mechanism: &M, pose: &M::Pose, other: &M::Pose) -> &'static str {
+pub(crate) fn other_group<M: Mechanism>(mechanism: &M, pose: &M::Pose, other: &M::Pose) -> M::Name {
     let [these, those] = [pose, other].map(|pose| mechanism.block_determinants(pose));
-    let mut pairs = these.iter().zip(&those).zip(M::GROUPS);
+    let mut pairs = these.iter().zip(&those).zip(mechanism.groups());
     let group = pairs.find(|((this, that), _)| !same_signs(&[**this], &[**that]));
-    group.map(|(_, group)| group.name).unwrap_or_default()
+    group.map_or_else(|| Name::from_static(""), |(_, group)| group.name)
 }

@@ -68,11 +68,11 @@ fn found(f: &mut Formatter<'_>, coordinates: &impl Debug, iterations: usize, res
 ///
 /// # Errors
 /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the step is not finite.
-pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M::Coordinates, PositionError> {
+pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M::Coordinates, PositionError<M::Name>> {
     let pose = mechanism.pose_at(q);
     let step = correction(mechanism, &pose)?;
     let next = M::with_unknowns(q, M::unknowns(q) - step);
-    finite_coordinates::<M>(&next)?;
+    finite_coordinates(mechanism, &next)?;
     Ok(next)
 }
 
@@ -86,23 +86,23 @@ pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M:
 /// of a group has another sign than at the guess, [`PositionError::NotFinite`] if a number is not finite. If the
 /// regularity of the group is below 16 sqrt(epsilon) at the guess or at the position, the sign is not compared.
 /// [`PositionError::NotImplied`] if an implied loop does not close at the position.
-pub fn newton<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Solution<M::Coordinates>, PositionError> {
+pub fn newton<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Solution<M::Coordinates>, PositionError<M::Name>> {
     let (found, start, end) = searched(mechanism, guess)?;
     let AnyBranch { coordinates, iterations, residual, same_branch } = found;
     match if same_branch { None } else { left_group(mechanism, &start, &end) } {
         None => Ok(Solution { coordinates, iterations, residual }),
-        Some(group) => Err(PositionError::OtherBranch { mechanism: M::NAME, group }),
+        Some(group) => Err(PositionError::OtherBranch { mechanism: mechanism.name(), group }),
     }
 }
 
 /// The first group whose determinant has another sign at the end than at the start and is not zero at either: a
 /// position at a dead point is accurate to sqrt(epsilon) only.
-fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Option<&'static str> {
+fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Option<M::Name> {
     let ends = [Blocks::of(mechanism, start), Blocks::of(mechanism, end)];
     let [before, after] = ends.each_ref().map(Blocks::determinants);
     let mut signs = before.iter().zip(after).map(|(&before, &after)| same_signs(&[before], &[after])).enumerate();
     let left = signs.find(|&(place, same)| !same && ends.iter().all(|blocks| blocks.regularity(place) > nearly_zero()));
-    left.and_then(|(place, _)| M::GROUPS.get(place)).map(|group| group.name)
+    left.and_then(|(place, _)| mechanism.group(place)).map(|group| group.name)
 }
 
 /// Finds the position near `guess` at the inputs of `guess`, on any branch, by the search of [`newton`].
@@ -113,16 +113,16 @@ fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Op
 pub fn newton_any_branch<M: Mechanism>(
     mechanism: &M,
     guess: &M::Coordinates,
-) -> Result<AnyBranch<M::Coordinates>, PositionError> {
+) -> Result<AnyBranch<M::Coordinates>, PositionError<M::Name>> {
     searched(mechanism, guess).map(|(found, ..)| found)
 }
 
 /// A position, and the poses of the guess and of the position.
 type Searched<M> = (AnyBranch<<M as Mechanism>::Coordinates>, <M as Mechanism>::Pose, <M as Mechanism>::Pose);
 
-fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searched<M>, PositionError> {
+fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searched<M>, PositionError<M::Name>> {
     // An input may occur in no constraint.
-    all_finite(M::NAME, "the input", M::inputs(guess).iter())?;
+    all_finite(mechanism.name(), Name::from_static("the input"), M::inputs(guess).iter())?;
     let (Iterate { unknowns, point, size, .. }, iterations) = search(&Whole { mechanism, guess }, M::unknowns(guess))?;
     let start = mechanism.pose_at(guess);
     let found = AnyBranch {
@@ -187,7 +187,7 @@ struct Whole<'a, M: Mechanism> {
 
 impl<M: Mechanism> Constraints for Whole<'_, M> {
     type Scalar = M::Scalar;
-    type Name = &'static str;
+    type Name = M::Name;
     type N = M::U;
     type Point = M::Pose;
 
@@ -199,7 +199,7 @@ impl<M: Mechanism> Constraints for Whole<'_, M> {
         (self.mechanism.residual(pose), self.mechanism.residual_scales(pose))
     }
 
-    fn solve(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
+    fn solve(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError<M::Name>> {
         self.mechanism.solve_jacobian(pose, right)
     }
 
@@ -211,8 +211,8 @@ impl<M: Mechanism> Constraints for Whole<'_, M> {
         hadamard_ratio(self.mechanism.determinant(pose), &self.mechanism.jacobian_unknowns(pose))
     }
 
-    fn names(&self) -> (&'static str, Option<&'static str>) {
-        (M::NAME, None)
+    fn names(&self) -> (M::Name, Option<M::Name>) {
+        (self.mechanism.name(), None)
     }
 }
 

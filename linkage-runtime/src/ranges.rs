@@ -4,7 +4,7 @@
 //! limits and circuits end where one is met.
 
 use crate::scalar::{larger, to_f64};
-use crate::{InputError, Real, real};
+use crate::{Name, InputError, Real, real};
 
 /// An end of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,8 +82,8 @@ impl<T: Real> Ranged<T> {
     ///
     /// # Errors
     /// [`InputError::EmptyRange`], [`InputError::OutOfRange`].
-    pub(crate) fn check(&self, mechanism: &'static str, name: &'static str) -> Result<(), InputError> {
-        self.check_ends(mechanism, name)?;
+    pub(crate) fn check<N: Name>(&self, mechanism: N, name: N) -> Result<(), InputError<N>> {
+        self.check_ends(mechanism.clone(), name.clone())?;
         let [least, most] = self.ends();
         let (of, value) = (Some(mechanism), to_f64(self.value));
         let outside = InputError::OutOfRange { of, quantity: name, value, least, most };
@@ -94,7 +94,7 @@ impl<T: Real> Ranged<T> {
     ///
     /// # Errors
     /// [`InputError::EmptyRange`].
-    pub(crate) fn check_ends(&self, mechanism: &'static str, name: &'static str) -> Result<(), InputError> {
+    pub(crate) fn check_ends<N: Name>(&self, mechanism: N, name: N) -> Result<(), InputError<N>> {
         let [least, most] = self.ends();
         let are_finite = [self.least, self.most].into_iter().flatten().all(|end| end.is_finite());
         if are_finite && least < most {

@@ -7,17 +7,25 @@ use crate::jacobian::ScalesOf as Scales;
 use crate::jacobian::ulp::nearly_zero;
 use crate::scalar::arithmetic::*;
 use crate::scalar::larger;
-use crate::{D, Mechanism, PerUnknown, Real, real};
+use crate::{Column, D, Dim, Mechanism, PerUnknown, Real, real};
 
 /// Compares positions of a mechanism with one input.
 pub(crate) struct SamePosition<M: Mechanism> {
     scales: Scales<M>,
+    /// True for each unknown that is an angle.
+    unknown_angles: Column<bool, M::U>,
+    input_is_angle: bool,
 }
 
 impl<M: Mechanism<V = D<1>>> SamePosition<M> {
     /// With the lengths of the loops at a position.
     pub(crate) fn at(mechanism: &M, position: &M::Coordinates) -> Self {
-        Self { scales: Scales::<M>::of(mechanism, &mechanism.pose_at(position)) }
+        let is_angle = |place: usize| mechanism.unknown_angles().get(place).copied().unwrap_or_default();
+        Self {
+            scales: Scales::<M>::of(mechanism, &mechanism.pose_at(position)),
+            unknown_angles: mechanism.dims().0.column(is_angle),
+            input_is_angle: mechanism.input_angles().first().copied().unwrap_or_default(),
+        }
     }
 
     /// True if two positions are the same up to rounding errors and whole turns, and no dead point is between them.
@@ -36,21 +44,21 @@ impl<M: Mechanism<V = D<1>>> SamePosition<M> {
     /// The largest difference of coordinates, modulo whole turns of angles.
     fn distance(&self, one: &M::Coordinates, other: &M::Coordinates) -> M::Scalar {
         let off = M::unknowns(one) - M::unknowns(other);
-        let pairs = off.iter().zip(&self.scales.coordinates.unknowns).zip(M::UNKNOWN_ANGLES);
+        let pairs = off.iter().zip(&self.scales.coordinates.unknowns).zip(&self.unknown_angles);
         let of_unknowns = pairs.map(|((&off, &scale), &is_angle)| modulo_turns(off / scale, is_angle).abs());
         of_unknowns.fold(self.input_gap(M::inputs(one)[0], M::inputs(other)[0]).abs(), larger)
     }
 
     /// The difference of two inputs, divided by its scale, modulo whole turns.
     pub(crate) fn input_gap(&self, one: M::Scalar, other: M::Scalar) -> M::Scalar {
-        modulo_turns(self.input_in_units(one - other), M::INPUT_ANGLES[0])
+        modulo_turns(self.input_in_units(one - other), self.input_is_angle)
     }
 
     /// A function of the input that changes its sign at `start`, of an angle at each whole turn from it, and nowhere else
     /// nearby.
     pub(crate) fn side(&self, input: M::Scalar, start: M::Scalar) -> M::Scalar {
         let off = self.input_in_units(input - start);
-        if M::INPUT_ANGLES[0] { (off * real(0.5)).sine() } else { off }
+        if self.input_is_angle { (off * real(0.5)).sine() } else { off }
     }
 
     /// A difference or a rate of the input, divided by the scale of the input, that of an angle by one.

@@ -70,7 +70,7 @@ use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 #[cfg(feature = "serde")]
 use crate::serialised::Sequence;
-use crate::{Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
+use crate::{Group, Name, Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
 use decomposition::Decomposition;
 
 /// The distance of a position from a singular configuration, and the rates that are possible at it.
@@ -78,7 +78,7 @@ pub struct Singularity<M: Mechanism> {
     determinant: M::Scalar,
     rank: usize,
     sigma_min: M::Scalar,
-    groups: Column<GroupMeasure<M::Scalar>, M::G>,
+    groups: Column<GroupMeasure<M::Scalar, M::Name>, M::G>,
     rank_with_inputs: usize,
     /// Null vectors of J: the last U - rank columns.
     free: Matrix<M::Scalar, M::U, M::U>,
@@ -87,16 +87,18 @@ pub struct Singularity<M: Mechanism> {
     admissible_count: usize,
     /// sigma min with an input in place of an unknown; zero if that is singular.
     exchanges: Matrix<M::Scalar, M::U, M::V>,
+    /// The name of the mechanism, those of the unknowns and of the inputs.
+    names: (M::Name, Column<M::Name, M::U>, Column<M::Name, M::V>),
 }
 
-crate::__by_fields!([M: Mechanism] Singularity<M> { determinant, rank, sigma_min, groups, rank_with_inputs, free, admissible, admissible_count, exchanges });
+crate::__by_fields!([M: Mechanism] Singularity<M> { determinant, rank, sigma_min, groups, rank_with_inputs, free, admissible, admissible_count, exchanges, names });
 
 /// The distance of one group of unknowns from a singularity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct GroupMeasure<T> {
+pub struct GroupMeasure<T, N = &'static str> {
     /// The unknowns by name.
-    pub name: &'static str,
+    pub name: N,
     /// The determinant of the group's block of J, in the units of the mechanism.
     pub determinant: T,
     /// Nondimensional, 0 if the group is singular. For one and two unknowns the determinant divided by the largest
@@ -112,11 +114,11 @@ pub struct GroupMeasure<T> {
 /// An unknown that could take the place of an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Exchange<T> {
+pub struct Exchange<T, N = &'static str> {
     /// The unknown that would drive.
-    pub unknown: &'static str,
+    pub unknown: N,
     /// The input that would be driven.
-    pub input: &'static str,
+    pub input: N,
     /// sigma min of the mechanism driven that way.
     pub sigma_min: T,
 }
@@ -159,7 +161,7 @@ struct Equilibrated<M: Mechanism> {
 }
 
 impl<M: Mechanism> Equilibrated<M> {
-    fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionError> {
+    fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionError<M::Name>> {
         let residual_scales = mechanism.residual_scales(pose);
         let divisors = residual_scales.map(scale_or_one);
         let (unknowns, unknown_scales) =
@@ -168,7 +170,7 @@ impl<M: Mechanism> Equilibrated<M> {
             equilibrated(&divisors, &mechanism.jacobian_inputs(pose), &mechanism.jacobian_inputs_scales(pose));
         // Divided by infinite scales, everything would be zero.
         let scales = residual_scales.iter().chain(unknown_scales.iter()).chain(input_scales.iter());
-        all_finite(M::NAME, "the Jacobian", unknowns.iter().chain(inputs.iter()).chain(scales))?;
+        all_finite(mechanism.name(), Name::from_static("the Jacobian"), unknowns.iter().chain(inputs.iter()).chain(scales))?;
         Ok(Self { unknowns, inputs, residual_scales, unknown_scales, input_scales })
     }
 }
@@ -199,7 +201,7 @@ fn threshold<T: Real>(count: usize) -> T {
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if an entry of the Jacobian, a determinant or a rate is not a finite number.
-pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity<M>, PositionError> {
+pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity<M>, PositionError<M::Name>> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let Equilibrated { unknowns: j, inputs: a, unknown_scales, input_scales, .. } = &equilibrated;
     let (u, v, g) = mechanism.dims();
@@ -221,14 +223,14 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
         if sigma_min > zero { sigma_min } else { M::Scalar::zero() }
     });
     let determinant = mechanism.determinant(pose);
-    finite(M::NAME, "the determinant", [determinant])?;
-    all_finite(M::NAME, "a singular value", right.values.iter())?;
+    finite(mechanism.name(), Name::from_static("the determinant"), [determinant])?;
+    all_finite(mechanism.name(), Name::from_static("a singular value"), right.values.iter())?;
     let blocks = Blocks::of(mechanism, pose);
-    let groups = g.column(|group| measure(&blocks, group));
+    let groups = g.column(|place| measure(&blocks, place, mechanism.group(place)));
     let measures = groups.iter().flat_map(|group| [&group.determinant, &group.regularity, &group.sigma_min]);
-    all_finite(M::NAME, "the determinant", measures)?;
+    all_finite(mechanism.name(), Name::from_static("the determinant"), measures)?;
     let (free, admissible) = (in_units(right.vectors, unknown_scales), in_units(conditions.vectors, input_scales));
-    all_finite(M::NAME, "a rate", free.iter().chain(admissible.iter()).chain(exchanges.iter()))?;
+    all_finite(mechanism.name(), Name::from_static("a rate"), free.iter().chain(admissible.iter()).chain(exchanges.iter()))?;
     Ok(Singularity {
         determinant,
         rank,
@@ -239,6 +241,11 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
         admissible,
         admissible_count: v.count() - conditions_rank,
         exchanges,
+        names: (
+            mechanism.name(),
+            u.column(|place| mechanism.unknown_name(place)),
+            v.column(|place| mechanism.input_name(place)),
+        ),
     })
 }
 
@@ -246,9 +253,9 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if an entry of the Jacobian is not a finite number.
-pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scalar, PositionError> {
+pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scalar, PositionError<M::Name>> {
     let sigma_min = Decomposition::of(Equilibrated::of(mechanism, pose)?.unknowns).least();
-    finite(M::NAME, "a singular value", [sigma_min])?;
+    finite(mechanism.name(), Name::from_static("a singular value"), [sigma_min])?;
     Ok(sigma_min)
 }
 
@@ -256,14 +263,14 @@ pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scala
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if a residual or an entry of the Jacobian is not a finite number.
-pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<M>, PositionError> {
+pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<M>, PositionError<M::Name>> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let residual = mechanism.residual(pose);
     let residual =
         largest(residual.iter().zip(equilibrated.residual_scales.iter()).map(|(&psi, &scale)| relative(psi, scale)));
-    finite(M::NAME, "the residual", [residual])?;
+    finite(mechanism.name(), Name::from_static("the residual"), [residual])?;
     let sigma_min = Decomposition::of(equilibrated.unknowns).least();
-    finite(M::NAME, "a singular value", [sigma_min])?;
+    finite(mechanism.name(), Name::from_static("a singular value"), [sigma_min])?;
     Ok(Accuracy { residual, sigma_min, scales: equilibrated.unknown_scales })
 }
 
@@ -276,13 +283,17 @@ fn in_units<T: Real, N: Dim>(vectors: Matrix<T, N, N>, scales: &Column<T, N>) ->
     }))
 }
 
-fn measure<M: Mechanism>(blocks: &Blocks<M>, group: usize) -> GroupMeasure<M::Scalar> {
-    let members = &M::GROUPS[group];
+fn measure<M: Mechanism>(
+    blocks: &Blocks<'_, M>,
+    place: usize,
+    group: Option<Group<'_, M::Name>>,
+) -> GroupMeasure<M::Scalar, M::Name> {
+    let members = group.unwrap_or(Group { name: Name::from_static(""), equations: &[], unknowns: &[] });
     // The rest of the diagonal is larger than any singular value of the block.
     let count = u32::try_from(blocks.unknowns()).map_or(f64::MAX, f64::from);
-    let sigma_min = Decomposition::of(blocks.equilibrated(members, real(count))).least();
+    let sigma_min = Decomposition::of(blocks.equilibrated(&members, real(count))).least();
     let is_regular = sigma_min > threshold(members.unknowns.len());
-    let (determinant, regularity) = (blocks.determinants()[group], blocks.regularity(group));
+    let (determinant, regularity) = (blocks.determinants()[place], blocks.regularity(place));
     GroupMeasure { name: members.name, determinant, regularity, sigma_min, is_regular }
 }
 
@@ -324,7 +335,7 @@ impl<M: Mechanism> Singularity<M> {
     }
 
     /// The groups, in the order in which they are solved.
-    pub fn groups(&self) -> impl Iterator<Item = &GroupMeasure<M::Scalar>> {
+    pub fn groups(&self) -> impl Iterator<Item = &GroupMeasure<M::Scalar, M::Name>> {
         self.groups.iter()
     }
 
@@ -341,12 +352,12 @@ impl<M: Mechanism> Singularity<M> {
     }
 
     /// The exchanges of one input for one unknown that make J regular.
-    pub fn drivers(&self) -> impl Iterator<Item = Exchange<M::Scalar>> + Clone {
+    pub fn drivers(&self) -> impl Iterator<Item = Exchange<M::Scalar, M::Name>> + Clone {
         let (u, v) = self.exchanges.dims();
         let pairs = (0..v.count()).flat_map(move |input| (0..u.count()).map(move |unknown| (unknown, input)));
         pairs.filter_map(|(unknown, input)| {
             let sigma_min = self.exchanges[(unknown, input)];
-            let exchange = Exchange { unknown: M::UNKNOWNS[unknown], input: M::INPUTS[input], sigma_min };
+            let exchange = Exchange { unknown: self.names.1[unknown], input: self.names.2[input], sigma_min };
             (sigma_min > M::Scalar::zero()).then_some(exchange)
         })
     }
@@ -354,7 +365,7 @@ impl<M: Mechanism> Singularity<M> {
 
 /// The results of the functions are written, each under its name.
 #[cfg(feature = "serde")]
-impl<M: Mechanism<Scalar: serde::Serialize>> serde::Serialize for Singularity<M> {
+impl<M: Mechanism<Scalar: serde::Serialize, Name: serde::Serialize>> serde::Serialize for Singularity<M> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = serializer.serialize_struct("Singularity", 8)?;
         fields.serialize_field("determinant", &self.determinant)?;
@@ -388,7 +399,7 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
         writeln!(
             f,
             "{} is {kind}: det J = {:.3e}, rank {} of {}, sigma min {:.1e}",
-            M::NAME,
+            self.names.0,
             to_f64(self.determinant),
             self.rank,
             self.count(),
@@ -400,14 +411,14 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
         }
         for free in self.free() {
             write!(f, "free:")?;
-            rates(f, M::UNKNOWNS, free.iter())?;
+            rates(f, self.names.1.as_slice(), free.iter())?;
         }
         if self.admissible_count == 0 {
             writeln!(f, "no input can move")?;
         } else if self.admissible_count < self.admissible.dims().1.count() {
             for admissible in self.admissible() {
                 write!(f, "admissible:")?;
-                rates(f, M::INPUTS, admissible.iter())?;
+                rates(f, self.names.2.as_slice(), admissible.iter())?;
             }
         }
         if self.is_singular() {
@@ -419,7 +430,7 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
     }
 }
 
-fn rates<'a, T: Real>(f: &mut fmt::Formatter<'_>, names: &[&str], rates: impl Iterator<Item = &'a T>) -> fmt::Result {
+fn rates<'a, T: Real>(f: &mut fmt::Formatter<'_>, names: &[impl fmt::Display], rates: impl Iterator<Item = &'a T>) -> fmt::Result {
     for (name, rate) in names.iter().zip(rates) {
         write!(f, " {name}' = {:.4}", to_f64(*rate))?;
     }

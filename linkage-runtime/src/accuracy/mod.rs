@@ -64,7 +64,7 @@ use crate::{Assembly, Mechanism, PositionError};
 /// use linkage_runtime::{Assembly, D, PositionError};
 ///
 /// /// The velocity ratio of the first unknown, by any position solver.
-/// fn ratio<M, R>(m: &M, from: &R::From, input: M::Inputs) -> Result<M::Scalar, PositionError>
+/// fn ratio<M, R>(m: &M, from: &R::From, input: M::Inputs) -> Result<M::Scalar, PositionError<M::Name>>
 /// where
 ///     M: Assembly<V = D<1>>,
 ///     R: PositionMethod<M>,
@@ -88,7 +88,7 @@ pub trait PositionMethod<M: Mechanism> {
         mechanism: &M,
         from: &Self::From,
         inputs: impl Into<M::Inputs>,
-    ) -> Result<Self::Position, PositionError>;
+    ) -> Result<Self::Position, PositionError<M::Name>>;
 }
 
 /// Closed form, group by group, on a given branch, not on one motion: [`Assembly::assemble`].
@@ -100,7 +100,7 @@ impl<M: Assembly> PositionMethod<M> for ClosedForm {
     type Position = M::Pose;
 
     #[inline(always)]
-    fn position(mechanism: &M, branch: &M::Branch, inputs: impl Into<M::Inputs>) -> Result<M::Pose, PositionError> {
+    fn position(mechanism: &M, branch: &M::Branch, inputs: impl Into<M::Inputs>) -> Result<M::Pose, PositionError<M::Name>> {
         mechanism.assemble(inputs.into(), *branch)
     }
 }

@@ -22,19 +22,19 @@ impl<M: Mechanism, const K: usize> PositionMethod<M> for Newton<K> {
         mechanism: &M,
         from: &Self::From,
         inputs: impl Into<M::Inputs>,
-    ) -> Result<Self::Position, PositionError> {
+    ) -> Result<Self::Position, PositionError<M::Name>> {
         let mut here = Reached::at(mechanism, predicted(mechanism, from, inputs.into())?);
         for _ in 0..K {
             let step = correction(mechanism, &here.pose)?;
             let unknowns = M::unknowns(&here.coordinates) - step;
             here = Reached::at(mechanism, M::with_unknowns(&here.coordinates, unknowns));
         }
-        finite_position::<M>(&here.coordinates, &here.pose)?;
+        finite_position(mechanism, &here.coordinates, &here.pose)?;
         if mechanism.same_branch(&from.pose, &here.pose) {
             Ok(here)
         } else {
             Err(PositionError::OtherBranch {
-                mechanism: M::NAME,
+                mechanism: mechanism.name(),
                 group: other_group(mechanism, &from.pose, &here.pose),
             })
         }
@@ -47,7 +47,7 @@ pub(super) fn predicted<M: Mechanism>(
     mechanism: &M,
     from: &Reached<M::Coordinates, M::Pose>,
     inputs: M::Inputs,
-) -> Result<M::Coordinates, PositionError> {
+) -> Result<M::Coordinates, PositionError<M::Name>> {
     let there: PerInput<M> = inputs.into();
     let (unknowns, here) = M::parts(&from.coordinates);
     let way = there - here;

@@ -8,7 +8,7 @@ use crate::jacobian::ulp::ulps;
 use crate::mechanism::{finite_position, other_group};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
-use crate::{D, Dim, InputError, Mechanism, PerInput, PerUnknown, PositionError, newton_any_branch, real};
+use crate::{Name, D, Dim, InputError, Mechanism, PerInput, PerUnknown, PositionError, newton_any_branch, real};
 
 /// Positions of a mechanism with one input at `N` evenly spaced inputs, interpolated by cubic Hermite polynomials whose
 /// slopes are the velocity ratios. The table stores 2 `U` `N` numbers.
@@ -46,7 +46,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     /// # Errors
     /// [`InputError::NotPeriodic`] if the mechanism does not return to its start after a turn; those of
     /// [`Table::between`].
-    pub fn turn(mechanism: &M, start: &M::Coordinates) -> Result<Self, PositionError> {
+    pub fn turn(mechanism: &M, start: &M::Coordinates) -> Result<Self, PositionError<M::Name>> {
         let [input] = M::inputs(start).into();
         let mut table = Self::between(mechanism, start, input + M::Scalar::two_pi())?;
         let ends = [0, N - 1].map(|index| table.entries[index][0]);
@@ -56,7 +56,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         // False for NaN.
         let is_whole = rest <= ulps::<M::Scalar>(WHOLE_TURN_ULPS) * size;
         if !is_whole {
-            return Err(InputError::NotPeriodic { mechanism: M::NAME }.into());
+            return Err(InputError::NotPeriodic { mechanism: mechanism.name() }.into());
         }
         table.advance = Some(turns);
         Ok(table)
@@ -67,7 +67,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     /// # Errors
     /// [`PositionError::OtherBranch`], [`PositionError::Singular`] or [`PositionError::NotConverged`] if there is a
     /// dead point between, [`PositionError::NotFinite`] if a number is not finite.
-    pub fn between(mechanism: &M, start: &M::Coordinates, end: M::Scalar) -> Result<Self, PositionError> {
+    pub fn between(mechanism: &M, start: &M::Coordinates, end: M::Scalar) -> Result<Self, PositionError<M::Name>> {
         const { assert!(N >= 2, "a table needs at least two entries") };
         let [input] = M::inputs(start).into();
         let intervals = real::<M::Scalar>(count(N - 1));
@@ -90,8 +90,8 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
             table.entries[index] = [M::unknowns(&here.coordinates), slope];
         }
         table.error = table.measured(mechanism)?;
-        finite(M::NAME, "the input", [table.input, table.step])?;
-        all_finite(M::NAME, "velocity ratios", table.entries.as_flattened().iter().flatten())?;
+        finite(mechanism.name(), Name::from_static("the input"), [table.input, table.step])?;
+        all_finite(mechanism.name(), Name::from_static("velocity ratios"), table.entries.as_flattened().iter().flatten())?;
         Ok(table)
     }
 
@@ -107,7 +107,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         mechanism: &M,
         mut here: Reached<M::Coordinates, M::Pose>,
         index: usize,
-    ) -> Result<Reached<M::Coordinates, M::Pose>, PositionError> {
+    ) -> Result<Reached<M::Coordinates, M::Pose>, PositionError<M::Name>> {
         for part in 1..=PARTS {
             let fraction = f64::from(part) / f64::from(PARTS);
             let input = self.input + self.step * real::<M::Scalar>(count(index - 1) + fraction);
@@ -117,7 +117,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     }
 
     /// Measures the interpolation error by the Newton correction midway between entries.
-    fn measured(&self, mechanism: &M) -> Result<M::Scalar, PositionError> {
+    fn measured(&self, mechanism: &M) -> Result<M::Scalar, PositionError<M::Name>> {
         (0..N - 1).try_fold(M::Scalar::zero(), |most, index| {
             let unknowns = self.cubic(index, real(0.5));
             let input = self.input + self.step * real::<M::Scalar>(count(index) + 0.5);
@@ -145,7 +145,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
     /// # Errors
     /// [`InputError::OutOfRange`] if the input is outside the table.
     #[inline]
-    fn position(mechanism: &M, table: &Self, inputs: impl Into<M::Inputs>) -> Result<Self::Position, PositionError> {
+    fn position(mechanism: &M, table: &Self, inputs: impl Into<M::Inputs>) -> Result<Self::Position, PositionError<M::Name>> {
         let [input]: [M::Scalar; 1] = Into::<PerInput<M>>::into(inputs.into()).into();
         let intervals = real::<M::Scalar>(count(N - 1));
         let mut place = (input - table.input) * table.inverse_step;
@@ -157,12 +157,12 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
                 advance = Some(*of_a_turn * turns);
             }
         } else if place < M::Scalar::zero() || place > intervals {
-            return Err(table.outside(input).into());
+            return Err(table.outside(mechanism, input).into());
         }
         // NaN would be converted to index 0.
         let whole = to_f64(place);
         if !whole.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" });
+            return Err(PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("the input") });
         }
         let index = (whole as usize).min(N - 2);
         let mut unknowns = table.cubic(index, place - real::<M::Scalar>(count(index)));
@@ -171,17 +171,17 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
         }
         let coordinates = M::coordinates(unknowns, [input].into());
         let reached = Reached::at(mechanism, coordinates);
-        finite_position::<M>(&reached.coordinates, &reached.pose)?;
+        finite_position(mechanism, &reached.coordinates, &reached.pose)?;
         Ok(reached)
     }
 }
 
 impl<M: Mechanism, const N: usize> Table<M, N> {
     #[cold]
-    fn outside(&self, input: M::Scalar) -> InputError {
+    fn outside(&self, mechanism: &M, input: M::Scalar) -> InputError<M::Name> {
         let [one, other] = [self.input, self.input + self.step * real::<M::Scalar>(count(N - 1))].map(to_f64);
         let (value, least, most) = (to_f64(input), one.min(other), one.max(other));
-        InputError::OutOfRange { of: Some(M::NAME), quantity: "the input", value, least, most }
+        InputError::OutOfRange { of: Some(mechanism.name()), quantity: Name::from_static("the input"), value, least, most }
     }
 }
 
@@ -196,12 +196,12 @@ fn closed<M: Mechanism<V = D<1>>>(
     mechanism: &M,
     from: Reached<M::Coordinates, M::Pose>,
     input: M::Scalar,
-) -> Result<Reached<M::Coordinates, M::Pose>, PositionError> {
+) -> Result<Reached<M::Coordinates, M::Pose>, PositionError<M::Name>> {
     let guess = predicted(mechanism, &from, PerInput::<M>::from([input]).into())?;
     let here = Reached::at(mechanism, newton_any_branch(mechanism, &guess)?.coordinates);
     if mechanism.same_branch(&from.pose, &here.pose) {
         Ok(here)
     } else {
-        Err(PositionError::OtherBranch { mechanism: M::NAME, group: other_group(mechanism, &from.pose, &here.pose) })
+        Err(PositionError::OtherBranch { mechanism: mechanism.name(), group: other_group(mechanism, &from.pose, &here.pose) })
     }
 }

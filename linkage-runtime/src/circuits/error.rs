@@ -2,25 +2,27 @@
 
 use core::fmt;
 
-use crate::{PathError, PositionError};
+use crate::{Name, PathError, PositionError};
 
 /// The reason why the circuits of a mechanism cannot be computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum CircuitError {
+pub enum CircuitError<N: Name = &'static str> {
     /// The positions at a start input cannot be listed.
-    Position(PositionError),
+    Position(PositionError<N>),
     /// The motion of a mode cannot be followed.
     Path {
         /// The mode, by its number among all modes at the start inputs.
         mode: usize,
         /// The reason.
-        error: PathError,
+        error: PathError<N>,
     },
 }
 
-impl fmt::Display for CircuitError {
+impl<N: Name<List: Copy> + Copy> Copy for CircuitError<N> {}
+
+impl<N: Name> fmt::Display for CircuitError<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Position(error) => error.fmt(f),
@@ -31,10 +33,10 @@ impl fmt::Display for CircuitError {
     }
 }
 
-impl core::error::Error for CircuitError {}
+impl<N: Name> core::error::Error for CircuitError<N> {}
 
-impl From<PositionError> for CircuitError {
-    fn from(error: PositionError) -> Self {
+impl<N: Name> From<PositionError<N>> for CircuitError<N> {
+    fn from(error: PositionError<N>) -> Self {
         Self::Position(error)
     }
 }

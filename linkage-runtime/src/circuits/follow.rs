@@ -11,7 +11,12 @@ use crate::scalar::to_f64;
 use crate::{Branches, D, Mechanism, PathError, real};
 
 /// The points of a motion.
-type Points<M> = Vec<CurvePoint<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar>>;
+type Points<M> =
+    Vec<CurvePoint<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>>;
+
+/// A motion of a mechanism.
+type CurveOf<M> =
+    MotionCurve<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>;
 
 /// Follows modes of one mechanism.
 pub(super) struct Follower<'a, M: Branches> {
@@ -36,7 +41,7 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
     }
 
     /// The motion of a mode.
-    pub(super) fn motion(&self, mode: usize) -> Result<MotionCurve<M::Coordinates, M::Scalar>, CircuitError> {
+    pub(super) fn motion(&self, mode: usize) -> Result<CurveOf<M>, CircuitError<M::Name>> {
         let follow = |direction| self.travel(mode, direction).map_err(|error| CircuitError::Path { mode, error });
         let (mut points, end) = follow(Direction::Increasing)?;
         if !matches!(end, CurveEnd::Closed { .. }) {
@@ -48,7 +53,7 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
     }
 
     /// The points from a mode in a direction, until the motion closes or ends.
-    fn travel(&self, mode: usize, direction: Direction<M::Rates>) -> Result<(Points<M>, CurveEnd), PathError> {
+    fn travel(&self, mode: usize, direction: Direction<M::Rates>) -> Result<(Points<M>, CurveEnd), PathError<M::Name>> {
         let start = self.modes.positions[mode];
         let mut path = Path::with(self.mechanism, &start, direction, self.options)?;
         let mut points = vec![point::<M>(start, Some(CurveEvent::Mode(Some(mode))))];
@@ -67,7 +72,7 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
             let is_closed = event == Some(CurveEvent::Mode(Some(mode)));
             points.push(point::<M>(step.position, event.filter(|_| !is_closed)));
             let end = if is_closed {
-                CurveEnd::Closed { turns: turns::<M>(&start, &step.position) }
+                CurveEnd::Closed { turns: turns::<M>(self.mechanism, &start, &step.position) }
             } else if matches!(step.event, Some(Event::Limit | Event::JointRange { .. })) {
                 CurveEnd::Limits
             } else if self.modes.way(&step.position, &start) > self.most {
@@ -79,7 +84,7 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
             insert(&mut points, last, touches.at_end(&path)?);
             return Ok((points, end));
         }
-        Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
+        Err(PathError::TooManySteps { mechanism: self.mechanism.name(), steps: self.options.most_steps })
     }
 }
 
@@ -93,14 +98,14 @@ fn insert<M: Mechanism<V = D<1>>>(points: &mut Points<M>, place: usize, touch: O
 
 fn point<M: Mechanism<V = D<1>>>(
     position: M::Coordinates,
-    event: Option<CurveEvent>,
-) -> CurvePoint<M::Coordinates, M::Scalar> {
+    event: Option<CurveEvent<M::Name>>,
+) -> CurvePoint<M::Coordinates, M::Scalar, M::Name> {
     CurvePoint { input: M::inputs(&position)[0], position, event }
 }
 
 /// The whole turns of the input from one position to another.
-fn turns<M: Mechanism<V = D<1>>>(from: &M::Coordinates, to: &M::Coordinates) -> i32 {
+fn turns<M: Mechanism<V = D<1>>>(mechanism: &M, from: &M::Coordinates, to: &M::Coordinates) -> i32 {
     let turned = (M::inputs(to)[0] - M::inputs(from)[0]) / M::Scalar::two_pi();
     // At most `most_turns`.
-    if M::INPUT_ANGLES[0] { to_f64(turned.round()) as i32 } else { 0 }
+    if mechanism.input_angles()[0] { to_f64(turned.round()) as i32 } else { 0 }
 }

@@ -6,8 +6,8 @@ use super::motion::MotionCurve;
 use crate::Real;
 
 /// The motions of each circuit, in order.
-pub(super) fn circuits<Q: Copy, T: Real>(
-    motions: &[MotionCurve<Q, T>],
+pub(super) fn circuits<Q: Copy, T: Real, N: Copy>(
+    motions: &[MotionCurve<Q, T, N>],
     are_near: impl Fn(&Q, &Q) -> bool,
 ) -> Vec<Vec<usize>> {
     let change_points: Vec<Vec<Q>> =

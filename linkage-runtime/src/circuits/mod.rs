@@ -48,7 +48,7 @@ pub use error::CircuitError;
 pub use motion::{CurveEnd, CurveEvent, CurveMeeting, CurvePoint, MotionCurve};
 pub use options::CircuitOptions;
 
-use crate::{Branches, D, Real};
+use crate::{BorrowedName, Branches, D, Real};
 use follow::Follower;
 use modes::Modes;
 
@@ -67,24 +67,24 @@ pub struct CircuitMode<Q, B> {
 /// The assembly modes at the start inputs, the motions through them, and the circuits that these form.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Circuits<Q, B, T = f64> {
+pub struct Circuits<Q, B, T = f64, N = &'static str> {
     /// The modes in the order of the start inputs, at each in the order of the list.
     pub modes: Vec<CircuitMode<Q, B>>,
     /// The motions, in the order of their first modes.
-    pub motions: Vec<MotionCurve<Q, T>>,
+    pub motions: Vec<MotionCurve<Q, T, N>>,
     /// The motions of each circuit, by index. Several motions are one circuit if they cross at change points.
     pub circuits: Vec<Vec<usize>>,
 }
 
-impl<Q: Copy, B: Copy, T: Real> Circuits<Q, B, T> {
+impl<Q: Copy, B: Copy, T: Real, N: BorrowedName> Circuits<Q, B, T, N> {
     /// The circuits through the positions at one input. Choose an input at which no two positions meet.
     ///
     /// # Errors
     /// [`CircuitError::Position`] if the positions cannot be listed, [`CircuitError::Path`] with the mode whose motion
     /// cannot be followed, as from a dead point.
-    pub fn of<M>(mechanism: &M, input: T, options: CircuitOptions<T>) -> Result<Self, CircuitError>
+    pub fn of<M>(mechanism: &M, input: T, options: CircuitOptions<T>) -> Result<Self, CircuitError<N>>
     where
-        M: Branches<Scalar = T, V = D<1>, Coordinates = Q, Branch = B>,
+        M: Branches<Scalar = T, Name = N, V = D<1>, Coordinates = Q, Branch = B>,
     {
         Self::over(mechanism, [input], options)
     }
@@ -99,14 +99,14 @@ impl<Q: Copy, B: Copy, T: Real> Circuits<Q, B, T> {
         mechanism: &M,
         inputs: impl IntoIterator<Item = T>,
         options: CircuitOptions<T>,
-    ) -> Result<Self, CircuitError>
+    ) -> Result<Self, CircuitError<N>>
     where
-        M: Branches<Scalar = T, V = D<1>, Coordinates = Q, Branch = B>,
+        M: Branches<Scalar = T, Name = N, V = D<1>, Coordinates = Q, Branch = B>,
     {
         let modes = Modes::list(mechanism, inputs)?;
         let follower = Follower::new(mechanism, &modes, &options);
         let mut motion_of = vec![None; modes.positions.len()];
-        let mut motions: Vec<MotionCurve<Q, T>> = Vec::new();
+        let mut motions: Vec<MotionCurve<Q, T, N>> = Vec::new();
         for mode in 0..modes.positions.len() {
             if motion_of[mode].is_some() {
                 continue;

@@ -7,39 +7,39 @@ use crate::{RangeEnd, Real};
 /// An event of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum CurveEvent {
+pub enum CurveEvent<N = &'static str> {
     /// The input is a start input; the mode, or none if the position is not in the list: whole turns of an angle change
     /// it, as with gears.
     Mode(Option<usize>),
     /// The input reverses.
     DeadPoint {
         /// The unknowns of the group that is singular.
-        group: &'static str,
+        group: N,
     },
     /// A coordinate or an output is at an end of the range that the mechanism declares; the motion ends there.
     JointRange {
         /// Its name.
-        of: &'static str,
+        of: N,
         /// The end of its range.
         end: RangeEnd,
     },
     /// Motions cross.
     ChangePoint {
         /// The unknowns of the first group that is singular.
-        group: &'static str,
+        group: N,
     },
 }
 
 /// A point of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct CurvePoint<Q, T = f64> {
+pub struct CurvePoint<Q, T = f64, N = &'static str> {
     /// The input.
     pub input: T,
     /// The position.
     pub position: Q,
     /// The event there, if any.
-    pub event: Option<CurveEvent>,
+    pub event: Option<CurveEvent<N>>,
 }
 
 /// The end of a motion.
@@ -61,9 +61,9 @@ pub enum CurveEnd {
 /// A dead point or a change point of a motion, with its modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct CurveMeeting<Q, T = f64> {
+pub struct CurveMeeting<Q, T = f64, N = &'static str> {
     /// The point.
-    pub point: CurvePoint<Q, T>,
+    pub point: CurvePoint<Q, T, N>,
     /// The modes passed last before and first after it: at a dead point those that meet there. None if the motion passes
     /// no start input before the next dead point or its end, or if that mode is not in the list.
     pub modes: [Option<usize>; 2],
@@ -73,14 +73,14 @@ pub struct CurveMeeting<Q, T = f64> {
 /// limits, at one of them.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct MotionCurve<Q, T = f64> {
+pub struct MotionCurve<Q, T = f64, N = &'static str> {
     /// Its points; the last one of a closed motion is the first again.
-    pub points: Vec<CurvePoint<Q, T>>,
+    pub points: Vec<CurvePoint<Q, T, N>>,
     /// Its end.
     pub end: CurveEnd,
 }
 
-impl<Q: Copy, T: Real> MotionCurve<Q, T> {
+impl<Q: Copy, T: Real, N: Copy> MotionCurve<Q, T, N> {
     /// The modes in the order of travel.
     pub fn modes(&self) -> impl Iterator<Item = usize> + '_ {
         self.points.iter().filter_map(|point| match point.event {
@@ -90,21 +90,21 @@ impl<Q: Copy, T: Real> MotionCurve<Q, T> {
     }
 
     /// The dead points, where the input reverses.
-    pub fn dead_points(&self) -> impl Iterator<Item = CurveMeeting<Q, T>> + '_ {
+    pub fn dead_points(&self) -> impl Iterator<Item = CurveMeeting<Q, T, N>> + '_ {
         self.meetings(|event| matches!(event, CurveEvent::DeadPoint { .. }))
     }
 
     /// The change points, where motions cross.
-    pub fn change_points(&self) -> impl Iterator<Item = CurveMeeting<Q, T>> + '_ {
+    pub fn change_points(&self) -> impl Iterator<Item = CurveMeeting<Q, T, N>> + '_ {
         self.meetings(|event| matches!(event, CurveEvent::ChangePoint { .. }))
     }
 
     /// The ends of declared ranges at which the motion ends.
-    pub fn joint_ranges(&self) -> impl Iterator<Item = CurveMeeting<Q, T>> + '_ {
+    pub fn joint_ranges(&self) -> impl Iterator<Item = CurveMeeting<Q, T, N>> + '_ {
         self.meetings(|event| matches!(event, CurveEvent::JointRange { .. }))
     }
 
-    fn meetings(&self, is_wanted: fn(CurveEvent) -> bool) -> impl Iterator<Item = CurveMeeting<Q, T>> + '_ {
+    fn meetings(&self, is_wanted: fn(CurveEvent<N>) -> bool) -> impl Iterator<Item = CurveMeeting<Q, T, N>> + '_ {
         let places = self.points.iter().enumerate();
         let wanted = places.filter(move |(_, point)| point.event.is_some_and(is_wanted));
         wanted.map(|(place, &point)| {
@@ -147,7 +147,9 @@ impl<Q: Copy, T: Real> MotionCurve<Q, T> {
 }
 
 /// The first mode among points, up to a dead point.
-fn mode_towards<'a, Q: 'a, T: 'a>(points: impl Iterator<Item = &'a CurvePoint<Q, T>>) -> Option<usize> {
+fn mode_towards<'a, Q: 'a, T: 'a, N: Copy + 'a>(
+    points: impl Iterator<Item = &'a CurvePoint<Q, T, N>>,
+) -> Option<usize> {
     let events = points.filter_map(|point| point.event);
     let mut between = events.take_while(|event| !matches!(event, CurveEvent::DeadPoint { .. }));
     between.find_map(|event| if let CurveEvent::Mode(mode) = event { Some(mode) } else { None }).flatten()

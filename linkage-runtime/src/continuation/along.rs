@@ -1,7 +1,7 @@
 //! A mechanism with several inputs, driven along a path of its inputs.
 
 use super::input_path::InputPath;
-use crate::{Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Ranged, Real};
+use crate::{BorrowedName, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Ranged, Real};
 
 /// A mechanism whose inputs are functions v(s) of one parameter, its only input.
 ///
@@ -62,6 +62,7 @@ where
     F: InputPath<M>,
 {
     type Scalar = M::Scalar;
+    type Name = M::Name;
     type U = M::U;
     type V = D<1>;
     type G = M::G;
@@ -73,11 +74,43 @@ where
 
     const NAME: &'static str = M::NAME;
     const UNKNOWNS: &'static [&'static str] = M::UNKNOWNS;
-    const INPUTS: &'static [&'static str] = &[F::PARAMETER];
+    const INPUTS: &'static [&'static str] = &["the parameter"];
     const UNKNOWN_ANGLES: &'static [bool] = M::UNKNOWN_ANGLES;
-    const INPUT_ANGLES: &'static [bool] = &[F::IS_ANGLE];
-    const GROUPS: &'static [Group] = M::GROUPS;
+    const INPUT_ANGLES: &'static [bool] = &[true];
+    const GROUPS: &'static [Group<'static>] = M::GROUPS;
     const RANGES: &'static [&'static str] = M::RANGES;
+
+    fn name(&self) -> M::Name {
+        self.mechanism.name()
+    }
+
+    fn unknown_name(&self, place: usize) -> M::Name {
+        self.mechanism.unknown_name(place)
+    }
+
+    fn input_name(&self, _: usize) -> M::Name {
+        self.inputs.parameter(&self.mechanism)
+    }
+
+    fn unknown_angles(&self) -> &[bool] {
+        self.mechanism.unknown_angles()
+    }
+
+    fn input_angles(&self) -> &[bool] {
+        if self.inputs.is_angle(&self.mechanism) { &[true] } else { &[false] }
+    }
+
+    fn group(&self, place: usize) -> Option<Group<'_, M::Name>> {
+        self.mechanism.group(place)
+    }
+
+    fn group_list(&self) -> <M::Name as BorrowedName>::Groups {
+        self.mechanism.group_list()
+    }
+
+    fn range_name(&self, place: usize) -> Option<M::Name> {
+        self.mechanism.range_name(place)
+    }
 
     fn dims(&self) -> (M::U, D<1>, M::G) {
         let (u, _, g) = self.mechanism.dims();
@@ -156,7 +189,7 @@ where
         self.mechanism.gamma(&at.pose, &rates) + self.mechanism.jacobian_inputs(&at.pose) * bend
     }
 
-    fn solve_jacobian(&self, at: &Self::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
+    fn solve_jacobian(&self, at: &Self::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError<M::Name>> {
         self.mechanism.solve_jacobian(&at.pose, right)
     }
 
@@ -164,7 +197,7 @@ where
         F::length_scale(&self.mechanism, &at.pose)
     }
 
-    fn check_implied(&self, at: &Self::Coordinates) -> Result<(), PositionError> {
+    fn check_implied(&self, at: &Self::Coordinates) -> Result<(), PositionError<M::Name>> {
         self.mechanism.check_implied(&self.position(at))
     }
 }

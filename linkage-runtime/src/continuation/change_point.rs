@@ -43,7 +43,7 @@ pub(super) struct Crossing<M: Mechanism> {
     /// The rank deficiency of [J A].
     pub(super) defect: usize,
     /// The groups that are singular there.
-    pub(super) groups: Groups,
+    pub(super) groups: Groups<M::Name>,
     /// The touch, if the motions touch: they have one tangent.
     pub(super) touch: Option<Touch<M>>,
 }
@@ -52,7 +52,7 @@ pub(super) struct Crossing<M: Mechanism> {
 /// of the reversal.
 pub(super) struct Touch<M: Mechanism> {
     /// The groups with equations of the part.
-    pub(super) groups: Groups,
+    pub(super) groups: Groups<M::Name>,
     /// The tangents of the motions of the part.
     pub(super) tangents: [Vector<M>; 2],
 }
@@ -103,7 +103,7 @@ where
         guess: &M::Coordinates,
         reach: M::Scalar,
         direction: &Vector<M>,
-    ) -> Result<Option<Crossing<M>>, PathError> {
+    ) -> Result<Option<Crossing<M>>, PathError<M::Name>> {
         let (at, none) = (self.linear(guess)?, self.mechanism.dims().0.repeat(None));
         // A simple crossing first; then one with the rank deficiency that the pivots suggest.
         let likely = Elimination::<M>::new(at.jacobian).count_after_largest_drop();
@@ -133,7 +133,7 @@ where
         guess: &M::Coordinates,
         reach: M::Scalar,
         direction: &Vector<M>,
-    ) -> Result<Option<Crossing<M>>, PathError> {
+    ) -> Result<Option<Crossing<M>>, PathError<M::Name>> {
         let at = self.linear(guess)?;
         let Some(held) = self.held(guess, &Elimination::<M>::all_but(1, at.jacobian))? else { return Ok(None) };
         let Some(q) = self.stationary(guess, reach, 1, &held)? else { return Ok(None) };
@@ -159,8 +159,8 @@ where
         if !(has_tangent && at.is_on_curve() && self.is_crossing(&at, &elimination)) {
             return Ok(None);
         }
-        let mut groups = Groups::none(M::GROUPS);
-        for (place, group) in M::GROUPS.iter().enumerate() {
+        let mut groups = Groups::none(self.mechanism.group_list());
+        for (place, group) in self.mechanism.groups().enumerate() {
             if group.equations.iter().any(|&row| held[row].is_none()) {
                 groups.insert(place);
             }
@@ -179,7 +179,7 @@ where
         guess: &M::Coordinates,
         reach: M::Scalar,
         held: &Held<M>,
-    ) -> Result<Option<M::Coordinates>, PathError> {
+    ) -> Result<Option<M::Coordinates>, PathError<M::Name>> {
         let (u, ..) = self.mechanism.dims();
         let mut inner = (0..u.count() + 1).filter(|column| !held.iter().any(|held| *held == Some(*column)));
         let outside = u.column(|row| if held[row].is_none() { inner.next() } else { None });
@@ -210,7 +210,7 @@ where
 
     /// For each equation outside the part that N combines, a coordinate that this part does not contain; `None` if the part
     /// is the whole, or its equations do not leave one coordinate free.
-    fn held(&self, q: &M::Coordinates, elimination: &Elimination<M>) -> Result<Option<Held<M>>, PathError> {
+    fn held(&self, q: &M::Coordinates, elimination: &Elimination<M>) -> Result<Option<Held<M>>, PathError<M::Name>> {
         let (u, v, _) = self.mechanism.dims();
         let weights = u.column(|row| elimination.left_null_product(&u.unit(row)).sum().abs());
         let mut rows = weights.map(|weight| weight > weights.largest() * real(LEAST_WEIGHT));
@@ -237,7 +237,7 @@ where
     }
 
     /// Psi and [J A] of a part of the mechanism: the coordinates of the other equations are held.
-    fn part(&self, q: &M::Coordinates, held: &Held<M>) -> Result<Linear<M>, PathError> {
+    fn part(&self, q: &M::Coordinates, held: &Held<M>) -> Result<Linear<M>, PathError<M::Name>> {
         let mut at = self.linear(q)?;
         for (row, column) in held.iter().enumerate() {
             if let Some(column) = *column {
@@ -256,7 +256,7 @@ where
         reach: M::Scalar,
         open: usize,
         held: &Held<M>,
-    ) -> Result<Option<M::Coordinates>, PathError> {
+    ) -> Result<Option<M::Coordinates>, PathError<M::Name>> {
         let mut q = *guess;
         for _ in 0..MOST_ITERATIONS {
             let at = self.part(&q, held)?;
@@ -356,7 +356,7 @@ where
         q: M::Coordinates,
         defect: usize,
         direction: &Vector<M>,
-    ) -> Result<Option<Crossing<M>>, PathError> {
+    ) -> Result<Option<Crossing<M>>, PathError<M::Name>> {
         let at = self.linear(&q)?;
         let elimination = Elimination::<M>::all_but(defect, at.jacobian);
         if !self.is_crossing(&at, &elimination) {

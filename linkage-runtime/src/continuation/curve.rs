@@ -8,7 +8,7 @@ use crate::jacobian::{
 };
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, to_f64};
-use crate::{D, Mechanism, PathError, PerInput, PerUnknown, PositionError, real};
+use crate::{Name, D, Mechanism, PathError, PerInput, PerUnknown, PositionError, real};
 
 /// The most Newton steps of one correction: each at least halves the distance to the curve, and near it squares it.
 const MOST_CORRECTIONS: usize = 12;
@@ -35,7 +35,7 @@ pub(super) struct Rejection {
 }
 
 /// The outcome of a trial step: a result, a rejection, which asks for a shorter step, or an error, which ends the path.
-pub(super) type Tried<X> = Result<Result<X, Rejection>, PathError>;
+pub(super) type Tried<M, X> = Result<Result<X, Rejection>, PathError<<M as Mechanism>::Name>>;
 
 impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
     pub(super) fn new(mechanism: Held<'a, M>, q: &M::Coordinates) -> Self {
@@ -97,7 +97,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
 
     /// # Errors
     /// [`PositionError::NotFinite`] if a number is not finite.
-    pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<M>, PositionError> {
+    pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<M>, PositionError<M::Name>> {
         let (mechanism, scales) = (&*self.mechanism, &self.scales.residuals);
         let pose = mechanism.pose_at(q);
         let here = coordinates::<M>(q).relative_to(&self.scales.coordinates);
@@ -108,7 +108,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         if here.is_finite() && residual.is_finite() && noise.is_finite() && jacobian.is_finite() {
             Ok(Linear { residual, noise, jacobian })
         } else {
-            Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the path" })
+            Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity: Name::from_static("the path") })
         }
     }
 
@@ -122,9 +122,9 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
     ///
     /// # Errors
     /// Rejected where Newton's method does not contract, or where the curve is nearly parallel to the plane.
-    pub(super) fn correct(&self, guess: M::Coordinates, normal: &Vector<M>) -> Tried<(M::Coordinates, Elimination<M>)> {
+    pub(super) fn correct(&self, guess: M::Coordinates, normal: &Vector<M>) -> Tried<M, (M::Coordinates, Elimination<M>)> {
         let mut rejection = Rejection { residual: f64::NAN, regularity: f64::NAN };
-        let found = contract(guess, MOST_CORRECTIONS, |q| -> Result<_, PathError> {
+        let found = contract(guess, MOST_CORRECTIONS, |q| -> Result<_, PathError<M::Name>> {
             let at = self.linear(q)?;
             let elimination = Elimination::<M>::new(at.jacobian);
             let (tangent, part) = (elimination.tangent(), elimination.solve(&-at.residual));

@@ -10,21 +10,25 @@ use super::tangents::Tangents;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Sample, VectorOf as Vector, first_zero, root};
 use crate::scalar::arithmetic::*;
-use crate::{D, Dim, Mechanism, PathError, PositionError, RangeEnd, real};
+use crate::{Name, BorrowedName, D, Dim, Mechanism, PathError, PositionError, RangeEnd, real};
 
 /// An event of a path. The step ends at the event, located to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum Event<R> {
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(serialize = "R: serde::Serialize, N: serde::Serialize"))
+)]
+pub enum Event<R, N: BorrowedName = &'static str> {
     /// The determinant of a group of unknowns changes its sign: the input reverses, and the path continues.
     DeadPoint {
         /// The unknowns of the group.
-        group: &'static str,
+        group: N,
     },
     /// Motions of the mechanism cross: [J A] loses rank.
     ChangePoint {
         /// All groups that are singular there.
-        groups: Groups,
+        groups: Groups<N>,
         /// The derivatives of the coordinates by arc length along each motion.
         tangents: Tangents<R>,
     },
@@ -33,7 +37,7 @@ pub enum Event<R> {
     /// A coordinate or an output is at an end of the range that the mechanism declares.
     JointRange {
         /// Its name.
-        of: &'static str,
+        of: N,
         /// The end of its range.
         end: RangeEnd,
     },
@@ -46,7 +50,7 @@ pub(super) struct End<M: Mechanism> {
     pub(super) place: Place<M>,
     /// At a change point, the place on the motion of this step: the path may go on along another one.
     pub(super) arrived: Option<Place<M>>,
-    pub(super) event: Option<Event<M::Rates>>,
+    pub(super) event: Option<Event<M::Rates, M::Name>>,
     pub(super) is_target: bool,
     pub(super) resume: Resume<M>,
 }
@@ -92,18 +96,18 @@ where
         mut end: End<M>,
         wanted: &Wanted<'_, M>,
         options: &Options<M::Scalar>,
-    ) -> Result<Option<End<M>>, PathError> {
+    ) -> Result<Option<End<M>>, PathError<M::Name>> {
         self.keep_unresolved_signs(from, &mut end.place);
         let is_known = [false, matches!(end.event, Some(Event::ChangePoint { .. }))];
         let mut arrived = end.arrived.take().unwrap_or_else(|| end.place.clone());
-        for (index, group) in M::GROUPS.iter().map(|group| group.name).enumerate() {
+        for (index, group) in self.mechanism.groups().map(|group| group.name).enumerate() {
             let along = |place: &Place<M>| [place.determinants[index], place.slopes[index]];
             let is_resolved = |place: &Place<M>| self.is_resolved(place, index);
             match self.find_zero(from, &arrived, is_known, along, is_resolved)? {
                 SignChange::None => {}
                 SignChange::Lost => return Ok(None),
                 SignChange::At(mut place) => {
-                    place.forget_sign(group);
+                    place.forget_sign(&self.mechanism, group);
                     arrived = place.clone();
                     end = End {
                         place,
@@ -150,8 +154,8 @@ where
         if options.joint_ranges {
             for joint in JointEnd::all::<M>(&self.mechanism, &from.q) {
                 if ![from, &arrived].iter().all(|place| self.room_along(place, &joint)[0].is_finite()) {
-                    let quantity = "the value of a range";
-                    return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
+                    let quantity = Name::from_static("the value of a range");
+                    return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity }.into());
                 }
                 let along = |place: &Place<M>| self.room_along(place, &joint);
                 let is_known = !self.has_room(from, &joint);
@@ -170,8 +174,8 @@ where
         if let Some(watch) = wanted.watch {
             let value = |place: &Place<M>| watch(&place.q, &self.rates(&place.tangent));
             if ![value(from), value(&arrived)].iter().all(M::Scalar::is_finite) {
-                let quantity = "the watched function";
-                return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
+                let quantity = Name::from_static("the watched function");
+                return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity }.into());
             }
             let way = self.difference(&arrived.q, &from.q).norm();
             let bend = (arrived.tangent - from.tangent) * way.recip();
@@ -203,7 +207,7 @@ where
         is_known: [bool; 2],
         value: impl Fn(&Place<M>) -> [M::Scalar; 2],
         is_resolved: impl Fn(&Place<M>) -> bool,
-    ) -> Result<SignChange<M>, PathError> {
+    ) -> Result<SignChange<M>, PathError<M::Name>> {
         let sample = |at: M::Scalar, place: &Place<M>| {
             let [value, slope] = value(place);
             Sample { at, value, slope: slope / place.tangent.dot(&from.tangent) }
@@ -234,7 +238,7 @@ where
         };
         let values = [low.value, high.value];
         let root = root([low.at, high.at], values, smallest * real(0.25), |distance| {
-            Ok::<_, Missed>(Some(value(&at(distance)?)[0]))
+            Ok::<_, Missed<M::Name>>(Some(value(&at(distance)?)[0]))
         });
         let root = match root {
             Ok(root) => root.unwrap_or(high.at),
@@ -251,13 +255,13 @@ where
     }
 
     /// Gives a place exactly this input and corrects the other coordinates, unless the input is at rest.
-    pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError> {
+    pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError<M::Name>> {
         self.with_exact(place, self.mechanism.dims().0.count(), input)
     }
 
     /// Gives a place exactly this value of a coordinate, by its column in [J A], and corrects the others, unless it is at
     /// rest.
-    pub(super) fn with_exact(&self, place: Place<M>, column: usize, value: M::Scalar) -> Result<Place<M>, PathError> {
+    pub(super) fn with_exact(&self, place: Place<M>, column: usize, value: M::Scalar) -> Result<Place<M>, PathError<M::Name>> {
         let q = Self::with_coordinate(&place.q, column, value);
         let moves = place.tangent.get(column).abs() > nearly_zero() && place.regularity > nearly_zero();
         if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(place.tangent.dims(), column))? {
@@ -268,14 +272,14 @@ where
 }
 
 /// The reason why a place is not known.
-enum Missed {
+enum Missed<N: BorrowedName> {
     /// It is not found: a shorter step is needed.
     Place,
-    Error(PathError),
+    Error(PathError<N>),
 }
 
-impl From<PathError> for Missed {
-    fn from(error: PathError) -> Self {
+impl<N: BorrowedName> From<PathError<N>> for Missed<N> {
+    fn from(error: PathError<N>) -> Self {
         Self::Error(error)
     }
 }

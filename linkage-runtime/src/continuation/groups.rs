@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::Group;
+use crate::{BorrowedName, Name};
 
 /// Bits of a word.
 const BITS: usize = 64;
@@ -11,17 +11,24 @@ const BITS: usize = 64;
 const WORDS: usize = 8;
 
 /// A set of groups of a mechanism, in the order in which they are solved.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub struct Groups {
-    all: &'static [Group],
+#[derive(Clone, Copy)]
+pub struct Groups<N: BorrowedName = &'static str> {
+    all: N::Groups,
     members: [u64; WORDS],
 }
 
-impl Groups {
+/// Sets are equal if they have the same groups, by number and name.
+impl<N: BorrowedName> PartialEq for Groups<N> {
+    fn eq(&self, other: &Self) -> bool {
+        self.members == other.members && self.iter().eq(other.iter())
+    }
+}
+
+impl<N: BorrowedName> Groups<N> {
     /// The most groups that a mechanism can have to be followed.
     pub(super) const MOST: usize = BITS * WORDS;
 
-    pub(super) fn none(all: &'static [Group]) -> Self {
+    pub(super) fn none(all: N::Groups) -> Self {
         Self { all, members: [0; WORDS] }
     }
 
@@ -36,26 +43,26 @@ impl Groups {
     }
 
     /// The unknowns of each group, by name.
-    pub fn iter(&self) -> impl Iterator<Item = &'static str> + '_ {
-        self.all.iter().enumerate().filter(|&(place, _)| self.contains(place)).map(|(_, group)| group.name)
+    pub fn iter(&self) -> impl Iterator<Item = N> + '_ {
+        (0..Self::MOST).filter(|&place| self.contains(place)).map_while(|place| N::of_group(self.all, place))
     }
 
     /// The unknowns of the first group, by name.
     #[must_use]
-    pub fn first(&self) -> &'static str {
-        self.iter().next().unwrap_or_default()
+    pub fn first(&self) -> N {
+        self.iter().next().unwrap_or_else(|| Name::from_static(""))
     }
 }
 
 /// A set of groups is written as the sequence of their names.
 #[cfg(feature = "serde")]
-impl serde::Serialize for Groups {
+impl<N: BorrowedName + serde::Serialize> serde::Serialize for Groups<N> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.iter())
     }
 }
 
-impl fmt::Debug for Groups {
+impl<N: BorrowedName> fmt::Debug for Groups<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
     }

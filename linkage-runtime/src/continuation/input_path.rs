@@ -1,16 +1,20 @@
 //! Paths of the inputs of a mechanism by one parameter.
 
 use crate::scalar::arithmetic::*;
-use crate::{Dim, InputError, Mechanism, PerInput};
+use crate::{Dim, InputError, Name, Mechanism, PerInput};
 
 /// The inputs of a mechanism as functions v(s) of one parameter.
 ///
 /// Functions that return v, dv/ds and d2v/ds2 implement it, with a parameter that is treated as an angle.
 pub trait InputPath<M: Mechanism> {
     /// The name of the parameter, as in error messages.
-    const PARAMETER: &'static str = "the parameter";
+    fn parameter(&self, _: &M) -> M::Name {
+        Name::from_static("the parameter")
+    }
     /// True if the parameter is an angle: its scale is 1, and a motion may close after whole turns of it.
-    const IS_ANGLE: bool = true;
+    fn is_angle(&self, _: &M) -> bool {
+        true
+    }
 
     /// v, dv/ds and d2v/ds2.
     fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3];
@@ -19,7 +23,7 @@ pub trait InputPath<M: Mechanism> {
     ///
     /// # Errors
     /// [`InputError`] if the path has no length.
-    fn range(&self) -> Result<Option<[M::Scalar; 2]>, InputError> {
+    fn range(&self, _: &M) -> Result<Option<[M::Scalar; 2]>, InputError<M::Name>> {
         Ok(None)
     }
 
@@ -52,8 +56,13 @@ impl<M, const INPUT: usize> InputPath<M> for OneInput<M::Inputs, INPUT>
 where
     M: Mechanism,
 {
-    const PARAMETER: &'static str = M::INPUTS[INPUT];
-    const IS_ANGLE: bool = M::INPUT_ANGLES[INPUT];
+    fn parameter(&self, mechanism: &M) -> M::Name {
+        mechanism.input_name(INPUT)
+    }
+
+    fn is_angle(&self, mechanism: &M) -> bool {
+        mechanism.input_angles().get(INPUT).copied().unwrap_or_default()
+    }
 
     fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
         let held: PerInput<M> = self.held.into();
@@ -78,8 +87,13 @@ pub struct Line<I> {
 }
 
 impl<M: Mechanism> InputPath<M> for Line<M::Inputs> {
-    const PARAMETER: &'static str = "the part of the way";
-    const IS_ANGLE: bool = false;
+    fn parameter(&self, _: &M) -> M::Name {
+        Name::from_static("the part of the way")
+    }
+
+    fn is_angle(&self, _: &M) -> bool {
+        false
+    }
 
     fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
         let [from, to]: [PerInput<M>; 2] = [self.from.into(), self.to.into()];
@@ -87,10 +101,10 @@ impl<M: Mechanism> InputPath<M> for Line<M::Inputs> {
         [inputs, to - from, from.dim().zeros()]
     }
 
-    fn range(&self) -> Result<Option<[M::Scalar; 2]>, InputError> {
+    fn range(&self, mechanism: &M) -> Result<Option<[M::Scalar; 2]>, InputError<M::Name>> {
         let [from, to]: [PerInput<M>; 2] = [self.from.into(), self.to.into()];
         if from == to {
-            let (of, quantity) = (Some(M::NAME), "the way between the inputs");
+            let (of, quantity) = (Some(mechanism.name()), Name::from_static("the way between the inputs"));
             return Err(InputError::OutOfRange {
                 of,
                 quantity,

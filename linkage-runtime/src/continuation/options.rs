@@ -2,7 +2,7 @@
 
 use crate::jacobian::ulp::{EQUAL_ULPS, ulps};
 use crate::scalar::to_f64;
-use crate::{InputError, Real, real};
+use crate::{InputError, Name, Real, real};
 
 /// The policy at a change point, where motions of the mechanism cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -73,10 +73,11 @@ const LEAST_STEP_ULPS: f64 = 64.0 * EQUAL_ULPS;
 impl<T: Real> Options<T> {
     /// # Errors
     /// [`InputError::OutOfRange`] for an invalid option.
-    pub(super) fn check(&self, mechanism: &'static str, input: T) -> Result<(), InputError> {
+    pub(super) fn check<N: Name>(&self, mechanism: N, input: T) -> Result<(), InputError<N>> {
         let within = |quantity: &'static str, value: f64, least: f64, most: f64| {
             let is_within = value >= least && value <= most;
-            is_within.then_some(()).ok_or(InputError::OutOfRange { of: Some(mechanism), quantity, value, least, most })
+            let (of, quantity) = (Some(mechanism.clone()), N::from_static(quantity));
+            if is_within { Ok(()) } else { Err(InputError::OutOfRange { of, quantity, value, least, most }) }
         };
         let least = to_f64(ulps::<T>(LEAST_STEP_ULPS));
         within("the longest step", to_f64(self.longest_step), least, 1.0)?;
@@ -87,8 +88,8 @@ impl<T: Real> Options<T> {
             let [least, most] = [low, high].map(to_f64);
             if !is_range {
                 let (value, least) = (least, f64::NEG_INFINITY);
-                let of = Some(mechanism);
-                return Err(InputError::OutOfRange { of, quantity: "the least input", value, least, most });
+                let (of, quantity) = (Some(mechanism), N::from_static("the least input"));
+                return Err(InputError::OutOfRange { of, quantity, value, least, most });
             }
             within("the input at the start", to_f64(input), least, most)?;
         }

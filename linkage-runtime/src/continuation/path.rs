@@ -12,14 +12,15 @@ use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{D, InputError, Mechanism, PathError, PositionError, Solution, position, real};
+use crate::{Dim, Name, D, InputError, Mechanism, PathError, PositionError, Solution, position, real};
 
 /// The end of a step of a path.
 #[cfg_attr(
     feature = "serde",
     derive(serde::Serialize),
     serde(bound(
-        serialize = "M::Scalar: serde::Serialize, M::Coordinates: serde::Serialize, M::Rates: serde::Serialize"
+        serialize = "M::Scalar: serde::Serialize, M::Coordinates: serde::Serialize, M::Rates: serde::Serialize, \
+                     M::Name: serde::Serialize"
     ))
 )]
 pub struct PathStep<M: Mechanism> {
@@ -32,7 +33,7 @@ pub struct PathStep<M: Mechanism> {
     /// lengths of their loops.
     pub length: M::Scalar,
     /// The event that ended the step, if any.
-    pub event: Option<Event<M::Rates>>,
+    pub event: Option<Event<M::Rates, M::Name>>,
 }
 
 crate::__by_fields!([M: Mechanism] PathStep<M> { position, rates, length, event });
@@ -59,7 +60,7 @@ crate::__by_fields!([M: Mechanism] PathStep<M> { position, rates, length, event 
 ///     path: Path<'static, Lever>,
 /// }
 ///
-/// fn started(m: Lever) -> Result<Walk, PathError> {
+/// fn started(m: Lever) -> Result<Walk, PathError<M::Name>> {
 ///     let start = LeverCoordinates { theta: 0.0, s: 3.0, phi: 0.0 };
 ///     Ok(Walk { path: Path::new(m, &start, Direction::Increasing)? })
 /// }
@@ -97,7 +98,7 @@ where
         mechanism: impl IntoHeld<'a, By, Of = M>,
         guess: &M::Coordinates,
         direction: Direction<M::Rates>,
-    ) -> Result<Self, PathError> {
+    ) -> Result<Self, PathError<M::Name>> {
         Self::with(mechanism, guess, direction, Options::default())
     }
 
@@ -113,10 +114,10 @@ where
         guess: &M::Coordinates,
         direction: Direction<M::Rates>,
         options: Options<M::Scalar>,
-    ) -> Result<Self, PathError> {
-        const { assert!(M::GROUPS.len() <= Groups::MOST, "a mechanism of more than 512 groups cannot be followed") };
+    ) -> Result<Self, PathError<M::Name>> {
+        const { assert!(M::G::CAPACITY <= Groups::<M::Name>::MOST, "a mechanism of more than 512 groups cannot be followed") };
         let mechanism = mechanism.into_held();
-        options.check(M::NAME, Curve::<'_, M>::input(guess))?;
+        options.check(mechanism.name(), Curve::<'_, M>::input(guess))?;
         let solution = position::newton(&*mechanism, guess)?;
         if options.joint_ranges {
             check_ranges(&*mechanism, &solution.coordinates)?;
@@ -164,9 +165,9 @@ where
     /// # Errors
     /// [`PathError::NoDirection`] if they are orthogonal to all motions, or if the path has not stopped at a change
     /// point.
-    pub fn choose(&mut self, rates: &M::Rates) -> Result<(), PathError> {
+    pub fn choose(&mut self, rates: &M::Rates) -> Result<(), PathError<M::Name>> {
         let Resume::Undecided(crossing) = self.resume else {
-            return Err(PathError::NoDirection { mechanism: M::NAME });
+            return Err(PathError::NoDirection { mechanism: self.curve.mechanism.name() });
         };
         let tangent = self.curve.choose(crossing.tangents(), rates)?;
         // The orientation beyond the change point depends on the motion chosen: it is unknown until the next step.
@@ -181,7 +182,7 @@ where
     /// # Errors
     /// [`PathError::ChangePoint`] if the path stopped at one and no motion has been chosen, [`PathError::Lost`] if the
     /// path cannot be continued, [`PositionError::NotFinite`] if a number is not finite.
-    pub fn advance(&mut self) -> Result<PathStep<M>, PathError> {
+    pub fn advance(&mut self) -> Result<PathStep<M>, PathError<M::Name>> {
         self.advance_until(None, None).map(|(step, _)| step)
     }
 
@@ -195,7 +196,7 @@ where
     pub fn advance_watching(
         &mut self,
         watched: impl Fn(&M::Coordinates, &M::Rates) -> M::Scalar,
-    ) -> Result<PathStep<M>, PathError> {
+    ) -> Result<PathStep<M>, PathError<M::Name>> {
         self.advance_until(None, Some(&watched)).map(|(step, _)| step)
     }
 
@@ -209,16 +210,17 @@ where
     /// [`PathError::JointRange`] if a coordinate or an output is at an end of its range before: the path is then there;
     /// [`PathError::TooManySteps`] after [`most_steps`](Options::most_steps), [`InputError::OutOfRange`] if the input
     /// is outside its range, and those of [`advance`](Self::advance).
-    pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError> {
+    pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError<M::Name>> {
         if !input.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" }.into());
+            return Err(PositionError::NotFinite { mechanism: self.curve.mechanism.name(), quantity: Name::from_static("the input") }.into());
         }
         if let Some([least, most]) = self.options.range
             && (input < least || input > most)
         {
             let [value, least, most] = [input, least, most].map(to_f64);
-            let of = Some(M::NAME);
-            return Err(InputError::OutOfRange { of, quantity: "the input", value, least, most }.into());
+            let of = Some(self.curve.mechanism.name());
+            let quantity = Name::from_static("the input");
+            return Err(InputError::OutOfRange { of, quantity, value, least, most }.into());
         }
         let (mut passed, mut reversals, mut zero_steps) = (None, 0, 0_usize);
         for _ in 0..self.options.most_steps {
@@ -262,14 +264,14 @@ where
                     }
                     if is_onward {
                         let gap = to_f64((input - self.input()).abs());
-                        return Err(PathError::JointRange { mechanism: M::NAME, of, end, gap });
+                        return Err(PathError::JointRange { mechanism: self.curve.mechanism.name(), of, end, gap });
                     }
                 }
                 Some(Event::ChangePoint { groups, .. }) => {
                     passed = step.event;
                     let group = groups.first();
                     if matches!(self.resume, Resume::Undecided(_)) && !is_target {
-                        return Err(PathError::ChangePoint { mechanism: M::NAME, group });
+                        return Err(PathError::ChangePoint { mechanism: self.curve.mechanism.name(), group });
                     }
                     // Where all groups are singular at once, the motions cross at a limit of the input.
                     if !is_target && is_onward && self.place.tangent.inputs[0].abs() <= nearly_zero() {
@@ -282,7 +284,7 @@ where
                 return Ok(PathStep { event: passed, ..step });
             }
         }
-        Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
+        Err(PathError::TooManySteps { mechanism: self.curve.mechanism.name(), steps: self.options.most_steps })
     }
 
     /// Follows the path for this arc length, through dead points and change points; the event is the last one passed, or
@@ -294,9 +296,9 @@ where
     /// # Errors
     /// [`PositionError::NotFinite`] for a length that is not finite, [`PathError::TooManySteps`] after
     /// [`most_steps`](Options::most_steps), and those of [`advance`](Self::advance).
-    pub fn advance_by(&mut self, length: M::Scalar) -> Result<PathStep<M>, PathError> {
+    pub fn advance_by(&mut self, length: M::Scalar) -> Result<PathStep<M>, PathError<M::Name>> {
         if !length.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the arc length" }.into());
+            return Err(PositionError::NotFinite { mechanism: self.curve.mechanism.name(), quantity: Name::from_static("the arc length") }.into());
         }
         let (end, mut passed) = (self.length + length, None);
         for _ in 0..self.options.most_steps {
@@ -308,20 +310,20 @@ where
             let step = self.advance()?;
             passed = step.event.or(passed);
         }
-        Err(PathError::TooManySteps { mechanism: M::NAME, steps: self.options.most_steps })
+        Err(PathError::TooManySteps { mechanism: self.curve.mechanism.name(), steps: self.options.most_steps })
     }
 
     /// The error of a dead point before an input.
-    fn dead_point(&self, group: &'static str, input: M::Scalar) -> PathError {
+    fn dead_point(&self, group: M::Name, input: M::Scalar) -> PathError<M::Name> {
         let gap = to_f64((input - self.input()).abs());
-        PathError::DeadPoint { mechanism: M::NAME, group, gap }
+        PathError::DeadPoint { mechanism: self.curve.mechanism.name(), group, gap }
     }
 
     fn input(&self) -> M::Scalar {
         Curve::<'_, M>::input(&self.place.q)
     }
 
-    fn here(&self, event: Option<Event<M::Rates>>) -> PathStep<M> {
+    fn here(&self, event: Option<Event<M::Rates, M::Name>>) -> PathStep<M> {
         PathStep { position: self.place.q, rates: self.rates(), length: self.length, event }
     }
 
@@ -331,10 +333,10 @@ where
         &mut self,
         target: Option<M::Scalar>,
         watch: Option<Watch<'_, M>>,
-    ) -> Result<(PathStep<M>, bool), PathError> {
+    ) -> Result<(PathStep<M>, bool), PathError<M::Name>> {
         if let Resume::Undecided(crossing) = self.resume {
             let group = crossing.groups.first();
-            return Err(PathError::ChangePoint { mechanism: M::NAME, group });
+            return Err(PathError::ChangePoint { mechanism: self.curve.mechanism.name(), group });
         }
         // At a limit of its range the input cannot move outward.
         let (input, rate) = (self.input(), self.place.tangent.inputs[0]);
@@ -361,8 +363,8 @@ where
                 Ok(Ok((end, tried))) => {
                     let chord = self.curve.difference(&end.place.q, &self.place.q).norm();
                     if !(self.length + chord).is_finite() {
-                        let quantity = "the length of the path";
-                        return Err(PositionError::NotFinite { mechanism: M::NAME, quantity }.into());
+                        let quantity = Name::from_static("the length of the path");
+                        return Err(PositionError::NotFinite { mechanism: self.curve.mechanism.name(), quantity }.into());
                     }
                     self.curve.mechanism.check_implied(&end.place.q)?;
                     return Ok(self.arrive(end, tried, chord, number > 0));
@@ -415,7 +417,7 @@ impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
         &self,
         solution: &Solution<M::Coordinates>,
         direction: Direction<M::Rates>,
-    ) -> Result<Start<M>, PathError> {
+    ) -> Result<Start<M>, PathError<M::Name>> {
         let q = solution.coordinates;
         let elimination = Elimination::<M>::new(self.linear(&q)?.jacobian);
         if elimination.regularity() < nearly_zero() {
@@ -426,14 +428,14 @@ impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
             let along = rates.map_or(Vector::<M>::zero(self.dims()), |rates| self.direction(&rates));
             if let Some(crossing) = self.crossing(&q, nearly_zero(), &along)? {
                 let group = crossing.groups.first();
-                let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: M::NAME, group }) };
+                let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: self.mechanism.name(), group }) };
                 let tangent = self.choose(crossing.tangents(), &rates)?;
                 let place = self.at_crossing(&crossing, tangent, M::Scalar::zero());
                 return Ok((place, Some(crossing.q), Resume::AtChangePoint));
             }
             if elimination.regularity() < M::Scalar::default_epsilon().sqrt() {
                 if let Some(touch) = self.touch(&q, nearly_zero(), &along)? {
-                    return Err(PathError::ChangePoint { mechanism: M::NAME, group: touch.groups.first() });
+                    return Err(PathError::ChangePoint { mechanism: self.mechanism.name(), group: touch.groups.first() });
                 }
                 let rejection = Rejection { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
                 return Err(self.lost(&q, 0, rejection));
@@ -442,7 +444,7 @@ impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
         let tangent = elimination.tangent();
         let forward = match direction {
             Direction::Along(rates) => self.choose(&[tangent], &rates)?,
-            _ if tangent.inputs[0].abs() < nearly_zero() => return Err(PathError::NoDirection { mechanism: M::NAME }),
+            _ if tangent.inputs[0].abs() < nearly_zero() => return Err(PathError::NoDirection { mechanism: self.mechanism.name() }),
             _ if (tangent.inputs[0] > M::Scalar::zero()) == matches!(direction, Direction::Increasing) => tangent,
             _ => -tangent,
         };
@@ -454,7 +456,7 @@ impl<M> Iterator for Path<'_, M>
 where
     M: Mechanism<V = D<1>>,
 {
-    type Item = Result<PathStep<M>, PathError>;
+    type Item = Result<PathStep<M>, PathError<M::Name>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         (!self.is_ended).then(|| {

@@ -7,7 +7,7 @@ use super::options::Options;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Blocks, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
-use crate::{Column, D, Dim, Mechanism, PathError, PositionError, real};
+use crate::{Name, Column, D, Dim, Mechanism, PathError, PositionError, real};
 
 /// A position of the curve, with its tangent, orientation and determinants.
 pub(super) struct Place<M: Mechanism> {
@@ -37,8 +37,8 @@ impl<M: Mechanism> Clone for Place<M> {
 
 impl<M: Mechanism> Place<M> {
     /// Sets the determinant of a group, whose sign is that of a rounding error, to zero.
-    pub(super) fn forget_sign(&mut self, group: &str) {
-        for (determinant, other) in self.determinants.iter_mut().zip(M::GROUPS) {
+    pub(super) fn forget_sign(&mut self, mechanism: &M, group: M::Name) {
+        for (determinant, other) in self.determinants.iter_mut().zip(mechanism.groups()) {
             if other.name == group {
                 *determinant = M::Scalar::zero();
             }
@@ -115,7 +115,7 @@ where
 
     /// Predicts and corrects the place at `distance` along the tangent of another; the curve between them is not
     /// checked.
-    pub(super) fn at(&self, from: &Place<M>, distance: M::Scalar) -> Tried<Place<M>> {
+    pub(super) fn at(&self, from: &Place<M>, distance: M::Scalar) -> Tried<M, Place<M>> {
         let guess = self.moved(&from.q, &(from.tangent * distance + from.bend * (distance * distance)));
         let found = self.correct(guess, &from.tangent)?;
         Ok(found.map(|(q, elimination)| self.place(q, &elimination, &from.tangent)))
@@ -151,7 +151,7 @@ where
 
     /// Gives each determinant whose sign is not resolved the sign that it had at the place before.
     pub(super) fn keep_unresolved_signs(&self, from: &Place<M>, place: &mut Place<M>) {
-        for group in 0..M::GROUPS.len() {
+        for group in 0..self.mechanism.dims().2.count() {
             let before = if from.determinants[group].is_zero() { from.slopes[group] } else { from.determinants[group] };
             let now = place.determinants[group];
             if now * before < M::Scalar::zero() && !self.is_resolved(place, group) {
@@ -167,7 +167,7 @@ where
         from: &Place<M>,
         to: &Place<M>,
         length: M::Scalar,
-    ) -> Result<Option<M::Scalar>, PathError> {
+    ) -> Result<Option<M::Scalar>, PathError<M::Name>> {
         if self.mechanism.dims().0.count() < 2 {
             return Ok(None);
         }
@@ -183,10 +183,10 @@ where
 
     /// The groups that are singular at a change point: their regularity is at most [`nearly_zero`], since small
     /// errors of Psi move the change point, a double root, by their square root.
-    pub(super) fn singular_groups(&self, q: &M::Coordinates) -> Groups {
-        let mut groups = Groups::none(M::GROUPS);
+    pub(super) fn singular_groups(&self, q: &M::Coordinates) -> Groups<M::Name> {
+        let mut groups = Groups::none(self.mechanism.group_list());
         let blocks = Blocks::of(&*self.mechanism, &self.mechanism.pose_at(q));
-        for place in 0..M::GROUPS.len() {
+        for place in 0..self.mechanism.dims().2.count() {
             if blocks.regularity(place) <= nearly_zero() {
                 groups.insert(place);
             }
@@ -228,10 +228,10 @@ where
     }
 
     /// Returns the tangent nearest to these rates, in their direction.
-    pub(super) fn choose(&self, tangents: &[Vector<M>], rates: &M::Rates) -> Result<Vector<M>, PathError> {
+    pub(super) fn choose(&self, tangents: &[Vector<M>], rates: &M::Rates) -> Result<Vector<M>, PathError<M::Name>> {
         let direction = self.direction(rates);
         if !direction.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the direction" }.into());
+            return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity: Name::from_static("the direction") }.into());
         }
         let direction = direction * direction.largest().recip();
         let mut nearest = None;
@@ -241,17 +241,17 @@ where
                 nearest = Some((along.abs(), if along < M::Scalar::zero() { -*tangent } else { *tangent }));
             }
         }
-        nearest.map(|(_, tangent)| tangent).ok_or(PathError::NoDirection { mechanism: M::NAME })
+        nearest.map(|(_, tangent)| tangent).ok_or(PathError::NoDirection { mechanism: self.mechanism.name() })
     }
 
-    pub(super) fn lost(&self, q: &M::Coordinates, iterations: usize, why: Rejection) -> PathError {
+    pub(super) fn lost(&self, q: &M::Coordinates, iterations: usize, why: Rejection) -> PathError<M::Name> {
         let (_, group) = self.least_regular_group(q);
         let Rejection { residual, regularity } = why;
-        PathError::Lost { mechanism: M::NAME, group, iterations, residual, regularity }
+        PathError::Lost { mechanism: self.mechanism.name(), group, iterations, residual, regularity }
     }
 
     /// The regularity and the name of the group that is nearest to singular.
-    pub(super) fn least_regular_group(&self, q: &M::Coordinates) -> (M::Scalar, &'static str) {
+    pub(super) fn least_regular_group(&self, q: &M::Coordinates) -> (M::Scalar, M::Name) {
         Blocks::of(&*self.mechanism, &self.mechanism.pose_at(q)).least_regular()
     }
 }

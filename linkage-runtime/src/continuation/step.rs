@@ -25,7 +25,7 @@ where
     M: Mechanism<V = D<1>>,
 {
     /// Tries a step of this length; returns its end, at the first event, and the length tried.
-    pub(super) fn attempt(&self, trial: M::Scalar, wanted: &Wanted<'_, M>) -> Tried<(End<M>, M::Scalar)> {
+    pub(super) fn attempt(&self, trial: M::Scalar, wanted: &Wanted<'_, M>) -> Tried<M, (End<M>, M::Scalar)> {
         let (curve, from) = (&self.curve, &self.place);
         // If the tangent predicts that the input reaches its target within the step, the step is corrected at that
         // input.
@@ -69,7 +69,7 @@ where
             return Ok(found.ok_or(rejection).map(|end| (end, tried)));
         }
         // Where motions touch, no shorter step comes any further.
-        let rejected = || -> Tried<(End<M>, M::Scalar)> {
+        let rejected = || -> Tried<M, (End<M>, M::Scalar)> {
             let guess = curve.moved(&from.q, &(from.tangent * tried));
             if from.regularity < real(DOUBTFUL)
                 && let Some(end) = self.touch_ahead(&guess, tried)?
@@ -86,7 +86,7 @@ where
         }
         if place.regularity <= curve.rounding_error(&place.q) * real(EQUAL_ULPS) {
             let (_, group) = curve.least_regular_group(&place.q);
-            place.forget_sign(group);
+            place.forget_sign(&curve.mechanism, group);
         }
         let end = End { place, arrived: None, event: None, is_target: false, resume: Resume::OnTheWay };
         let mut found = curve.first_event(from, end, wanted, &self.options)?;
@@ -110,7 +110,7 @@ where
     }
 
     /// Finds the change point within [`AHEAD`] times the distance `tried`, from a guess of its distance.
-    fn crossing_ahead(&self, guess: M::Scalar, tried: M::Scalar) -> Result<Option<End<M>>, PathError> {
+    fn crossing_ahead(&self, guess: M::Scalar, tried: M::Scalar) -> Result<Option<End<M>>, PathError<M::Name>> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
         let reach = tried * real(AHEAD) + nearly_zero();
@@ -119,7 +119,7 @@ where
     }
 
     /// Finds the change point near a dead point at which motions touch.
-    fn touch_ahead(&self, near: &M::Coordinates, tried: M::Scalar) -> Result<Option<End<M>>, PathError> {
+    fn touch_ahead(&self, near: &M::Coordinates, tried: M::Scalar) -> Result<Option<End<M>>, PathError<M::Name>> {
         let crossing = self.curve.touch(near, tried, &self.place.tangent)?;
         Ok(crossing.and_then(|crossing| self.crossing_at(crossing, tried)))
     }

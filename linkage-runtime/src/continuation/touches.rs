@@ -22,7 +22,7 @@ pub(crate) struct Touches<M: Mechanism> {
 /// A position on a path at which its motion touches another.
 pub(crate) struct TouchOnPath<M: Mechanism> {
     pub(crate) position: M::Coordinates,
-    pub(crate) groups: Groups,
+    pub(crate) groups: Groups<M::Name>,
     /// True if it lies before the place of the path next to it.
     pub(crate) is_before: bool,
 }
@@ -34,7 +34,7 @@ impl<M: Mechanism<V = D<1>>> Touches<M> {
     }
 
     /// After a step, the touch nearest to the place at which the step began.
-    pub(crate) fn after_step(&mut self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError> {
+    pub(crate) fn after_step(&mut self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
         let next = path.place.clone();
         let found = self.nearest(path, Some(&next))?;
         self.before = Some(core::mem::replace(&mut self.last, next));
@@ -42,12 +42,12 @@ impl<M: Mechanism<V = D<1>>> Touches<M> {
     }
 
     /// After the last step, the touch before its end.
-    pub(crate) fn at_end(&self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError> {
+    pub(crate) fn at_end(&self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
         self.nearest(path, None)
     }
 
     /// The touch nearest to the last place, if the regularity has a minimum there.
-    fn nearest(&self, path: &Path<'_, M>, next: Option<&Place<M>>) -> Result<Option<TouchOnPath<M>>, PathError> {
+    fn nearest(&self, path: &Path<'_, M>, next: Option<&Place<M>>) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
         let (place, curve) = (&self.last, &path.curve);
         let neighbours = [self.before.as_ref(), next];
         // Of two equal ones the first.

@@ -15,7 +15,7 @@ use nalgebra::SMatrix;
 
 pub use input::InputError;
 pub use inputs::InputValues;
-pub use name::Name;
+pub use name::{BorrowedName, Name};
 pub use path::PathError;
 pub use position::PositionError;
 

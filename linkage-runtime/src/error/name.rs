@@ -2,6 +2,8 @@
 
 use core::fmt::{Debug, Display};
 
+use crate::Group;
+
 /// A name in an error, of a mechanism, a group or a quantity: `&str`, or with `std` a text that is owned.
 ///
 /// Names in emitted code are `&'static str`. The names of a mechanism that is read while a program runs are not static: its
@@ -27,6 +29,31 @@ pub trait Name: Clone + Debug + Display + PartialEq {
 
     /// A name that the library gives: `the position`.
     fn from_static(text: &'static str) -> Self;
+}
+
+/// A name that is borrowed, with the list of the groups of its mechanism: the names of mechanisms, where their algorithms run.
+pub trait BorrowedName: Name<List: Copy> + Copy {
+    /// The groups of a mechanism.
+    type Groups: Copy;
+
+    /// Groups with names that the emitted code gives.
+    fn static_groups(groups: &'static [Group<'static>]) -> Self::Groups;
+    /// The name of a group; none beyond the last.
+    fn of_group(groups: Self::Groups, place: usize) -> Option<Self>;
+}
+
+impl<'a> BorrowedName for &'a str {
+    type Groups = &'a [Group<'a, &'a str>];
+
+    #[inline]
+    fn static_groups(groups: &'static [Group<'static>]) -> Self::Groups {
+        groups
+    }
+
+    #[inline]
+    fn of_group(groups: Self::Groups, place: usize) -> Option<Self> {
+        groups.get(place).map(|group| group.name)
+    }
 }
 
 impl<'a> Name for &'a str {

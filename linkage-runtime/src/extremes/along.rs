@@ -53,7 +53,7 @@ const MOST_TURNS: f64 = 64.0;
 pub fn over<M>(
     range: &RangeOfMotion<'_, M>,
     mut quantity: impl FnMut(&MotionOf<M::Of>) -> OutputMotion<M::Scalar>,
-) -> Result<Extremes<M::Scalar>, PathError>
+) -> Result<Extremes<M::Scalar>, PathError<M::Name>>
 where
     M: Driven,
 {
@@ -90,7 +90,7 @@ pub struct Course<T = f64> {
 pub fn courses<M, Q>(
     range: &RangeOfMotion<'_, M>,
     quantities: impl FnMut(&MotionOf<M::Of>) -> Q,
-) -> Result<Vec<Course<M::Scalar>>, PathError>
+) -> Result<Vec<Course<M::Scalar>>, PathError<M::Name>>
 where
     M: Driven,
     Q: AsRef<[OutputMotion<M::Scalar>]>,
@@ -198,7 +198,7 @@ impl<T: Real> Piece<T> {
         bounds.push(last);
         let pairs = bounds.windows(2).map(|pair| (pair[0], pair[1]));
         let piece = |(low, high): (T, T)| {
-            let turns = if M::INPUT_ANGLES[0] { to_f64((high - low) / T::two_pi()) } else { 1.0 };
+            let turns = if range.mechanism().input_angles()[0] { to_f64((high - low) / T::two_pi()) } else { 1.0 };
             // At most 64 times 360.
             Self { low, high, steps: (f64::from(STEPS) * turns.clamp(1.0, MOST_TURNS)) as u32 }
         };
@@ -247,7 +247,7 @@ where
     Q: AsRef<[OutputMotion<M::Scalar>]>,
 {
     /// The quantities at an input, with derivatives by the input.
-    fn by_input(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathError> {
+    fn by_input(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathError<M::Name>> {
         match self.range.motion(input, M::Scalar::one(), M::Scalar::zero()) {
             Ok(motion) => Ok((self.quantities)(&motion).as_ref().to_vec()),
             // Where motions touch the tangent is known still.
@@ -267,7 +267,7 @@ where
     }
 
     /// The quantities at an input, with their first derivatives by the arc length.
-    fn by_length(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathError> {
+    fn by_length(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathError<M::Name>> {
         let (motion, _) = along_tangent(self.range, input)?;
         Ok((self.quantities)(&motion).as_ref().to_vec())
     }
@@ -279,7 +279,7 @@ where
         place: usize,
         [mut last, end]: [Sample<M::Scalar>; 2],
         turning_points: &mut Vec<Extreme<M::Scalar>>,
-    ) -> Result<(), PathError> {
+    ) -> Result<(), PathError<M::Name>> {
         for _ in 0..MOST_IN_A_STEP {
             let around = first_zero([last, end], M::Scalar::default_epsilon(), |s| {
                 self.by_input(piece.input(s)).map(|all| piece.slope_at(s, &all[place]))
@@ -303,7 +303,7 @@ where
         place: usize,
         [end, inside]: [M::Scalar; 2],
         [at_end, at_inside]: [M::Scalar; 2],
-    ) -> Result<Option<Extreme<M::Scalar>>, PathError> {
+    ) -> Result<Option<Extreme<M::Scalar>>, PathError<M::Name>> {
         if at_end * at_inside >= M::Scalar::zero() {
             return Ok(None);
         }
@@ -321,7 +321,7 @@ where
 fn along_tangent<M: Driven>(
     range: &RangeOfMotion<'_, M>,
     input: M::Scalar,
-) -> Result<(MotionOf<M::Of>, M::Scalar), PathError> {
+) -> Result<(MotionOf<M::Of>, M::Scalar), PathError<M::Name>> {
     let (near, rates) = range.near(input)?;
     let (unknown_rates, along) = M::rate_parts(&rates);
     let [_, slope, _] = range.mechanism().inputs_at(input);

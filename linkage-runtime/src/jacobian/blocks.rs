@@ -4,29 +4,28 @@ use super::scales::scale_or_one;
 use super::{EliminationOf, Jacobian};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, largest, relative, smallest};
-use crate::{Column, Dim, Group, Matrix, Mechanism, PerUnknown};
+use crate::{Name, Column, Dim, Group, Matrix, Mechanism, PerUnknown};
 
 /// The diagonal blocks of J, one for each group.
-pub struct Blocks<M: Mechanism> {
+pub struct Blocks<'a, M: Mechanism> {
+    mechanism: &'a M,
     jacobian: Matrix<M::Scalar, M::U, M::U>,
     /// The largest magnitude that each entry of J can have at any angles, with the lengths of this pose.
     scales: Matrix<M::Scalar, M::U, M::U>,
     /// The scales of the residuals: the sums of the magnitudes of their terms.
     residual_scales: PerUnknown<M>,
     determinants: Column<M::Scalar, M::G>,
-    /// The number of inputs.
-    inputs: M::V,
 }
 
-impl<M: Mechanism> Blocks<M> {
+impl<'a, M: Mechanism> Blocks<'a, M> {
     /// Evaluates the blocks at a position.
-    pub fn of(mechanism: &M, pose: &M::Pose) -> Self {
+    pub fn of(mechanism: &'a M, pose: &M::Pose) -> Self {
         Self {
+            mechanism,
             jacobian: mechanism.jacobian_unknowns(pose),
             scales: mechanism.jacobian_unknowns_scales(pose),
             residual_scales: mechanism.residual_scales(pose),
             determinants: mechanism.block_determinants(pose),
-            inputs: mechanism.dims().1,
         }
     }
 
@@ -45,7 +44,7 @@ impl<M: Mechanism> Blocks<M> {
     /// pivot of the equilibrated block. [`PositionError::Singular`](crate::PositionError::Singular) contains it.
     pub fn regularity(&self, group: usize) -> M::Scalar {
         // An index that is out of range has regularity 0.
-        let Some(members) = M::GROUPS.get(group) else { return M::Scalar::zero() };
+        let Some(members) = self.mechanism.group(group) else { return M::Scalar::zero() };
         let scale = match (members.equations, members.unknowns) {
             (&[i], &[j]) => self.scales.part(i, j),
             (&[i, k], &[j, l]) => {
@@ -53,9 +52,9 @@ impl<M: Mechanism> Blocks<M> {
                 larger(scales.part(i, j) * scales.part(k, l), scales.part(i, l) * scales.part(k, j))
             }
             _ => {
-                let unknowns = self.equilibrated(members, M::Scalar::one());
+                let unknowns = self.equilibrated(&members, M::Scalar::one());
                 let pivots =
-                    EliminationOf::<M>::new(Jacobian { unknowns, inputs: unknowns.dims().0.zero_matrix(self.inputs) })
+                    EliminationOf::<M>::new(Jacobian { unknowns, inputs: unknowns.dims().0.zero_matrix(self.mechanism.dims().1) })
                         .pivots();
                 return smallest(pivots);
             }
@@ -64,9 +63,9 @@ impl<M: Mechanism> Blocks<M> {
     }
 
     /// The regularity and the name of the group nearest to a singularity; the name is empty if there are no groups.
-    pub fn least_regular(&self) -> (M::Scalar, &'static str) {
-        let mut least = (M::Scalar::one(), M::GROUPS.first().map_or("", |group| group.name));
-        for (place, group) in M::GROUPS.iter().enumerate() {
+    pub fn least_regular(&self) -> (M::Scalar, M::Name) {
+        let mut least = (M::Scalar::one(), self.mechanism.group(0).map_or_else(|| Name::from_static(""), |group| group.name));
+        for (place, group) in self.mechanism.groups().enumerate() {
             let regularity = self.regularity(place);
             // NaN counts as singular.
             let is_more_regular = regularity >= least.0;
@@ -80,7 +79,7 @@ impl<M: Mechanism> Blocks<M> {
     /// The equilibrated block of a group, in the upper left corner: its rows are divided by the scales of their
     /// residuals, its columns by the largest entry that they could then have at any angle. The rest of the matrix is
     /// `diagonal` times the identity.
-    pub fn equilibrated(&self, group: &Group, diagonal: M::Scalar) -> Matrix<M::Scalar, M::U, M::U> {
+    pub fn equilibrated(&self, group: &Group<'_, M::Name>, diagonal: M::Scalar) -> Matrix<M::Scalar, M::U, M::U> {
         let rows = self.residual_scales.map(scale_or_one);
         let mut matrix = self.jacobian.dims().0.identity() * diagonal;
         for (column, &unknown) in group.unknowns.iter().enumerate() {

@@ -7,7 +7,7 @@ use crate::{Mechanism, PerUnknown, PositionError, Real, real};
 /// # Errors
 /// Those of [`Mechanism::solve_jacobian`].
 #[inline]
-pub fn correction<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<PerUnknown<M>, PositionError> {
+pub fn correction<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<PerUnknown<M>, PositionError<M::Name>> {
     mechanism.solve_jacobian(pose, &mechanism.residual(pose))
 }
 

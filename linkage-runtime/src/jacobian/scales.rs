@@ -35,14 +35,14 @@ impl<T: Real, U: Dim, V: Dim> Scales<T, U, V> {
         let terms = mechanism.residual_scales(pose);
         // The scale of a residual is its largest derivative by an angle, or without angles the sum of its terms.
         let residuals = terms.dim().column(|row| {
-            let of_unknowns = of_angles(&by_unknowns.row(row), M::UNKNOWN_ANGLES);
-            let of_angles = larger(of_unknowns, of_angles(&by_inputs.row(row), M::INPUT_ANGLES));
+            let of_unknowns = of_angles(&by_unknowns.row(row), mechanism.unknown_angles());
+            let of_angles = larger(of_unknowns, of_angles(&by_inputs.row(row), mechanism.input_angles()));
             scale_or_one(if of_angles.is_zero() { terms.part(row) } else { of_angles })
         });
         let free = scale_or_one(mechanism.length_scale(pose));
         let coordinates = Vector {
-            unknowns: of_coordinates(&by_unknowns, &residuals, M::UNKNOWN_ANGLES, T::one()),
-            inputs: of_coordinates(&by_inputs, &residuals, M::INPUT_ANGLES, free),
+            unknowns: of_coordinates(&by_unknowns, &residuals, mechanism.unknown_angles(), T::one()),
+            inputs: of_coordinates(&by_inputs, &residuals, mechanism.input_angles(), free),
         };
         Self { residuals, coordinates }
     }

@@ -28,7 +28,7 @@ use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::shown::Shown;
-use crate::{Mechanism, PositionError, RangeEnd, Real, real};
+use crate::{Name, Mechanism, PositionError, RangeEnd, Real, real};
 
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,16 +105,16 @@ pub fn limits<M: Mechanism, const B: usize>(
     mechanism: &M,
     place: usize,
     position: &M::Pose,
-    bounds: [Bound<M::Scalar>; B],
+    bounds: [Bound<M::Scalar, M::Name>; B],
     search: Search<M::Scalar>,
-    assemble: impl Fn(&M::Coordinates) -> Result<M::Pose, PositionError>,
+    assemble: impl Fn(&M::Coordinates) -> Result<M::Pose, PositionError<M::Name>>,
     coordinates: impl Fn(&M::Pose) -> M::Coordinates,
-) -> Result<Limits<M::Scalar>, PositionError> {
+) -> Result<Limits<M::Scalar, M::Name>, PositionError<M::Name>> {
     let position = coordinates(position);
     let start = M::inputs(&position).as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero);
     let [mut lower, mut upper] = [None; 2];
     for bound in &bounds {
-        let not_finite = PositionError::NotFinite { mechanism: M::NAME, quantity: "a limit" };
+        let not_finite = PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("a limit") };
         let [below, above] = bound.about(start).ok_or(not_finite)?;
         lower = nearer(lower, below, |new, old| new > old);
         upper = nearer(upper, above, |new, old| new < old);
@@ -125,7 +125,7 @@ pub fn limits<M: Mechanism, const B: usize>(
         Search::Length(reach) => reach,
     };
     let searched = Searched { mechanism, place, reach, assemble: &assemble, coordinates: &coordinates };
-    let exact = |end: Option<(M::Scalar, NamedGroup)>| -> Result<Limit<M::Scalar>, PositionError> {
+    let exact = |end: Option<(M::Scalar, NamedGroup<M::Name>)>| -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
         let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
         let input = searched.corrected(start, &position, end, place)?;
         Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })
@@ -138,9 +138,9 @@ pub fn limits<M: Mechanism, const B: usize>(
             searched.toward(start, &position, upper, start + reach)?,
         ),
     };
-    let of = M::INPUTS.get(place).copied().unwrap_or_default();
-    let is_angle = M::INPUT_ANGLES.get(place).copied().unwrap_or_default();
-    if M::RANGES.is_empty() {
+    let of = mechanism.input_name(place);
+    let is_angle = mechanism.input_angles().get(place).copied().unwrap_or_default();
+    if mechanism.range_name(0).is_none() {
         return Ok(Limits { of, is_angle, lower, upper });
     }
     Ok(Limits {

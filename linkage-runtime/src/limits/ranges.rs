@@ -38,12 +38,12 @@ impl<M: Mechanism> Searched<'_, M> {
         &self,
         start: M::Scalar,
         position: &M::Coordinates,
-        limit: Limit<M::Scalar>,
+        limit: Limit<M::Scalar, M::Name>,
         sign: M::Scalar,
-    ) -> Result<Limit<M::Scalar>, PositionError> {
+    ) -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
         check_ranges(self.mechanism, position)?;
         let limit = self.within_own_range(start, position, limit, sign);
-        let reach = match M::INPUT_ANGLES.get(self.place) {
+        let reach = match self.mechanism.input_angles().get(self.place) {
             Some(true) => M::Scalar::two_pi(),
             _ if self.reach > M::Scalar::zero() => self.reach,
             _ => {
@@ -52,9 +52,9 @@ impl<M: Mechanism> Searched<'_, M> {
             }
         };
         let end = limit.input().unwrap_or(start + reach * sign);
-        let mut first: Option<(M::Scalar, &'static str, RangeEnd)> = None;
-        for (place, name) in M::RANGES.iter().enumerate() {
-            if M::INPUTS.get(self.place) == Some(name) {
+        let mut first: Option<(M::Scalar, M::Name, RangeEnd)> = None;
+        for (place, name) in self.mechanism.range_names().enumerate() {
+            if self.mechanism.input_name(self.place) == name {
                 continue;
             }
             let Some(ranged) = self.mechanism.ranged(place, position) else { continue };
@@ -77,18 +77,17 @@ impl<M: Mechanism> Searched<'_, M> {
         &self,
         start: M::Scalar,
         position: &M::Coordinates,
-        limit: Limit<M::Scalar>,
+        limit: Limit<M::Scalar, M::Name>,
         sign: M::Scalar,
-    ) -> Limit<M::Scalar> {
-        let own = M::INPUTS.get(self.place);
-        let Some(place) = M::RANGES.iter().position(|name| own == Some(name)) else { return limit };
+    ) -> Limit<M::Scalar, M::Name> {
+        let of = self.mechanism.input_name(self.place);
+        let Some(place) = self.mechanism.range_names().position(|name| name == of) else { return limit };
         let Some(ranged) = self.mechanism.ranged(place, position) else { return limit };
         let end = if sign > M::Scalar::zero() { RangeEnd::Most } else { RangeEnd::Least };
         let Some(input) = ranged.end(end) else { return limit };
         let turns = ((start - ranged.value) / M::Scalar::two_pi()).round();
         let input = if ranged.is_direction { input + turns * M::Scalar::two_pi() } else { input };
         let is_nearer = limit.input().is_none_or(|other| (input - other) * sign < M::Scalar::zero());
-        let of = M::RANGES.get(place).copied().unwrap_or_default();
         if is_nearer { Limit::JointRange { input, of, end } } else { limit }
     }
 
@@ -99,7 +98,7 @@ impl<M: Mechanism> Searched<'_, M> {
         position: &M::Coordinates,
         end: M::Scalar,
         mut watched: Watched<M::Scalar>,
-    ) -> Result<Option<M::Scalar>, PositionError> {
+    ) -> Result<Option<M::Scalar>, PositionError<M::Name>> {
         let Found::Assembled(mut last) = self.at(position, start)? else { return Ok(None) };
         last.position = *position;
         let whole = f64::from(STEPS);
@@ -125,7 +124,7 @@ impl<M: Mechanism> Searched<'_, M> {
                     return Ok(crate::jacobian::Sample { at, value: M::Scalar::zero(), slope: M::Scalar::zero() });
                 };
                 let [at, value, slope] = self.room_along(&between, &watched);
-                Ok::<_, PositionError>(crate::jacobian::Sample { at, value, slope })
+                Ok::<_, PositionError<M::Name>>(crate::jacobian::Sample { at, value, slope })
             })?;
             if let Some([low, high]) = found {
                 return self.narrowed(&last, [low.at, high.at], &watched).map(Some);
@@ -142,7 +141,7 @@ impl<M: Mechanism> Searched<'_, M> {
         from: &Sample<M>,
         [mut low, mut high]: [M::Scalar; 2],
         watched: &Watched<M::Scalar>,
-    ) -> Result<M::Scalar, PositionError> {
+    ) -> Result<M::Scalar, PositionError<M::Name>> {
         for _ in 0..NARROWINGS {
             let middle = (low + high) * real(0.5);
             if middle == low || middle == high {
@@ -162,10 +161,10 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// The position at another input, with angles in the turn nearest to the last position.
-    fn next(&self, last: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError> {
+    fn next(&self, last: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError<M::Name>> {
         Ok(match self.at(&last.position, input)? {
             Found::Assembled(there) => {
-                let unknowns = in_turn_of::<M>(M::unknowns(&there.position), &M::unknowns(&last.position));
+                let unknowns = in_turn_of(self.mechanism, M::unknowns(&there.position), &M::unknowns(&last.position));
                 Found::Assembled(Sample { position: M::with_unknowns(&there.position, unknowns), ..there })
             }
             other => other,

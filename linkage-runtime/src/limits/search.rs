@@ -42,7 +42,7 @@ const ULPS_INWARD: usize = 10;
 struct Bracket<M: Mechanism> {
     assembled: M::Scalar,
     unbuildable: M::Scalar,
-    group: &'static str,
+    group: M::Name,
 }
 
 /// The outcome of a step from one input to another.
@@ -54,7 +54,7 @@ enum Reached<M: Mechanism> {
     /// Motions touch next to it.
     Touch,
     /// The mechanism stops before.
-    Limit(Limit<M::Scalar>),
+    Limit(Limit<M::Scalar, M::Name>),
 }
 
 impl<M: Mechanism> Searched<'_, M> {
@@ -72,7 +72,7 @@ impl<M: Mechanism> Searched<'_, M> {
         position: &M::Coordinates,
         end: M::Scalar,
         place: usize,
-    ) -> Result<M::Scalar, PositionError> {
+    ) -> Result<M::Scalar, PositionError<M::Name>> {
         const NEAREST: i32 = 40;
         // If a later group is undetermined, the links are in line up to rounding error: the limit needs no correction.
         if matches!(self.at(position, end)?, Found::Undetermined) {
@@ -121,7 +121,7 @@ impl<M: Mechanism> Searched<'_, M> {
         start: M::Scalar,
         position: &M::Coordinates,
         end: M::Scalar,
-    ) -> Result<M::Scalar, PositionError> {
+    ) -> Result<M::Scalar, PositionError<M::Name>> {
         let mut input = end;
         let mut step = M::Scalar::default_epsilon() * end.abs();
         for _ in 0..ULPS_INWARD {
@@ -139,9 +139,9 @@ impl<M: Mechanism> Searched<'_, M> {
         &self,
         start: M::Scalar,
         position: &M::Coordinates,
-        known: Limit<M::Scalar>,
+        known: Limit<M::Scalar, M::Name>,
         beyond: M::Scalar,
-    ) -> Result<Limit<M::Scalar>, PositionError> {
+    ) -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
         let end = known.input().unwrap_or(beyond);
         // The first step and the last one are divided: the minima next to their ends have no neighbours beyond.
         let whole = f64::from(STEPS);
@@ -195,7 +195,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// The limit at a minimum of a determinant between two samples: it falls at the first and rises at the second.
-    fn limit_within(&self, here: &Sample<M>, there: &Sample<M>) -> Result<Option<Limit<M::Scalar>>, PositionError> {
+    fn limit_within(&self, here: &Sample<M>, there: &Sample<M>) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
         let little = (there.input - here.input) * real::<M::Scalar>(BESIDE);
         let inside = [here.input + little, there.input - little];
         let [mut after, mut before] = [None, None];
@@ -222,7 +222,7 @@ impl<M: Mechanism> Searched<'_, M> {
 
     /// The limit at a minimum of a determinant about the middle one of three samples, if the mechanism cannot be assembled
     /// there.
-    fn limit_among(&self, [before, here, there]: [&Sample<M>; 3]) -> Result<Option<Limit<M::Scalar>>, PositionError> {
+    fn limit_among(&self, [before, here, there]: [&Sample<M>; 3]) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
         let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
         for (group, ((a, b), c)) in determinants.enumerate() {
             if b < a
@@ -245,7 +245,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// Computes the position at an input, or finds the group that stops it.
-    pub(super) fn at(&self, from: &M::Coordinates, input: M::Scalar) -> Result<Found<M>, PositionError> {
+    pub(super) fn at(&self, from: &M::Coordinates, input: M::Scalar) -> Result<Found<M>, PositionError<M::Name>> {
         match (self.assemble)(&self.at_input(from, input)) {
             Ok(pose) => {
                 let determinants = self.mechanism.block_determinants(&pose).abs();
@@ -263,7 +263,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// Follows the motion from the position `from` at the input `at` to another input.
-    fn reach(&self, from: &M::Coordinates, at: M::Scalar, input: M::Scalar) -> Result<Reached<M>, PositionError> {
+    fn reach(&self, from: &M::Coordinates, at: M::Scalar, input: M::Scalar) -> Result<Reached<M>, PositionError<M::Name>> {
         let found = self.at(from, input)?;
         self.follow(from, at, input, found)
     }
@@ -279,7 +279,7 @@ impl<M: Mechanism> Searched<'_, M> {
         at: M::Scalar,
         input: M::Scalar,
         found: Found<M>,
-    ) -> Result<Reached<M>, PositionError> {
+    ) -> Result<Reached<M>, PositionError<M::Name>> {
         let mut group = match found {
             Found::Assembled(there) => return Ok(Reached::Assembled(there)),
             Found::Undetermined => return Ok(Reached::Undetermined),
@@ -304,7 +304,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// Bisects between an input at which the mechanism assembles and one at which a group does not.
-    fn between(&self, stuck: &Stuck<M>, mut group: &'static str) -> Result<Bracket<M>, PositionError> {
+    fn between(&self, stuck: &Stuck<M>, mut group: M::Name) -> Result<Bracket<M>, PositionError<M::Name>> {
         let (mut nearest, mut unbuildable) = (stuck.last, stuck.unbuildable);
         for _ in 0..NARROWINGS {
             let assembled = nearest.input;
@@ -334,7 +334,7 @@ impl<M: Mechanism> Searched<'_, M> {
         from: &Sample<M>,
         to: M::Scalar,
         group: usize,
-    ) -> Result<Option<Limit<M::Scalar>>, PositionError> {
+    ) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
         let golden = real::<M::Scalar>(0.618_033_988_749_894_9);
         let (mut a, mut b) = (from.input, to);
         let determinant = |found: &Reached<M>| match found {

@@ -4,7 +4,7 @@ use crate::scalar::arithmetic::*;
 use crate::{Column, Mechanism, PositionError};
 
 /// The position at the inputs of a position nearby.
-type Assemble<'m, M> = &'m dyn Fn(&<M as Mechanism>::Coordinates) -> Result<<M as Mechanism>::Pose, PositionError>;
+type Assemble<'m, M> = &'m dyn Fn(&<M as Mechanism>::Coordinates) -> Result<<M as Mechanism>::Pose, PositionError<<M as Mechanism>::Name>>;
 
 /// A mechanism whose limits of one input are searched.
 pub(super) struct Searched<'m, M: Mechanism> {
@@ -24,7 +24,7 @@ pub(super) enum Found<M: Mechanism> {
     /// A group is undetermined here: the search skips the input.
     Undetermined,
     /// A group has no position: its unknowns.
-    Stopped(&'static str),
+    Stopped(M::Name),
 }
 
 /// A position evaluated by the search, with the magnitudes of the determinants of its groups.

@@ -29,9 +29,9 @@ impl<M: Mechanism> Searched<'_, M> {
         &self,
         (mut position, at): (M::Coordinates, M::Scalar),
         end: M::Scalar,
-        group: &'static str,
-    ) -> Result<Option<Sample<M>>, PositionError> {
-        let Some(index) = M::GROUPS.iter().position(|other| other.name == group) else { return Ok(None) };
+        group: M::Name,
+    ) -> Result<Option<Sample<M>>, PositionError<M::Name>> {
+        let Some(index) = self.mechanism.groups().position(|other| other.name == group) else { return Ok(None) };
         let mut here = at;
         let (u, ..) = self.mechanism.dims();
         let mut nodes = [(end, u.zeros()); 2 * BEFORE];
@@ -40,7 +40,7 @@ impl<M: Mechanism> Searched<'_, M> {
         for ((node, root), distance) in nodes.iter_mut().zip(&mut roots).zip(DISTANCES) {
             let input = end + (self.reach * real(distance)).copysign(at - end);
             let Walked::Arrived(sample) = self.walk((position, here), input, group)? else { return Ok(None) };
-            *node = (input, in_turn_of::<M>(M::unknowns(&sample.position), &M::unknowns(&position)));
+            *node = (input, in_turn_of(self.mechanism, M::unknowns(&sample.position), &M::unknowns(&position)));
             *root = sample.determinant(index).sqrt();
             (position, here) = (M::with_unknowns(&sample.position, node.1), input);
         }
@@ -58,7 +58,7 @@ impl<M: Mechanism> Searched<'_, M> {
                 return Ok(None);
             };
             if let Some(node) = nodes.get_mut(BEFORE + count) {
-                *node = (input, in_turn_of::<M>(M::unknowns(&found.position), &expected));
+                *node = (input, in_turn_of(self.mechanism, M::unknowns(&found.position), &expected));
             }
             beyond = Some(found);
         }
@@ -83,9 +83,13 @@ impl<M: Mechanism> Searched<'_, M> {
 }
 
 /// Unknowns with each angle in the turn nearest to that of other unknowns: an angle in closed form may jump by a turn.
-pub(super) fn in_turn_of<M: Mechanism>(unknowns: PerUnknown<M>, others: &PerUnknown<M>) -> PerUnknown<M> {
+pub(super) fn in_turn_of<M: Mechanism>(
+    mechanism: &M,
+    unknowns: PerUnknown<M>,
+    others: &PerUnknown<M>,
+) -> PerUnknown<M> {
     let turn = M::Scalar::two_pi();
-    let each = unknowns.iter().zip(others).zip(M::UNKNOWN_ANGLES);
+    let each = unknowns.iter().zip(others).zip(mechanism.unknown_angles());
     others.dim().padded(each.map(
         |((&unknown, &other), &is_angle)| {
             if is_angle { unknown + ((other - unknown) / turn).round() * turn } else { unknown }

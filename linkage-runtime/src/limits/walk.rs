@@ -37,9 +37,9 @@ impl<M: Mechanism> Searched<'_, M> {
         &self,
         (position, input): (M::Coordinates, M::Scalar),
         to: M::Scalar,
-        group: &'static str,
-    ) -> Result<Walked<M>, PositionError> {
-        let index = M::GROUPS.iter().position(|other| other.name == group).unwrap_or_default();
+        group: M::Name,
+    ) -> Result<Walked<M>, PositionError<M::Name>> {
+        let index = self.mechanism.groups().position(|other| other.name == group).unwrap_or_default();
         let determinants = self.mechanism.block_determinants(&self.mechanism.pose_at(&position)).abs();
         let mut last = Sample { input, position, determinants };
         let (first, shortest) = (self.reach * real(FIRST), self.reach * real(SHORTEST));
@@ -70,7 +70,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// The position at another input, from the tangent at a position, or from this itself if J is singular.
-    pub(super) fn along(&self, from: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError> {
+    pub(super) fn along(&self, from: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError<M::Name>> {
         let pose = self.mechanism.pose_at(&from.position);
         let by_inputs = self.mechanism.jacobian_inputs(&pose);
         let by_input =

@@ -9,7 +9,7 @@ use super::options::{RangeOptions, out_of_range};
 use crate::continuation::{Direction, Options, Path};
 use crate::held::{Held, IntoHeld};
 use crate::scalar::arithmetic::*;
-use crate::{PathError, PositionError};
+use crate::{Name, PathError, PositionError};
 
 /// A motion by its arc length: it goes on where the parameter reverses, until it closes or ends.
 ///
@@ -39,18 +39,18 @@ pub struct MotionByLength<'a, M: Driven> {
     mechanism: Held<'a, M>,
     options: RangeOptions<M::Scalar>,
     steps: Vec<Step<M>>,
-    ends: [MotionEnd; 2],
+    ends: [MotionEnd<M::Name>; 2],
 }
 
 /// A dead point that a motion passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DeadPoint<Q, T = f64> {
+pub struct DeadPoint<Q, T = f64, N = &'static str> {
     /// The arc length there.
     pub length: T,
     /// The position.
     pub position: Q,
     /// The unknowns of the group that is singular.
-    pub group: &'static str,
+    pub group: N,
 }
 
 impl<'a, M: Driven> MotionByLength<'a, M> {
@@ -62,7 +62,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
         mechanism: impl IntoHeld<'a, By, Of = M>,
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
-    ) -> Result<Self, PathError> {
+    ) -> Result<Self, PathError<M::Name>> {
         let mechanism = mechanism.into_held();
         let Followed { options, steps, ends, .. } = followed(&*mechanism, start, options, AtDeadPoint::GoOn)?;
         Ok(Self { mechanism, options, steps, ends })
@@ -82,7 +82,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
 
     /// Why the motion ends on both sides; a closed motion has the same twice.
     #[must_use]
-    pub fn ends(&self) -> [MotionEnd; 2] {
+    pub fn ends(&self) -> [MotionEnd<M::Name>; 2] {
         self.ends
     }
 
@@ -93,7 +93,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
     }
 
     /// The dead points in the order of travel.
-    pub fn dead_points(&self) -> impl Iterator<Item = DeadPoint<PositionOf<M>, M::Scalar>> {
+    pub fn dead_points(&self) -> impl Iterator<Item = DeadPoint<PositionOf<M>, M::Scalar, M::Name>> {
         self.steps.iter().filter_map(|step| match step.passed {
             Some(Passed::DeadPoint(group)) => {
                 let position = self.mechanism.position_of(&step.position);
@@ -110,7 +110,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
     /// # Errors
     /// [`PositionError::NotFinite`] for a length that is not finite, [`InputError::OutOfRange`](crate::InputError::OutOfRange)
     /// for one beyond the ends, and those of [`Path::advance`].
-    pub fn at(&self, length: M::Scalar) -> Result<PositionOf<M>, PathError> {
+    pub fn at(&self, length: M::Scalar) -> Result<PositionOf<M>, PathError<M::Name>> {
         let whole = self.length();
         let within = if self.is_closed() && !(length >= M::Scalar::zero() && length <= whole) {
             length - (length / whole).floor() * whole
@@ -118,16 +118,16 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
             length
         };
         if !within.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the arc length" }.into());
+            return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity: Name::from_static("the arc length") }.into());
         }
         if within < M::Scalar::zero() || within > whole {
-            return Err(out_of_range::<M>("the arc length", length, [M::Scalar::zero(), whole]));
+            return Err(out_of_range(&*self.mechanism, "the arc length", length, [M::Scalar::zero(), whole]));
         }
         let at = within + self.first_length();
         let mechanism = &*self.mechanism;
         let place = self.steps.partition_point(|step| step.length <= at).saturating_sub(1);
         let (Some(step), Some(last)) = (self.steps.get(place), self.steps.last()) else {
-            return Err(PathError::NoDirection { mechanism: M::NAME });
+            return Err(PathError::NoDirection { mechanism: mechanism.name() });
         };
         // The sum above may be an ulp less than the whole length.
         if within >= whole {

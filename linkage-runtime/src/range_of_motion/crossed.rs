@@ -85,7 +85,7 @@ pub(super) fn motion_at<M: Kinematic>(
     q: &M::Coordinates,
     rates: M::Rates,
     accelerations: M::Accelerations,
-) -> Result<MotionOf<M>, PositionError> {
+) -> Result<MotionOf<M>, PositionError<M::Name>> {
     let pose = m.pose_at(q);
     let (points, outputs) = (M::each_point(m.points(&pose)?), M::each_output(m.outputs(&pose)?));
     let velocities = M::each_point(m.point_velocities(&pose, &rates)?);

@@ -14,7 +14,7 @@ use crate::{Column, D, InputError, Kinematic, Mechanism, PerInput};
 )]
 pub trait Driven: Mechanism<V = D<1>> {
     /// The mechanism that is driven.
-    type Of: Kinematic<Scalar = Self::Scalar, U = Self::U, Branch = Self::Branch>;
+    type Of: Kinematic<Scalar = Self::Scalar, Name = Self::Name, U = Self::U, Branch = Self::Branch>;
 
     /// The mechanism that is driven.
     fn driven(&self) -> &Self::Of;
@@ -26,7 +26,7 @@ pub trait Driven: Mechanism<V = D<1>> {
     ///
     /// # Errors
     /// [`InputError`] if a path of the inputs has no length.
-    fn parameter_range(&self) -> Result<Option<[Self::Scalar; 2]>, InputError> {
+    fn parameter_range(&self) -> Result<Option<[Self::Scalar; 2]>, InputError<Self::Name>> {
         Ok(None)
     }
 
@@ -61,8 +61,8 @@ impl<M: Kinematic, F: InputPath<M>> Driven for Along<M, F> {
         self.inputs.at(parameter)
     }
 
-    fn parameter_range(&self) -> Result<Option<[M::Scalar; 2]>, InputError> {
-        self.inputs.range()
+    fn parameter_range(&self) -> Result<Option<[M::Scalar; 2]>, InputError<M::Name>> {
+        self.inputs.range(&self.mechanism)
     }
 }
 
@@ -73,7 +73,7 @@ pub(super) type PositionOf<M> = <<M as Driven>::Of as Mechanism>::Coordinates;
 pub(super) fn same_inputs<M: Driven>(mechanism: &M, one: &M::Coordinates, other: &M::Coordinates) -> bool {
     let [one, other] = [one, other].map(|q| mechanism.inputs_at(M::inputs(q)[0])[0]);
     let size = larger(one.largest(), other.largest());
-    one.iter().zip(&other).zip(M::Of::INPUT_ANGLES).all(|((one, other), is_angle)| {
+    one.iter().zip(&other).zip(mechanism.driven().input_angles()).all(|((one, other), is_angle)| {
         let least = if *is_angle { M::Scalar::one() } else { M::Scalar::zero() };
         modulo_turns(*one - *other, *is_angle).abs() <= larger(size, least) * nearly_zero()
     })

@@ -1,30 +1,30 @@
 //! The end of a motion.
 
-use crate::RangeEnd;
+use crate::{BorrowedName, RangeEnd};
 use crate::continuation::Groups;
 
 /// The reason why a motion ends at an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum MotionEnd {
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound(serialize = "N: serde::Serialize")))]
+pub enum MotionEnd<N: BorrowedName = &'static str> {
     /// The end of the range of the input that was asked for.
     Range,
     /// A coordinate or an output is at an end of the range that the mechanism declares.
     JointRange {
         /// Its name.
-        of: &'static str,
+        of: N,
         /// The end of its range.
         end: RangeEnd,
     },
     /// The input reverses here: there is no position beyond.
     DeadPoint {
         /// The unknowns of the group that is singular.
-        group: &'static str,
+        group: N,
     },
     /// Other motions cross here.
     ChangePoint {
         /// The groups that are singular.
-        groups: Groups,
+        groups: Groups<N>,
     },
     /// The motion has no end: it is at its start again.
     Closed {

@@ -12,7 +12,7 @@ use crate::jacobian::ulp::nearly_zero;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Dim, Mechanism, PathError, real};
+use crate::{BorrowedName, Dim, Mechanism, PathError, real};
 
 /// A position at which a step ended.
 pub(super) struct Step<M: Mechanism> {
@@ -21,16 +21,16 @@ pub(super) struct Step<M: Mechanism> {
     pub(super) rates: M::Rates,
     /// The arc length from the start, negative before it.
     pub(super) length: M::Scalar,
-    pub(super) passed: Option<Passed>,
+    pub(super) passed: Option<Passed<M::Name>>,
     /// The smallest pivot of [J A] divided by the largest.
     pub(super) regularity: M::Scalar,
 }
 
 /// A singular position on the way.
 #[derive(Clone, Copy)]
-pub(super) enum Passed {
-    DeadPoint(&'static str),
-    ChangePoint(Groups),
+pub(super) enum Passed<N: BorrowedName> {
+    DeadPoint(N),
+    ChangePoint(Groups<N>),
 }
 
 /// A motion that was followed.
@@ -40,7 +40,7 @@ pub(super) struct Followed<M: Driven> {
     pub(super) same: SamePosition<M>,
     /// In the order of travel.
     pub(super) steps: Vec<Step<M>>,
-    pub(super) ends: [MotionEnd; 2],
+    pub(super) ends: [MotionEnd<M::Name>; 2],
 }
 
 /// The policy of a motion at a dead point.
@@ -64,7 +64,7 @@ pub(super) fn followed<M: Driven>(
     start: &M::Coordinates,
     options: RangeOptions<M::Scalar>,
     at_dead_point: AtDeadPoint,
-) -> Result<Followed<M>, PathError> {
+) -> Result<Followed<M>, PathError<M::Name>> {
     let options = within_parameter_range(mechanism, options)?;
     let same = SamePosition::at(mechanism, start);
     let follower = Follower { mechanism, same: &same, options: &options, at_dead_point };
@@ -74,7 +74,7 @@ pub(super) fn followed<M: Driven>(
 
 impl<M: Driven> Follower<'_, M> {
     /// Follows the motion both ways; first that in which the parameter increases.
-    fn both_ways(&self, start: &M::Coordinates) -> Result<(Vec<Step<M>>, [MotionEnd; 2]), PathError> {
+    fn both_ways(&self, start: &M::Coordinates) -> Result<(Vec<Step<M>>, [MotionEnd<M::Name>; 2]), PathError<M::Name>> {
         let (mut steps, upper) = self.one_way(start, Direction::Increasing)?;
         if matches!(upper, MotionEnd::Closed { .. }) {
             return Ok((steps, [upper; 2]));
@@ -90,13 +90,13 @@ impl<M: Driven> Follower<'_, M> {
         &self,
         start: &M::Coordinates,
         direction: Direction<M::Rates>,
-    ) -> Result<(Vec<Step<M>>, MotionEnd), PathError> {
+    ) -> Result<(Vec<Step<M>>, MotionEnd<M::Name>), PathError<M::Name>> {
         let Self { mechanism, same, options, at_dead_point } = *self;
         let mut path = Path::with(mechanism, start, direction, options.path)?;
         let goes_on = at_dead_point == AtDeadPoint::GoOn;
         let start = path.position();
         let at = |q: &M::Coordinates| M::inputs(q)[0];
-        let may_close = goes_on || M::INPUT_ANGLES[0] && options.path.range.is_none();
+        let may_close = goes_on || self.mechanism.input_angles()[0] && options.path.range.is_none();
         let most = M::Scalar::two_pi() * real(f64::from(options.most_turns));
         let (rates, regularity) = (path.rates(), path.regularity());
         let mut steps =
@@ -130,7 +130,7 @@ impl<M: Driven> Follower<'_, M> {
                 Some(Event::Zero) if is_at_start() => {
                     let turns = to_f64(((at(&position) - at(&start)) / M::Scalar::two_pi()).round());
                     // At most `most_turns`.
-                    MotionEnd::Closed { turns: if M::INPUT_ANGLES[0] { turns.abs() as u32 } else { 0 } }
+                    MotionEnd::Closed { turns: if self.mechanism.input_angles()[0] { turns.abs() as u32 } else { 0 } }
                 }
                 Some(Event::DeadPoint { group }) if !goes_on => MotionEnd::DeadPoint { group },
                 Some(Event::ChangePoint { groups, .. }) if stops || !goes_on && reverses() => {
@@ -153,7 +153,7 @@ impl<M: Driven> Follower<'_, M> {
             };
             return Ok((steps, end));
         }
-        Err(PathError::TooManySteps { mechanism: M::NAME, steps: options.path.most_steps })
+        Err(PathError::TooManySteps { mechanism: self.mechanism.name(), steps: options.path.most_steps })
     }
 }
 
@@ -161,10 +161,10 @@ impl<M: Driven> Follower<'_, M> {
 fn has_counted<M: Driven>(mechanism: &M, position: &M::Coordinates, start: &M::Coordinates) -> bool {
     let whole = |angle: M::Scalar| (angle / M::Scalar::two_pi()).round() * M::Scalar::two_pi();
     let ((unknowns, inputs), (from, first)) = (M::parts(position), M::parts(start));
-    let turned = (unknowns.iter().zip(&from).zip(M::UNKNOWN_ANGLES))
+    let turned = (unknowns.iter().zip(&from).zip(mechanism.unknown_angles()))
         .map(|((to, from), is_angle)| if *is_angle { *from + whole(*to - *from) } else { *from });
     let turned = M::coordinates(from.dim().padded(turned), first + (inputs - first).map(whole));
-    (0..M::RANGES.len()).any(|place| {
+    (0..mechanism.range_names().count()).any(|place| {
         let [Some(one), Some(other)] = [start, &turned].map(|q| mechanism.ranged(place, q)) else { return false };
         let scale = [Some(one.value), Some(other.value), one.least, one.most].into_iter().flatten();
         let scale = scale.fold(M::Scalar::zero(), |sum, part| sum + part.abs());

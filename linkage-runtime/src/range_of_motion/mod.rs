@@ -57,7 +57,7 @@ use crate::position::newton;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
-use crate::{Assembly, Kinematic, Mechanism, PathError, PerInput, PositionError, real};
+use crate::{BorrowedName, Name, Assembly, Kinematic, Mechanism, PathError, PerInput, PositionError, real};
 use driven::{PositionOf, same_inputs};
 use follow::{AtDeadPoint, Followed, Passed, Step, backwards, followed};
 use options::out_of_range;
@@ -70,20 +70,20 @@ pub struct RangeOfMotion<'a, M: Mechanism> {
     same: SamePosition<M>,
     /// The ends of the steps, in the order of their inputs; of a closed motion the last is the first again.
     steps: Vec<Step<M>>,
-    ends: [MotionEnd; 2],
+    ends: [MotionEnd<M::Name>; 2],
     /// True if a whole turn of the parameter changes no position, as it does with gears.
     repeats: bool,
 }
 
 /// A change point that a motion passes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing<Q, T = f64> {
+pub struct Crossing<Q, T = f64, N: BorrowedName = &'static str> {
     /// The input, or the parameter.
     pub input: T,
     /// The position.
     pub position: Q,
     /// The groups that are singular there.
-    pub groups: Groups,
+    pub groups: Groups<N>,
 }
 
 /// A position at which a motion passes another without meeting it.
@@ -114,7 +114,7 @@ where
         mechanism: impl IntoHeld<'a, By, Of = M>,
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
-    ) -> Result<Self, PathError> {
+    ) -> Result<Self, PathError<M::Name>> {
         let mechanism = mechanism.into_held();
         let followed = followed(&*mechanism, start, options, AtDeadPoint::End)?;
         Ok(Self::followed(mechanism, start, followed))
@@ -146,7 +146,7 @@ where
 
     /// Why the motion ends at the least and at the largest input; a closed motion has the same twice.
     #[must_use]
-    pub fn ends(&self) -> [MotionEnd; 2] {
+    pub fn ends(&self) -> [MotionEnd<M::Name>; 2] {
         self.ends
     }
 
@@ -157,7 +157,7 @@ where
     }
 
     /// The change points that the motion passes, in the order of the input.
-    pub fn crossings(&self) -> impl ExactSizeIterator<Item = Crossing<PositionOf<M>, M::Scalar>> {
+    pub fn crossings(&self) -> impl ExactSizeIterator<Item = Crossing<PositionOf<M>, M::Scalar, M::Name>> {
         let crossings = self.steps.iter().filter_map(|step| match step.passed {
             Some(Passed::ChangePoint(groups)) => {
                 Some(Crossing { input: step.input(), position: self.position_of(step), groups })
@@ -189,7 +189,7 @@ where
     /// If the motion ends before, the reason: [`PathError::DeadPoint`], [`PathError::ChangePoint`], or
     /// [`InputError::OutOfRange`](crate::InputError::OutOfRange) for the end of its range; [`PositionError::NotFinite`] for an
     /// input that is not finite.
-    pub fn at(&self, input: M::Scalar) -> Result<PositionOf<M>, PathError> {
+    pub fn at(&self, input: M::Scalar) -> Result<PositionOf<M>, PathError<M::Name>> {
         self.near(input).map(|(q, _)| self.mechanism().position_of(&q))
     }
 
@@ -197,7 +197,7 @@ where
     ///
     /// # Errors
     /// Those of [`at`](Self::at) for the input of the position.
-    pub fn has(&self, position: &M::Coordinates) -> Result<bool, PathError> {
+    pub fn has(&self, position: &M::Coordinates) -> Result<bool, PathError<M::Name>> {
         let (near, _) = self.near(M::inputs(position)[0])?;
         Ok(self.same.are_near(&near, position))
     }
@@ -208,9 +208,9 @@ where
 
     /// The place of an input among the steps: the input within the steps, the cycles of a closed motion before it, and the
     /// index of the step before it.
-    fn place(&self, input: M::Scalar) -> Result<(M::Scalar, M::Scalar, usize), PathError> {
+    fn place(&self, input: M::Scalar) -> Result<(M::Scalar, M::Scalar, usize), PathError<M::Name>> {
         if !input.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: M::NAME, quantity: "the input" }.into());
+            return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity: Name::from_static("the input") }.into());
         }
         let [first, last] = self.inputs();
         let (within, cycles) = if self.is_closed() {
@@ -221,7 +221,7 @@ where
             let lowest = input - turn * ((input - first) / turn).floor();
             let is_within = |input: &M::Scalar| {
                 let nearest = input.min(last).max(first);
-                is_rounding_error::<M>(*input - nearest, nearest)
+                is_rounding_error(self.mechanism(), *input - nearest, nearest)
             };
             ([input, lowest, lowest - turn].into_iter().find(is_within).unwrap_or(lowest), M::Scalar::zero())
         } else {
@@ -229,8 +229,8 @@ where
         };
         // An end that is known from elsewhere may differ in its last digits; so may a whole number of cycles.
         let nearest = within.min(last).max(first);
-        let within = if is_rounding_error::<M>(within - nearest, nearest) { nearest } else { within };
-        let outside = |end: MotionEnd, at: M::Scalar| Err(self.outside(end, input, at));
+        let within = if is_rounding_error(self.mechanism(), within - nearest, nearest) { nearest } else { within };
+        let outside = |end: MotionEnd<M::Name>, at: M::Scalar| Err(self.outside(end, input, at));
         if within < first {
             return outside(self.ends[0], first);
         }
@@ -241,13 +241,13 @@ where
     }
 
     /// The position at an input, and the derivatives of the coordinates by arc length, with the parameter.
-    pub(crate) fn near(&self, input: M::Scalar) -> Result<(M::Coordinates, M::Rates), PathError> {
+    pub(crate) fn near(&self, input: M::Scalar) -> Result<(M::Coordinates, M::Rates), PathError<M::Name>> {
         let (within, cycles, place) = self.place(input)?;
         // The place is that of a step.
         let step = &self.steps[place];
         let (position, rates) = if step.input() == within {
             (step.position, step.rates)
-        } else if is_rounding_error::<M>(within - step.input(), within) {
+        } else if is_rounding_error(self.mechanism(), within - step.input(), within) {
             // Too near for a step of a path; at a dead point there is no nearer position.
             let guess = M::with_inputs(&step.position, PerInput::<M>::from([within]));
             (newton(self.mechanism(), &guess).map_or(step.position, |found| found.coordinates), step.rates)
@@ -264,7 +264,7 @@ where
                 // From a dead point at which the motion begins a path may not start, or take a rounding error for a
                 // reversal.
                 (Err(error), Some(next)) => {
-                    let (position, rates) = from(next, backwards::<M>(&next.rates)).map_err(|_: PathError| error)?;
+                    let (position, rates) = from(next, backwards::<M>(&next.rates)).map_err(|_: PathError<M::Name>| error)?;
                     (position, backwards::<M>(&rates))
                 }
                 (found, _) => found?,
@@ -286,17 +286,17 @@ where
     }
 
     /// The error of an input beyond an end of the motion.
-    fn outside(&self, end: MotionEnd, input: M::Scalar, at: M::Scalar) -> PathError {
+    fn outside(&self, end: MotionEnd<M::Name>, input: M::Scalar, at: M::Scalar) -> PathError<M::Name> {
         match end {
             MotionEnd::DeadPoint { group } => {
-                PathError::DeadPoint { mechanism: M::NAME, group, gap: to_f64((input - at).abs()) }
+                PathError::DeadPoint { mechanism: self.mechanism.name(), group, gap: to_f64((input - at).abs()) }
             }
             MotionEnd::JointRange { of, end } => {
-                PathError::JointRange { mechanism: M::NAME, of, end, gap: to_f64((input - at).abs()) }
+                PathError::JointRange { mechanism: self.mechanism.name(), of, end, gap: to_f64((input - at).abs()) }
             }
-            MotionEnd::ChangePoint { groups } => PathError::ChangePoint { mechanism: M::NAME, group: groups.first() },
+            MotionEnd::ChangePoint { groups } => PathError::ChangePoint { mechanism: self.mechanism.name(), group: groups.first() },
             MotionEnd::Range | MotionEnd::Open | MotionEnd::Closed { .. } => {
-                out_of_range::<M>("the input", input, self.inputs())
+                out_of_range(self.mechanism(), "the input", input, self.inputs())
             }
         }
     }
@@ -316,9 +316,10 @@ where
         branch: M::Branch,
         inputs: impl IntoIterator<Item = M::Scalar>,
         options: RangeOptions<M::Scalar>,
-    ) -> Result<Self, PathError> {
-        let (mechanism, mut last) = (mechanism.into_held(), PathError::NoDirection { mechanism: M::NAME });
-        let from = |input: M::Scalar| -> Result<_, PathError> {
+    ) -> Result<Self, PathError<M::Name>> {
+        let mechanism = mechanism.into_held();
+        let mut last = PathError::NoDirection { mechanism: mechanism.name() };
+        let from = |input: M::Scalar| -> Result<_, PathError<M::Name>> {
             let [given, ..] = mechanism.inputs_at(input);
             let pose = mechanism.driven().assemble(given.into(), branch)?;
             let start = M::coordinates(M::Of::unknowns(&M::Of::coordinates_of(&pose)), [input].into());
@@ -340,16 +341,16 @@ fn repeats<M: Driven>(mechanism: &M, position: &M::Coordinates) -> bool {
     let pose = mechanism.pose_at(&turned);
     let (residual, scales) = (mechanism.residual(&pose), mechanism.residual_scales(&pose));
     // A declared range of more than a turn, or with one end, counts turns.
-    let own = M::RANGES.iter().position(|name| *name == M::INPUTS[0]);
+    let own = mechanism.range_names().position(|name| name == mechanism.input_name(0));
     let is_counted = own.and_then(|place| mechanism.ranged(place, position)).is_some_and(|own| !own.is_direction);
-    M::INPUT_ANGLES[0]
+    mechanism.input_angles()[0]
         && !is_counted
         && same_inputs(mechanism, position, &turned)
         && residual.iter().zip(&scales).all(|(value, scale)| value.abs() <= *scale * nearly_zero())
 }
 
 /// True if a difference from an input is no more than rounding errors.
-fn is_rounding_error<M: Mechanism>(off: M::Scalar, input: M::Scalar) -> bool {
-    let least = if M::INPUT_ANGLES[0] { M::Scalar::one() } else { M::Scalar::zero() };
+fn is_rounding_error<M: Mechanism>(mechanism: &M, off: M::Scalar, input: M::Scalar) -> bool {
+    let least = if mechanism.input_angles()[0] { M::Scalar::one() } else { M::Scalar::zero() };
     off.abs() <= larger(input.abs(), least) * real(EQUAL_ULPS) * M::Scalar::default_epsilon()
 }

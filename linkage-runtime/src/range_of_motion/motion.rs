@@ -21,7 +21,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         input: M::Scalar,
         rate: M::Scalar,
         acceleration: M::Scalar,
-    ) -> Result<MotionOf<M::Of>, PathError> {
+    ) -> Result<MotionOf<M::Of>, PathError<M::Name>> {
         match self.regular_motion(input, rate, acceleration) {
             Err(error @ PathError::Position(PositionError::Singular { .. })) => {
                 self.crossing_motion(input, rate, acceleration).ok_or(error)
@@ -62,7 +62,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         input: M::Scalar,
         rate: M::Scalar,
         acceleration: M::Scalar,
-    ) -> Result<MotionOf<M::Of>, PathError> {
+    ) -> Result<MotionOf<M::Of>, PathError<M::Name>> {
         let m = self.driven();
         let (rates, accelerations) = self.input_motion(input, rate, acceleration);
         let (rates, accelerations) = (rates.into(), accelerations.into());
@@ -87,7 +87,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         input: M::Scalar,
         rates: InputsOf<M>,
         accelerations: InputsOf<M>,
-    ) -> Result<Option<MotionOf<M::Of>>, PathError> {
+    ) -> Result<Option<MotionOf<M::Of>>, PathError<M::Name>> {
         let (within, cycles, place) = self.place(input)?;
         let Some([before, after]) = self.steps.get(place..place + 2) else { return Ok(None) };
         let (steps, mechanism, m) = ([before, after], self.mechanism(), self.driven());
@@ -99,7 +99,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         }
         let q = mechanism.position_of(&self.turned(&guess, input, cycles));
         let Ok(found) = m.full_kinematics(&q, branch, rates, accelerations) else { return Ok(None) };
-        let closed = turned_to::<M::Of>(M::Of::coordinates_of(&found.pose), &q);
+        let closed = turned_to(self.driven(), M::Of::coordinates_of(&found.pose), &q);
         let closed_here = M::coordinates(M::Of::unknowns(&closed), [input].into());
         let guess_here = M::coordinates(M::Of::unknowns(&q), [input].into());
         if !between::is_between(&self.same, steps, &guess_here, &closed_here) {
@@ -115,9 +115,9 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         like: &PositionOf<M>,
         rates: InputsOf<M>,
         accelerations: InputsOf<M>,
-    ) -> Result<MotionOf<M::Of>, PathError> {
+    ) -> Result<MotionOf<M::Of>, PathError<M::Name>> {
         let closed = M::Of::coordinates_of(&found.pose);
-        let position = turned_to::<M::Of>(closed, like);
+        let position = turned_to(self.driven(), closed, like);
         if position != closed {
             return Ok(self.driven().motion(&position, rates, accelerations)?);
         }
@@ -130,9 +130,9 @@ impl<M: Driven> RangeOfMotion<'_, M> {
 type InputsOf<M> = <<M as Driven>::Of as Mechanism>::Inputs;
 
 /// A position with the turns of another next to it.
-fn turned_to<M: Mechanism>(position: M::Coordinates, like: &M::Coordinates) -> M::Coordinates {
+fn turned_to<M: Mechanism>(mechanism: &M, position: M::Coordinates, like: &M::Coordinates) -> M::Coordinates {
     let mut unknowns = M::unknowns(&position);
-    for ((angle, like), is_angle) in unknowns.iter_mut().zip(&M::unknowns(like)).zip(M::UNKNOWN_ANGLES) {
+    for ((angle, like), is_angle) in unknowns.iter_mut().zip(&M::unknowns(like)).zip(mechanism.unknown_angles()) {
         let turns = ((*like - *angle) / M::Scalar::two_pi()).round();
         if *is_angle && !turns.is_zero() {
             *angle += turns * M::Scalar::two_pi();

@@ -3,7 +3,7 @@
 use super::driven::Driven;
 use crate::continuation::{AtChangePoint, Options};
 use crate::scalar::to_f64;
-use crate::{InputError, Mechanism, PathError, Real};
+use crate::{Name, InputError, Mechanism, PathError, Real};
 
 /// The options of a range of motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,13 +40,19 @@ impl<T: Real> RangeOptions<T> {
 pub(super) fn within_parameter_range<M: Driven>(
     mechanism: &M,
     options: RangeOptions<M::Scalar>,
-) -> Result<RangeOptions<M::Scalar>, PathError> {
+) -> Result<RangeOptions<M::Scalar>, PathError<M::Name>> {
     let range = options.path.range.or(mechanism.parameter_range()?);
     Ok(RangeOptions { path: Options { range, ..options.path }, ..options })
 }
 
 /// The error of a number beyond the ends of a motion.
-pub(super) fn out_of_range<M: Mechanism>(quantity: &'static str, value: M::Scalar, range: [M::Scalar; 2]) -> PathError {
+pub(super) fn out_of_range<M: Mechanism>(
+    mechanism: &M,
+    quantity: &'static str,
+    value: M::Scalar,
+    range: [M::Scalar; 2],
+) -> PathError<M::Name> {
     let ([least, most], value) = (range.map(to_f64), to_f64(value));
-    InputError::OutOfRange { of: Some(M::NAME), quantity, value, least, most }.into()
+    let (of, quantity) = (Some(mechanism.name()), Name::from_static(quantity));
+    InputError::OutOfRange { of, quantity, value, least, most }.into()
 }
