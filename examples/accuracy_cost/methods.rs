@@ -24,7 +24,11 @@ impl<M: Mechanism> PositionMethod<M> for ToTolerance {
     type From = Near<M>;
     type Position = Near<M>;
 
-    fn position(mechanism: &M, from: &Near<M>, inputs: impl Into<M::Inputs>) -> Result<Near<M>, PositionError> {
+    fn position(
+        mechanism: &M,
+        from: &Near<M>,
+        inputs: impl Into<M::Inputs>,
+    ) -> Result<Near<M>, PositionError<M::Name>> {
         let guess = Newton::<0>::position(mechanism, from, inputs)?.coordinates;
         Ok(Reached::at(mechanism, position::newton(mechanism, &guess)?.coordinates))
     }
@@ -37,7 +41,7 @@ impl<M: Mechanism, R: PositionMethod<M, From = R>> PositionMethod<M> for Shared<
     type From = Rc<R>;
     type Position = R::Position;
 
-    fn position(m: &M, from: &Rc<R>, inputs: impl Into<M::Inputs>) -> Result<R::Position, PositionError> {
+    fn position(m: &M, from: &Rc<R>, inputs: impl Into<M::Inputs>) -> Result<R::Position, PositionError<M::Name>> {
         R::position(m, from, inputs)
     }
 }
@@ -55,7 +59,7 @@ pub fn in_products<M: Mechanism<V = D<1>>>(
 }
 
 /// The work of a position method from the start of each case, followed by the rates.
-pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<V = D<1>> + 'static>(
+pub fn along<R: PositionMethod<M> + 'static, M: Mechanism<Name = &'static str, V = D<1>> + 'static>(
     method: &'static str,
     point: Point,
     starts: Vec<(Case, M, R::From)>,

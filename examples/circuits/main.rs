@@ -33,7 +33,7 @@ fn figure<M>(
     unknown: &str,
 ) -> Result<Figure, Box<dyn Error>>
 where
-    M: Skeleton<Scalar = f64, V = D<1>> + Branches,
+    M: Skeleton<Scalar = f64, Name = &'static str, V = D<1>> + Branches,
 {
     // Short steps, for smooth curves.
     let path = Options { longest_step: 0.05, ..Options::default() };

@@ -96,7 +96,7 @@ impl Figure {
 
     /// Counts the circuits through the modes at [`STARTS`] inputs, one of them given, the most modes at one of these, and
     /// the motions on which the input turns fully.
-    pub fn count_circuits<M>(&mut self, mechanism: &M, input: f64) -> Result<(), CircuitError>
+    pub fn count_circuits<M>(&mut self, mechanism: &M, input: f64) -> Result<(), CircuitError<M::Name>>
     where
         M: Branches<Scalar = f64, V = D<1>>,
     {

@@ -31,7 +31,7 @@ impl<T: Real, U: Dim, V: Dim> Equations<T, U, V> {
     /// # Errors
     /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J is singular,
     /// [`PositionError::NotFinite`](linkage_runtime::PositionError::NotFinite) if a number is not finite.
-    pub fn at<M: Mechanism<Scalar = T, U = U, V = V>>(
+    pub fn at<M: Mechanism<Scalar = T, Name = &'static str, U = U, V = V>>(
         mechanism: &M,
         q: &M::Coordinates,
         input_rates: impl Into<Column<T, V>>,

@@ -52,7 +52,7 @@ pub trait Scene {
     /// The number of frictions and stops.
     type Contacts: Dim;
     /// The kinematics.
-    type Mechanism: Mechanism<Scalar = Self::Scalar, U = Self::U, V = Self::V>;
+    type Mechanism: Mechanism<Scalar = Self::Scalar, Name = &'static str, U = Self::U, V = Self::V>;
     /// The forces in the joints that `reaction` statements name, or `()`.
     type Reactions: JointForces<Self::Scalar>;
 

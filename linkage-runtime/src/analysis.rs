@@ -38,7 +38,9 @@ use crate::error::all_finite;
 use crate::jacobian::Scales;
 use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
-use crate::{Name, Column, Dim, Kinematic, Matrix, Mechanism, PerInput, PerUnknown, PointMotion, PositionError, Real, real};
+use crate::{
+    Column, Dim, Kinematic, Matrix, Mechanism, Name, PerInput, PerUnknown, PointMotion, PositionError, Real, real,
+};
 
 /// The columns of a matrix by the unknowns, and those by the inputs: J and A, for instance.
 #[derive(Debug, Clone, Copy, PartialEq)]

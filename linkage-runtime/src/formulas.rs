@@ -71,7 +71,7 @@ pub trait Formulas: Sized {
     message = "`{Self}` has no formulas over intervals",
     note = "add `derive intervals;` to its mechanism"
 )]
-pub trait Certifiable: Mechanism<Scalar = f64, U: Default, V: Default, G: Default> {
+pub trait Certifiable: Mechanism<Scalar = f64, Name = &'static str, U: Default, V: Default, G: Default> {
     /// The number of parameters.
     type P: Dim + Default;
     /// The number of quantities: two components of each point, then the outputs.

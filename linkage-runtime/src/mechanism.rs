@@ -225,7 +225,11 @@ pub trait Mechanism {
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the solution is not finite.
     #[inline]
-    fn solve_jacobian(&self, _: &Self::Pose, right: &PerUnknown<Self>) -> Result<PerUnknown<Self>, PositionError<Self::Name>> {
+    fn solve_jacobian(
+        &self,
+        _: &Self::Pose,
+        right: &PerUnknown<Self>,
+    ) -> Result<PerUnknown<Self>, PositionError<Self::Name>> {
         const { no_unknowns::<Self>() };
         Ok(*right)
     }
@@ -349,7 +353,11 @@ pub trait Assembly: Mechanism {
     /// # Errors
     /// Those of [`assemble`](Self::assemble), and [`InputError::OutOfRange`](crate::InputError::OutOfRange) if a guess
     /// is more turns away than a branch can count.
-    fn assemble_near(&self, guess: &Self::Coordinates, branch: Self::Branch) -> Result<Self::Pose, PositionError<Self::Name>> {
+    fn assemble_near(
+        &self,
+        guess: &Self::Coordinates,
+        branch: Self::Branch,
+    ) -> Result<Self::Pose, PositionError<Self::Name>> {
         self.assemble(Self::inputs(guess).into(), branch)
     }
 }
@@ -378,7 +386,11 @@ pub trait Branches: Mechanism {
 /// # Errors
 /// [`PositionError::NotFinite`].
 #[inline]
-pub(crate) fn finite_position<M: Mechanism>(mechanism: &M, q: &M::Coordinates, pose: &M::Pose) -> Result<(), PositionError<M::Name>> {
+pub(crate) fn finite_position<M: Mechanism>(
+    mechanism: &M,
+    q: &M::Coordinates,
+    pose: &M::Pose,
+) -> Result<(), PositionError<M::Name>> {
     finite_coordinates(mechanism, q)?;
     if M::is_finite(pose) {
         Ok(())
@@ -392,7 +404,10 @@ pub(crate) fn finite_position<M: Mechanism>(mechanism: &M, q: &M::Coordinates, p
 /// # Errors
 /// [`PositionError::NotFinite`].
 #[inline]
-pub(crate) fn finite_coordinates<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<(), PositionError<M::Name>> {
+pub(crate) fn finite_coordinates<M: Mechanism>(
+    mechanism: &M,
+    q: &M::Coordinates,
+) -> Result<(), PositionError<M::Name>> {
     let (unknowns, inputs) = M::parts(q);
     all_finite(mechanism.name(), Name::from_static("the position"), unknowns.iter().chain(inputs.iter()))
 }
@@ -402,7 +417,8 @@ pub(crate) fn finite_coordinates<M: Mechanism>(mechanism: &M, q: &M::Coordinates
 /// # Errors
 /// [`InputError::EmptyJointRange`], [`InputError::OutOfRange`].
 pub(crate) fn check_ranges<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<(), InputError<M::Name>> {
-    let mut all = (0..).zip(mechanism.range_names()).filter_map(|(place, name)| Some((mechanism.ranged(place, q)?, name)));
+    let mut all =
+        (0..).zip(mechanism.range_names()).filter_map(|(place, name)| Some((mechanism.ranged(place, q)?, name)));
     all.try_for_each(|(ranged, name)| ranged.check(mechanism.name(), name))
 }
 

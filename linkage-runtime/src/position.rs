@@ -86,7 +86,10 @@ pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M:
 /// of a group has another sign than at the guess, [`PositionError::NotFinite`] if a number is not finite. If the
 /// regularity of the group is below 16 sqrt(epsilon) at the guess or at the position, the sign is not compared.
 /// [`PositionError::NotImplied`] if an implied loop does not close at the position.
-pub fn newton<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Solution<M::Coordinates>, PositionError<M::Name>> {
+pub fn newton<M: Mechanism>(
+    mechanism: &M,
+    guess: &M::Coordinates,
+) -> Result<Solution<M::Coordinates>, PositionError<M::Name>> {
     let (found, start, end) = searched(mechanism, guess)?;
     let AnyBranch { coordinates, iterations, residual, same_branch } = found;
     match if same_branch { None } else { left_group(mechanism, &start, &end) } {

@@ -4,7 +4,7 @@
 //! limits and circuits end where one is met.
 
 use crate::scalar::{larger, to_f64};
-use crate::{Name, InputError, Real, real};
+use crate::{InputError, Name, Real, real};
 
 /// An end of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -70,7 +70,7 @@ use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 #[cfg(feature = "serde")]
 use crate::serialised::Sequence;
-use crate::{Group, Name, Column, Dim, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Real, real};
+use crate::{Column, Dim, Group, Matrix, Mechanism, Name, PerInput, PerUnknown, PositionError, Real, real};
 use decomposition::Decomposition;
 
 /// The distance of a position from a singular configuration, and the rates that are possible at it.
@@ -170,7 +170,11 @@ impl<M: Mechanism> Equilibrated<M> {
             equilibrated(&divisors, &mechanism.jacobian_inputs(pose), &mechanism.jacobian_inputs_scales(pose));
         // Divided by infinite scales, everything would be zero.
         let scales = residual_scales.iter().chain(unknown_scales.iter()).chain(input_scales.iter());
-        all_finite(mechanism.name(), Name::from_static("the Jacobian"), unknowns.iter().chain(inputs.iter()).chain(scales))?;
+        all_finite(
+            mechanism.name(),
+            Name::from_static("the Jacobian"),
+            unknowns.iter().chain(inputs.iter()).chain(scales),
+        )?;
         Ok(Self { unknowns, inputs, residual_scales, unknown_scales, input_scales })
     }
 }
@@ -230,7 +234,11 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
     let measures = groups.iter().flat_map(|group| [&group.determinant, &group.regularity, &group.sigma_min]);
     all_finite(mechanism.name(), Name::from_static("the determinant"), measures)?;
     let (free, admissible) = (in_units(right.vectors, unknown_scales), in_units(conditions.vectors, input_scales));
-    all_finite(mechanism.name(), Name::from_static("a rate"), free.iter().chain(admissible.iter()).chain(exchanges.iter()))?;
+    all_finite(
+        mechanism.name(),
+        Name::from_static("a rate"),
+        free.iter().chain(admissible.iter()).chain(exchanges.iter()),
+    )?;
     Ok(Singularity {
         determinant,
         rank,
@@ -430,7 +438,11 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
     }
 }
 
-fn rates<'a, T: Real>(f: &mut fmt::Formatter<'_>, names: &[impl fmt::Display], rates: impl Iterator<Item = &'a T>) -> fmt::Result {
+fn rates<'a, T: Real>(
+    f: &mut fmt::Formatter<'_>,
+    names: &[impl fmt::Display],
+    rates: impl Iterator<Item = &'a T>,
+) -> fmt::Result {
     for (name, rate) in names.iter().zip(rates) {
         write!(f, " {name}' = {:.4}", to_f64(*rate))?;
     }

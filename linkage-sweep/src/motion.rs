@@ -17,7 +17,10 @@ pub struct OffMotion {
 
 impl<M> Sweep<M>
 where
-    M: Lanes + Assembly + Kinematic<V = D<1>> + Mechanism<Scalar = <M as Lanes>::Scalar, Branch = <M as Lanes>::Branch>,
+    M: Lanes
+        + Assembly
+        + Kinematic<V = D<1>>
+        + Mechanism<Scalar = <M as Lanes>::Scalar, Name = &'static str, Branch = <M as Lanes>::Branch>,
 {
     /// The accepted rows of a case, planned as a turn or a grid of the input, that are not on one motion: that of its first
     /// accepted row, which passes change points smoothly. The rows of a sweep are positions on a branch, which may jump from

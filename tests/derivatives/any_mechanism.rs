@@ -55,7 +55,7 @@ fn report<M: Kinematic<Scalar = f64>>(
     m: &M,
     q: &M::Coordinates,
     input_rates: M::Inputs,
-) -> Result<Vec<String>, PositionError> {
+) -> Result<Vec<String>, PositionError<M::Name>> {
     let pose = m.pose_at(q);
     let rates = m.velocity(&pose, input_rates)?;
     let velocities = M::each_point(m.point_velocities(&pose, &rates)?);

@@ -102,7 +102,7 @@ fn errors_at_angles<F: Fixture, T: Real>(pose: &str) -> Result<[f64; 2], Positio
 }
 
 /// The errors of u' and u'' at v' = 1, v'' = 0.
-fn rate_errors<M: Kinematic>(case: &Case, m: &M, pose: &M::Pose) -> Result<[f64; 2], PositionError> {
+fn rate_errors<M: Kinematic>(case: &Case, m: &M, pose: &M::Pose) -> Result<[f64; 2], PositionError<M::Name>> {
     let rates = m.velocity(pose, inputs::<M>(1.0).into())?;
     let accelerations = m.acceleration(pose, &rates, inputs::<M>(0.0).into())?;
     let (velocity, acceleration) = (M::rate_parts(&rates).0, M::acceleration_parts(&accelerations).0);

@@ -121,7 +121,7 @@ fn crossing<M: Mechanism<Scalar = f64, V = D<1>>>(
     m: &M,
     start: &M::Coordinates,
     direction: Direction<M::Rates>,
-) -> (M::Coordinates, Groups, Tangents<M::Rates>)
+) -> (M::Coordinates, Groups<M::Name>, Tangents<M::Rates>)
 where
     M::Coordinates: Debug,
 {

@@ -164,7 +164,7 @@ fn classes(svg: &str) -> Vec<String> {
 }
 
 /// Still and film agree in shapes, their order, their colours, and the style sheet.
-fn one_style<M: Skeleton<Scalar = f64>>(m: &M, poses: &[M::Pose]) {
+fn one_style<M: Skeleton<Scalar = f64, Name = &'static str>>(m: &M, poses: &[M::Pose]) {
     let (still, film) = (Drawing::of(m, &poses[0]).to_svg().unwrap(), Animation::of(m, poses, 4.0).to_svg().unwrap());
     assert_eq!(
         classes(&still),

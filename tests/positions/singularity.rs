@@ -26,7 +26,7 @@ fn is_rounded(found: f64, expected: f64) {
     assert_abs_diff_eq!(found, expected, epsilon = 4.0 * ROUNDING_ERROR * (1.0 + expected.abs()));
 }
 
-fn names<M: Mechanism>(report: &singularity::Singularity<M>) -> Vec<(&'static str, &'static str)> {
+fn names<M: Mechanism>(report: &singularity::Singularity<M>) -> Vec<(M::Name, M::Name)> {
     report.drivers().map(|exchange| (exchange.unknown, exchange.input)).collect()
 }
 
@@ -212,7 +212,7 @@ fn brute_force<M: Mechanism<Scalar = f64>>(m: &M, pose: &M::Pose) -> bool {
             let mut exchanged = dynamic.clone();
             exchanged.column_mut(unknown).copy_from(&by_inputs.column(input));
             if numerical_rank(&exchanged) == u {
-                exchanges.push((M::UNKNOWNS[unknown], M::INPUTS[input]));
+                exchanges.push((m.unknown_name(unknown), m.input_name(input)));
             }
         }
     }

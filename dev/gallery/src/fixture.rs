@@ -6,7 +6,7 @@ use linkage::{Dim, Mechanism, PerInput, PositionError, Real};
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// A mechanism of the gallery.
-pub trait Fixture: Kinematic + Clone {
+pub trait Fixture: Kinematic<Name = &'static str> + Clone {
     /// The file of `src/mechanisms` without its ending.
     const FILE: &'static str;
     /// The constant of this name.

@@ -54,6 +54,7 @@ fn associated(name: &str, is: &Associated) -> TokenStream {
     let name = ident(name);
     match is {
         Associated::Type(of) => quote!(type #name = #of;),
+        Associated::Text => quote!(type #name = &'static str;),
         Associated::Dimension(count) => {
             let count = literal(*count);
             quote!(type #name = __rt::D<#count>;)
@@ -77,7 +78,7 @@ fn constant(name: &str, value: &ConstantValue) -> TokenStream {
         ConstantValue::Text(text) => (quote!(&'static str), quote!(#text)),
         ConstantValue::Texts(texts) => listed(&quote!(&'static str), texts.iter()),
         ConstantValue::Flags(flags) => listed(&quote!(bool), flags.iter()),
-        ConstantValue::Groups(groups) => listed(&quote!(__rt::Group), groups.iter().map(group)),
+        ConstantValue::Groups(groups) => listed(&quote!(__rt::Group<'static>), groups.iter().map(group)),
         ConstantValue::Kinks(kinks) => listed(&quote!(__rt::Kink), kinks.iter().map(kink)),
         ConstantValue::Parts(parts) => listed(&quote!(__rt::Part<'static>), parts.iter().map(part)),
     };

@@ -57,6 +57,8 @@ impl Implemented {
 /// An associated type.
 pub enum Associated {
     Type(Type),
+    /// A text of the code.
+    Text,
     /// A number as a type.
     Dimension(usize),
     /// A quantity `Q` for each point or output: the type with their names, or an empty list.

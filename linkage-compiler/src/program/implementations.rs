@@ -70,6 +70,7 @@ impl Traits<'_> {
         let own = |order| Associated::Type(self.signatures.coordinates_type(order));
         let types = vec![
             ("Scalar", Associated::Type(Type::Scalar)),
+            ("Name", Associated::Text),
             ("U", Associated::Dimension(u)),
             ("V", Associated::Dimension(v)),
             ("G", Associated::Dimension(g)),

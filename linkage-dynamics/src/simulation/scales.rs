@@ -25,7 +25,7 @@ pub(crate) fn resolution_by_inputs<M: Mechanism>(
     scales: &ScalesOf<M>,
     q: &M::Coordinates,
     along: &Along<M>,
-) -> Result<M::Scalar, PositionError> {
+) -> Result<M::Scalar, PositionError<M::Name>> {
     let pose = mechanism.pose_at(q);
     let by_inputs = mechanism.jacobian_inputs(&pose);
     let inputs: Column<_, M::V> = M::inputs(q).abs().zip_map(&scales.coordinates.inputs, M::Scalar::max);

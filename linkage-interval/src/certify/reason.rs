@@ -71,7 +71,7 @@ pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> &'
 
 /// The group whose block of J is nearest to a singularity at a point, and the regularity of it: 1 divided by the largest
 /// entry of the inverse, relative to the scales of rows and columns.
-fn nearest<M: Certifiable>(system: &System<M>, q: &[f64]) -> Option<(&'static Group, f64)> {
+fn nearest<M: Certifiable>(system: &System<M>, q: &[f64]) -> Option<(&'static Group<'static>, f64)> {
     let columns = system.float_jacobian(q);
     let regularity = |group: &Group| {
         let (inverse, rows) = inverse_of(system, group, &columns);

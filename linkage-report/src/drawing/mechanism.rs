@@ -17,7 +17,10 @@ const SECONDS: f64 = 4.0;
 
 impl Figure {
     /// The joints of a mechanism at these poses, and its parts.
-    fn of<'a, M: Skeleton<Scalar = f64>>(mechanism: &M, poses: impl IntoIterator<Item = &'a M::Pose>) -> Self
+    fn of<'a, M: Skeleton<Scalar = f64, Name = &'static str>>(
+        mechanism: &M,
+        poses: impl IntoIterator<Item = &'a M::Pose>,
+    ) -> Self
     where
         M::Pose: 'a,
     {
@@ -32,14 +35,14 @@ impl Figure {
 
 impl Drawing {
     /// Draws a mechanism with `derive drawing;` at a pose: its joints, links, pivots and points. More can be added.
-    pub fn of<M: Skeleton<Scalar = f64>>(mechanism: &M, pose: &M::Pose) -> Self {
+    pub fn of<M: Skeleton<Scalar = f64, Name = &'static str>>(mechanism: &M, pose: &M::Pose) -> Self {
         Self { figure: Figure::of(mechanism, [pose]), ..Self::new(M::NAME) }
     }
 }
 
 impl Animation {
     /// Animates a mechanism with `derive drawing;` through poses, which take this number of seconds.
-    pub fn of<'a, M: Skeleton<Scalar = f64>>(
+    pub fn of<'a, M: Skeleton<Scalar = f64, Name = &'static str>>(
         mechanism: &M,
         poses: impl IntoIterator<Item = &'a M::Pose>,
         seconds: f64,
@@ -57,7 +60,7 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if no motion can be followed from 120 steps of a turn.
     pub fn turn<M>(mechanism: &M, branch: M::Branch) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Of: Skeleton + Assembly>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton + Assembly>,
     {
         let mut longest: Option<RangeOfMotion<'_, M>> = None;
         let mut reached: Vec<[f64; 2]> = Vec::new();
@@ -90,7 +93,7 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if a position of the motion is not found.
     pub fn over<M>(range: &RangeOfMotion<'_, M>) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Of: Skeleton>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
     {
         let [from, to] = range.inputs();
         match range.ends()[1] {
@@ -110,7 +113,7 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if a position of the motion is not found.
     pub fn along<M>(motion: &MotionByLength<'_, M>) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Of: Skeleton>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
     {
         let length = motion.length();
         // A turn takes as long as one of `turn`: a frame has no more than its share of the arc length.
@@ -132,7 +135,7 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if the motion ends before one of these, or if they are equal.
     pub fn between<M>(mechanism: &M, branch: M::Branch, [from, to]: [f64; 2]) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Of: Skeleton + Assembly>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton + Assembly>,
     {
         let of = RangeOptions::through_change_points();
         let path = Options { range: Some([from.min(to), from.max(to)]), ..of.path };
@@ -143,7 +146,7 @@ impl Animation {
 
     fn forth_and_back<M>(range: &RangeOfMotion<'_, M>, [from, to]: [f64; 2]) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Of: Skeleton>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
     {
         let middle = f64::midpoint(from, to);
         // Exactly `from` and `to` at the ends: the sum below may differ from them in the last digit.
@@ -161,7 +164,7 @@ impl Animation {
         seconds: f64,
     ) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Of: Skeleton>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
     {
         let pose = |input: f64| range.at(input).map(|q| range.driven().pose_at(&q));
         let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathError> = inputs.map(pose).collect();

@@ -200,17 +200,25 @@ impl Drawing {
 
     /// Adds the velocities of all points that move, from the motion of a mechanism: `drawing.velocities(&m, &motion.points)`.
     /// The longest arrow is about a quarter of the linkage, unless the scale is set.
-    pub fn velocities<M: Kinematic<Scalar = f64>>(&mut self, _: &M, points: &MotionOfPoints<M>) -> &mut Self {
+    pub fn velocities<M: Kinematic<Scalar = f64, Name = &'static str>>(
+        &mut self,
+        _: &M,
+        points: &MotionOfPoints<M>,
+    ) -> &mut Self {
         self.of_points::<M>(points, Quantity::Velocity, |point| point.velocity)
     }
 
     /// Adds the accelerations of all points that have one, from the motion of a mechanism, as
     /// [`velocities`](Self::velocities) does.
-    pub fn accelerations<M: Kinematic<Scalar = f64>>(&mut self, _: &M, points: &MotionOfPoints<M>) -> &mut Self {
+    pub fn accelerations<M: Kinematic<Scalar = f64, Name = &'static str>>(
+        &mut self,
+        _: &M,
+        points: &MotionOfPoints<M>,
+    ) -> &mut Self {
         self.of_points::<M>(points, Quantity::Acceleration, |point| point.acceleration)
     }
 
-    fn of_points<M: Kinematic<Scalar = f64>>(
+    fn of_points<M: Kinematic<Scalar = f64, Name = &'static str>>(
         &mut self,
         points: &MotionOfPoints<M>,
         quantity: Quantity,
@@ -253,7 +261,7 @@ impl Drawing {
     /// The longest arrow is about a quarter of the linkage, unless the scale is set.
     pub fn forces<M, F>(&mut self, mechanism: &M, pose: &M::Pose, forces: &F) -> &mut Self
     where
-        M: Skeleton<Scalar = f64>,
+        M: Skeleton<Scalar = f64, Name = &'static str>,
         F: JointForces<f64, Mechanism = M>,
     {
         self.fit(Quantity::Force);

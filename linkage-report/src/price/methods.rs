@@ -31,7 +31,7 @@ const TIMED: usize = 48;
 /// Newton's method from the prediction by velocity ratios, until the residual is at rounding error.
 struct ToTolerance;
 
-impl<M: Mechanism> PositionMethod<M> for ToTolerance {
+impl<M: Mechanism<Name = &'static str>> PositionMethod<M> for ToTolerance {
     type From = Near<M>;
     type Position = Near<M>;
 
@@ -58,7 +58,7 @@ pub(super) struct Methods<'a, M: Mechanism> {
     pub(super) works: Vec<Work<'a>>,
 }
 
-impl<'a, M: Kinematic<Scalar = f64, V = D<1>>> Methods<'a, M> {
+impl<'a, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Methods<'a, M> {
     pub(super) fn new(samples: &'a [Sample<M>], counts: Counts<'a>) -> Self {
         Self { samples, counts, machine: Machine::measured(), works: Vec::new() }
     }
@@ -67,8 +67,8 @@ impl<'a, M: Kinematic<Scalar = f64, V = D<1>>> Methods<'a, M> {
     pub(super) fn closed<S, T>(&mut self, m: &'a M, single: &'a S, twice: &'a T)
     where
         M: Assembly,
-        S: Assembly + Kinematic<Scalar = f32, U = M::U, V = D<1>, Branch = M::Branch>,
-        T: Assembly + Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>, Branch = M::Branch>,
+        S: Assembly + Kinematic<Scalar = f32, Name = &'static str, U = M::U, V = D<1>, Branch = M::Branch>,
+        T: Assembly + Kinematic<Scalar = DoubleDouble, Name = &'static str, U = M::U, V = D<1>, Branch = M::Branch>,
     {
         let branches = || self.samples.iter().map(|sample| Ok(m.branch_of(&m.pose_at(&sample.position))));
         let [double, of_single, of_twice]: [Vec<_>; 3] = [0; 3].map(|_| branches().collect());
@@ -81,8 +81,8 @@ impl<'a, M: Kinematic<Scalar = f64, V = D<1>>> Methods<'a, M> {
     /// Newton's method to a tolerance, and in the other scalars by steps, for mechanisms without a closed form.
     pub(super) fn by_number<S, T>(&mut self, m: &'a M, single: &'a S, twice: &'a T)
     where
-        S: Kinematic<Scalar = f32, U = M::U, V = D<1>>,
-        T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
+        S: Kinematic<Scalar = f32, Name = &'static str, U = M::U, V = D<1>>,
+        T: Kinematic<Scalar = DoubleDouble, Name = &'static str, U = M::U, V = D<1>>,
     {
         self.until_converged(m);
         let (of_single, of_twice) = (self.near(single), self.near(twice));
@@ -127,7 +127,7 @@ impl<'a, M: Kinematic<Scalar = f64, V = D<1>>> Methods<'a, M> {
     /// The positions nearby in a scalar.
     fn near<X>(&self, m: &X) -> Vec<Result<Near<X>, PositionError>>
     where
-        X: Kinematic<U = M::U, V = D<1>>,
+        X: Kinematic<Name = &'static str, U = M::U, V = D<1>>,
     {
         self.samples.iter().map(|sample| Ok(Reached::at(m, in_scalar::<M, X>(&sample.before)))).collect()
     }
@@ -140,7 +140,7 @@ impl<'a, M: Kinematic<Scalar = f64, V = D<1>>> Methods<'a, M> {
         starts: Vec<Result<F, PositionError>>,
         operations: impl Fn(&Counts<'_>, usize) -> Option<Operations>,
     ) where
-        X: Kinematic<V = D<1>>,
+        X: Kinematic<Name = &'static str, V = D<1>>,
         X::Scalar: Exact,
         R: PositionMethod<X> + 'a,
         F: Borrow<R::From> + 'a,
@@ -196,7 +196,11 @@ fn inputs<X: Mechanism<V = D<1>>>(input: f64) -> PerInput<X> {
 
 /// u, `u'` or `u''` at a pose.
 #[inline]
-fn rates<X: Kinematic<V = D<1>>>(m: &X, pose: &X::Pose, order: usize) -> Result<PerUnknown<X>, PositionError> {
+fn rates<X: Kinematic<Name = &'static str, V = D<1>>>(
+    m: &X,
+    pose: &X::Pose,
+    order: usize,
+) -> Result<PerUnknown<X>, PositionError> {
     if order == 0 {
         return Ok(X::unknowns(&X::coordinates_of(pose)));
     }

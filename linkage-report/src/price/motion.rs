@@ -112,9 +112,9 @@ impl MotionPrice {
         options: &PriceOptions,
     ) -> Result<Self, PriceError>
     where
-        M: Assembly + Kinematic<Scalar = f64, V = D<1>>,
-        S: Assembly + Kinematic<Scalar = f32, U = M::U, V = D<1>, Branch = M::Branch>,
-        T: Assembly + Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>, Branch = M::Branch>,
+        M: Assembly + Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
+        S: Assembly + Kinematic<Scalar = f32, Name = &'static str, U = M::U, V = D<1>, Branch = M::Branch>,
+        T: Assembly + Kinematic<Scalar = DoubleDouble, Name = &'static str, U = M::U, V = D<1>, Branch = M::Branch>,
     {
         let (m, InOtherScalars { single, double_double }) = (range.mechanism(), others);
         let inputs = Inputs::of(range, derivation, double_double, options)?;
@@ -137,9 +137,9 @@ impl MotionPrice {
         options: &PriceOptions,
     ) -> Result<Self, PriceError>
     where
-        M: Kinematic<Scalar = f64, V = D<1>>,
-        S: Kinematic<Scalar = f32, U = M::U, V = D<1>>,
-        T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
+        S: Kinematic<Scalar = f32, Name = &'static str, U = M::U, V = D<1>>,
+        T: Kinematic<Scalar = DoubleDouble, Name = &'static str, U = M::U, V = D<1>>,
     {
         let (m, InOtherScalars { single, double_double }) = (range.mechanism(), others);
         let inputs = Inputs::of(range, derivation, double_double, options)?;
@@ -157,7 +157,7 @@ impl MotionPrice {
         options: &PriceOptions,
     ) -> Self
     where
-        M: Kinematic<Scalar = f64, V = D<1>>,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
     {
         let Inputs { asked, within, ref samples, .. } = *inputs;
         let timed = works.iter().flat_map(|work| {
@@ -230,7 +230,7 @@ struct Inputs<M: Kinematic> {
     are_a_turn: bool,
 }
 
-impl<M: Kinematic<Scalar = f64, V = D<1>>> Inputs<M> {
+impl<M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Inputs<M> {
     fn of<T>(
         range: &RangeOfMotion<'_, M>,
         derivation: &Derivation<'static>,
@@ -238,7 +238,7 @@ impl<M: Kinematic<Scalar = f64, V = D<1>>> Inputs<M> {
         options: &PriceOptions,
     ) -> Result<Self, PriceError>
     where
-        T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
+        T: Kinematic<Scalar = DoubleDouble, Name = &'static str, U = M::U, V = D<1>>,
     {
         let [asked, within] = ends(range, options)?;
         let (samples, left_out) = samples(range, twice, within, options)?;
@@ -253,7 +253,7 @@ impl<M: Kinematic<Scalar = f64, V = D<1>>> Inputs<M> {
 /// The ends of the inputs that are asked for, and of those of them that the motion has.
 fn ends<M>(range: &RangeOfMotion<'_, M>, options: &PriceOptions) -> Result<[[f64; 2]; 2], PriceError>
 where
-    M: Kinematic<Scalar = f64, V = D<1>>,
+    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
 {
     let invalid = |quantity, value, [least, most]: [f64; 2]| {
         PriceError::Input(InputError::OutOfRange { of: Some(M::NAME), quantity, value, least, most })
@@ -289,8 +289,8 @@ fn samples<M, T>(
     options: &PriceOptions,
 ) -> Result<(Vec<Sample<M>>, Vec<LeftOut>), PriceError>
 where
-    M: Kinematic<Scalar = f64, V = D<1>>,
-    T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
+    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
+    T: Kinematic<Scalar = DoubleDouble, Name = &'static str, U = M::U, V = D<1>>,
 {
     let whole = if M::INPUT_ANGLES[0] { std::f64::consts::TAU } else { high - low };
     let step = options.step.unwrap_or(whole / 360.0).min(0.25 * (high - low));
@@ -325,7 +325,7 @@ where
 /// The change points between these inputs; a closed motion passes its own ones in each cycle.
 fn change_points<M>(range: &RangeOfMotion<'_, M>, [low, high]: [f64; 2]) -> Vec<SingularInput>
 where
-    M: Kinematic<Scalar = f64, V = D<1>>,
+    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
 {
     let [first, last] = range.inputs();
     let cycle = last - first;
@@ -344,7 +344,7 @@ where
 /// The parts of the inputs that were asked for beyond the ends of the motion.
 fn gaps<M>(range: &RangeOfMotion<'_, M>, asked: [f64; 2], within: [f64; 2]) -> Vec<Gap>
 where
-    M: Kinematic<Scalar = f64, V = D<1>>,
+    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
 {
     let ends = range.ends().into_iter().zip(asked.into_iter().zip(within));
     ends.filter(|(_, (to, from))| to != from).map(|(reason, (to, from))| Gap { from, to, reason }).collect()

@@ -60,8 +60,8 @@ impl Reference {
     /// Solves for the position next to one in `f64`.
     pub(super) fn at<M, T>(m: &M, twice: &T, q: &M::Coordinates) -> Result<Self, PriceError>
     where
-        M: Kinematic<Scalar = f64, V = D<1>>,
-        T: Kinematic<Scalar = DoubleDouble, U = M::U, V = D<1>>,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
+        T: Kinematic<Scalar = DoubleDouble, Name = &'static str, U = M::U, V = D<1>>,
     {
         let input = M::inputs(q)[0];
         let failed = |error: PositionError| PriceError::Reference { input, error };
@@ -129,7 +129,7 @@ impl Reference {
 /// Coordinates in another scalar.
 pub(super) fn in_scalar<M, X>(q: &M::Coordinates) -> X::Coordinates
 where
-    M: Mechanism<Scalar = f64>,
+    M: Mechanism<Scalar = f64, Name = &'static str>,
     X: Mechanism<U = M::U, V = M::V>,
 {
     let (unknowns, inputs) = M::parts(q);
@@ -139,7 +139,7 @@ where
 /// Returns an error if an equation in double-double has fewer digits than that, at a position.
 pub(super) fn check_digits<T>(twice: &T, derivation: &Derivation<'static>, q: &T::Coordinates) -> Result<(), PriceError>
 where
-    T: Kinematic<Scalar = DoubleDouble, V = D<1>>,
+    T: Kinematic<Scalar = DoubleDouble, Name = &'static str, V = D<1>>,
 {
     let pose = twice.pose_at(q);
     let (scales, residual) = (Scales::of(twice, &pose), twice.residual(&pose));

@@ -114,7 +114,7 @@ impl Report {
         options: &ReportOptions,
     ) -> Result<Self, PathError>
     where
-        M: Kinematic<Scalar = f64, V = D<1>> + Branches,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Branches,
     {
         let range = RangeOfMotion::of(mechanism, start, options.range)?;
         Self::with_modes(&range, derivation, start, options)
@@ -132,7 +132,7 @@ impl Report {
         options: &ReportOptions,
     ) -> Result<Self, PathError>
     where
-        M: Kinematic<Scalar = f64, V = D<1>> + Branches + Assembly,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Branches + Assembly,
     {
         let mut last = PathError::NoDirection { mechanism: M::NAME };
         for input in inputs {
@@ -155,7 +155,7 @@ impl Report {
         options: &ReportOptions,
     ) -> Result<Self, PathError>
     where
-        M: Kinematic<Scalar = f64, V = D<1>>,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
     {
         let [first, last] = range.inputs();
         let report = Self::without_motion::<M>(derivation, ReportedModes::NotListed);
@@ -167,7 +167,7 @@ impl Report {
     /// a position.
     pub fn at<M>(mechanism: &M, derivation: &Derivation<'_>, start: &M::Coordinates) -> Self
     where
-        M: Branches<Scalar = f64>,
+        M: Branches<Scalar = f64, Name = &'static str>,
     {
         let modes = Modes::at(mechanism, start).map_or_else(ReportedModes::Failed, ReportedModes::Listed);
         Self::without_motion::<M>(derivation, modes)
@@ -215,7 +215,7 @@ impl Report {
         options: &ReportOptions,
     ) -> Result<Self, PathError>
     where
-        M: Kinematic<Scalar = f64, V = D<1>> + Branches,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Branches,
     {
         let modes = Modes::of(range.mechanism(), start, options.circuits);
         let modes = modes.map_or_else(ReportedModes::Failed, ReportedModes::Listed);

@@ -68,7 +68,7 @@ impl Modes {
     /// Those of [`Circuits::of`].
     pub(super) fn of<M>(mechanism: &M, start: &M::Coordinates, options: CircuitOptions) -> Result<Self, CircuitError>
     where
-        M: Branches<Scalar = f64, V = D<1>>,
+        M: Branches<Scalar = f64, Name = &'static str, V = D<1>>,
     {
         let input = M::inputs(start)[0];
         let circuits = Circuits::of(mechanism, input, options)?;
@@ -91,7 +91,7 @@ impl Modes {
     /// Those of [`Branches::all_positions`].
     pub(super) fn at<M>(mechanism: &M, start: &M::Coordinates) -> Result<Self, CircuitError>
     where
-        M: Branches<Scalar = f64>,
+        M: Branches<Scalar = f64, Name = &'static str>,
     {
         let inputs = M::inputs(start);
         let all: Vec<_> = mechanism.all_positions(inputs.into())?.collect();
@@ -114,7 +114,7 @@ impl Modes {
     }
 }
 
-fn listed<M: Mechanism<Scalar = f64>>(motion: &MotionCurve<M::Coordinates>) -> ListedMotion {
+fn listed<M: Mechanism<Scalar = f64, Name = &'static str>>(motion: &MotionCurve<M::Coordinates>) -> ListedMotion {
     let singular = |input: f64, event: Option<CurveEvent>| {
         let group = match event {
             Some(CurveEvent::DeadPoint { group } | CurveEvent::ChangePoint { group }) => vec![group.to_owned()],
@@ -132,7 +132,7 @@ fn listed<M: Mechanism<Scalar = f64>>(motion: &MotionCurve<M::Coordinates>) -> L
 }
 
 /// The position nearest to another, by index, whole turns of angles aside.
-fn nearest<M: Mechanism<Scalar = f64>>(
+fn nearest<M: Mechanism<Scalar = f64, Name = &'static str>>(
     positions: impl Iterator<Item = M::Coordinates>,
     to: &M::Coordinates,
 ) -> Option<usize> {

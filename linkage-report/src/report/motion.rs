@@ -93,7 +93,7 @@ impl MotionReport {
         options: &ReportOptions,
     ) -> Result<Self, PathError>
     where
-        M: Kinematic<Scalar = f64, V = D<1>>,
+        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
     {
         let (m, q) = (range.mechanism(), range.at(start)?);
         let local = Local::of(m, derivation, &q);
@@ -151,7 +151,7 @@ impl MotionReport {
 }
 
 /// The outputs, then the unknowns, with their derivatives.
-fn quantities<M: Kinematic<Scalar = f64>>(motion: &MotionOf<M>) -> Vec<OutputMotion> {
+fn quantities<M: Kinematic<Scalar = f64, Name = &'static str>>(motion: &MotionOf<M>) -> Vec<OutputMotion> {
     let unknowns = M::unknowns(&motion.position);
     let rates = M::rate_parts(&motion.rates).0;
     let accelerations = M::acceleration_parts(&motion.accelerations).0;
@@ -173,7 +173,7 @@ fn quantity<M>(
     options: &ReportOptions,
 ) -> Result<QuantityReport, PathError>
 where
-    M: Kinematic<Scalar = f64, V = D<1>>,
+    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
 {
     let is_output = place < M::OUTPUTS.len();
     let (name, is_angle) = match place.checked_sub(M::OUTPUTS.len()) {

@@ -43,7 +43,7 @@ const STEP: f64 = 1.0 / 1024.0;
 ///
 /// # Errors
 /// [`PositionError`] if J is singular here, or a position next to this one does not exist.
-pub fn ratio_properties<M: Kinematic<Scalar = f64>>(
+pub fn ratio_properties<M: Kinematic<Scalar = f64, Name = &'static str>>(
     mechanism: &M,
     derivation: &Derivation<'_>,
     q: &M::Coordinates,

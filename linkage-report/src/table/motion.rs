@@ -18,7 +18,7 @@ impl Table {
     /// [`PathError::NoDirection`] without steps.
     pub fn turn<M>(mechanism: &M, branch: M::Branch, steps: u32, rate: f64) -> Result<Self, PathError>
     where
-        M: Driven<Scalar = f64, Of: Assembly>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Assembly>,
     {
         Self::at(mechanism, branch, &turn(steps), rate)
     }
@@ -29,7 +29,7 @@ impl Table {
     /// Those of [`Table::turn`].
     pub fn at<M>(mechanism: &M, branch: M::Branch, inputs: &[f64], rate: f64) -> Result<Self, PathError>
     where
-        M: Driven<Scalar = f64, Of: Assembly>,
+        M: Driven<Scalar = f64, Name = &'static str, Of: Assembly>,
     {
         Ok(Self::over(&on_branch(mechanism, branch, inputs)?, inputs.iter().copied(), rate))
     }
@@ -42,7 +42,7 @@ impl Table {
     #[must_use]
     pub fn over<M>(range: &RangeOfMotion<'_, M>, inputs: impl IntoIterator<Item = f64>, rate: f64) -> Self
     where
-        M: Driven<Scalar = f64>,
+        M: Driven<Scalar = f64, Name = &'static str>,
     {
         let mut table = Self::of_columns(columns::<M>(rate));
         let mut clock = Clock::new(rate);
@@ -55,7 +55,7 @@ impl Table {
     }
 
     /// Marks the change points and the ends of a motion between the inputs of the table.
-    pub(super) fn mark_motion<M: Driven<Scalar = f64>>(&mut self, range: &RangeOfMotion<'_, M>) {
+    pub(super) fn mark_motion<M: Driven<Scalar = f64, Name = &'static str>>(&mut self, range: &RangeOfMotion<'_, M>) {
         let Some(inputs) = self.columns.first() else { return };
         let wide = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
         let [least, most] = inputs.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], wide);
@@ -86,7 +86,7 @@ pub(super) fn on_branch<'a, M>(
     inputs: &[f64],
 ) -> Result<RangeOfMotion<'a, M>, PathError>
 where
-    M: Driven<Scalar = f64, Of: Assembly>,
+    M: Driven<Scalar = f64, Name = &'static str, Of: Assembly>,
 {
     RangeOfMotion::on_branch(mechanism, branch, inputs.iter().copied(), RangeOptions::through_change_points())
 }
@@ -110,7 +110,7 @@ impl Clock {
 }
 
 /// The cells of a row as far as they exist, and the motion.
-pub(super) fn row<M: Driven<Scalar = f64>>(
+pub(super) fn row<M: Driven<Scalar = f64, Name = &'static str>>(
     range: &RangeOfMotion<'_, M>,
     input: f64,
     clock: &mut Clock,
@@ -186,7 +186,7 @@ fn is_the_input<M: Driven>() -> bool {
 }
 
 /// The numbers of a motion in the order of their columns.
-fn numbers<M: Driven<Scalar = f64>>(motion: &MotionOf<M::Of>) -> Vec<f64> {
+fn numbers<M: Driven<Scalar = f64, Name = &'static str>>(motion: &MotionOf<M::Of>) -> Vec<f64> {
     let (of_unknowns, of_inputs) = M::Of::parts(&motion.position);
     let (unknown_rates, input_rates) = M::Of::rate_parts(&motion.rates);
     let (unknown_accelerations, input_accelerations) = M::Of::acceleration_parts(&motion.accelerations);

@@ -113,7 +113,7 @@ impl Table {
     ) -> Self
     where
         S: Scene<Scalar = f64, Mechanism: Kinematic>,
-        M: Driven<Scalar = f64, Of = S::Mechanism>,
+        M: Driven<Scalar = f64, Name = &'static str, Of = S::Mechanism>,
     {
         let mut clock = Clock::new(rate);
         let mut rows = Vec::new();

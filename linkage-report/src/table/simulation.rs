@@ -207,7 +207,7 @@ where
 }
 
 /// The numbers of points and outputs, with NaN where there are no accelerations.
-fn quantities<M: Kinematic<Scalar = f64>>(
+fn quantities<M: Kinematic<Scalar = f64, Name = &'static str>>(
     mechanism: &M,
     q: &M::Coordinates,
     rates: &M::Rates,

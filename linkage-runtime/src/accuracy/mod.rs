@@ -100,7 +100,11 @@ impl<M: Assembly> PositionMethod<M> for ClosedForm {
     type Position = M::Pose;
 
     #[inline(always)]
-    fn position(mechanism: &M, branch: &M::Branch, inputs: impl Into<M::Inputs>) -> Result<M::Pose, PositionError<M::Name>> {
+    fn position(
+        mechanism: &M,
+        branch: &M::Branch,
+        inputs: impl Into<M::Inputs>,
+    ) -> Result<M::Pose, PositionError<M::Name>> {
         mechanism.assemble(inputs.into(), *branch)
     }
 }

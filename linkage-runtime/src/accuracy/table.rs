@@ -8,7 +8,7 @@ use crate::jacobian::ulp::ulps;
 use crate::mechanism::{finite_position, other_group};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
-use crate::{Name, D, Dim, InputError, Mechanism, PerInput, PerUnknown, PositionError, newton_any_branch, real};
+use crate::{D, Dim, InputError, Mechanism, Name, PerInput, PerUnknown, PositionError, newton_any_branch, real};
 
 /// Positions of a mechanism with one input at `N` evenly spaced inputs, interpolated by cubic Hermite polynomials whose
 /// slopes are the velocity ratios. The table stores 2 `U` `N` numbers.
@@ -91,7 +91,11 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         }
         table.error = table.measured(mechanism)?;
         finite(mechanism.name(), Name::from_static("the input"), [table.input, table.step])?;
-        all_finite(mechanism.name(), Name::from_static("velocity ratios"), table.entries.as_flattened().iter().flatten())?;
+        all_finite(
+            mechanism.name(),
+            Name::from_static("velocity ratios"),
+            table.entries.as_flattened().iter().flatten(),
+        )?;
         Ok(table)
     }
 
@@ -145,7 +149,11 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
     /// # Errors
     /// [`InputError::OutOfRange`] if the input is outside the table.
     #[inline]
-    fn position(mechanism: &M, table: &Self, inputs: impl Into<M::Inputs>) -> Result<Self::Position, PositionError<M::Name>> {
+    fn position(
+        mechanism: &M,
+        table: &Self,
+        inputs: impl Into<M::Inputs>,
+    ) -> Result<Self::Position, PositionError<M::Name>> {
         let [input]: [M::Scalar; 1] = Into::<PerInput<M>>::into(inputs.into()).into();
         let intervals = real::<M::Scalar>(count(N - 1));
         let mut place = (input - table.input) * table.inverse_step;
@@ -162,7 +170,10 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
         // NaN would be converted to index 0.
         let whole = to_f64(place);
         if !whole.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("the input") });
+            return Err(PositionError::NotFinite {
+                mechanism: mechanism.name(),
+                quantity: Name::from_static("the input"),
+            });
         }
         let index = (whole as usize).min(N - 2);
         let mut unknowns = table.cubic(index, place - real::<M::Scalar>(count(index)));
@@ -181,7 +192,13 @@ impl<M: Mechanism, const N: usize> Table<M, N> {
     fn outside(&self, mechanism: &M, input: M::Scalar) -> InputError<M::Name> {
         let [one, other] = [self.input, self.input + self.step * real::<M::Scalar>(count(N - 1))].map(to_f64);
         let (value, least, most) = (to_f64(input), one.min(other), one.max(other));
-        InputError::OutOfRange { of: Some(mechanism.name()), quantity: Name::from_static("the input"), value, least, most }
+        InputError::OutOfRange {
+            of: Some(mechanism.name()),
+            quantity: Name::from_static("the input"),
+            value,
+            least,
+            most,
+        }
     }
 }
 
@@ -202,6 +219,9 @@ fn closed<M: Mechanism<V = D<1>>>(
     if mechanism.same_branch(&from.pose, &here.pose) {
         Ok(here)
     } else {
-        Err(PositionError::OtherBranch { mechanism: mechanism.name(), group: other_group(mechanism, &from.pose, &here.pose) })
+        Err(PositionError::OtherBranch {
+            mechanism: mechanism.name(),
+            group: other_group(mechanism, &from.pose, &here.pose),
+        })
     }
 }

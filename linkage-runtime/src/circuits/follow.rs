@@ -11,12 +11,10 @@ use crate::scalar::to_f64;
 use crate::{Branches, D, Mechanism, PathError, real};
 
 /// The points of a motion.
-type Points<M> =
-    Vec<CurvePoint<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>>;
+type Points<M> = Vec<CurvePoint<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>>;
 
 /// A motion of a mechanism.
-type CurveOf<M> =
-    MotionCurve<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>;
+type CurveOf<M> = MotionCurve<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>;
 
 /// Follows modes of one mechanism.
 pub(super) struct Follower<'a, M: Branches> {

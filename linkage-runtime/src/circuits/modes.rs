@@ -5,7 +5,7 @@ use std::vec::Vec;
 use crate::jacobian::ulp::nearly_zero;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
-use crate::{Name, Branches, D, Mechanism, PerInput, PositionError};
+use crate::{Branches, D, Mechanism, Name, PerInput, PositionError};
 
 /// The modes at the start inputs.
 pub(super) struct Modes<'a, M: Branches> {
@@ -19,11 +19,17 @@ pub(super) struct Modes<'a, M: Branches> {
 }
 
 impl<'a, M: Branches<V = D<1>>> Modes<'a, M> {
-    pub(super) fn list(mechanism: &'a M, inputs: impl IntoIterator<Item = M::Scalar>) -> Result<Self, PositionError<M::Name>> {
+    pub(super) fn list(
+        mechanism: &'a M,
+        inputs: impl IntoIterator<Item = M::Scalar>,
+    ) -> Result<Self, PositionError<M::Name>> {
         let mut modes = Self { mechanism, inputs: Vec::new(), branches: Vec::new(), positions: Vec::new(), same: None };
         for input in inputs {
             if !input.is_finite() {
-                return Err(PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("the input") });
+                return Err(PositionError::NotFinite {
+                    mechanism: mechanism.name(),
+                    quantity: Name::from_static("the input"),
+                });
             }
             for (branch, position) in mechanism.all_positions(PerInput::<M>::from([input]).into())? {
                 if !mechanism.is_within_ranges(&position)? {

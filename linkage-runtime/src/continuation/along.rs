@@ -1,7 +1,9 @@
 //! A mechanism with several inputs, driven along a path of its inputs.
 
 use super::input_path::InputPath;
-use crate::{BorrowedName, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Ranged, Real};
+use crate::{
+    BorrowedName, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Ranged, Real,
+};
 
 /// A mechanism whose inputs are functions v(s) of one parameter, its only input.
 ///

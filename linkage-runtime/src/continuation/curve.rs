@@ -8,7 +8,7 @@ use crate::jacobian::{
 };
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, to_f64};
-use crate::{Name, D, Mechanism, PathError, PerInput, PerUnknown, PositionError, real};
+use crate::{D, Mechanism, Name, PathError, PerInput, PerUnknown, PositionError, real};
 
 /// The most Newton steps of one correction: each at least halves the distance to the curve, and near it squares it.
 const MOST_CORRECTIONS: usize = 12;
@@ -122,7 +122,11 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
     ///
     /// # Errors
     /// Rejected where Newton's method does not contract, or where the curve is nearly parallel to the plane.
-    pub(super) fn correct(&self, guess: M::Coordinates, normal: &Vector<M>) -> Tried<M, (M::Coordinates, Elimination<M>)> {
+    pub(super) fn correct(
+        &self,
+        guess: M::Coordinates,
+        normal: &Vector<M>,
+    ) -> Tried<M, (M::Coordinates, Elimination<M>)> {
         let mut rejection = Rejection { residual: f64::NAN, regularity: f64::NAN };
         let found = contract(guess, MOST_CORRECTIONS, |q| -> Result<_, PathError<M::Name>> {
             let at = self.linear(q)?;

@@ -10,7 +10,7 @@ use super::tangents::Tangents;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Sample, VectorOf as Vector, first_zero, root};
 use crate::scalar::arithmetic::*;
-use crate::{Name, BorrowedName, D, Dim, Mechanism, PathError, PositionError, RangeEnd, real};
+use crate::{BorrowedName, D, Dim, Mechanism, Name, PathError, PositionError, RangeEnd, real};
 
 /// An event of a path. The step ends at the event, located to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -261,7 +261,12 @@ where
 
     /// Gives a place exactly this value of a coordinate, by its column in [J A], and corrects the others, unless it is at
     /// rest.
-    pub(super) fn with_exact(&self, place: Place<M>, column: usize, value: M::Scalar) -> Result<Place<M>, PathError<M::Name>> {
+    pub(super) fn with_exact(
+        &self,
+        place: Place<M>,
+        column: usize,
+        value: M::Scalar,
+    ) -> Result<Place<M>, PathError<M::Name>> {
         let q = Self::with_coordinate(&place.q, column, value);
         let moves = place.tangent.get(column).abs() > nearly_zero() && place.regularity > nearly_zero();
         if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(place.tangent.dims(), column))? {

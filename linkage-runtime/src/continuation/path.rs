@@ -12,7 +12,7 @@ use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Dim, Name, D, InputError, Mechanism, PathError, PositionError, Solution, position, real};
+use crate::{D, Dim, InputError, Mechanism, Name, PathError, PositionError, Solution, position, real};
 
 /// The end of a step of a path.
 #[cfg_attr(
@@ -115,7 +115,9 @@ where
         direction: Direction<M::Rates>,
         options: Options<M::Scalar>,
     ) -> Result<Self, PathError<M::Name>> {
-        const { assert!(M::G::CAPACITY <= Groups::<M::Name>::MOST, "a mechanism of more than 512 groups cannot be followed") };
+        const {
+            assert!(M::G::CAPACITY <= Groups::<M::Name>::MOST, "a mechanism of more than 512 groups cannot be followed")
+        };
         let mechanism = mechanism.into_held();
         options.check(mechanism.name(), Curve::<'_, M>::input(guess))?;
         let solution = position::newton(&*mechanism, guess)?;
@@ -212,7 +214,11 @@ where
     /// is outside its range, and those of [`advance`](Self::advance).
     pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError<M::Name>> {
         if !input.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: self.curve.mechanism.name(), quantity: Name::from_static("the input") }.into());
+            return Err(PositionError::NotFinite {
+                mechanism: self.curve.mechanism.name(),
+                quantity: Name::from_static("the input"),
+            }
+            .into());
         }
         if let Some([least, most]) = self.options.range
             && (input < least || input > most)
@@ -298,7 +304,11 @@ where
     /// [`most_steps`](Options::most_steps), and those of [`advance`](Self::advance).
     pub fn advance_by(&mut self, length: M::Scalar) -> Result<PathStep<M>, PathError<M::Name>> {
         if !length.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: self.curve.mechanism.name(), quantity: Name::from_static("the arc length") }.into());
+            return Err(PositionError::NotFinite {
+                mechanism: self.curve.mechanism.name(),
+                quantity: Name::from_static("the arc length"),
+            }
+            .into());
         }
         let (end, mut passed) = (self.length + length, None);
         for _ in 0..self.options.most_steps {
@@ -364,7 +374,9 @@ where
                     let chord = self.curve.difference(&end.place.q, &self.place.q).norm();
                     if !(self.length + chord).is_finite() {
                         let quantity = Name::from_static("the length of the path");
-                        return Err(PositionError::NotFinite { mechanism: self.curve.mechanism.name(), quantity }.into());
+                        return Err(
+                            PositionError::NotFinite { mechanism: self.curve.mechanism.name(), quantity }.into()
+                        );
                     }
                     self.curve.mechanism.check_implied(&end.place.q)?;
                     return Ok(self.arrive(end, tried, chord, number > 0));
@@ -428,14 +440,19 @@ impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
             let along = rates.map_or(Vector::<M>::zero(self.dims()), |rates| self.direction(&rates));
             if let Some(crossing) = self.crossing(&q, nearly_zero(), &along)? {
                 let group = crossing.groups.first();
-                let Some(rates) = rates else { return Err(PathError::ChangePoint { mechanism: self.mechanism.name(), group }) };
+                let Some(rates) = rates else {
+                    return Err(PathError::ChangePoint { mechanism: self.mechanism.name(), group });
+                };
                 let tangent = self.choose(crossing.tangents(), &rates)?;
                 let place = self.at_crossing(&crossing, tangent, M::Scalar::zero());
                 return Ok((place, Some(crossing.q), Resume::AtChangePoint));
             }
             if elimination.regularity() < M::Scalar::default_epsilon().sqrt() {
                 if let Some(touch) = self.touch(&q, nearly_zero(), &along)? {
-                    return Err(PathError::ChangePoint { mechanism: self.mechanism.name(), group: touch.groups.first() });
+                    return Err(PathError::ChangePoint {
+                        mechanism: self.mechanism.name(),
+                        group: touch.groups.first(),
+                    });
                 }
                 let rejection = Rejection { residual: solution.residual, regularity: to_f64(elimination.regularity()) };
                 return Err(self.lost(&q, 0, rejection));
@@ -444,7 +461,9 @@ impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
         let tangent = elimination.tangent();
         let forward = match direction {
             Direction::Along(rates) => self.choose(&[tangent], &rates)?,
-            _ if tangent.inputs[0].abs() < nearly_zero() => return Err(PathError::NoDirection { mechanism: self.mechanism.name() }),
+            _ if tangent.inputs[0].abs() < nearly_zero() => {
+                return Err(PathError::NoDirection { mechanism: self.mechanism.name() });
+            }
             _ if (tangent.inputs[0] > M::Scalar::zero()) == matches!(direction, Direction::Increasing) => tangent,
             _ => -tangent,
         };

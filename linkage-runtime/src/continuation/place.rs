@@ -7,7 +7,7 @@ use super::options::Options;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Blocks, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
-use crate::{Name, Column, D, Dim, Mechanism, PathError, PositionError, real};
+use crate::{Column, D, Dim, Mechanism, Name, PathError, PositionError, real};
 
 /// A position of the curve, with its tangent, orientation and determinants.
 pub(super) struct Place<M: Mechanism> {
@@ -231,7 +231,11 @@ where
     pub(super) fn choose(&self, tangents: &[Vector<M>], rates: &M::Rates) -> Result<Vector<M>, PathError<M::Name>> {
         let direction = self.direction(rates);
         if !direction.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity: Name::from_static("the direction") }.into());
+            return Err(PositionError::NotFinite {
+                mechanism: self.mechanism.name(),
+                quantity: Name::from_static("the direction"),
+            }
+            .into());
         }
         let direction = direction * direction.largest().recip();
         let mut nearest = None;

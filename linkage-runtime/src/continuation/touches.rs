@@ -47,7 +47,11 @@ impl<M: Mechanism<V = D<1>>> Touches<M> {
     }
 
     /// The touch nearest to the last place, if the regularity has a minimum there.
-    fn nearest(&self, path: &Path<'_, M>, next: Option<&Place<M>>) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
+    fn nearest(
+        &self,
+        path: &Path<'_, M>,
+        next: Option<&Place<M>>,
+    ) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
         let (place, curve) = (&self.last, &path.curve);
         let neighbours = [self.before.as_ref(), next];
         // Of two equal ones the first.

@@ -31,7 +31,7 @@ mod along;
 pub use along::{Course, courses, over};
 
 use crate::jacobian::{Sample, first_zero, root};
-use crate::{Name, OutputMotion, PositionError, Real, real};
+use crate::{OutputMotion, PositionError, Real, real};
 
 /// The steps in which a turn or a range is searched.
 const STEPS: u32 = 360;
@@ -63,9 +63,9 @@ pub struct Extremes<T = f64> {
 ///
 /// # Errors
 /// Those of `quantity`.
-pub fn over_turn<T: Real, N: Name>(
-    quantity: impl FnMut(T) -> Result<OutputMotion<T>, PositionError<N>>,
-) -> Result<Extremes<T>, PositionError<N>> {
+pub fn over_turn<T: Real>(
+    quantity: impl FnMut(T) -> Result<OutputMotion<T>, PositionError>,
+) -> Result<Extremes<T>, PositionError> {
     over_range([T::zero(), T::two_pi()], quantity)
 }
 
@@ -79,10 +79,10 @@ pub fn over_turn<T: Real, N: Name>(
 ///
 /// # Errors
 /// Those of `quantity`.
-pub fn over_range<T: Real, N: Name>(
+pub fn over_range<T: Real>(
     [from, to]: [T; 2],
-    mut quantity: impl FnMut(T) -> Result<OutputMotion<T>, PositionError<N>>,
-) -> Result<Extremes<T>, PositionError<N>> {
+    mut quantity: impl FnMut(T) -> Result<OutputMotion<T>, PositionError>,
+) -> Result<Extremes<T>, PositionError> {
     let first = quantity(from)?;
     let mut found = Extremes::only(from, first.value);
     let mut last = slope_at(from, &first);

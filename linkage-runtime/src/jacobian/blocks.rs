@@ -4,7 +4,7 @@ use super::scales::scale_or_one;
 use super::{EliminationOf, Jacobian};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, largest, relative, smallest};
-use crate::{Name, Column, Dim, Group, Matrix, Mechanism, PerUnknown};
+use crate::{Column, Dim, Group, Matrix, Mechanism, Name, PerUnknown};
 
 /// The diagonal blocks of J, one for each group.
 pub struct Blocks<'a, M: Mechanism> {
@@ -53,9 +53,11 @@ impl<'a, M: Mechanism> Blocks<'a, M> {
             }
             _ => {
                 let unknowns = self.equilibrated(&members, M::Scalar::one());
-                let pivots =
-                    EliminationOf::<M>::new(Jacobian { unknowns, inputs: unknowns.dims().0.zero_matrix(self.mechanism.dims().1) })
-                        .pivots();
+                let pivots = EliminationOf::<M>::new(Jacobian {
+                    unknowns,
+                    inputs: unknowns.dims().0.zero_matrix(self.mechanism.dims().1),
+                })
+                .pivots();
                 return smallest(pivots);
             }
         };
@@ -64,7 +66,8 @@ impl<'a, M: Mechanism> Blocks<'a, M> {
 
     /// The regularity and the name of the group nearest to a singularity; the name is empty if there are no groups.
     pub fn least_regular(&self) -> (M::Scalar, M::Name) {
-        let mut least = (M::Scalar::one(), self.mechanism.group(0).map_or_else(|| Name::from_static(""), |group| group.name));
+        let mut least =
+            (M::Scalar::one(), self.mechanism.group(0).map_or_else(|| Name::from_static(""), |group| group.name));
         for (place, group) in self.mechanism.groups().enumerate() {
             let regularity = self.regularity(place);
             // NaN counts as singular.

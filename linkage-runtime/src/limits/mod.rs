@@ -28,7 +28,7 @@ use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::shown::Shown;
-use crate::{Name, Mechanism, PositionError, RangeEnd, Real, real};
+use crate::{Mechanism, Name, PositionError, RangeEnd, Real, real};
 
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,7 +114,8 @@ pub fn limits<M: Mechanism, const B: usize>(
     let start = M::inputs(&position).as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero);
     let [mut lower, mut upper] = [None; 2];
     for bound in &bounds {
-        let not_finite = PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("a limit") };
+        let not_finite =
+            PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("a limit") };
         let [below, above] = bound.about(start).ok_or(not_finite)?;
         lower = nearer(lower, below, |new, old| new > old);
         upper = nearer(upper, above, |new, old| new < old);
@@ -125,11 +126,12 @@ pub fn limits<M: Mechanism, const B: usize>(
         Search::Length(reach) => reach,
     };
     let searched = Searched { mechanism, place, reach, assemble: &assemble, coordinates: &coordinates };
-    let exact = |end: Option<(M::Scalar, NamedGroup<M::Name>)>| -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
-        let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
-        let input = searched.corrected(start, &position, end, place)?;
-        Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })
-    };
+    let exact =
+        |end: Option<(M::Scalar, NamedGroup<M::Name>)>| -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
+            let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
+            let input = searched.corrected(start, &position, end, place)?;
+            Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })
+        };
     let (lower, upper) = (exact(lower)?, exact(upper)?);
     let (lower, upper) = match search {
         Search::ClosedFormOnly => (lower, upper),

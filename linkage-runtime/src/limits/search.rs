@@ -195,7 +195,11 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// The limit at a minimum of a determinant between two samples: it falls at the first and rises at the second.
-    fn limit_within(&self, here: &Sample<M>, there: &Sample<M>) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
+    fn limit_within(
+        &self,
+        here: &Sample<M>,
+        there: &Sample<M>,
+    ) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
         let little = (there.input - here.input) * real::<M::Scalar>(BESIDE);
         let inside = [here.input + little, there.input - little];
         let [mut after, mut before] = [None, None];
@@ -222,7 +226,10 @@ impl<M: Mechanism> Searched<'_, M> {
 
     /// The limit at a minimum of a determinant about the middle one of three samples, if the mechanism cannot be assembled
     /// there.
-    fn limit_among(&self, [before, here, there]: [&Sample<M>; 3]) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
+    fn limit_among(
+        &self,
+        [before, here, there]: [&Sample<M>; 3],
+    ) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
         let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
         for (group, ((a, b), c)) in determinants.enumerate() {
             if b < a
@@ -263,7 +270,12 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// Follows the motion from the position `from` at the input `at` to another input.
-    fn reach(&self, from: &M::Coordinates, at: M::Scalar, input: M::Scalar) -> Result<Reached<M>, PositionError<M::Name>> {
+    fn reach(
+        &self,
+        from: &M::Coordinates,
+        at: M::Scalar,
+        input: M::Scalar,
+    ) -> Result<Reached<M>, PositionError<M::Name>> {
         let found = self.at(from, input)?;
         self.follow(from, at, input, found)
     }

@@ -4,7 +4,8 @@ use crate::scalar::arithmetic::*;
 use crate::{Column, Mechanism, PositionError};
 
 /// The position at the inputs of a position nearby.
-type Assemble<'m, M> = &'m dyn Fn(&<M as Mechanism>::Coordinates) -> Result<<M as Mechanism>::Pose, PositionError<<M as Mechanism>::Name>>;
+type Assemble<'m, M> =
+    &'m dyn Fn(&<M as Mechanism>::Coordinates) -> Result<<M as Mechanism>::Pose, PositionError<<M as Mechanism>::Name>>;
 
 /// A mechanism whose limits of one input are searched.
 pub(super) struct Searched<'m, M: Mechanism> {

@@ -118,7 +118,11 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
             length
         };
         if !within.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity: Name::from_static("the arc length") }.into());
+            return Err(PositionError::NotFinite {
+                mechanism: self.mechanism.name(),
+                quantity: Name::from_static("the arc length"),
+            }
+            .into());
         }
         if within < M::Scalar::zero() || within > whole {
             return Err(out_of_range(&*self.mechanism, "the arc length", length, [M::Scalar::zero(), whole]));

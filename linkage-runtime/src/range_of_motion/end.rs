@@ -1,7 +1,7 @@
 //! The end of a motion.
 
-use crate::{BorrowedName, RangeEnd};
 use crate::continuation::Groups;
+use crate::{BorrowedName, RangeEnd};
 
 /// The reason why a motion ends at an input.
 #[derive(Debug, Clone, Copy, PartialEq)]

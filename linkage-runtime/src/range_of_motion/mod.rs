@@ -57,7 +57,7 @@ use crate::position::newton;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
-use crate::{BorrowedName, Name, Assembly, Kinematic, Mechanism, PathError, PerInput, PositionError, real};
+use crate::{Assembly, BorrowedName, Kinematic, Mechanism, Name, PathError, PerInput, PositionError, real};
 use driven::{PositionOf, same_inputs};
 use follow::{AtDeadPoint, Followed, Passed, Step, backwards, followed};
 use options::out_of_range;
@@ -210,7 +210,11 @@ where
     /// index of the step before it.
     fn place(&self, input: M::Scalar) -> Result<(M::Scalar, M::Scalar, usize), PathError<M::Name>> {
         if !input.is_finite() {
-            return Err(PositionError::NotFinite { mechanism: self.mechanism.name(), quantity: Name::from_static("the input") }.into());
+            return Err(PositionError::NotFinite {
+                mechanism: self.mechanism.name(),
+                quantity: Name::from_static("the input"),
+            }
+            .into());
         }
         let [first, last] = self.inputs();
         let (within, cycles) = if self.is_closed() {
@@ -264,7 +268,8 @@ where
                 // From a dead point at which the motion begins a path may not start, or take a rounding error for a
                 // reversal.
                 (Err(error), Some(next)) => {
-                    let (position, rates) = from(next, backwards::<M>(&next.rates)).map_err(|_: PathError<M::Name>| error)?;
+                    let (position, rates) =
+                        from(next, backwards::<M>(&next.rates)).map_err(|_: PathError<M::Name>| error)?;
                     (position, backwards::<M>(&rates))
                 }
                 (found, _) => found?,
@@ -294,7 +299,9 @@ where
             MotionEnd::JointRange { of, end } => {
                 PathError::JointRange { mechanism: self.mechanism.name(), of, end, gap: to_f64((input - at).abs()) }
             }
-            MotionEnd::ChangePoint { groups } => PathError::ChangePoint { mechanism: self.mechanism.name(), group: groups.first() },
+            MotionEnd::ChangePoint { groups } => {
+                PathError::ChangePoint { mechanism: self.mechanism.name(), group: groups.first() }
+            }
             MotionEnd::Range | MotionEnd::Open | MotionEnd::Closed { .. } => {
                 out_of_range(self.mechanism(), "the input", input, self.inputs())
             }

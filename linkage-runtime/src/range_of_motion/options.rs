@@ -3,7 +3,7 @@
 use super::driven::Driven;
 use crate::continuation::{AtChangePoint, Options};
 use crate::scalar::to_f64;
-use crate::{Name, InputError, Mechanism, PathError, Real};
+use crate::{InputError, Mechanism, Name, PathError, Real};
 
 /// The options of a range of motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

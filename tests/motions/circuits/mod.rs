@@ -11,10 +11,10 @@ mod several_turns;
 mod six_bars;
 
 use linkage::circuits::{CircuitOptions, Circuits, MotionCurve};
-use linkage::{Branches, D};
+use linkage::{BorrowedName, Branches, D};
 
 /// The circuits of a mechanism at one input.
-pub fn circuits<M>(mechanism: &M, input: f64) -> Circuits<M::Coordinates, M::Branch>
+pub fn circuits<M>(mechanism: &M, input: f64) -> Circuits<M::Coordinates, M::Branch, f64, M::Name>
 where
     M: Branches<Scalar = f64, V = D<1>>,
 {
@@ -22,7 +22,7 @@ where
 }
 
 /// The numbers of modes, of circuits and of full turns.
-pub fn counts<Q: Copy, B: Copy>(found: &Circuits<Q, B>) -> [usize; 3] {
+pub fn counts<Q: Copy, B: Copy, N: BorrowedName>(found: &Circuits<Q, B, f64, N>) -> [usize; 3] {
     [found.modes.len(), found.circuits.len(), found.full_turns()]
 }
 

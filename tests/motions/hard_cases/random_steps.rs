@@ -103,7 +103,7 @@ fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
 }
 
 /// Counts the end of a walk.
-fn stop(count: &mut Count, error: &PathError) {
+fn stop<N: linkage::Name>(count: &mut Count, error: &PathError<N>) {
     match error {
         PathError::DeadPoint { .. } => count.dead_points += 1,
         PathError::ChangePoint { .. } => count.change_points += 1,

@@ -46,7 +46,7 @@ impl Mechanism for Path {
     const INPUTS: &'static [&'static str] = &["v"];
     const UNKNOWN_ANGLES: &'static [bool] = &[false, false];
     const INPUT_ANGLES: &'static [bool] = &[true];
-    const GROUPS: &'static [Group] = &[Group { name: "x, y", equations: &[0, 1], unknowns: &[0, 1] }];
+    const GROUPS: &'static [Group<'static>] = &[Group { name: "x, y", equations: &[0, 1], unknowns: &[0, 1] }];
 
     fn residual(&self, [x, y, v]: &[f64; 3]) -> Column<f64, D<2>> {
         let [point, ..] = self.0.at(*v);

@@ -26,7 +26,7 @@ impl Mechanism for Sideways {
     const INPUTS: &'static [&'static str] = &["x"];
     const UNKNOWN_ANGLES: &'static [bool] = &[true, false];
     const INPUT_ANGLES: &'static [bool] = &[false];
-    const GROUPS: &'static [Group] = &[Group { name: "phi, y", equations: &[0, 1], unknowns: &[0, 1] }];
+    const GROUPS: &'static [Group<'static>] = &[Group { name: "phi, y", equations: &[0, 1], unknowns: &[0, 1] }];
 
     fn residual(&self, [phi, y, x]: &[f64; 3]) -> Column<f64, D<2>> {
         [x - LENGTH * phi.sin(), y + LENGTH * phi.cos()].into()

@@ -4,6 +4,7 @@
 macro_rules! mechanism {
     () => {
         type Scalar = f64;
+        type Name = &'static str;
         type U = D<2>;
         type V = D<1>;
         type G = D<1>;

@@ -46,7 +46,7 @@ pub trait Shape: Copy + Debug + PartialEq + 'static {
     /// Outputs as differences of two unknowns.
     const OUTPUTS: &'static [(usize, usize)] = &[];
     const UNKNOWN_ANGLES: &'static [bool];
-    const GROUPS: &'static [Group];
+    const GROUPS: &'static [Group<'static>];
     const USER_FUNCTIONS: &'static [Option<&'static str>] = &[None];
     const FAULT: Fault = Fault::None;
 }
@@ -210,6 +210,7 @@ impl<S: Shape> Loops<S, f64> {
 
 impl<S: Shape> Mechanism for Loops<S, f64> {
     type Scalar = f64;
+    type Name = &'static str;
     type U = S::U;
     type V = D<1>;
     type G = D<1>;
@@ -224,7 +225,7 @@ impl<S: Shape> Mechanism for Loops<S, f64> {
     const INPUTS: &'static [&'static str] = &["v"];
     const UNKNOWN_ANGLES: &'static [bool] = S::UNKNOWN_ANGLES;
     const INPUT_ANGLES: &'static [bool] = &[true];
-    const GROUPS: &'static [Group] = S::GROUPS;
+    const GROUPS: &'static [Group<'static>] = S::GROUPS;
 
     fn coordinates(u: Column<f64, S::U>, v: Column<f64, D<1>>) -> Self::Coordinates {
         (u, v)

@@ -36,7 +36,8 @@ macro_rules! four_bar {
             const POINTS: &'static [&'static [Term]] = &[&[crank(1), link(2, 0)]];
             const OUTPUTS: &'static [(usize, usize)] = &[(0, 1)];
             const UNKNOWN_ANGLES: &'static [bool] = &[true; 2];
-            const GROUPS: &'static [Group] = &[Group { name: "phi, psi", equations: &[0, 1], unknowns: &[0, 1] }];
+            const GROUPS: &'static [Group<'static>] =
+                &[Group { name: "phi, psi", equations: &[0, 1], unknowns: &[0, 1] }];
             const FAULT: Fault = $fault;
         }
     };
@@ -58,7 +59,7 @@ impl Shape for SliderCrank {
         &[&[crank(0), link(1, 0), (-1.0, Length::Unknown(1), Angle::Fixed, 0), ground(2, 1)]];
     const POINTS: &'static [&'static [Term]] = &[&[crank(0), link(1, 0)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true, false];
-    const GROUPS: &'static [Group] = &[Group { name: "rod, slider", equations: &[0, 1], unknowns: &[0, 1] }];
+    const GROUPS: &'static [Group<'static>] = &[Group { name: "rod, slider", equations: &[0, 1], unknowns: &[0, 1] }];
 }
 
 /// A four-bar whose rocker drives a second dyad: angles of coupler, rocker, rod, second rocker. Parameters: ground, crank,
@@ -76,7 +77,7 @@ impl Shape for SixBar {
     const POINTS: &'static [&'static [Term]] = &[&[link(4, 1), across(link(4, 1), 5), link(6, 2)]];
     const OUTPUTS: &'static [(usize, usize)] = &[(0, 1), (2, 3)];
     const UNKNOWN_ANGLES: &'static [bool] = &[true; 4];
-    const GROUPS: &'static [Group] = &[
+    const GROUPS: &'static [Group<'static>] = &[
         Group { name: "coupler, rocker", equations: &[0, 1], unknowns: &[0, 1] },
         Group { name: "rod, second", equations: &[2, 3], unknowns: &[2, 3] },
     ];
@@ -92,7 +93,7 @@ impl Shape for HalfSpeed {
     type Q = D<0>;
     const LOOPS: &'static [&'static [Term]] = &[&[crank(0), (-1.0, Length::Unknown(1), Angle::Twice(0), 0)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true, false];
-    const GROUPS: &'static [Group] = &[Group { name: "u, s", equations: &[0, 1], unknowns: &[0, 1] }];
+    const GROUPS: &'static [Group<'static>] = &[Group { name: "u, s", equations: &[0, 1], unknowns: &[0, 1] }];
 }
 
 /// A four-bar whose equations have a user function.
@@ -104,7 +105,7 @@ impl Shape for UserFunction {
     type Q = D<0>;
     const LOOPS: &'static [&'static [Term]] = FourBar::LOOPS;
     const UNKNOWN_ANGLES: &'static [bool] = FourBar::UNKNOWN_ANGLES;
-    const GROUPS: &'static [Group] = FourBar::GROUPS;
+    const GROUPS: &'static [Group<'static>] = FourBar::GROUPS;
     const USER_FUNCTIONS: &'static [Option<&'static str>] = &[Some("lift")];
 }
 
@@ -136,7 +137,7 @@ impl Shape for Jansen {
     ];
     const POINTS: &'static [&'static [Term]] = &[&[ground(0, 0), ground(11, 1), link(2, 4), link(8, 9)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true; 10];
-    const GROUPS: &'static [Group] = &[
+    const GROUPS: &'static [Group<'static>] = &[
         Group { name: "b, j", equations: &[0, 1], unknowns: &[0, 1] },
         Group { name: "d, e", equations: &[2, 3], unknowns: &[2, 3] },
         Group { name: "c, k", equations: &[4, 5], unknowns: &[4, 5] },
@@ -179,7 +180,7 @@ impl Shape for DoubleButterfly {
     ];
     const POINTS: &'static [&'static [Term]] = &[&[crank(1), link(2, 0)]];
     const UNKNOWN_ANGLES: &'static [bool] = &[true; 6];
-    const GROUPS: &'static [Group] = &[Group {
+    const GROUPS: &'static [Group<'static>] = &[Group {
         name: "coupler, upper, rocker, lower, link, strut",
         equations: &[0, 1, 2, 3, 4, 5],
         unknowns: &[0, 1, 2, 3, 4, 5],

@@ -20,7 +20,7 @@ pub(super) struct Miniature {
 }
 
 impl Miniature {
-    pub fn of<M: Skeleton<Scalar = f64>>(mechanism: &M, pose: &M::Pose) -> Self {
+    pub fn of<M: Skeleton<Scalar = f64, Name = &'static str>>(mechanism: &M, pose: &M::Pose) -> Self {
         let joints = mechanism.joints(pose);
         let joints = joints.as_slice().chunks_exact(2).map(|at| Vector2::new(at[0], at[1])).collect();
         Self { joints, parts: M::PARTS }

@@ -81,7 +81,7 @@ impl CircuitChart {
     /// unknown, [`DrawingError::NotFinite`] if a coordinate is infinite or NaN.
     pub fn of<M, B>(mechanism: &M, circuits: &Circuits<M::Coordinates, B>, unknown: &str) -> Result<Self, DrawingError>
     where
-        M: Skeleton<Scalar = f64, V = D<1>>,
+        M: Skeleton<Scalar = f64, Name = &'static str, V = D<1>>,
         B: Copy,
     {
         let row = M::UNKNOWNS.iter().position(|&name| name == unknown);
