@@ -191,6 +191,12 @@ impl<X, const N: usize> AsMut<[X]> for Bounded<X, N> {
     }
 }
 
+impl<X: PartialEq, const N: usize> PartialEq for Bounded<X, N> {
+    fn eq(&self, other: &Self) -> bool {
+        self.as_ref() == other.as_ref()
+    }
+}
+
 impl<X: Debug, const N: usize> Debug for Bounded<X, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         self.as_ref().fmt(f)

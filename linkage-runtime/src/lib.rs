@@ -78,7 +78,7 @@ mod wide;
 
 pub use branch::{Assembled, Elbow, Side, Slider, Slope};
 pub use column::Column;
-pub use dim::{D, Dim, UpTo};
+pub use dim::{Bounded, D, Dim, UpTo};
 pub use error::{BorrowedName, InputError, InputValues, Name, PathError, PositionError};
 pub use formulas::{Certifiable, Formulas};
 pub use joints::{Joint, JointForces};
