@@ -6,7 +6,7 @@ use nalgebra::{Point2, Vector2};
 
 use crate::mechanism::no_unknowns;
 use crate::scalar::arithmetic::*;
-use crate::{Column, D, Dim, Matrix, Mechanism, OutputMotion, PerInput, PerUnknown, PointMotion, PositionError};
+use crate::{Column, D, Dim, Matrix, Mechanism, Name, OutputMotion, PerInput, PerUnknown, PointMotion, PositionError};
 
 /// A position with its rates and accelerations, as `kinematics` finds it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,11 +99,11 @@ impl<Q: Copy + Debug + PartialEq> Quantity for Q {}
 ///     m: &M,
 ///     q: &M::Coordinates,
 ///     input_rates: M::Inputs,
-/// ) -> Result<Option<(&'static str, f64)>, PositionError<Self::Name>> {
+/// ) -> Result<Option<(M::Name, f64)>, PositionError<M::Name>> {
 ///     let pose = m.pose_at(q);
 ///     let rates = m.velocity(&pose, input_rates)?;
 ///     let speeds = M::each_point(m.point_velocities(&pose, &rates)?).map(|velocity| velocity.norm());
-///     let named = M::POINTS.iter().copied().zip(speeds);
+///     let named = speeds.into_iter().enumerate().map(|(place, speed)| (m.point_name(place), speed));
 ///     Ok(named.max_by(|(_, one), (_, other)| one.total_cmp(other)))
 /// }
 /// ```
@@ -144,6 +144,17 @@ pub trait Kinematic:
     const POINTS: &'static [&'static str] = &[];
     /// The names of the outputs, in order.
     const OUTPUTS: &'static [&'static str] = &[];
+
+    /// The name of a point, in order; empty beyond the last.
+    #[inline]
+    fn point_name(&self, place: usize) -> Self::Name {
+        Name::from_static(Self::POINTS.get(place).copied().unwrap_or_default())
+    }
+    /// The name of an output, in order; empty beyond the last.
+    #[inline]
+    fn output_name(&self, place: usize) -> Self::Name {
+        Name::from_static(Self::OUTPUTS.get(place).copied().unwrap_or_default())
+    }
 
     /// The coordinates of a position; an angle that it stores as a direction is between -pi and pi.
     fn coordinates_of(pose: &Self::Pose) -> Self::Coordinates;

@@ -33,6 +33,10 @@ pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
 /// `linkage!` implements it for every mechanism and every driver of one. Functions that do not return a `Result` check
 /// nothing: for numbers that are not finite their results are not finite or have no meaning.
 ///
+/// Names, angles and groups of emitted code are constants. A generic function that is to take mechanisms at run time as well
+/// reads them by the methods of the value, the numbers of coordinates from [`dims`](Self::dims) or from a column, and returns
+/// errors with names of the type [`Name`](Self::Name).
+///
 /// There is no `dyn Mechanism`: mechanisms differ in their types and in the numbers of their coordinates. A function of any
 /// mechanism is generic, `fn speed<M: Kinematic>(m: &M)`. A list of different ones holds a trait of yours that is implemented
 /// for all, `impl<M: Kinematic<Scalar = f64>> Named for M`, as `Box<dyn Named>`.
