@@ -106,7 +106,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         }
     }
 
-    /// The number of the user's events.
+    /// The number of watched events.
     fn watched_events(&self) -> usize {
         self.integration.system().watch.crossings().dim().count()
     }
