@@ -39,7 +39,7 @@ use crate::jacobian::Scales;
 use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
 use crate::{
-    Column, Dim, Kinematic, Matrix, Mechanism, Name, PerInput, PerUnknown, PointMotion, PositionError, Real, real,
+    Column, Dim, Kinematic, Matrix, Mechanism, Name, PerInput, PerUnknown, PointMotion, PositionErrorOf, Real, real,
 };
 
 /// The columns of a matrix by the unknowns, and those by the inputs: J and A, for instance.
@@ -93,7 +93,7 @@ impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
         pose: &M::Pose,
         input_rates: impl Into<M::Inputs>,
         input_accelerations: impl Into<M::Inputs>,
-    ) -> Result<Self, PositionError<M::Name>> {
+    ) -> Result<Self, PositionErrorOf<M>> {
         let (input_rates, input_accelerations) = (input_rates.into(), input_accelerations.into());
         let rates = mechanism.velocity(pose, input_rates)?;
         let ratios = mechanism.velocity_ratios(pose)?;

@@ -6,7 +6,9 @@ use nalgebra::{Point2, Vector2};
 
 use crate::mechanism::no_unknowns;
 use crate::scalar::arithmetic::*;
-use crate::{Column, D, Dim, Matrix, Mechanism, Name, OutputMotion, PerInput, PerUnknown, PointMotion, PositionError};
+use crate::{
+    Column, D, Dim, Matrix, Mechanism, Name, OutputMotion, PerInput, PerUnknown, PointMotion, PositionErrorOf,
+};
 
 /// A position with its rates and accelerations, as `kinematics` finds it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -162,7 +164,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a rate is not finite.
-    fn velocity(&self, pose: &Self::Pose, input_rates: Self::Inputs) -> Result<Self::Rates, PositionError<Self::Name>>;
+    fn velocity(&self, pose: &Self::Pose, input_rates: Self::Inputs) -> Result<Self::Rates, PositionErrorOf<Self>>;
     /// The accelerations `q''` at the rates `q'` and the accelerations `v''` of the inputs.
     ///
     /// # Errors
@@ -172,7 +174,7 @@ pub trait Kinematic:
         pose: &Self::Pose,
         rates: &Self::Rates,
         input_accelerations: Self::Inputs,
-    ) -> Result<Self::Accelerations, PositionError<Self::Name>>;
+    ) -> Result<Self::Accelerations, PositionErrorOf<Self>>;
     /// The position at the inputs of `guess` on this branch, with its rates and accelerations, in one computation. Groups
     /// without a closed form are solved by Newton's method from the guess; a position in closed form depends on the inputs
     /// alone, and at a change point a branch may jump to another motion.
@@ -185,7 +187,7 @@ pub trait Kinematic:
         branch: Self::Branch,
         input_rates: Self::Inputs,
         input_accelerations: Self::Inputs,
-    ) -> Result<KinematicsOf<Self>, PositionError<Self::Name>>;
+    ) -> Result<KinematicsOf<Self>, PositionErrorOf<Self>>;
     /// The rates, the accelerations, and the motion of points and outputs at the coordinates q of a position, in one
     /// computation.
     ///
@@ -197,7 +199,7 @@ pub trait Kinematic:
         q: &Self::Coordinates,
         input_rates: Self::Inputs,
         input_accelerations: Self::Inputs,
-    ) -> Result<MotionOf<Self>, PositionError<Self::Name>>;
+    ) -> Result<MotionOf<Self>, PositionErrorOf<Self>>;
 
     /// [`kinematics`](Self::kinematics) with the motion of points and outputs. A mechanism without points and outputs
     /// needs no body of it.
@@ -210,7 +212,7 @@ pub trait Kinematic:
         branch: Self::Branch,
         input_rates: Self::Inputs,
         input_accelerations: Self::Inputs,
-    ) -> Result<FullKinematicsOf<Self>, PositionError<Self::Name>> {
+    ) -> Result<FullKinematicsOf<Self>, PositionErrorOf<Self>> {
         let Kinematics { pose, rates, accelerations } =
             self.kinematics(guess, branch, input_rates, input_accelerations)?;
         let zero = Self::Scalar::zero();
@@ -224,7 +226,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
-    fn velocity_ratios(&self, _: &Self::Pose) -> Result<Ratios<Self, Self::U>, PositionError<Self::Name>> {
+    fn velocity_ratios(&self, _: &Self::Pose) -> Result<Ratios<Self, Self::U>, PositionErrorOf<Self>> {
         const { no_unknowns::<Self>() };
         let (u, v, _) = self.dims();
         Ok(u.zero_matrix(v))
@@ -234,7 +236,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
-    fn ratios_by_input(&self, pose: &Self::Pose) -> Result<Column<Self::Rates, Self::V>, PositionError<Self::Name>> {
+    fn ratios_by_input(&self, pose: &Self::Pose) -> Result<Column<Self::Rates, Self::V>, PositionErrorOf<Self>> {
         let ratios = self.velocity_ratios(pose)?;
         let (_, v) = ratios.dims();
         Ok(v.column(|input| Self::rates(ratios.column(input), v.unit(input))))
@@ -243,7 +245,7 @@ pub trait Kinematic:
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
-    fn points(&self, _: &Self::Pose) -> Result<Self::Points<Point2<Self::Scalar>>, PositionError<Self::Name>> {
+    fn points(&self, _: &Self::Pose) -> Result<Self::Points<Point2<Self::Scalar>>, PositionErrorOf<Self>> {
         Ok(none::<Self::P, _, _>(Point2::origin()))
     }
     /// The velocities of the points at the rates q'.
@@ -254,7 +256,7 @@ pub trait Kinematic:
         &self,
         _: &Self::Pose,
         _: &Self::Rates,
-    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionError<Self::Name>> {
+    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionErrorOf<Self>> {
         Ok(none::<Self::P, _, _>(Vector2::zeros()))
     }
     /// The accelerations of the points at the rates `q'` and the accelerations `q''`.
@@ -266,28 +268,28 @@ pub trait Kinematic:
         _: &Self::Pose,
         _: &Self::Rates,
         _: &Self::Accelerations,
-    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionError<Self::Name>> {
+    ) -> Result<Self::Points<Vector2<Self::Scalar>>, PositionErrorOf<Self>> {
         Ok(none::<Self::P, _, _>(Vector2::zeros()))
     }
     /// For each point the matrix of its velocity by the rates of the inputs.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
-    fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Ratios<Self, D<2>>>, PositionError<Self::Name>> {
+    fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Ratios<Self, D<2>>>, PositionErrorOf<Self>> {
         Ok(none::<Self::P, _, _>(D.zero_matrix(self.dims().1)))
     }
     /// The outputs. A mechanism without outputs needs no body of this and of the next three functions.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
-    fn outputs(&self, _: &Self::Pose) -> Result<Self::Outputs<Self::Scalar>, PositionError<Self::Name>> {
+    fn outputs(&self, _: &Self::Pose) -> Result<Self::Outputs<Self::Scalar>, PositionErrorOf<Self>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// The rates of the outputs at the rates q'.
     ///
     /// # Errors
     /// [`PositionError::NotFinite`] if a result is not finite.
-    fn output_rates(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionError<Self::Name>> {
+    fn output_rates(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionErrorOf<Self>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// The second derivatives of the outputs at the rates `q'` and the accelerations `q''`.
@@ -299,14 +301,14 @@ pub trait Kinematic:
         _: &Self::Pose,
         _: &Self::Rates,
         _: &Self::Accelerations,
-    ) -> Result<Self::Outputs<Self::Scalar>, PositionError<Self::Name>> {
+    ) -> Result<Self::Outputs<Self::Scalar>, PositionErrorOf<Self>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// For each output the row of its rate by the rates of the inputs.
     ///
     /// # Errors
     /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
-    fn output_ratios(&self, _: &Self::Pose) -> Result<Self::Outputs<Ratios<Self, D<1>>>, PositionError<Self::Name>> {
+    fn output_ratios(&self, _: &Self::Pose) -> Result<Self::Outputs<Ratios<Self, D<1>>>, PositionErrorOf<Self>> {
         Ok(none::<Self::O, _, _>(D.zero_matrix(self.dims().1)))
     }
 

@@ -85,7 +85,7 @@ pub use joints::{Joint, JointForces};
 pub use kinematic::Kinematic;
 pub use limits::Limits;
 pub use matrix::Matrix;
-pub use mechanism::{Assembly, Branches, Group, Mechanism, Named, PerInput, PerUnknown};
+pub use mechanism::{Assembly, Branches, Group, Mechanism, Named, PathErrorOf, PerInput, PerUnknown, PositionErrorOf};
 pub use modes::AssemblyMode;
 pub use motion::{OutputMotion, PointMotion};
 pub use nalgebra;

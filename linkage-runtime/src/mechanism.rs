@@ -7,7 +7,7 @@ use crate::linear::same_signs;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::shown::Shown;
-use crate::{BorrowedName, Column, Dim, InputError, Matrix, Name, PositionError, Ranged, Real};
+use crate::{BorrowedName, Column, Dim, InputError, Matrix, Name, PathError, PositionError, Ranged, Real};
 
 /// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +26,12 @@ pub type PerUnknown<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::U>;
 
 /// A number for each independent coordinate of a mechanism.
 pub type PerInput<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::V>;
+
+/// The error of a position, with names of a mechanism.
+pub type PositionErrorOf<M> = PositionError<<M as Mechanism>::Name>;
+
+/// The error of a path, with names of a mechanism.
+pub type PathErrorOf<M> = PathError<<M as Mechanism>::Name>;
 
 /// A mechanism with constraints Psi(q) = 0, q = (u, v), which determine its dependent coordinates u from its
 /// independent coordinates v. An open chain has none: U and G are 0, and J, without rows, is regular.
@@ -233,7 +239,7 @@ pub trait Mechanism {
         &self,
         _: &Self::Pose,
         right: &PerUnknown<Self>,
-    ) -> Result<PerUnknown<Self>, PositionError<Self::Name>> {
+    ) -> Result<PerUnknown<Self>, PositionErrorOf<Self>> {
         const { no_unknowns::<Self>() };
         Ok(*right)
     }
@@ -249,7 +255,7 @@ pub trait Mechanism {
     /// # Errors
     /// [`PositionError::NotImplied`] if one does not.
     #[inline]
-    fn check_implied(&self, _: &Self::Coordinates) -> Result<(), PositionError<Self::Name>> {
+    fn check_implied(&self, _: &Self::Coordinates) -> Result<(), PositionErrorOf<Self>> {
         Ok(())
     }
 
@@ -350,7 +356,7 @@ pub trait Assembly: Mechanism {
     /// # Errors
     /// [`PositionError::Unbuildable`] if a group cannot be assembled, [`PositionError::Undetermined`] if it has
     /// infinitely many positions, [`PositionError::NotFinite`] if a number is not finite.
-    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, PositionError<Self::Name>>;
+    fn assemble(&self, inputs: Self::Inputs, branch: Self::Branch) -> Result<Self::Pose, PositionErrorOf<Self>>;
     /// Computes the position at the inputs of a guess on this branch. If the full turns of an angle matter, as with
     /// gears, those nearest to the guess are used instead of those of the branch.
     ///
@@ -361,7 +367,7 @@ pub trait Assembly: Mechanism {
         &self,
         guess: &Self::Coordinates,
         branch: Self::Branch,
-    ) -> Result<Self::Pose, PositionError<Self::Name>> {
+    ) -> Result<Self::Pose, PositionErrorOf<Self>> {
         self.assemble(Self::inputs(guess).into(), branch)
     }
 }
@@ -382,7 +388,7 @@ pub trait Branches: Mechanism {
     fn all_positions(
         &self,
         inputs: Self::Inputs,
-    ) -> Result<impl Iterator<Item = (Self::Branch, Self::Coordinates)>, PositionError<Self::Name>>;
+    ) -> Result<impl Iterator<Item = (Self::Branch, Self::Coordinates)>, PositionErrorOf<Self>>;
 }
 
 /// Returns an error if a number of the coordinates or of their pose is infinite or NaN.
@@ -394,7 +400,7 @@ pub(crate) fn finite_position<M: Mechanism>(
     mechanism: &M,
     q: &M::Coordinates,
     pose: &M::Pose,
-) -> Result<(), PositionError<M::Name>> {
+) -> Result<(), PositionErrorOf<M>> {
     finite_coordinates(mechanism, q)?;
     if M::is_finite(pose) {
         Ok(())
@@ -408,10 +414,7 @@ pub(crate) fn finite_position<M: Mechanism>(
 /// # Errors
 /// [`PositionError::NotFinite`].
 #[inline]
-pub(crate) fn finite_coordinates<M: Mechanism>(
-    mechanism: &M,
-    q: &M::Coordinates,
-) -> Result<(), PositionError<M::Name>> {
+pub(crate) fn finite_coordinates<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<(), PositionErrorOf<M>> {
     let (unknowns, inputs) = M::parts(q);
     all_finite(mechanism.name(), Name::from_static("the position"), unknowns.iter().chain(inputs.iter()))
 }

@@ -11,7 +11,7 @@ use crate::linear::{Factorization, product_of_pivots, same_signs};
 use crate::mechanism::finite_coordinates;
 use crate::newton::{Constraints, Iterate, search};
 use crate::scalar::to_f64;
-use crate::{Column, D, Dim, Matrix, Mechanism, Name, PerUnknown, PositionError, Real};
+use crate::{Column, D, Dim, Matrix, Mechanism, Name, PerUnknown, PositionError, PositionErrorOf, Real};
 
 /// A position on the branch of its guess, with the effort and the residual of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +68,7 @@ fn found(f: &mut Formatter<'_>, coordinates: &impl Debug, iterations: usize, res
 ///
 /// # Errors
 /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if the step is not finite.
-pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M::Coordinates, PositionError<M::Name>> {
+pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M::Coordinates, PositionErrorOf<M>> {
     let pose = mechanism.pose_at(q);
     let step = correction(mechanism, &pose)?;
     let next = M::with_unknowns(q, M::unknowns(q) - step);
@@ -89,7 +89,7 @@ pub fn newton_step<M: Mechanism>(mechanism: &M, q: &M::Coordinates) -> Result<M:
 pub fn newton<M: Mechanism>(
     mechanism: &M,
     guess: &M::Coordinates,
-) -> Result<Solution<M::Coordinates>, PositionError<M::Name>> {
+) -> Result<Solution<M::Coordinates>, PositionErrorOf<M>> {
     let (found, start, end) = searched(mechanism, guess)?;
     let AnyBranch { coordinates, iterations, residual, same_branch } = found;
     match if same_branch { None } else { left_group(mechanism, &start, &end) } {
@@ -116,14 +116,14 @@ fn left_group<M: Mechanism>(mechanism: &M, start: &M::Pose, end: &M::Pose) -> Op
 pub fn newton_any_branch<M: Mechanism>(
     mechanism: &M,
     guess: &M::Coordinates,
-) -> Result<AnyBranch<M::Coordinates>, PositionError<M::Name>> {
+) -> Result<AnyBranch<M::Coordinates>, PositionErrorOf<M>> {
     searched(mechanism, guess).map(|(found, ..)| found)
 }
 
 /// A position, and the poses of the guess and of the position.
 type Searched<M> = (AnyBranch<<M as Mechanism>::Coordinates>, <M as Mechanism>::Pose, <M as Mechanism>::Pose);
 
-fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searched<M>, PositionError<M::Name>> {
+fn searched<M: Mechanism>(mechanism: &M, guess: &M::Coordinates) -> Result<Searched<M>, PositionErrorOf<M>> {
     // An input may occur in no constraint.
     all_finite(mechanism.name(), Name::from_static("the input"), M::inputs(guess).iter())?;
     let (Iterate { unknowns, point, size, .. }, iterations) = search(&Whole { mechanism, guess }, M::unknowns(guess))?;
@@ -202,7 +202,7 @@ impl<M: Mechanism> Constraints for Whole<'_, M> {
         (self.mechanism.residual(pose), self.mechanism.residual_scales(pose))
     }
 
-    fn solve(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError<M::Name>> {
+    fn solve(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionErrorOf<M>> {
         self.mechanism.solve_jacobian(pose, right)
     }
 

@@ -70,7 +70,7 @@ use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 #[cfg(feature = "serde")]
 use crate::serialised::Sequence;
-use crate::{Column, Dim, Group, Matrix, Mechanism, Name, PerInput, PerUnknown, PositionError, Real, real};
+use crate::{Column, Dim, Group, Matrix, Mechanism, Name, PerInput, PerUnknown, PositionErrorOf, Real, real};
 use decomposition::Decomposition;
 
 /// The distance of a position from a singular configuration, and the rates that are possible at it.
@@ -87,11 +87,12 @@ pub struct Singularity<M: Mechanism> {
     admissible_count: usize,
     /// sigma min with an input in place of an unknown; zero if that is singular.
     exchanges: Matrix<M::Scalar, M::U, M::V>,
-    /// The name of the mechanism, those of the unknowns and of the inputs.
-    names: (M::Name, Column<M::Name, M::U>, Column<M::Name, M::V>),
+    mechanism: M::Name,
+    unknowns: Column<M::Name, M::U>,
+    inputs: Column<M::Name, M::V>,
 }
 
-crate::__by_fields!([M: Mechanism] Singularity<M> { determinant, rank, sigma_min, groups, rank_with_inputs, free, admissible, admissible_count, exchanges, names });
+crate::__by_fields!([M: Mechanism] Singularity<M> { determinant, rank, sigma_min, groups, rank_with_inputs, free, admissible, admissible_count, exchanges, mechanism, unknowns, inputs });
 
 /// The distance of one group of unknowns from a singularity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -161,7 +162,7 @@ struct Equilibrated<M: Mechanism> {
 }
 
 impl<M: Mechanism> Equilibrated<M> {
-    fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionError<M::Name>> {
+    fn of(mechanism: &M, pose: &M::Pose) -> Result<Self, PositionErrorOf<M>> {
         let residual_scales = mechanism.residual_scales(pose);
         let divisors = residual_scales.map(scale_or_one);
         let (unknowns, unknown_scales) =
@@ -205,7 +206,7 @@ fn threshold<T: Real>(count: usize) -> T {
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if an entry of the Jacobian, a determinant or a rate is not a finite number.
-pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity<M>, PositionError<M::Name>> {
+pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity<M>, PositionErrorOf<M>> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let Equilibrated { unknowns: j, inputs: a, unknown_scales, input_scales, .. } = &equilibrated;
     let (u, v, g) = mechanism.dims();
@@ -249,11 +250,9 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
         admissible,
         admissible_count: v.count() - conditions_rank,
         exchanges,
-        names: (
-            mechanism.name(),
-            u.column(|place| mechanism.unknown_name(place)),
-            v.column(|place| mechanism.input_name(place)),
-        ),
+        mechanism: mechanism.name(),
+        unknowns: u.column(|place| mechanism.unknown_name(place)),
+        inputs: v.column(|place| mechanism.input_name(place)),
     })
 }
 
@@ -261,7 +260,7 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if an entry of the Jacobian is not a finite number.
-pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scalar, PositionError<M::Name>> {
+pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scalar, PositionErrorOf<M>> {
     let sigma_min = Decomposition::of(Equilibrated::of(mechanism, pose)?.unknowns).least();
     finite(mechanism.name(), Name::from_static("a singular value"), [sigma_min])?;
     Ok(sigma_min)
@@ -271,7 +270,7 @@ pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scala
 ///
 /// # Errors
 /// [`PositionError::NotFinite`] if a residual or an entry of the Jacobian is not a finite number.
-pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<M>, PositionError<M::Name>> {
+pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<M>, PositionErrorOf<M>> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let residual = mechanism.residual(pose);
     let residual =
@@ -365,7 +364,7 @@ impl<M: Mechanism> Singularity<M> {
         let pairs = (0..v.count()).flat_map(move |input| (0..u.count()).map(move |unknown| (unknown, input)));
         pairs.filter_map(|(unknown, input)| {
             let sigma_min = self.exchanges[(unknown, input)];
-            let exchange = Exchange { unknown: self.names.1[unknown], input: self.names.2[input], sigma_min };
+            let exchange = Exchange { unknown: self.unknowns[unknown], input: self.inputs[input], sigma_min };
             (sigma_min > M::Scalar::zero()).then_some(exchange)
         })
     }
@@ -407,7 +406,7 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
         writeln!(
             f,
             "{} is {kind}: det J = {:.3e}, rank {} of {}, sigma min {:.1e}",
-            self.names.0,
+            self.mechanism,
             to_f64(self.determinant),
             self.rank,
             self.count(),
@@ -419,14 +418,14 @@ impl<M: Mechanism> fmt::Display for Singularity<M> {
         }
         for free in self.free() {
             write!(f, "free:")?;
-            rates(f, self.names.1.as_slice(), free.iter())?;
+            rates(f, self.unknowns.as_slice(), free.iter())?;
         }
         if self.admissible_count == 0 {
             writeln!(f, "no input can move")?;
         } else if self.admissible_count < self.admissible.dims().1.count() {
             for admissible in self.admissible() {
                 write!(f, "admissible:")?;
-                rates(f, self.names.2.as_slice(), admissible.iter())?;
+                rates(f, self.inputs.as_slice(), admissible.iter())?;
             }
         }
         if self.is_singular() {

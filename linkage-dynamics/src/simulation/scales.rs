@@ -4,7 +4,7 @@ use crate::ContactCoordinate;
 use crate::contact::sum_tolerance;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::jacobian::ScalesOf;
-use linkage_runtime::{Column, Dim, Mechanism, PositionError};
+use linkage_runtime::{Column, Dim, Mechanism, PositionErrorOf};
 
 type Along<M> = ContactCoordinate<<M as Mechanism>::Scalar, <M as Mechanism>::U, <M as Mechanism>::V>;
 
@@ -25,7 +25,7 @@ pub(crate) fn resolution_by_inputs<M: Mechanism>(
     scales: &ScalesOf<M>,
     q: &M::Coordinates,
     along: &Along<M>,
-) -> Result<M::Scalar, PositionError<M::Name>> {
+) -> Result<M::Scalar, PositionErrorOf<M>> {
     let pose = mechanism.pose_at(q);
     let by_inputs = mechanism.jacobian_inputs(&pose);
     let inputs: Column<_, M::V> = M::inputs(q).abs().zip_map(&scales.coordinates.inputs, M::Scalar::max);

@@ -55,7 +55,7 @@ use core::borrow::Borrow;
 pub use newton::Newton;
 pub use table::Table;
 
-use crate::{Assembly, Mechanism, PositionError};
+use crate::{Assembly, Mechanism, PositionErrorOf};
 
 /// A position solver for mechanisms `M`, selected by its type at compile time.
 ///
@@ -88,7 +88,7 @@ pub trait PositionMethod<M: Mechanism> {
         mechanism: &M,
         from: &Self::From,
         inputs: impl Into<M::Inputs>,
-    ) -> Result<Self::Position, PositionError<M::Name>>;
+    ) -> Result<Self::Position, PositionErrorOf<M>>;
 }
 
 /// Closed form, group by group, on a given branch, not on one motion: [`Assembly::assemble`].
@@ -104,7 +104,7 @@ impl<M: Assembly> PositionMethod<M> for ClosedForm {
         mechanism: &M,
         branch: &M::Branch,
         inputs: impl Into<M::Inputs>,
-    ) -> Result<M::Pose, PositionError<M::Name>> {
+    ) -> Result<M::Pose, PositionErrorOf<M>> {
         mechanism.assemble(inputs.into(), *branch)
     }
 }

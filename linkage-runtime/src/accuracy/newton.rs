@@ -3,7 +3,7 @@
 use super::{PositionMethod, Reached};
 use crate::jacobian::correction;
 use crate::mechanism::{finite_position, other_group};
-use crate::{Mechanism, PerInput, PositionError};
+use crate::{Mechanism, PerInput, PositionError, PositionErrorOf};
 
 /// u + W (v' - v), then `K` times u - J^-1 Psi: `K` Newton steps after a prediction by the velocity ratios at a
 /// position nearby.
@@ -22,7 +22,7 @@ impl<M: Mechanism, const K: usize> PositionMethod<M> for Newton<K> {
         mechanism: &M,
         from: &Self::From,
         inputs: impl Into<M::Inputs>,
-    ) -> Result<Self::Position, PositionError<M::Name>> {
+    ) -> Result<Self::Position, PositionErrorOf<M>> {
         let mut here = Reached::at(mechanism, predicted(mechanism, from, inputs.into())?);
         for _ in 0..K {
             let step = correction(mechanism, &here.pose)?;
@@ -47,7 +47,7 @@ pub(super) fn predicted<M: Mechanism>(
     mechanism: &M,
     from: &Reached<M::Coordinates, M::Pose>,
     inputs: M::Inputs,
-) -> Result<M::Coordinates, PositionError<M::Name>> {
+) -> Result<M::Coordinates, PositionErrorOf<M>> {
     let there: PerInput<M> = inputs.into();
     let (unknowns, here) = M::parts(&from.coordinates);
     let way = there - here;

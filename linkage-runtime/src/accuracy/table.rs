@@ -8,7 +8,9 @@ use crate::jacobian::ulp::ulps;
 use crate::mechanism::{finite_position, other_group};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
-use crate::{D, Dim, InputError, Mechanism, Name, PerInput, PerUnknown, PositionError, newton_any_branch, real};
+use crate::{
+    D, Dim, InputError, Mechanism, Name, PerInput, PerUnknown, PositionError, PositionErrorOf, newton_any_branch, real,
+};
 
 /// Positions of a mechanism with one input at `N` evenly spaced inputs, interpolated by cubic Hermite polynomials whose
 /// slopes are the velocity ratios. The table stores 2 `U` `N` numbers.
@@ -46,7 +48,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     /// # Errors
     /// [`InputError::NotPeriodic`] if the mechanism does not return to its start after a turn; those of
     /// [`Table::between`].
-    pub fn turn(mechanism: &M, start: &M::Coordinates) -> Result<Self, PositionError<M::Name>> {
+    pub fn turn(mechanism: &M, start: &M::Coordinates) -> Result<Self, PositionErrorOf<M>> {
         let [input] = M::inputs(start).into();
         let mut table = Self::between(mechanism, start, input + M::Scalar::two_pi())?;
         let ends = [0, N - 1].map(|index| table.entries[index][0]);
@@ -67,7 +69,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     /// # Errors
     /// [`PositionError::OtherBranch`], [`PositionError::Singular`] or [`PositionError::NotConverged`] if there is a
     /// dead point between, [`PositionError::NotFinite`] if a number is not finite.
-    pub fn between(mechanism: &M, start: &M::Coordinates, end: M::Scalar) -> Result<Self, PositionError<M::Name>> {
+    pub fn between(mechanism: &M, start: &M::Coordinates, end: M::Scalar) -> Result<Self, PositionErrorOf<M>> {
         const { assert!(N >= 2, "a table needs at least two entries") };
         let [input] = M::inputs(start).into();
         let intervals = real::<M::Scalar>(count(N - 1));
@@ -111,7 +113,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
         mechanism: &M,
         mut here: Reached<M::Coordinates, M::Pose>,
         index: usize,
-    ) -> Result<Reached<M::Coordinates, M::Pose>, PositionError<M::Name>> {
+    ) -> Result<Reached<M::Coordinates, M::Pose>, PositionErrorOf<M>> {
         for part in 1..=PARTS {
             let fraction = f64::from(part) / f64::from(PARTS);
             let input = self.input + self.step * real::<M::Scalar>(count(index - 1) + fraction);
@@ -121,7 +123,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> Table<M, N> {
     }
 
     /// Measures the interpolation error by the Newton correction midway between entries.
-    fn measured(&self, mechanism: &M) -> Result<M::Scalar, PositionError<M::Name>> {
+    fn measured(&self, mechanism: &M) -> Result<M::Scalar, PositionErrorOf<M>> {
         (0..N - 1).try_fold(M::Scalar::zero(), |most, index| {
             let unknowns = self.cubic(index, real(0.5));
             let input = self.input + self.step * real::<M::Scalar>(count(index) + 0.5);
@@ -153,7 +155,7 @@ impl<M: Mechanism<V = D<1>>, const N: usize> PositionMethod<M> for Table<M, N> {
         mechanism: &M,
         table: &Self,
         inputs: impl Into<M::Inputs>,
-    ) -> Result<Self::Position, PositionError<M::Name>> {
+    ) -> Result<Self::Position, PositionErrorOf<M>> {
         let [input]: [M::Scalar; 1] = Into::<PerInput<M>>::into(inputs.into()).into();
         let intervals = real::<M::Scalar>(count(N - 1));
         let mut place = (input - table.input) * table.inverse_step;
@@ -213,7 +215,7 @@ fn closed<M: Mechanism<V = D<1>>>(
     mechanism: &M,
     from: Reached<M::Coordinates, M::Pose>,
     input: M::Scalar,
-) -> Result<Reached<M::Coordinates, M::Pose>, PositionError<M::Name>> {
+) -> Result<Reached<M::Coordinates, M::Pose>, PositionErrorOf<M>> {
     let guess = predicted(mechanism, &from, PerInput::<M>::from([input]).into())?;
     let here = Reached::at(mechanism, newton_any_branch(mechanism, &guess)?.coordinates);
     if mechanism.same_branch(&from.pose, &here.pose) {

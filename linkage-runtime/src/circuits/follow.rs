@@ -8,7 +8,7 @@ use super::{CircuitError, CircuitOptions};
 use crate::continuation::{Direction, Event, Options, Path, TouchOnPath, Touches};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Branches, D, Mechanism, PathError, real};
+use crate::{Branches, D, Mechanism, PathError, PathErrorOf, real};
 
 /// The points of a motion.
 type Points<M> = Vec<CurvePoint<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>>;
@@ -51,7 +51,7 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
     }
 
     /// The points from a mode in a direction, until the motion closes or ends.
-    fn travel(&self, mode: usize, direction: Direction<M::Rates>) -> Result<(Points<M>, CurveEnd), PathError<M::Name>> {
+    fn travel(&self, mode: usize, direction: Direction<M::Rates>) -> Result<(Points<M>, CurveEnd), PathErrorOf<M>> {
         let start = self.modes.positions[mode];
         let mut path = Path::with(self.mechanism, &start, direction, self.options)?;
         let mut points = vec![point::<M>(start, Some(CurveEvent::Mode(Some(mode))))];

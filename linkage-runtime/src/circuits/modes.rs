@@ -5,7 +5,7 @@ use std::vec::Vec;
 use crate::jacobian::ulp::nearly_zero;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
-use crate::{Branches, D, Mechanism, Name, PerInput, PositionError};
+use crate::{Branches, D, Mechanism, Name, PerInput, PositionError, PositionErrorOf};
 
 /// The modes at the start inputs.
 pub(super) struct Modes<'a, M: Branches> {
@@ -22,7 +22,7 @@ impl<'a, M: Branches<V = D<1>>> Modes<'a, M> {
     pub(super) fn list(
         mechanism: &'a M,
         inputs: impl IntoIterator<Item = M::Scalar>,
-    ) -> Result<Self, PositionError<M::Name>> {
+    ) -> Result<Self, PositionErrorOf<M>> {
         let mut modes = Self { mechanism, inputs: Vec::new(), branches: Vec::new(), positions: Vec::new(), same: None };
         for input in inputs {
             if !input.is_finite() {

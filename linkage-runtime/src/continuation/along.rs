@@ -2,7 +2,7 @@
 
 use super::input_path::InputPath;
 use crate::{
-    BorrowedName, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionError, Ranged, Real,
+    BorrowedName, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf, Ranged, Real,
 };
 
 /// A mechanism whose inputs are functions v(s) of one parameter, its only input.
@@ -191,7 +191,7 @@ where
         self.mechanism.gamma(&at.pose, &rates) + self.mechanism.jacobian_inputs(&at.pose) * bend
     }
 
-    fn solve_jacobian(&self, at: &Self::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError<M::Name>> {
+    fn solve_jacobian(&self, at: &Self::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionErrorOf<M>> {
         self.mechanism.solve_jacobian(&at.pose, right)
     }
 
@@ -199,7 +199,7 @@ where
         F::length_scale(&self.mechanism, &at.pose)
     }
 
-    fn check_implied(&self, at: &Self::Coordinates) -> Result<(), PositionError<M::Name>> {
+    fn check_implied(&self, at: &Self::Coordinates) -> Result<(), PositionErrorOf<M>> {
         self.mechanism.check_implied(&self.position(at))
     }
 }

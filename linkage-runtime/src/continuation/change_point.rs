@@ -21,7 +21,7 @@ use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{Cholesky, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::largest;
-use crate::{Column, D, Dim, Matrix, Mechanism, PathError, PerUnknown, real};
+use crate::{Column, D, Dim, Matrix, Mechanism, PathErrorOf, PerUnknown, real};
 
 /// The most Newton steps; a search from the path takes three to five.
 const MOST_ITERATIONS: usize = 12;
@@ -103,7 +103,7 @@ where
         guess: &M::Coordinates,
         reach: M::Scalar,
         direction: &Vector<M>,
-    ) -> Result<Option<Crossing<M>>, PathError<M::Name>> {
+    ) -> Result<Option<Crossing<M>>, PathErrorOf<M>> {
         let (at, none) = (self.linear(guess)?, self.mechanism.dims().0.repeat(None));
         // A simple crossing first; then one with the rank deficiency that the pivots suggest.
         let likely = Elimination::<M>::new(at.jacobian).count_after_largest_drop();
@@ -133,7 +133,7 @@ where
         guess: &M::Coordinates,
         reach: M::Scalar,
         direction: &Vector<M>,
-    ) -> Result<Option<Crossing<M>>, PathError<M::Name>> {
+    ) -> Result<Option<Crossing<M>>, PathErrorOf<M>> {
         let at = self.linear(guess)?;
         let Some(held) = self.held(guess, &Elimination::<M>::all_but(1, at.jacobian))? else { return Ok(None) };
         let Some(q) = self.stationary(guess, reach, 1, &held)? else { return Ok(None) };
@@ -179,7 +179,7 @@ where
         guess: &M::Coordinates,
         reach: M::Scalar,
         held: &Held<M>,
-    ) -> Result<Option<M::Coordinates>, PathError<M::Name>> {
+    ) -> Result<Option<M::Coordinates>, PathErrorOf<M>> {
         let (u, ..) = self.mechanism.dims();
         let mut inner = (0..u.count() + 1).filter(|column| !held.iter().any(|held| *held == Some(*column)));
         let outside = u.column(|row| if held[row].is_none() { inner.next() } else { None });
@@ -210,7 +210,7 @@ where
 
     /// For each equation outside the part that N combines, a coordinate that this part does not contain; `None` if the part
     /// is the whole, or its equations do not leave one coordinate free.
-    fn held(&self, q: &M::Coordinates, elimination: &Elimination<M>) -> Result<Option<Held<M>>, PathError<M::Name>> {
+    fn held(&self, q: &M::Coordinates, elimination: &Elimination<M>) -> Result<Option<Held<M>>, PathErrorOf<M>> {
         let (u, v, _) = self.mechanism.dims();
         let weights = u.column(|row| elimination.left_null_product(&u.unit(row)).sum().abs());
         let mut rows = weights.map(|weight| weight > weights.largest() * real(LEAST_WEIGHT));
@@ -237,7 +237,7 @@ where
     }
 
     /// Psi and [J A] of a part of the mechanism: the coordinates of the other equations are held.
-    fn part(&self, q: &M::Coordinates, held: &Held<M>) -> Result<Linear<M>, PathError<M::Name>> {
+    fn part(&self, q: &M::Coordinates, held: &Held<M>) -> Result<Linear<M>, PathErrorOf<M>> {
         let mut at = self.linear(q)?;
         for (row, column) in held.iter().enumerate() {
             if let Some(column) = *column {
@@ -256,7 +256,7 @@ where
         reach: M::Scalar,
         open: usize,
         held: &Held<M>,
-    ) -> Result<Option<M::Coordinates>, PathError<M::Name>> {
+    ) -> Result<Option<M::Coordinates>, PathErrorOf<M>> {
         let mut q = *guess;
         for _ in 0..MOST_ITERATIONS {
             let at = self.part(&q, held)?;
@@ -356,7 +356,7 @@ where
         q: M::Coordinates,
         defect: usize,
         direction: &Vector<M>,
-    ) -> Result<Option<Crossing<M>>, PathError<M::Name>> {
+    ) -> Result<Option<Crossing<M>>, PathErrorOf<M>> {
         let at = self.linear(&q)?;
         let elimination = Elimination::<M>::all_but(defect, at.jacobian);
         if !self.is_crossing(&at, &elimination) {

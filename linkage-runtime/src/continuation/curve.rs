@@ -8,7 +8,7 @@ use crate::jacobian::{
 };
 use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, to_f64};
-use crate::{D, Mechanism, Name, PathError, PerInput, PerUnknown, PositionError, real};
+use crate::{D, Mechanism, Name, PathError, PathErrorOf, PerInput, PerUnknown, PositionError, PositionErrorOf, real};
 
 /// The most Newton steps of one correction: each at least halves the distance to the curve, and near it squares it.
 const MOST_CORRECTIONS: usize = 12;
@@ -97,7 +97,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
 
     /// # Errors
     /// [`PositionError::NotFinite`] if a number is not finite.
-    pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<M>, PositionError<M::Name>> {
+    pub(super) fn linear(&self, q: &M::Coordinates) -> Result<Linear<M>, PositionErrorOf<M>> {
         let (mechanism, scales) = (&*self.mechanism, &self.scales.residuals);
         let pose = mechanism.pose_at(q);
         let here = coordinates::<M>(q).relative_to(&self.scales.coordinates);
@@ -128,7 +128,7 @@ impl<'a, M: Mechanism<V = D<1>>> Curve<'a, M> {
         normal: &Vector<M>,
     ) -> Tried<M, (M::Coordinates, Elimination<M>)> {
         let mut rejection = Rejection { residual: f64::NAN, regularity: f64::NAN };
-        let found = contract(guess, MOST_CORRECTIONS, |q| -> Result<_, PathError<M::Name>> {
+        let found = contract(guess, MOST_CORRECTIONS, |q| -> Result<_, PathErrorOf<M>> {
             let at = self.linear(q)?;
             let elimination = Elimination::<M>::new(at.jacobian);
             let (tangent, part) = (elimination.tangent(), elimination.solve(&-at.residual));

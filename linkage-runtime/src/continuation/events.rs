@@ -10,7 +10,7 @@ use super::tangents::Tangents;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Sample, VectorOf as Vector, first_zero, root};
 use crate::scalar::arithmetic::*;
-use crate::{BorrowedName, D, Dim, Mechanism, Name, PathError, PositionError, RangeEnd, real};
+use crate::{BorrowedName, D, Dim, Mechanism, Name, PathError, PathErrorOf, PositionError, RangeEnd, real};
 
 /// An event of a path. The step ends at the event, located to rounding error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,7 +96,7 @@ where
         mut end: End<M>,
         wanted: &Wanted<'_, M>,
         options: &Options<M::Scalar>,
-    ) -> Result<Option<End<M>>, PathError<M::Name>> {
+    ) -> Result<Option<End<M>>, PathErrorOf<M>> {
         self.keep_unresolved_signs(from, &mut end.place);
         let is_known = [false, matches!(end.event, Some(Event::ChangePoint { .. }))];
         let mut arrived = end.arrived.take().unwrap_or_else(|| end.place.clone());
@@ -207,7 +207,7 @@ where
         is_known: [bool; 2],
         value: impl Fn(&Place<M>) -> [M::Scalar; 2],
         is_resolved: impl Fn(&Place<M>) -> bool,
-    ) -> Result<SignChange<M>, PathError<M::Name>> {
+    ) -> Result<SignChange<M>, PathErrorOf<M>> {
         let sample = |at: M::Scalar, place: &Place<M>| {
             let [value, slope] = value(place);
             Sample { at, value, slope: slope / place.tangent.dot(&from.tangent) }
@@ -255,7 +255,7 @@ where
     }
 
     /// Gives a place exactly this input and corrects the other coordinates, unless the input is at rest.
-    pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathError<M::Name>> {
+    pub(super) fn with_exact_input(&self, place: Place<M>, input: M::Scalar) -> Result<Place<M>, PathErrorOf<M>> {
         self.with_exact(place, self.mechanism.dims().0.count(), input)
     }
 
@@ -266,7 +266,7 @@ where
         place: Place<M>,
         column: usize,
         value: M::Scalar,
-    ) -> Result<Place<M>, PathError<M::Name>> {
+    ) -> Result<Place<M>, PathErrorOf<M>> {
         let q = Self::with_coordinate(&place.q, column, value);
         let moves = place.tangent.get(column).abs() > nearly_zero() && place.regularity > nearly_zero();
         if moves && let Ok((q, elimination)) = self.correct(q, &Vector::<M>::unit(place.tangent.dims(), column))? {

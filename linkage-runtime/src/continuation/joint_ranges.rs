@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::place::Place;
 use crate::jacobian::ulp::EQUAL_ULPS;
 use crate::scalar::arithmetic::*;
-use crate::{D, Dim, Mechanism, PathError, RangeEnd, Real, real};
+use crate::{D, Dim, Mechanism, PathErrorOf, RangeEnd, Real, real};
 
 /// An end of a range, with the value at the start of a step.
 pub(super) struct JointEnd<T, N> {
@@ -66,7 +66,7 @@ where
     }
 
     /// Gives a place at an end of a range exactly this value, if a coordinate has the range.
-    pub(super) fn at_joint_end(&self, place: Place<M>, joint: &JointEndOf<M>) -> Result<Place<M>, PathError<M::Name>> {
+    pub(super) fn at_joint_end(&self, place: Place<M>, joint: &JointEndOf<M>) -> Result<Place<M>, PathErrorOf<M>> {
         let (u, v) = self.dims();
         let mut columns = 0..u.count() + v.count();
         let column = columns.find(|&column| self.mechanism.coordinate_name(column) == joint.of);

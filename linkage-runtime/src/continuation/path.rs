@@ -12,7 +12,7 @@ use crate::jacobian::{EliminationOf as Elimination, VectorOf as Vector};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{D, Dim, InputError, Mechanism, Name, PathError, PositionError, Solution, position, real};
+use crate::{D, Dim, InputError, Mechanism, Name, PathError, PathErrorOf, PositionError, Solution, position, real};
 
 /// The end of a step of a path.
 #[cfg_attr(
@@ -98,7 +98,7 @@ where
         mechanism: impl IntoHeld<'a, By, Of = M>,
         guess: &M::Coordinates,
         direction: Direction<M::Rates>,
-    ) -> Result<Self, PathError<M::Name>> {
+    ) -> Result<Self, PathErrorOf<M>> {
         Self::with(mechanism, guess, direction, Options::default())
     }
 
@@ -114,7 +114,7 @@ where
         guess: &M::Coordinates,
         direction: Direction<M::Rates>,
         options: Options<M::Scalar>,
-    ) -> Result<Self, PathError<M::Name>> {
+    ) -> Result<Self, PathErrorOf<M>> {
         const {
             assert!(M::G::CAPACITY <= Groups::<M::Name>::MOST, "a mechanism of more than 512 groups cannot be followed")
         };
@@ -167,7 +167,7 @@ where
     /// # Errors
     /// [`PathError::NoDirection`] if they are orthogonal to all motions, or if the path has not stopped at a change
     /// point.
-    pub fn choose(&mut self, rates: &M::Rates) -> Result<(), PathError<M::Name>> {
+    pub fn choose(&mut self, rates: &M::Rates) -> Result<(), PathErrorOf<M>> {
         let Resume::Undecided(crossing) = self.resume else {
             return Err(PathError::NoDirection { mechanism: self.curve.mechanism.name() });
         };
@@ -184,7 +184,7 @@ where
     /// # Errors
     /// [`PathError::ChangePoint`] if the path stopped at one and no motion has been chosen, [`PathError::Lost`] if the
     /// path cannot be continued, [`PositionError::NotFinite`] if a number is not finite.
-    pub fn advance(&mut self) -> Result<PathStep<M>, PathError<M::Name>> {
+    pub fn advance(&mut self) -> Result<PathStep<M>, PathErrorOf<M>> {
         self.advance_until(None, None).map(|(step, _)| step)
     }
 
@@ -198,7 +198,7 @@ where
     pub fn advance_watching(
         &mut self,
         watched: impl Fn(&M::Coordinates, &M::Rates) -> M::Scalar,
-    ) -> Result<PathStep<M>, PathError<M::Name>> {
+    ) -> Result<PathStep<M>, PathErrorOf<M>> {
         self.advance_until(None, Some(&watched)).map(|(step, _)| step)
     }
 
@@ -212,7 +212,7 @@ where
     /// [`PathError::JointRange`] if a coordinate or an output is at an end of its range before: the path is then there;
     /// [`PathError::TooManySteps`] after [`most_steps`](Options::most_steps), [`InputError::OutOfRange`] if the input
     /// is outside its range, and those of [`advance`](Self::advance).
-    pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathError<M::Name>> {
+    pub fn advance_to(&mut self, input: M::Scalar) -> Result<PathStep<M>, PathErrorOf<M>> {
         if !input.is_finite() {
             return Err(PositionError::NotFinite {
                 mechanism: self.curve.mechanism.name(),
@@ -302,7 +302,7 @@ where
     /// # Errors
     /// [`PositionError::NotFinite`] for a length that is not finite, [`PathError::TooManySteps`] after
     /// [`most_steps`](Options::most_steps), and those of [`advance`](Self::advance).
-    pub fn advance_by(&mut self, length: M::Scalar) -> Result<PathStep<M>, PathError<M::Name>> {
+    pub fn advance_by(&mut self, length: M::Scalar) -> Result<PathStep<M>, PathErrorOf<M>> {
         if !length.is_finite() {
             return Err(PositionError::NotFinite {
                 mechanism: self.curve.mechanism.name(),
@@ -324,7 +324,7 @@ where
     }
 
     /// The error of a dead point before an input.
-    fn dead_point(&self, group: M::Name, input: M::Scalar) -> PathError<M::Name> {
+    fn dead_point(&self, group: M::Name, input: M::Scalar) -> PathErrorOf<M> {
         let gap = to_f64((input - self.input()).abs());
         PathError::DeadPoint { mechanism: self.curve.mechanism.name(), group, gap }
     }
@@ -343,7 +343,7 @@ where
         &mut self,
         target: Option<M::Scalar>,
         watch: Option<Watch<'_, M>>,
-    ) -> Result<(PathStep<M>, bool), PathError<M::Name>> {
+    ) -> Result<(PathStep<M>, bool), PathErrorOf<M>> {
         if let Resume::Undecided(crossing) = self.resume {
             let group = crossing.groups.first();
             return Err(PathError::ChangePoint { mechanism: self.curve.mechanism.name(), group });
@@ -429,7 +429,7 @@ impl<M: Mechanism<V = D<1>>> Curve<'_, M> {
         &self,
         solution: &Solution<M::Coordinates>,
         direction: Direction<M::Rates>,
-    ) -> Result<Start<M>, PathError<M::Name>> {
+    ) -> Result<Start<M>, PathErrorOf<M>> {
         let q = solution.coordinates;
         let elimination = Elimination::<M>::new(self.linear(&q)?.jacobian);
         if elimination.regularity() < nearly_zero() {
@@ -475,7 +475,7 @@ impl<M> Iterator for Path<'_, M>
 where
     M: Mechanism<V = D<1>>,
 {
-    type Item = Result<PathStep<M>, PathError<M::Name>>;
+    type Item = Result<PathStep<M>, PathErrorOf<M>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         (!self.is_ended).then(|| {

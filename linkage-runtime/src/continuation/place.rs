@@ -7,7 +7,7 @@ use super::options::Options;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::jacobian::{Blocks, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
-use crate::{Column, D, Dim, Mechanism, Name, PathError, PositionError, real};
+use crate::{Column, D, Dim, Mechanism, Name, PathError, PathErrorOf, PositionError, real};
 
 /// A position of the curve, with its tangent, orientation and determinants.
 pub(super) struct Place<M: Mechanism> {
@@ -167,7 +167,7 @@ where
         from: &Place<M>,
         to: &Place<M>,
         length: M::Scalar,
-    ) -> Result<Option<M::Scalar>, PathError<M::Name>> {
+    ) -> Result<Option<M::Scalar>, PathErrorOf<M>> {
         if self.mechanism.dims().0.count() < 2 {
             return Ok(None);
         }
@@ -228,7 +228,7 @@ where
     }
 
     /// Returns the tangent nearest to these rates, in their direction.
-    pub(super) fn choose(&self, tangents: &[Vector<M>], rates: &M::Rates) -> Result<Vector<M>, PathError<M::Name>> {
+    pub(super) fn choose(&self, tangents: &[Vector<M>], rates: &M::Rates) -> Result<Vector<M>, PathErrorOf<M>> {
         let direction = self.direction(rates);
         if !direction.is_finite() {
             return Err(PositionError::NotFinite {
@@ -248,7 +248,7 @@ where
         nearest.map(|(_, tangent)| tangent).ok_or(PathError::NoDirection { mechanism: self.mechanism.name() })
     }
 
-    pub(super) fn lost(&self, q: &M::Coordinates, iterations: usize, why: Rejection) -> PathError<M::Name> {
+    pub(super) fn lost(&self, q: &M::Coordinates, iterations: usize, why: Rejection) -> PathErrorOf<M> {
         let (_, group) = self.least_regular_group(q);
         let Rejection { residual, regularity } = why;
         PathError::Lost { mechanism: self.mechanism.name(), group, iterations, residual, regularity }

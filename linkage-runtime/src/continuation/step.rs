@@ -11,7 +11,7 @@ use crate::jacobian::VectorOf as Vector;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{D, Dim, Mechanism, PathError, real};
+use crate::{D, Dim, Mechanism, PathErrorOf, real};
 
 /// A change point up to this many step lengths ahead ends the step, so that no step ends just before one.
 const AHEAD: f64 = 1.25;
@@ -110,7 +110,7 @@ where
     }
 
     /// Finds the change point within [`AHEAD`] times the distance `tried`, from a guess of its distance.
-    fn crossing_ahead(&self, guess: M::Scalar, tried: M::Scalar) -> Result<Option<End<M>>, PathError<M::Name>> {
+    fn crossing_ahead(&self, guess: M::Scalar, tried: M::Scalar) -> Result<Option<End<M>>, PathErrorOf<M>> {
         let (curve, from) = (&self.curve, &self.place);
         let guess = curve.moved(&from.q, &(from.tangent * guess));
         let reach = tried * real(AHEAD) + nearly_zero();
@@ -119,7 +119,7 @@ where
     }
 
     /// Finds the change point near a dead point at which motions touch.
-    fn touch_ahead(&self, near: &M::Coordinates, tried: M::Scalar) -> Result<Option<End<M>>, PathError<M::Name>> {
+    fn touch_ahead(&self, near: &M::Coordinates, tried: M::Scalar) -> Result<Option<End<M>>, PathErrorOf<M>> {
         let crossing = self.curve.touch(near, tried, &self.place.tangent)?;
         Ok(crossing.and_then(|crossing| self.crossing_at(crossing, tried)))
     }

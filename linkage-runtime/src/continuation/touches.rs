@@ -8,7 +8,7 @@ use super::path::Path;
 use super::place::Place;
 use crate::jacobian::ulp::nearly_zero;
 use crate::scalar::arithmetic::*;
-use crate::{D, Mechanism, PathError, real};
+use crate::{D, Mechanism, PathErrorOf, real};
 
 /// A minimum of the regularity above this is no touch: within a step of a touch it is about the square of the distance.
 const LARGEST: f64 = 0.25;
@@ -34,7 +34,7 @@ impl<M: Mechanism<V = D<1>>> Touches<M> {
     }
 
     /// After a step, the touch nearest to the place at which the step began.
-    pub(crate) fn after_step(&mut self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
+    pub(crate) fn after_step(&mut self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathErrorOf<M>> {
         let next = path.place.clone();
         let found = self.nearest(path, Some(&next))?;
         self.before = Some(core::mem::replace(&mut self.last, next));
@@ -42,16 +42,12 @@ impl<M: Mechanism<V = D<1>>> Touches<M> {
     }
 
     /// After the last step, the touch before its end.
-    pub(crate) fn at_end(&self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
+    pub(crate) fn at_end(&self, path: &Path<'_, M>) -> Result<Option<TouchOnPath<M>>, PathErrorOf<M>> {
         self.nearest(path, None)
     }
 
     /// The touch nearest to the last place, if the regularity has a minimum there.
-    fn nearest(
-        &self,
-        path: &Path<'_, M>,
-        next: Option<&Place<M>>,
-    ) -> Result<Option<TouchOnPath<M>>, PathError<M::Name>> {
+    fn nearest(&self, path: &Path<'_, M>, next: Option<&Place<M>>) -> Result<Option<TouchOnPath<M>>, PathErrorOf<M>> {
         let (place, curve) = (&self.last, &path.curve);
         let neighbours = [self.before.as_ref(), next];
         // Of two equal ones the first.

@@ -14,7 +14,7 @@ use crate::kinematic::MotionOf;
 use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Dim, Kinematic, Mechanism, OutputMotion, PathError, PointMotion, PositionError, Real, real};
+use crate::{Dim, Kinematic, Mechanism, OutputMotion, PathError, PathErrorOf, PointMotion, PositionError, Real, real};
 
 /// The most turns that are searched with 360 steps each; a longer range has longer steps.
 const MOST_TURNS: f64 = 64.0;
@@ -53,7 +53,7 @@ const MOST_TURNS: f64 = 64.0;
 pub fn over<M>(
     range: &RangeOfMotion<'_, M>,
     mut quantity: impl FnMut(&MotionOf<M::Of>) -> OutputMotion<M::Scalar>,
-) -> Result<Extremes<M::Scalar>, PathError<M::Name>>
+) -> Result<Extremes<M::Scalar>, PathErrorOf<M>>
 where
     M: Driven,
 {
@@ -90,7 +90,7 @@ pub struct Course<T = f64> {
 pub fn courses<M, Q>(
     range: &RangeOfMotion<'_, M>,
     quantities: impl FnMut(&MotionOf<M::Of>) -> Q,
-) -> Result<Vec<Course<M::Scalar>>, PathError<M::Name>>
+) -> Result<Vec<Course<M::Scalar>>, PathErrorOf<M>>
 where
     M: Driven,
     Q: AsRef<[OutputMotion<M::Scalar>]>,
@@ -247,7 +247,7 @@ where
     Q: AsRef<[OutputMotion<M::Scalar>]>,
 {
     /// The quantities at an input, with derivatives by the input.
-    fn by_input(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathError<M::Name>> {
+    fn by_input(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathErrorOf<M>> {
         match self.range.motion(input, M::Scalar::one(), M::Scalar::zero()) {
             Ok(motion) => Ok((self.quantities)(&motion).as_ref().to_vec()),
             // Where motions touch the tangent is known still.
@@ -267,7 +267,7 @@ where
     }
 
     /// The quantities at an input, with their first derivatives by the arc length.
-    fn by_length(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathError<M::Name>> {
+    fn by_length(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathErrorOf<M>> {
         let (motion, _) = along_tangent(self.range, input)?;
         Ok((self.quantities)(&motion).as_ref().to_vec())
     }
@@ -279,7 +279,7 @@ where
         place: usize,
         [mut last, end]: [Sample<M::Scalar>; 2],
         turning_points: &mut Vec<Extreme<M::Scalar>>,
-    ) -> Result<(), PathError<M::Name>> {
+    ) -> Result<(), PathErrorOf<M>> {
         for _ in 0..MOST_IN_A_STEP {
             let around = first_zero([last, end], M::Scalar::default_epsilon(), |s| {
                 self.by_input(piece.input(s)).map(|all| piece.slope_at(s, &all[place]))
@@ -303,7 +303,7 @@ where
         place: usize,
         [end, inside]: [M::Scalar; 2],
         [at_end, at_inside]: [M::Scalar; 2],
-    ) -> Result<Option<Extreme<M::Scalar>>, PathError<M::Name>> {
+    ) -> Result<Option<Extreme<M::Scalar>>, PathErrorOf<M>> {
         if at_end * at_inside >= M::Scalar::zero() {
             return Ok(None);
         }
@@ -317,11 +317,11 @@ where
     }
 }
 
+/// A motion by the arc length, and the derivative of the input.
+type AlongTangent<M> = (MotionOf<<M as Driven>::Of>, <M as Mechanism>::Scalar);
+
 /// The position at an input with derivatives by the arc length, accelerations zero, and that of the input.
-fn along_tangent<M: Driven>(
-    range: &RangeOfMotion<'_, M>,
-    input: M::Scalar,
-) -> Result<(MotionOf<M::Of>, M::Scalar), PathError<M::Name>> {
+fn along_tangent<M: Driven>(range: &RangeOfMotion<'_, M>, input: M::Scalar) -> Result<AlongTangent<M>, PathErrorOf<M>> {
     let (near, rates) = range.near(input)?;
     let (unknown_rates, along) = M::rate_parts(&rates);
     let [_, slope, _] = range.mechanism().inputs_at(input);

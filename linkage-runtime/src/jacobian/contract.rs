@@ -1,13 +1,13 @@
 //! Undamped Newton's method from near a solution.
 
-use crate::{Mechanism, PerUnknown, PositionError, Real, real};
+use crate::{Mechanism, PerUnknown, PositionErrorOf, Real, real};
 
 /// J^-1 Psi, the correction of a Newton step u - J^-1 Psi.
 ///
 /// # Errors
 /// Those of [`Mechanism::solve_jacobian`].
 #[inline]
-pub fn correction<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<PerUnknown<M>, PositionError<M::Name>> {
+pub fn correction<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<PerUnknown<M>, PositionErrorOf<M>> {
     mechanism.solve_jacobian(pose, &mechanism.residual(pose))
 }
 

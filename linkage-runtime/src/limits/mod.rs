@@ -28,7 +28,7 @@ use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::shown::Shown;
-use crate::{Mechanism, Name, PositionError, RangeEnd, Real, real};
+use crate::{Mechanism, Name, PositionError, PositionErrorOf, RangeEnd, Real, real};
 
 /// The inputs between which a mechanism can be assembled on one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,9 +107,9 @@ pub fn limits<M: Mechanism, const B: usize>(
     position: &M::Pose,
     bounds: [Bound<M::Scalar, M::Name>; B],
     search: Search<M::Scalar>,
-    assemble: impl Fn(&M::Coordinates) -> Result<M::Pose, PositionError<M::Name>>,
+    assemble: impl Fn(&M::Coordinates) -> Result<M::Pose, PositionErrorOf<M>>,
     coordinates: impl Fn(&M::Pose) -> M::Coordinates,
-) -> Result<Limits<M::Scalar, M::Name>, PositionError<M::Name>> {
+) -> Result<Limits<M::Scalar, M::Name>, PositionErrorOf<M>> {
     let position = coordinates(position);
     let start = M::inputs(&position).as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero);
     let [mut lower, mut upper] = [None; 2];
@@ -127,7 +127,7 @@ pub fn limits<M: Mechanism, const B: usize>(
     };
     let searched = Searched { mechanism, place, reach, assemble: &assemble, coordinates: &coordinates };
     let exact =
-        |end: Option<(M::Scalar, NamedGroup<M::Name>)>| -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
+        |end: Option<(M::Scalar, NamedGroup<M::Name>)>| -> Result<Limit<M::Scalar, M::Name>, PositionErrorOf<M>> {
             let Some((end, (place, group))) = end else { return Ok(Limit::Unlimited) };
             let input = searched.corrected(start, &position, end, place)?;
             Ok(Limit::Exact { input: instead(searched.last(start, &position, input)?, input), group })

@@ -10,7 +10,7 @@ use super::touch::in_turn_of;
 use crate::jacobian::{ScalesOf as Scales, first_zero};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
-use crate::{Dim, Mechanism, PositionError, RangeEnd, Ranged, real};
+use crate::{Dim, Mechanism, PositionErrorOf, RangeEnd, Ranged, real};
 
 /// The most steps that narrow an interval to two neighbouring numbers.
 const NARROWINGS: usize = 80;
@@ -40,7 +40,7 @@ impl<M: Mechanism> Searched<'_, M> {
         position: &M::Coordinates,
         limit: Limit<M::Scalar, M::Name>,
         sign: M::Scalar,
-    ) -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
+    ) -> Result<Limit<M::Scalar, M::Name>, PositionErrorOf<M>> {
         check_ranges(self.mechanism, position)?;
         let limit = self.within_own_range(start, position, limit, sign);
         let reach = match self.mechanism.input_angles().get(self.place) {
@@ -98,7 +98,7 @@ impl<M: Mechanism> Searched<'_, M> {
         position: &M::Coordinates,
         end: M::Scalar,
         mut watched: Watched<M::Scalar>,
-    ) -> Result<Option<M::Scalar>, PositionError<M::Name>> {
+    ) -> Result<Option<M::Scalar>, PositionErrorOf<M>> {
         let Found::Assembled(mut last) = self.at(position, start)? else { return Ok(None) };
         last.position = *position;
         let whole = f64::from(STEPS);
@@ -124,7 +124,7 @@ impl<M: Mechanism> Searched<'_, M> {
                     return Ok(crate::jacobian::Sample { at, value: M::Scalar::zero(), slope: M::Scalar::zero() });
                 };
                 let [at, value, slope] = self.room_along(&between, &watched);
-                Ok::<_, PositionError<M::Name>>(crate::jacobian::Sample { at, value, slope })
+                Ok::<_, PositionErrorOf<M>>(crate::jacobian::Sample { at, value, slope })
             })?;
             if let Some([low, high]) = found {
                 return self.narrowed(&last, [low.at, high.at], &watched).map(Some);
@@ -141,7 +141,7 @@ impl<M: Mechanism> Searched<'_, M> {
         from: &Sample<M>,
         [mut low, mut high]: [M::Scalar; 2],
         watched: &Watched<M::Scalar>,
-    ) -> Result<M::Scalar, PositionError<M::Name>> {
+    ) -> Result<M::Scalar, PositionErrorOf<M>> {
         for _ in 0..NARROWINGS {
             let middle = (low + high) * real(0.5);
             if middle == low || middle == high {
@@ -161,7 +161,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// The position at another input, with angles in the turn nearest to the last position.
-    fn next(&self, last: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError<M::Name>> {
+    fn next(&self, last: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionErrorOf<M>> {
         Ok(match self.at(&last.position, input)? {
             Found::Assembled(there) => {
                 let unknowns = in_turn_of(self.mechanism, M::unknowns(&there.position), &M::unknowns(&last.position));

@@ -5,10 +5,10 @@
 //! divided, between two samples where the determinant falls and rises.
 
 use super::limit::Limit;
-use super::searched::{Found, Sample, Searched};
+use super::searched::{Found, LimitOf, Sample, Searched};
 use super::walk::{Stuck, Walked};
 use crate::scalar::arithmetic::*;
-use crate::{Dim, Mechanism, PositionError, real};
+use crate::{Dim, Mechanism, PositionError, PositionErrorOf, real};
 
 /// Steps of a search, one degree each for an angle without other limits. A group that turns forty times as fast as the
 /// input is then sampled nine times in its turn. With a tenth of the steps its limits are missed; twice as many take
@@ -72,7 +72,7 @@ impl<M: Mechanism> Searched<'_, M> {
         position: &M::Coordinates,
         end: M::Scalar,
         place: usize,
-    ) -> Result<M::Scalar, PositionError<M::Name>> {
+    ) -> Result<M::Scalar, PositionErrorOf<M>> {
         const NEAREST: i32 = 40;
         // If a later group is undetermined, the links are in line up to rounding error: the limit needs no correction.
         if matches!(self.at(position, end)?, Found::Undetermined) {
@@ -121,7 +121,7 @@ impl<M: Mechanism> Searched<'_, M> {
         start: M::Scalar,
         position: &M::Coordinates,
         end: M::Scalar,
-    ) -> Result<M::Scalar, PositionError<M::Name>> {
+    ) -> Result<M::Scalar, PositionErrorOf<M>> {
         let mut input = end;
         let mut step = M::Scalar::default_epsilon() * end.abs();
         for _ in 0..ULPS_INWARD {
@@ -141,7 +141,7 @@ impl<M: Mechanism> Searched<'_, M> {
         position: &M::Coordinates,
         known: Limit<M::Scalar, M::Name>,
         beyond: M::Scalar,
-    ) -> Result<Limit<M::Scalar, M::Name>, PositionError<M::Name>> {
+    ) -> Result<Limit<M::Scalar, M::Name>, PositionErrorOf<M>> {
         let end = known.input().unwrap_or(beyond);
         // The first step and the last one are divided: the minima next to their ends have no neighbours beyond.
         let whole = f64::from(STEPS);
@@ -195,11 +195,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// The limit at a minimum of a determinant between two samples: it falls at the first and rises at the second.
-    fn limit_within(
-        &self,
-        here: &Sample<M>,
-        there: &Sample<M>,
-    ) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
+    fn limit_within(&self, here: &Sample<M>, there: &Sample<M>) -> Result<Option<LimitOf<M>>, PositionErrorOf<M>> {
         let little = (there.input - here.input) * real::<M::Scalar>(BESIDE);
         let inside = [here.input + little, there.input - little];
         let [mut after, mut before] = [None, None];
@@ -226,10 +222,7 @@ impl<M: Mechanism> Searched<'_, M> {
 
     /// The limit at a minimum of a determinant about the middle one of three samples, if the mechanism cannot be assembled
     /// there.
-    fn limit_among(
-        &self,
-        [before, here, there]: [&Sample<M>; 3],
-    ) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
+    fn limit_among(&self, [before, here, there]: [&Sample<M>; 3]) -> Result<Option<LimitOf<M>>, PositionErrorOf<M>> {
         let determinants = before.determinants.iter().zip(&here.determinants).zip(&there.determinants);
         for (group, ((a, b), c)) in determinants.enumerate() {
             if b < a
@@ -252,7 +245,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// Computes the position at an input, or finds the group that stops it.
-    pub(super) fn at(&self, from: &M::Coordinates, input: M::Scalar) -> Result<Found<M>, PositionError<M::Name>> {
+    pub(super) fn at(&self, from: &M::Coordinates, input: M::Scalar) -> Result<Found<M>, PositionErrorOf<M>> {
         match (self.assemble)(&self.at_input(from, input)) {
             Ok(pose) => {
                 let determinants = self.mechanism.block_determinants(&pose).abs();
@@ -270,12 +263,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// Follows the motion from the position `from` at the input `at` to another input.
-    fn reach(
-        &self,
-        from: &M::Coordinates,
-        at: M::Scalar,
-        input: M::Scalar,
-    ) -> Result<Reached<M>, PositionError<M::Name>> {
+    fn reach(&self, from: &M::Coordinates, at: M::Scalar, input: M::Scalar) -> Result<Reached<M>, PositionErrorOf<M>> {
         let found = self.at(from, input)?;
         self.follow(from, at, input, found)
     }
@@ -291,7 +279,7 @@ impl<M: Mechanism> Searched<'_, M> {
         at: M::Scalar,
         input: M::Scalar,
         found: Found<M>,
-    ) -> Result<Reached<M>, PositionError<M::Name>> {
+    ) -> Result<Reached<M>, PositionErrorOf<M>> {
         let mut group = match found {
             Found::Assembled(there) => return Ok(Reached::Assembled(there)),
             Found::Undetermined => return Ok(Reached::Undetermined),
@@ -316,7 +304,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// Bisects between an input at which the mechanism assembles and one at which a group does not.
-    fn between(&self, stuck: &Stuck<M>, mut group: M::Name) -> Result<Bracket<M>, PositionError<M::Name>> {
+    fn between(&self, stuck: &Stuck<M>, mut group: M::Name) -> Result<Bracket<M>, PositionErrorOf<M>> {
         let (mut nearest, mut unbuildable) = (stuck.last, stuck.unbuildable);
         for _ in 0..NARROWINGS {
             let assembled = nearest.input;
@@ -346,7 +334,7 @@ impl<M: Mechanism> Searched<'_, M> {
         from: &Sample<M>,
         to: M::Scalar,
         group: usize,
-    ) -> Result<Option<Limit<M::Scalar, M::Name>>, PositionError<M::Name>> {
+    ) -> Result<Option<LimitOf<M>>, PositionErrorOf<M>> {
         let golden = real::<M::Scalar>(0.618_033_988_749_894_9);
         let (mut a, mut b) = (from.input, to);
         let determinant = |found: &Reached<M>| match found {

@@ -1,11 +1,15 @@
 //! The mechanism that a search evaluates, and its outcome at an input.
 
+use super::Limit;
 use crate::scalar::arithmetic::*;
 use crate::{Column, Mechanism, PositionError};
 
 /// The position at the inputs of a position nearby.
 type Assemble<'m, M> =
     &'m dyn Fn(&<M as Mechanism>::Coordinates) -> Result<<M as Mechanism>::Pose, PositionError<<M as Mechanism>::Name>>;
+
+/// A limit of an input of a mechanism.
+pub(super) type LimitOf<M> = Limit<<M as Mechanism>::Scalar, <M as Mechanism>::Name>;
 
 /// A mechanism whose limits of one input are searched.
 pub(super) struct Searched<'m, M: Mechanism> {

@@ -2,7 +2,7 @@
 
 use super::searched::{Found, Sample, Searched};
 use crate::scalar::arithmetic::*;
-use crate::{Dim, Mechanism, PositionError, real};
+use crate::{Dim, Mechanism, PositionErrorOf, real};
 
 /// The first step, divided by the range of the search. Each is at most twice as long as the one before.
 const FIRST: f64 = 1.0 / 1_048_576.0;
@@ -38,7 +38,7 @@ impl<M: Mechanism> Searched<'_, M> {
         (position, input): (M::Coordinates, M::Scalar),
         to: M::Scalar,
         group: M::Name,
-    ) -> Result<Walked<M>, PositionError<M::Name>> {
+    ) -> Result<Walked<M>, PositionErrorOf<M>> {
         let index = self.mechanism.groups().position(|other| other.name == group).unwrap_or_default();
         let determinants = self.mechanism.block_determinants(&self.mechanism.pose_at(&position)).abs();
         let mut last = Sample { input, position, determinants };
@@ -70,7 +70,7 @@ impl<M: Mechanism> Searched<'_, M> {
     }
 
     /// The position at another input, from the tangent at a position, or from this itself if J is singular.
-    pub(super) fn along(&self, from: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionError<M::Name>> {
+    pub(super) fn along(&self, from: &Sample<M>, input: M::Scalar) -> Result<Found<M>, PositionErrorOf<M>> {
         let pose = self.mechanism.pose_at(&from.position);
         let by_inputs = self.mechanism.jacobian_inputs(&pose);
         let by_input =

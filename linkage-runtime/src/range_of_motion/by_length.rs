@@ -9,7 +9,7 @@ use super::options::{RangeOptions, out_of_range};
 use crate::continuation::{Direction, Options, Path};
 use crate::held::{Held, IntoHeld};
 use crate::scalar::arithmetic::*;
-use crate::{Name, PathError, PositionError};
+use crate::{Name, PathError, PathErrorOf, PositionError};
 
 /// A motion by its arc length: it goes on where the parameter reverses, until it closes or ends.
 ///
@@ -62,7 +62,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
         mechanism: impl IntoHeld<'a, By, Of = M>,
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
-    ) -> Result<Self, PathError<M::Name>> {
+    ) -> Result<Self, PathErrorOf<M>> {
         let mechanism = mechanism.into_held();
         let Followed { options, steps, ends, .. } = followed(&*mechanism, start, options, AtDeadPoint::GoOn)?;
         Ok(Self { mechanism, options, steps, ends })
@@ -110,7 +110,7 @@ impl<'a, M: Driven> MotionByLength<'a, M> {
     /// # Errors
     /// [`PositionError::NotFinite`] for a length that is not finite, [`InputError::OutOfRange`](crate::InputError::OutOfRange)
     /// for one beyond the ends, and those of [`Path::advance`].
-    pub fn at(&self, length: M::Scalar) -> Result<PositionOf<M>, PathError<M::Name>> {
+    pub fn at(&self, length: M::Scalar) -> Result<PositionOf<M>, PathErrorOf<M>> {
         let whole = self.length();
         let within = if self.is_closed() && !(length >= M::Scalar::zero() && length <= whole) {
             length - (length / whole).floor() * whole

@@ -16,7 +16,7 @@ use crate::kinematic::{Motion, MotionOf};
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::larger;
-use crate::{Dim, Kinematic, OutputMotion, PerUnknown, PointMotion, PositionError, real};
+use crate::{Dim, Kinematic, OutputMotion, PerUnknown, PointMotion, PositionErrorOf, real};
 
 /// The first and second derivatives of the unknowns by the parameter.
 pub(super) type Slopes<M> = [PerUnknown<M>; 2];
@@ -85,7 +85,7 @@ pub(super) fn motion_at<M: Kinematic>(
     q: &M::Coordinates,
     rates: M::Rates,
     accelerations: M::Accelerations,
-) -> Result<MotionOf<M>, PositionError<M::Name>> {
+) -> Result<MotionOf<M>, PositionErrorOf<M>> {
     let pose = m.pose_at(q);
     let (points, outputs) = (M::each_point(m.points(&pose)?), M::each_output(m.outputs(&pose)?));
     let velocities = M::each_point(m.point_velocities(&pose, &rates)?);

@@ -12,7 +12,7 @@ use crate::jacobian::ulp::nearly_zero;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{BorrowedName, Dim, Mechanism, PathError, real};
+use crate::{BorrowedName, Dim, Mechanism, PathError, PathErrorOf, real};
 
 /// A position at which a step ended.
 pub(super) struct Step<M: Mechanism> {
@@ -32,6 +32,12 @@ pub(super) enum Passed<N: BorrowedName> {
     DeadPoint(N),
     ChangePoint(Groups<N>),
 }
+
+/// The end of a motion of a mechanism.
+type EndOf<M> = MotionEnd<<M as Mechanism>::Name>;
+
+/// The steps of a motion, and its end or ends.
+type Travelled<M, E> = (Vec<Step<M>>, E);
 
 /// A motion that was followed.
 pub(super) struct Followed<M: Driven> {
@@ -64,7 +70,7 @@ pub(super) fn followed<M: Driven>(
     start: &M::Coordinates,
     options: RangeOptions<M::Scalar>,
     at_dead_point: AtDeadPoint,
-) -> Result<Followed<M>, PathError<M::Name>> {
+) -> Result<Followed<M>, PathErrorOf<M>> {
     let options = within_parameter_range(mechanism, options)?;
     let same = SamePosition::at(mechanism, start);
     let follower = Follower { mechanism, same: &same, options: &options, at_dead_point };
@@ -74,7 +80,7 @@ pub(super) fn followed<M: Driven>(
 
 impl<M: Driven> Follower<'_, M> {
     /// Follows the motion both ways; first that in which the parameter increases.
-    fn both_ways(&self, start: &M::Coordinates) -> Result<(Vec<Step<M>>, [MotionEnd<M::Name>; 2]), PathError<M::Name>> {
+    fn both_ways(&self, start: &M::Coordinates) -> Result<Travelled<M, [EndOf<M>; 2]>, PathErrorOf<M>> {
         let (mut steps, upper) = self.one_way(start, Direction::Increasing)?;
         if matches!(upper, MotionEnd::Closed { .. }) {
             return Ok((steps, [upper; 2]));
@@ -90,7 +96,7 @@ impl<M: Driven> Follower<'_, M> {
         &self,
         start: &M::Coordinates,
         direction: Direction<M::Rates>,
-    ) -> Result<(Vec<Step<M>>, MotionEnd<M::Name>), PathError<M::Name>> {
+    ) -> Result<Travelled<M, EndOf<M>>, PathErrorOf<M>> {
         let Self { mechanism, same, options, at_dead_point } = *self;
         let mut path = Path::with(mechanism, start, direction, options.path)?;
         let goes_on = at_dead_point == AtDeadPoint::GoOn;

@@ -57,7 +57,9 @@ use crate::position::newton;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
-use crate::{Assembly, BorrowedName, Kinematic, Mechanism, Name, PathError, PerInput, PositionError, real};
+use crate::{
+    Assembly, BorrowedName, Kinematic, Mechanism, Name, PathError, PathErrorOf, PerInput, PositionError, real,
+};
 use driven::{PositionOf, same_inputs};
 use follow::{AtDeadPoint, Followed, Passed, Step, backwards, followed};
 use options::out_of_range;
@@ -114,7 +116,7 @@ where
         mechanism: impl IntoHeld<'a, By, Of = M>,
         start: &M::Coordinates,
         options: RangeOptions<M::Scalar>,
-    ) -> Result<Self, PathError<M::Name>> {
+    ) -> Result<Self, PathErrorOf<M>> {
         let mechanism = mechanism.into_held();
         let followed = followed(&*mechanism, start, options, AtDeadPoint::End)?;
         Ok(Self::followed(mechanism, start, followed))
@@ -189,7 +191,7 @@ where
     /// If the motion ends before, the reason: [`PathError::DeadPoint`], [`PathError::ChangePoint`], or
     /// [`InputError::OutOfRange`](crate::InputError::OutOfRange) for the end of its range; [`PositionError::NotFinite`] for an
     /// input that is not finite.
-    pub fn at(&self, input: M::Scalar) -> Result<PositionOf<M>, PathError<M::Name>> {
+    pub fn at(&self, input: M::Scalar) -> Result<PositionOf<M>, PathErrorOf<M>> {
         self.near(input).map(|(q, _)| self.mechanism().position_of(&q))
     }
 
@@ -197,7 +199,7 @@ where
     ///
     /// # Errors
     /// Those of [`at`](Self::at) for the input of the position.
-    pub fn has(&self, position: &M::Coordinates) -> Result<bool, PathError<M::Name>> {
+    pub fn has(&self, position: &M::Coordinates) -> Result<bool, PathErrorOf<M>> {
         let (near, _) = self.near(M::inputs(position)[0])?;
         Ok(self.same.are_near(&near, position))
     }
@@ -208,7 +210,7 @@ where
 
     /// The place of an input among the steps: the input within the steps, the cycles of a closed motion before it, and the
     /// index of the step before it.
-    fn place(&self, input: M::Scalar) -> Result<(M::Scalar, M::Scalar, usize), PathError<M::Name>> {
+    fn place(&self, input: M::Scalar) -> Result<(M::Scalar, M::Scalar, usize), PathErrorOf<M>> {
         if !input.is_finite() {
             return Err(PositionError::NotFinite {
                 mechanism: self.mechanism.name(),
@@ -245,7 +247,7 @@ where
     }
 
     /// The position at an input, and the derivatives of the coordinates by arc length, with the parameter.
-    pub(crate) fn near(&self, input: M::Scalar) -> Result<(M::Coordinates, M::Rates), PathError<M::Name>> {
+    pub(crate) fn near(&self, input: M::Scalar) -> Result<(M::Coordinates, M::Rates), PathErrorOf<M>> {
         let (within, cycles, place) = self.place(input)?;
         // The place is that of a step.
         let step = &self.steps[place];
@@ -269,7 +271,7 @@ where
                 // reversal.
                 (Err(error), Some(next)) => {
                     let (position, rates) =
-                        from(next, backwards::<M>(&next.rates)).map_err(|_: PathError<M::Name>| error)?;
+                        from(next, backwards::<M>(&next.rates)).map_err(|_: PathErrorOf<M>| error)?;
                     (position, backwards::<M>(&rates))
                 }
                 (found, _) => found?,
@@ -291,7 +293,7 @@ where
     }
 
     /// The error of an input beyond an end of the motion.
-    fn outside(&self, end: MotionEnd<M::Name>, input: M::Scalar, at: M::Scalar) -> PathError<M::Name> {
+    fn outside(&self, end: MotionEnd<M::Name>, input: M::Scalar, at: M::Scalar) -> PathErrorOf<M> {
         match end {
             MotionEnd::DeadPoint { group } => {
                 PathError::DeadPoint { mechanism: self.mechanism.name(), group, gap: to_f64((input - at).abs()) }
@@ -323,10 +325,10 @@ where
         branch: M::Branch,
         inputs: impl IntoIterator<Item = M::Scalar>,
         options: RangeOptions<M::Scalar>,
-    ) -> Result<Self, PathError<M::Name>> {
+    ) -> Result<Self, PathErrorOf<M>> {
         let mechanism = mechanism.into_held();
         let mut last = PathError::NoDirection { mechanism: mechanism.name() };
-        let from = |input: M::Scalar| -> Result<_, PathError<M::Name>> {
+        let from = |input: M::Scalar| -> Result<_, PathErrorOf<M>> {
             let [given, ..] = mechanism.inputs_at(input);
             let pose = mechanism.driven().assemble(given.into(), branch)?;
             let start = M::coordinates(M::Of::unknowns(&M::Of::coordinates_of(&pose)), [input].into());

@@ -4,7 +4,7 @@ use super::driven::PositionOf;
 use super::{Driven, RangeOfMotion, between, crossed, follow::Step};
 use crate::kinematic::{FullKinematics, FullKinematicsOf, Motion, MotionOf};
 use crate::scalar::arithmetic::*;
-use crate::{Kinematic, Mechanism, PathError, PerInput, PositionError};
+use crate::{Kinematic, Mechanism, PathError, PathErrorOf, PerInput, PositionError};
 
 impl<M: Driven> RangeOfMotion<'_, M> {
     /// The position at an input with rates, accelerations, points and outputs.
@@ -21,7 +21,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         input: M::Scalar,
         rate: M::Scalar,
         acceleration: M::Scalar,
-    ) -> Result<MotionOf<M::Of>, PathError<M::Name>> {
+    ) -> Result<MotionOf<M::Of>, PathErrorOf<M>> {
         match self.regular_motion(input, rate, acceleration) {
             Err(error @ PathError::Position(PositionError::Singular { .. })) => {
                 self.crossing_motion(input, rate, acceleration).ok_or(error)
@@ -62,7 +62,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         input: M::Scalar,
         rate: M::Scalar,
         acceleration: M::Scalar,
-    ) -> Result<MotionOf<M::Of>, PathError<M::Name>> {
+    ) -> Result<MotionOf<M::Of>, PathErrorOf<M>> {
         let m = self.driven();
         let (rates, accelerations) = self.input_motion(input, rate, acceleration);
         let (rates, accelerations) = (rates.into(), accelerations.into());
@@ -87,7 +87,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         input: M::Scalar,
         rates: InputsOf<M>,
         accelerations: InputsOf<M>,
-    ) -> Result<Option<MotionOf<M::Of>>, PathError<M::Name>> {
+    ) -> Result<Option<MotionOf<M::Of>>, PathErrorOf<M>> {
         let (within, cycles, place) = self.place(input)?;
         let Some([before, after]) = self.steps.get(place..place + 2) else { return Ok(None) };
         let (steps, mechanism, m) = ([before, after], self.mechanism(), self.driven());
@@ -115,7 +115,7 @@ impl<M: Driven> RangeOfMotion<'_, M> {
         like: &PositionOf<M>,
         rates: InputsOf<M>,
         accelerations: InputsOf<M>,
-    ) -> Result<MotionOf<M::Of>, PathError<M::Name>> {
+    ) -> Result<MotionOf<M::Of>, PathErrorOf<M>> {
         let closed = M::Of::coordinates_of(&found.pose);
         let position = turned_to(self.driven(), closed, like);
         if position != closed {

@@ -3,7 +3,7 @@
 use super::driven::Driven;
 use crate::continuation::{AtChangePoint, Options};
 use crate::scalar::to_f64;
-use crate::{InputError, Mechanism, Name, PathError, Real};
+use crate::{InputError, Mechanism, Name, PathErrorOf, Real};
 
 /// The options of a range of motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +40,7 @@ impl<T: Real> RangeOptions<T> {
 pub(super) fn within_parameter_range<M: Driven>(
     mechanism: &M,
     options: RangeOptions<M::Scalar>,
-) -> Result<RangeOptions<M::Scalar>, PathError<M::Name>> {
+) -> Result<RangeOptions<M::Scalar>, PathErrorOf<M>> {
     let range = options.path.range.or(mechanism.parameter_range()?);
     Ok(RangeOptions { path: Options { range, ..options.path }, ..options })
 }
@@ -51,7 +51,7 @@ pub(super) fn out_of_range<M: Mechanism>(
     quantity: &'static str,
     value: M::Scalar,
     range: [M::Scalar; 2],
-) -> PathError<M::Name> {
+) -> PathErrorOf<M> {
     let ([least, most], value) = (range.map(to_f64), to_f64(value));
     let (of, quantity) = (Some(mechanism.name()), Name::from_static(quantity));
     InputError::OutOfRange { of, quantity, value, least, most }.into()
