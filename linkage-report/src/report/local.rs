@@ -1,7 +1,7 @@
 //! A mechanism at one position, by numbers: what the directions of its links need.
 
 use linkage_runtime::derivation::{Derivation, GroupForm};
-use linkage_runtime::{Kinematic, Mechanism};
+use linkage_runtime::{Dim, Kinematic, Mechanism};
 
 use super::dyad::Vector;
 
@@ -49,7 +49,7 @@ impl<'a> Local<'a> {
         let count = M::UNKNOWNS.len();
         let all = (0..count).flat_map(|row| (0..count).map(move |column| (row, column)));
         let jacobian = all.map(|(row, column)| of_unknowns.part(row, column)).collect();
-        let gamma = move |rates: &[f64]| mechanism.gamma(&pose, &rates_of::<M>(rates)).iter().copied().collect();
+        let gamma = move |rates: &[f64]| mechanism.gamma(&pose, &rates_of(mechanism, rates)).iter().copied().collect();
         Self::new(derivation, M::UNKNOWN_ANGLES.to_vec(), jacobian, gamma)
     }
 
@@ -93,12 +93,9 @@ impl<'a> Local<'a> {
 }
 
 /// Rates of unknowns and inputs in the type of a mechanism.
-fn rates_of<M: Mechanism<Scalar = f64>>(rates: &[f64]) -> M::Rates {
-    let (mut unknowns, mut inputs) =
-        (linkage_runtime::PerUnknown::<M>::zeros(), linkage_runtime::PerInput::<M>::zeros());
-    let all = unknowns.iter_mut().chain(inputs.iter_mut());
-    all.zip(rates).for_each(|(to, rate)| *to = *rate);
-    M::rates(unknowns, inputs)
+fn rates_of<M: Mechanism<Scalar = f64>>(mechanism: &M, rates: &[f64]) -> M::Rates {
+    let (u, v, _) = mechanism.dims();
+    M::rates(u.padded(rates.iter().copied()), v.padded(rates.iter().copied().skip(u.count())))
 }
 
 /// The rates of unknowns, then of inputs.
