@@ -63,11 +63,11 @@ pub use linkage_report::{Document, FpCore, Notation, Table, chart, report, sheet
 pub use linkage_rounding::Rounded;
 #[cfg(any(feature = "std", feature = "libm"))]
 pub use linkage_runtime::{
-    AnyBranch, Assembled, Assembly, AssemblyMode, BorrowedName, Bounded, Branches, Certifiable, Column, D, Dim, Elbow,
-    Formulas, Group, InputError, InputValues, Joint, JointForces, Kinematic, Limits, Matrix, Mechanism, Name, Named,
-    Number, OutputMotion, PathError, PerInput, PerUnknown, PointMotion, PositionError, RangeEnd, Ranged, Real, Slider,
-    Slope, Solution, UpTo, accuracy, analysis, continuation, derivation, extremes, held, kinematic, lanes, limits,
-    nalgebra, position, real, singularity, skeleton,
+    AnyBranch, Assembled, Assembly, AssemblyMode, BorrowedName, Bounded, Branches, Build, Certifiable, Column, D, Dim,
+    Elbow, Formulas, Group, InputError, InputValues, Joint, JointForces, Kinematic, Limits, Matrix, Mechanism, Name,
+    Named, Number, OutputMotion, PathError, PerInput, PerUnknown, PointMotion, PositionError, RangeEnd, Ranged, Real,
+    Slider, Slope, Solution, UpTo, accuracy, analysis, continuation, derivation, extremes, held, kinematic, lanes,
+    limits, nalgebra, position, real, singularity, skeleton,
 };
 #[cfg(feature = "std")]
 pub use linkage_runtime::{circuits, range_of_motion};

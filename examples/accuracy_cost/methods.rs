@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use linkage::accuracy::{Newton, PositionMethod, Reached};
 use linkage::derivation::Operations;
-use linkage::{Assembly, D, Dim, Mechanism, PerUnknown, PositionError, Real, position};
+use linkage::{Assembly, Build, D, Dim, Mechanism, PerUnknown, PositionError, Real, position};
 
 use super::comparison::{Point, Work};
 use linkage_examples::accuracy_cost::oracle::Case;

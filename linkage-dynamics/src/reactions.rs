@@ -5,7 +5,7 @@ use crate::scene::{Accelerations, Coordinates, Inputs, Rates};
 use crate::simulation::Loads;
 use crate::{ContactLaw, Equations, MotionError, Scene};
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, Dim, Mechanism, PerInput};
+use linkage_runtime::{Build, Column, Mechanism, PerInput};
 
 /// The prescribed acceleration of each input, or None.
 type Laws<S> = Column<Option<<S as Scene>::Scalar>, <S as Scene>::V>;

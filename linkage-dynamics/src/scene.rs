@@ -7,7 +7,7 @@ use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
 use linkage_runtime::{
-    Column, Dim, InputError, JointForces, Mechanism, Name, PerInput, PositionError, Real, newton, real,
+    Build, Column, Dim, InputError, JointForces, Mechanism, Name, PerInput, PositionError, Real, newton, real,
 };
 
 /// Values shared by the functions of a scene, at one position and one set of input rates.

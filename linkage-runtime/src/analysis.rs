@@ -39,7 +39,8 @@ use crate::jacobian::Scales;
 use crate::linear::power_of_two_below;
 use crate::scalar::arithmetic::*;
 use crate::{
-    Column, Dim, Kinematic, Matrix, Mechanism, Name, PerInput, PerUnknown, PointMotion, PositionErrorOf, Real, real,
+    Build, Column, Dim, Kinematic, Matrix, Mechanism, Name, PerInput, PerUnknown, PointMotion, PositionErrorOf, Real,
+    real,
 };
 
 /// The columns of a matrix by the unknowns, and those by the inputs: J and A, for instance.

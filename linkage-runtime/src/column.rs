@@ -20,14 +20,14 @@ impl<X: Copy + Debug, R: Dim + Default> Column<X, R> {
     #[inline]
     #[must_use]
     pub fn from_fn(entry: impl FnMut(usize) -> X) -> Self {
-        R::default().column(entry)
+        Self(R::default().array(entry))
     }
 
     /// Builds a column of equal entries.
     #[inline]
     #[must_use]
     pub fn repeat(entry: X) -> Self {
-        R::default().repeat(entry)
+        Self::from_fn(|_| entry)
     }
 }
 
@@ -36,7 +36,7 @@ impl<X: Copy + Debug, R: Dim> Column<X, R> {
     #[inline]
     #[must_use]
     pub fn from_slice(entries: &[X]) -> Option<Self> {
-        R::new(entries.len()).map(|count| count.column(|place| entries[place]))
+        R::new(entries.len()).map(|count| Self(count.array(|place| entries[place])))
     }
 
     /// The number of entries.
@@ -108,21 +108,25 @@ impl<T: Real, R: Dim + Default> Column<T, R> {
     #[inline]
     #[must_use]
     pub fn from_iterator(entries: impl IntoIterator<Item = T>) -> Self {
-        R::default().padded(entries)
+        let mut column = Self::zeros();
+        for (own, entry) in column.iter_mut().zip(entries) {
+            *own = entry;
+        }
+        column
     }
 
     /// The zero vector.
     #[inline]
     #[must_use]
     pub fn zeros() -> Self {
-        R::default().zeros()
+        Self::repeat(T::zero())
     }
 
     /// The unit vector with its 1 at this index.
     #[inline]
     #[must_use]
     pub fn unit(at: usize) -> Self {
-        R::default().unit(at)
+        Self::from_fn(|place| if place == at { T::one() } else { T::zero() })
     }
 }
 

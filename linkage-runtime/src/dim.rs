@@ -13,7 +13,7 @@ use core::iter::{Flatten, Take};
 
 use nalgebra::SVector;
 
-use crate::{Column, Matrix, Real};
+use crate::Real;
 
 /// A number of coordinates, with the array type and the vector type of that length.
 #[diagnostic::on_unimplemented(message = "`{Self}` is not a dimension", note = "write `D<N>` with a number `N`")]
@@ -37,56 +37,6 @@ pub trait Dim: Copy + Debug + Eq + 'static {
     fn of<X: Copy + Debug>(array: &Self::Array<X>) -> Self;
     /// Applies a function to each entry, without bounds checks.
     fn map<X: Copy + Debug, Y: Copy + Debug>(entries: Self::Array<X>, f: impl FnMut(X) -> Y) -> Self::Array<Y>;
-
-    /// The column whose entry at index i is `entry(i)`.
-    #[inline]
-    fn column<X: Copy + Debug>(self, entry: impl FnMut(usize) -> X) -> Column<X, Self> {
-        Column::of(self.array(entry))
-    }
-    /// The column of equal entries.
-    #[inline]
-    fn repeat<X: Copy + Debug>(self, entry: X) -> Column<X, Self> {
-        self.column(|_| entry)
-    }
-    /// The zero vector.
-    #[inline]
-    fn zeros<T: Real>(self) -> Column<T, Self> {
-        self.repeat(T::zero())
-    }
-    /// The unit vector with its 1 at this index.
-    #[inline]
-    fn unit<T: Real>(self, at: usize) -> Column<T, Self> {
-        self.column(|place| if place == at { T::one() } else { T::zero() })
-    }
-    /// The column of these entries, padded with zeros.
-    #[inline]
-    fn padded<T: Real>(self, entries: impl IntoIterator<Item = T>) -> Column<T, Self> {
-        let mut column = self.zeros();
-        for (own, entry) in column.iter_mut().zip(entries) {
-            *own = entry;
-        }
-        column
-    }
-    /// The matrix of these columns.
-    #[inline]
-    fn columns<T: Real, C: Dim>(self, columns: Column<Column<T, Self>, C>) -> Matrix<T, Self, C> {
-        Matrix::of(self, columns)
-    }
-    /// The matrix of so many columns, with the entry `entry(i, j)` at row i and column j.
-    #[inline]
-    fn matrix<T: Real, C: Dim>(self, columns: C, mut entry: impl FnMut(usize, usize) -> T) -> Matrix<T, Self, C> {
-        Matrix::of(self, columns.column(|column| self.column(|row| entry(row, column))))
-    }
-    /// The zero matrix of so many columns.
-    #[inline]
-    fn zero_matrix<T: Real, C: Dim>(self, columns: C) -> Matrix<T, Self, C> {
-        Matrix::of(self, columns.repeat(self.zeros()))
-    }
-    /// The identity matrix.
-    #[inline]
-    fn identity<T: Real>(self) -> Matrix<T, Self, Self> {
-        Matrix::of(self, self.column(|place| self.unit(place)))
-    }
 }
 
 /// The number `N`, a constant.

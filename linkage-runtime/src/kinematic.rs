@@ -7,7 +7,7 @@ use nalgebra::{Point2, Vector2};
 use crate::mechanism::no_unknowns;
 use crate::scalar::arithmetic::*;
 use crate::{
-    Column, D, Dim, Matrix, Mechanism, Name, OutputMotion, PerInput, PerUnknown, PointMotion, PositionErrorOf,
+    Build, Column, D, Dim, Matrix, Mechanism, Name, OutputMotion, PerInput, PerUnknown, PointMotion, PositionErrorOf,
 };
 
 /// A position with its rates and accelerations, as `kinematics` finds it.

@@ -31,14 +31,14 @@ impl<T: Real, R: Dim + Default, C: Dim + Default> Matrix<T, R, C> {
     #[inline]
     #[must_use]
     pub fn from_fn(entry: impl FnMut(usize, usize) -> T) -> Self {
-        R::default().matrix(C::default(), entry)
+        Self::built(R::default(), C::default(), entry)
     }
 
     /// The zero matrix.
     #[inline]
     #[must_use]
     pub fn zeros() -> Self {
-        R::default().zero_matrix(C::default())
+        Self::built(R::default(), C::default(), |_, _| T::zero())
     }
 }
 
@@ -47,11 +47,18 @@ impl<T: Real, R: Dim + Default, C: Dim> Matrix<T, R, C> {
     #[inline]
     #[must_use]
     pub fn from_columns(columns: Column<Column<T, R>, C>) -> Self {
-        R::default().columns(columns)
+        Self::of(R::default(), columns)
     }
 }
 
 impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
+    /// Builds the matrix of so many rows and columns whose entry at row i and column j is `entry(i, j)`.
+    #[inline]
+    pub(crate) fn built(rows: R, columns: C, mut entry: impl FnMut(usize, usize) -> T) -> Self {
+        let column = |column| Column::of(rows.array(|row| entry(row, column)));
+        Self { columns: Column::of(columns.array(column)), rows }
+    }
+
     /// Builds the matrix of these columns, with so many rows.
     #[inline]
     pub(crate) fn of(rows: R, columns: Column<Column<T, R>, C>) -> Self {
@@ -63,7 +70,7 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
     /// It is several times as fast as mapping an array of columns.
     #[inline]
     fn padded(rows: R, count: C, columns: impl IntoIterator<Item = Column<T, R>>) -> Self {
-        let mut matrix = rows.zero_matrix(count);
+        let mut matrix = Self::built(rows, count, |_, _| T::zero());
         for (own, column) in matrix.columns.iter_mut().zip(columns) {
             *own = column;
         }
@@ -174,14 +181,14 @@ impl<T: Real, R: Dim, C: Dim> Matrix<T, R, C> {
     #[inline]
     #[must_use]
     pub fn transpose(&self) -> Matrix<T, C, R> {
-        self.columns.dim().matrix(self.rows, |row, column| self[(column, row)])
+        Matrix::built(self.columns.dim(), self.rows, |row, column| self[(column, row)])
     }
 
     /// The transpose times a column.
     #[inline]
     #[must_use]
     pub fn tr_mul(&self, column: &Column<T, R>) -> Column<T, C> {
-        self.columns.dim().padded(self.columns.iter().map(|own| own.dot(column)))
+        self.columns.map(|own| own.dot(column))
     }
 
     /// The transpose times a matrix.
@@ -211,7 +218,7 @@ impl<T: Real, N: Dim + Default> Matrix<T, N, N> {
     #[inline]
     #[must_use]
     pub fn identity() -> Self {
-        N::default().identity()
+        Self::built(N::default(), N::default(), |row, column| if row == column { T::one() } else { T::zero() })
     }
 }
 
@@ -220,7 +227,7 @@ impl<T: Real, N: Dim> Matrix<T, N, N> {
     #[inline]
     #[must_use]
     pub fn diagonal(&self) -> Column<T, N> {
-        self.rows.column(|place| self[(place, place)])
+        Column::of(self.rows.array(|place| self[(place, place)]))
     }
 }
 
@@ -278,7 +285,10 @@ impl<T: Real, R: Dim, C: Dim> Mul<Column<T, C>> for Matrix<T, R, C> {
 
     #[inline]
     fn mul(self, factors: Column<T, C>) -> Column<T, R> {
-        self.columns.iter().zip(&factors).fold(self.rows.zeros(), |sum, (&column, &factor)| sum + column * factor)
+        self.columns
+            .iter()
+            .zip(&factors)
+            .fold(Column::of(self.rows.array(|_| T::zero())), |sum, (&column, &factor)| sum + column * factor)
     }
 }
 

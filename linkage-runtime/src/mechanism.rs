@@ -7,19 +7,9 @@ use crate::linear::same_signs;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::shown::Shown;
-use crate::{BorrowedName, Column, Dim, InputError, Matrix, Name, PathError, PositionError, Ranged, Real};
-
-/// Unknowns that are solved together once the groups before them are solved: an Assur group, for instance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Group<'m, N = &'static str> {
-    /// The unknowns by name, as in error messages.
-    pub name: N,
-    /// The constraints that determine them: rows of J.
-    pub equations: &'m [usize],
-    /// The unknowns: columns of J.
-    pub unknowns: &'m [usize],
-}
+use crate::{
+    BorrowedName, Build, Column, Dim, Group, InputError, Matrix, Name, PathError, PositionError, Ranged, Real,
+};
 
 /// A number for each dependent coordinate of a mechanism, or for each constraint.
 pub type PerUnknown<M> = Column<<M as Mechanism>::Scalar, <M as Mechanism>::U>;

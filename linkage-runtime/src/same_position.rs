@@ -7,7 +7,7 @@ use crate::jacobian::ScalesOf as Scales;
 use crate::jacobian::ulp::nearly_zero;
 use crate::scalar::arithmetic::*;
 use crate::scalar::larger;
-use crate::{Column, D, Dim, Mechanism, PerUnknown, Real, real};
+use crate::{Build, Column, D, Mechanism, PerUnknown, Real, real};
 
 /// Compares positions of a mechanism with one input.
 pub(crate) struct SamePosition<M: Mechanism> {

@@ -70,7 +70,7 @@ use crate::scalar::arithmetic::*;
 use crate::scalar::{largest, relative, to_f64};
 #[cfg(feature = "serde")]
 use crate::serialised::Sequence;
-use crate::{Column, Dim, Group, Matrix, Mechanism, Name, PerInput, PerUnknown, PositionErrorOf, Real, real};
+use crate::{Build, Column, Dim, Group, Matrix, Mechanism, Name, PerInput, PerUnknown, PositionErrorOf, Real, real};
 use decomposition::Decomposition;
 
 /// The distance of a position from a singular configuration, and the rates that are possible at it.

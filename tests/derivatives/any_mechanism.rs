@@ -2,7 +2,7 @@
 //! without points and outputs, and names in the order of declaration.
 
 use linkage::kinematic::{FullKinematics, Motion};
-use linkage::{Column, Dim, Elbow, Kinematic, Mechanism, PositionError, linkage};
+use linkage::{Build, Column, Dim, Elbow, Kinematic, Mechanism, PositionError, linkage};
 use linkage_gallery::cart_pendulum::*;
 use linkage_gallery::double_butterfly::*;
 use linkage_gallery::four_bar::*;

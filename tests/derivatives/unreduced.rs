@@ -1,7 +1,7 @@
 //! Inertia and forces in all coordinates: reduced by W they are the emitted mass matrix and forces.
 
 use linkage::nalgebra::SMatrix;
-use linkage::{Column, D, Dim, Matrix, Mechanism, MotionError, Scene};
+use linkage::{Build, Column, D, Matrix, Mechanism, MotionError, Scene};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use linkage::accuracy::{ClosedForm, Newton, PositionMethod, Reached, Table};
 use linkage::nalgebra::SVector;
 use linkage::price::{Cost, cheapest, frontier};
-use linkage::{D, Dim, InputError, Kinematic, Mechanism, PerInput, PositionError, Real};
+use linkage::{Build, D, Dim, InputError, Kinematic, Mechanism, PerInput, PositionError, Real};
 use linkage_double::DoubleDouble;
 
 use linkage_examples::accuracy_cost::dominance::dominated;

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use linkage::kinematic::{FullKinematics, Kinematics};
 use linkage::lanes::Lanes;
-use linkage::{Dim, OutputMotion, PointMotion, Real, real};
+use linkage::{Build, Dim, OutputMotion, PointMotion, Real, real};
 use linkage_gallery::Fixture;
 
 /// The scalar of a mechanism.

@@ -5,7 +5,7 @@
 
 use crate::contact::Contact;
 use crate::{MotionError, Unreduced};
-use linkage_runtime::{Column, Dim, Matrix, PositionError, Real};
+use linkage_runtime::{Build, Column, Dim, Matrix, PositionError, Real};
 
 /// The reaction R of a joint with friction. Its limit is `factor` |R|, see
 /// [`ContactLaw::Bearing`](crate::ContactLaw::Bearing).

@@ -9,7 +9,7 @@
 
 use super::tolerance::held_tolerance;
 use linkage_runtime::__shared::Ranked;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use linkage_runtime::{Build, Column, Dim, Matrix, Real, real};
 
 /// A force between bounds.
 #[derive(Debug, Clone, Copy)]

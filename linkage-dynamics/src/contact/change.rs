@@ -2,7 +2,7 @@
 
 use super::Mode;
 use super::state::Contacts;
-use linkage_runtime::{Column, Dim, Real};
+use linkage_runtime::{Build, Column, Dim, Real};
 
 /// The change of a contact at an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -12,7 +12,7 @@ use super::{ContactLaw, Mode};
 use crate::MotionError;
 use crate::inertia::Inertia;
 use linkage_runtime::__shared::{Ranked, reduce_rows};
-use linkage_runtime::{Column, Dim, Matrix, Real};
+use linkage_runtime::{Build, Column, Dim, Matrix, Real};
 
 /// The accelerations due to forces along some of the contacts.
 pub(super) struct Response<T: Real, V: Dim, C: Dim> {

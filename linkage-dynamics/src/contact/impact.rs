@@ -8,7 +8,7 @@ use super::bounded::{Bounds, bounded};
 use super::held::Response;
 use super::reduced::ReducedEquations;
 use crate::MotionError;
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// A stop that takes part in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -13,7 +13,7 @@ use super::reduced::ReducedEquations;
 use super::tolerance::held_tolerance;
 use super::{ContactLaw, Mode};
 use linkage_runtime::__shared::{Ranked, reduce_rows};
-use linkage_runtime::{Column, Dim, Real};
+use linkage_runtime::{Build, Column, Dim, Real};
 
 impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// Returns for each contact the least margin of the motions in which it moves, divided by its |s'|, so that it is a

@@ -7,7 +7,7 @@ use super::tolerance::ZERO_ULPS;
 use super::{ContactLaw, Mode};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 impl<T: Real, C: Dim> Contacts<T, C> {
     /// True if s rests on a stop.

@@ -4,7 +4,7 @@ use super::bearing::{ReducedBearing, Reduction};
 use super::{Contact, ContactLaw};
 use crate::scene::{Rates, StateColumn, coordinate_name};
 use crate::{Equations, MotionError, Scene, StateParts};
-use linkage_runtime::{Column, Dim, Matrix, Mechanism, PerInput, Real};
+use linkage_runtime::{Build, Column, Dim, Matrix, Mechanism, PerInput, Real};
 
 /// `M v'' = Q + S' f`, where v are `V` independent coordinates, the inputs of a scene or others, and f the forces of the
 /// contacts, whose scalars s have `s' = S v' + drift` and `s'' = S v'' + bias`.

@@ -9,7 +9,7 @@ use super::tolerance::{ZERO_ULPS, held_tolerance, is_negligible};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// A rebound that takes less than this many ulps of the time is treated as rest.
 const SHORTEST_FLIGHT_ULPS: f64 = 64.0;

@@ -8,7 +8,7 @@ use super::tolerance::{gap_tolerance, is_negligible, sum_tolerance, within};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use crate::integrate::{Crossing, Guard};
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// The modes of the contacts of a scene, with the memory needed from one event to the next.
 ///

@@ -1,7 +1,7 @@
 //! Dense output: the state between the ends of a step.
 
 use super::tableau::{self, Slopes, Tableau};
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// The largest number of coefficients.
 const COEFFICIENTS: usize = 9;

@@ -5,7 +5,7 @@ use super::sampled::{FunctionSample, Sample, is_same, sampled};
 use super::system::{StateOf, System};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim};
+use linkage_runtime::{Build, Column, Dim};
 
 /// The most events of one guard at one time: guards that are zero within rounding error may trigger each other.
 const MAX_REPEATS: u32 = 8;

@@ -7,7 +7,7 @@ use super::tableau::{self, SLOPES, Stage, Weights};
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, D, Dim, real};
+use linkage_runtime::{Build, Column, D, real};
 
 /// Kutta's method of order 4 (Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed. (1993),
 /// table 1.2 of section II.1).

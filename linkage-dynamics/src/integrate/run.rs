@@ -12,7 +12,7 @@ use super::tableau::{self, Method, SLOPES};
 use super::{Outputs, step};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Dim, InputError};
+use linkage_runtime::{Build, InputError};
 
 /// The largest correction of a state by projection, divided by the tolerance, after which the rate computed before it
 /// is still used.

@@ -6,7 +6,7 @@ use super::dense::Interpolant;
 use super::system::{Guard, StateOf, System};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, real};
+use linkage_runtime::{Build, Column, Dim, real};
 
 /// Two values of a function within this many ulps count as equal, so that a constant with rounding errors has no
 /// extremum. At 0 each such error costs the evaluations of dense output; at 1e4 extrema of a relative depth of 1e-12

@@ -8,7 +8,7 @@
 //! at zero, |t - t0|, which is far from a parabola however close the samples are. Deviations that are small relative to
 //! the largest value since the last restart do not count.
 
-use linkage_runtime::{Column, Dim};
+use linkage_runtime::{Build, Column, Dim};
 
 /// The largest deviation of four values from a parabola, relative to the largest of them.
 const ON_A_PARABOLA: f64 = 0.05;

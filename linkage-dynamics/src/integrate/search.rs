@@ -10,7 +10,7 @@ use super::samples::Samples;
 use super::system::{StateOf, System};
 use crate::MotionError;
 use linkage_runtime::jacobian::first_not_positive;
-use linkage_runtime::{Column, Dim, real};
+use linkage_runtime::{Build, Column, Dim, real};
 
 /// The largest number of equal parts of a step at whose ends guards are sampled.
 const MAX_PARTS: usize = 64;

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use super::{Action, Crossing, Interpolant};
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, D, Dim, Real};
+use linkage_runtime::{Build, Column, D, Dim, Real};
 
 /// The value of a guard function at one state: where it falls below zero, the law of the rate changes.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Embedded Runge-Kutta pairs as tables, and the stages of a step.
 
 use crate::MotionError;
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// A linear combination of slopes: the index of each slope and its coefficient.
 pub type Weights = &'static [(usize, f64)];

@@ -15,7 +15,7 @@ use crate::{Coordinates, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::jacobian::EliminationOf as Elimination;
 use linkage_runtime::jacobian::ulp::nearly_zero;
-use linkage_runtime::{Dim, Mechanism, PerInput, real};
+use linkage_runtime::{Build, Dim, Mechanism, PerInput, real};
 
 /// The largest residual at the change point, in ulps of the residual scales. At a quarter or four times this value all
 /// simulation tests pass.

@@ -14,7 +14,7 @@ use crate::scene::coordinate_name;
 use crate::{Mode, MotionError, Rates, Scene, StateColumn};
 use linkage_runtime::__shared::all_finite;
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, Dim, Mechanism, PerInput, real};
+use linkage_runtime::{Build, Column, Dim, Mechanism, PerInput, real};
 
 /// The largest distance of a motion from the crossing on its sheet, in half lengths of its line; it begins within 2.5 of
 /// them.

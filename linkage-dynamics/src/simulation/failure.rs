@@ -13,7 +13,7 @@ use linkage_runtime::__shared::{smallest, to_f64};
 use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Blocks, EliminationOf as Elimination, Scales};
-use linkage_runtime::{Dim, Mechanism, PositionError, real};
+use linkage_runtime::{Build, Dim, Mechanism, PositionError, real};
 
 /// Below this regularity of the best choice of coordinates a failed step is ascribed to forces in joints. In the tests
 /// steps fail at 0.0005 to 0.003.

@@ -6,7 +6,7 @@
 use crate::Scene;
 use linkage_runtime::__shared::smallest;
 use linkage_runtime::jacobian::{Elimination, Order, Scales, Vector};
-use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
+use linkage_runtime::{Build, Column, Dim, Matrix, Mechanism, Real};
 
 /// A step is rejected if a pivot falls below this fraction of the smallest pivot at its start. At half or twice this
 /// value all simulation tests pass.

@@ -21,7 +21,7 @@ use crate::scene::coordinate_name;
 use crate::{MotionError, Prescribed, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, Mechanism, PerInput, Real, real};
+use linkage_runtime::{Build, Column, Dim, Mechanism, PerInput, Real, real};
 
 /// The deviation of a drive from its law at the end of a step, relative to the tolerance, that counts as a jump. The
 /// error of a step is below 1 by its estimate.

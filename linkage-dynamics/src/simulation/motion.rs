@@ -15,7 +15,7 @@ use linkage_runtime::__shared::{all_finite, smallest};
 use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Elimination, Iteration, Jacobian, ScalesOf, contract, correction};
-use linkage_runtime::{Column, D, Dim, Mechanism, PerInput, Real, newton, real};
+use linkage_runtime::{Build, Column, D, Dim, Mechanism, PerInput, Real, newton, real};
 
 /// The parametrisation of a scene.
 pub(super) type ParametrisationOf<S> = Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;

@@ -12,7 +12,7 @@ use super::independent::{Independent, LEAST_PIVOT_RATIO};
 use crate::Scene;
 use linkage_runtime::__shared::same_signs;
 use linkage_runtime::jacobian::Vector;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use linkage_runtime::{Build, Column, Dim, Matrix, Real, real};
 
 /// The number of nodes.
 pub(super) const NODES: usize = 12;

@@ -8,7 +8,7 @@ use crate::scene::Loads;
 use crate::scene::coordinate_name;
 use crate::{Accelerations, Equations, Mode, MotionError, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Column, Dim, Mechanism, PerInput};
+use linkage_runtime::{Build, Column, Dim, Mechanism, PerInput};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;

@@ -1,7 +1,7 @@
 //! A mechanism at one position, by numbers: what the directions of its links need.
 
 use linkage_runtime::derivation::{Derivation, GroupForm};
-use linkage_runtime::{Dim, Kinematic, Mechanism};
+use linkage_runtime::{Build, Dim, Kinematic, Mechanism};
 
 use super::dyad::Vector;
 

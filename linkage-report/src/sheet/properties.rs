@@ -4,7 +4,7 @@ use std::fmt;
 
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Dim, Kinematic, PerInput, PerUnknown, PositionError, position};
+use linkage_runtime::{Build, Kinematic, PerInput, PerUnknown, PositionError, position};
 
 use super::number;
 

@@ -4,7 +4,7 @@ use linkage_dynamics::contact::Change;
 use linkage_dynamics::integrate::Method;
 use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
 use linkage_dynamics::{Accelerations, Energy, Inputs, MotionError, Scene};
-use linkage_runtime::{Column, Dim, Kinematic, Mechanism, PositionError};
+use linkage_runtime::{Build, Column, Kinematic, Mechanism, PositionError};
 
 use super::motion::{coordinates, points_and_outputs};
 use super::scene::{contact_names, load_columns, numbers, of_energy};

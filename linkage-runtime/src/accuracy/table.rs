@@ -9,7 +9,8 @@ use crate::mechanism::{finite_position, other_group};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
 use crate::{
-    D, Dim, InputError, Mechanism, Name, PerInput, PerUnknown, PositionError, PositionErrorOf, newton_any_branch, real,
+    Build, D, InputError, Mechanism, Name, PerInput, PerUnknown, PositionError, PositionErrorOf, newton_any_branch,
+    real,
 };
 
 /// Positions of a mechanism with one input at `N` evenly spaced inputs, interpolated by cubic Hermite polynomials whose

@@ -2,7 +2,7 @@
 
 use super::input_path::InputPath;
 use crate::{
-    BorrowedName, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf, Ranged, Real,
+    BorrowedName, Build, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf, Ranged, Real,
 };
 
 /// A mechanism whose inputs are functions v(s) of one parameter, its only input.

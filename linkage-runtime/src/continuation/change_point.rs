@@ -21,7 +21,7 @@ use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{Cholesky, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::largest;
-use crate::{Column, D, Dim, Matrix, Mechanism, PathErrorOf, PerUnknown, real};
+use crate::{Build, Column, D, Dim, Matrix, Mechanism, PathErrorOf, PerUnknown, real};
 
 /// The most Newton steps; a search from the path takes three to five.
 const MOST_ITERATIONS: usize = 12;

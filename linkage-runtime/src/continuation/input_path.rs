@@ -1,7 +1,7 @@
 //! Paths of the inputs of a mechanism by one parameter.
 
 use crate::scalar::arithmetic::*;
-use crate::{Dim, InputError, Mechanism, Name, PerInput};
+use crate::{Build, InputError, Mechanism, Name, PerInput};
 
 /// The inputs of a mechanism as functions v(s) of one parameter.
 ///

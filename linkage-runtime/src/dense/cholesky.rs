@@ -1,6 +1,6 @@
 //! Cholesky factorisation of normal equations.
 
-use crate::{Column, Dim, Matrix, Real};
+use crate::{Build, Column, Dim, Matrix, Real};
 
 /// The Cholesky factor L of a symmetric matrix L L'.
 #[derive(Debug, Clone, Copy)]

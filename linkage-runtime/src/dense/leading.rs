@@ -1,6 +1,6 @@
 //! The leading equations of a system without symmetry.
 
-use crate::{Column, Dim, Matrix, Real, real};
+use crate::{Build, Column, Dim, Matrix, Real, real};
 
 /// A pivot below this many ulps of the largest entry of its column counts as zero.
 const LEAST_PIVOT_ULPS: f64 = 64.0;

@@ -1,6 +1,6 @@
 //! L D L' of some rows and columns of a symmetric matrix, as far as they are independent.
 
-use crate::{Column, Dim, Matrix, Real};
+use crate::{Build, Column, Dim, Matrix, Real};
 
 /// The L D L' factors of some rows and columns of a symmetric matrix.
 pub struct Ranked<T: Real, C: Dim> {

@@ -14,7 +14,9 @@ use crate::kinematic::MotionOf;
 use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{Dim, Kinematic, Mechanism, OutputMotion, PathError, PathErrorOf, PointMotion, PositionError, Real, real};
+use crate::{
+    Build, Dim, Kinematic, Mechanism, OutputMotion, PathError, PathErrorOf, PointMotion, PositionError, Real, real,
+};
 
 /// The most turns that are searched with 360 steps each; a longer range has longer steps.
 const MOST_TURNS: f64 = 64.0;

@@ -4,7 +4,7 @@ use super::scales::scale_or_one;
 use super::{EliminationOf, Jacobian};
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, largest, relative, smallest};
-use crate::{Column, Dim, Group, Matrix, Mechanism, Name, PerUnknown};
+use crate::{Build, Column, Dim, Group, Matrix, Mechanism, Name, PerUnknown};
 
 /// The diagonal blocks of J, one for each group.
 pub struct Blocks<'a, M: Mechanism> {

@@ -8,7 +8,7 @@
 use core::mem;
 
 use super::{Jacobian, Vector};
-use crate::{Column, D, Dim, Matrix, Real};
+use crate::{Build, Column, D, Dim, Matrix, Real};
 
 /// The rows and columns of the pivots of [J A], in the order of elimination. Columns from `U` on are inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use super::Vector;
 use crate::scalar::{larger, largest};
-use crate::{Column, Dim, Matrix, Mechanism, Real};
+use crate::{Build, Column, Dim, Matrix, Mechanism, Real};
 
 /// Divisors that make coordinates, residuals and the entries of [J A] nondimensional, so that no test depends on a
 /// unit. The divisor of an angle is 1, that of a length the largest derivative of its loop equation by an angle, which

@@ -4,7 +4,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 
 use super::ulp::nearly_zero;
 use crate::scalar::{larger, largest};
-use crate::{Column, Dim, Real};
+use crate::{Build, Column, Dim, Real};
 
 /// A vector in the space of q, with its components along the unknowns and along the inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,7 +10,7 @@ use super::touch::in_turn_of;
 use crate::jacobian::{ScalesOf as Scales, first_zero};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
-use crate::{Dim, Mechanism, PositionErrorOf, RangeEnd, Ranged, real};
+use crate::{Build, Mechanism, PositionErrorOf, RangeEnd, Ranged, real};
 
 /// The most steps that narrow an interval to two neighbouring numbers.
 const NARROWINGS: usize = 80;

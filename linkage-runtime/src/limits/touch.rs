@@ -9,7 +9,7 @@ use super::walk::Walked;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{EliminationOf as Elimination, Jacobian};
 use crate::scalar::arithmetic::*;
-use crate::{Column, Dim, Mechanism, PerUnknown, PositionErrorOf, Real, real};
+use crate::{Build, Column, Dim, Mechanism, PerUnknown, PositionErrorOf, Real, real};
 
 /// The distances of positions from the input at which the motion stops, in the order in which they are found, divided by the
 /// range of the search. They are mirrored at the touch. The interpolation through all eight is exact up to the

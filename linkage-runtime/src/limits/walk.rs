@@ -2,7 +2,7 @@
 
 use super::searched::{Found, Sample, Searched};
 use crate::scalar::arithmetic::*;
-use crate::{Dim, Mechanism, PositionErrorOf, real};
+use crate::{Build, Mechanism, PositionErrorOf, real};
 
 /// The first step, divided by the range of the search. Each is at most twice as long as the one before.
 const FIRST: f64 = 1.0 / 1_048_576.0;

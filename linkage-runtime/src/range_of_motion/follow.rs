@@ -12,7 +12,7 @@ use crate::jacobian::ulp::nearly_zero;
 use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{BorrowedName, Dim, Mechanism, PathError, PathErrorOf, real};
+use crate::{BorrowedName, Build, Mechanism, PathError, PathErrorOf, real};
 
 /// A position at which a step ended.
 pub(super) struct Step<M: Mechanism> {

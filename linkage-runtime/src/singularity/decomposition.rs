@@ -1,6 +1,6 @@
 //! Singular value decomposition by one-sided Jacobi rotations.
 
-use crate::{Column, Dim, Matrix, Real, real};
+use crate::{Build, Column, Dim, Matrix, Real, real};
 
 /// The most sweeps; six or seven are needed.
 const MOST_SWEEPS: usize = 40;

@@ -1,6 +1,6 @@
 //! Balance of energy and power.
 
-use linkage::{Dim, Mechanism, PerInput};
+use linkage::{Build, Mechanism, PerInput};
 use num_dual::Dual64;
 
 use super::machines::*;

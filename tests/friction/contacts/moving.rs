@@ -2,7 +2,7 @@
 
 use linkage::contact::{ContactReview, Contacts, ReducedEquations};
 use linkage::integrate::{Action, Crossing, System, Tolerance, dop853};
-use linkage::{Column, D, Dim, Mode, MotionError, Scene, StateParts};
+use linkage::{Build, Column, D, Mode, MotionError, Scene, StateParts};
 
 type State<S> = Column<f64, <S as Scene>::State>;
 type Modes<S> = Column<Mode, <S as Scene>::Contacts>;

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
 use linkage::position::newton;
-use linkage::{Assembly, D, Dim, Elbow, Mechanism, PathError, PerInput};
+use linkage::{Assembly, Build, D, Dim, Elbow, Mechanism, PathError, PerInput};
 use linkage_gallery::four_bar::{FourBar, FourBarBranch};
 use linkage_gallery::{Fixture, all_mechanisms, named};
 use rand::rngs::SmallRng;

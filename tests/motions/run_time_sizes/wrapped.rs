@@ -6,8 +6,8 @@ use linkage::kinematic::{
 };
 use linkage::nalgebra::{Point2, Vector2};
 use linkage::{
-    Assembly, Bounded, Branches, Column, D, Dim, Group, InputValues, Kinematic, Matrix, Mechanism, PositionError,
-    Ranged, UpTo,
+    Assembly, Bounded, Branches, Build, Column, D, Dim, Group, InputValues, Kinematic, Matrix, Mechanism,
+    PositionError, Ranged, UpTo,
 };
 
 /// More unknowns, groups, points and outputs than any mechanism here has.

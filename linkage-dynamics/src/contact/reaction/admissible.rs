@@ -17,7 +17,7 @@ use super::search::Cell;
 use crate::contact::bounded::{Bounds, bounded};
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// The limit on updates of the limits. Each divides their error by about 1 / (friction coefficient).
 const MOST_UPDATES: usize = 40;

@@ -18,7 +18,7 @@ use super::problem::Problem;
 use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::__shared::Ranked;
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// The most combinations that are enumerated: eight frictions at rest. With more contacts at rest one motion is
 /// searched for, by the active-set method with limits that are updated until they repeat; that there is no other is not

@@ -8,7 +8,7 @@ use super::slip::Slips;
 use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::__shared::Ranked;
-use linkage_runtime::{Column, Dim, Real};
+use linkage_runtime::{Build, Column, Dim, Real};
 
 /// The contact forces in given modes, as an affine function of the x.
 #[derive(Debug, Clone, Copy)]

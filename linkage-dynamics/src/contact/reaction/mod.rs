@@ -24,7 +24,7 @@ use super::motion::ContactMotion;
 use super::tolerance::held_tolerance;
 use super::{Mode, ReducedEquations};
 use crate::MotionError;
-use linkage_runtime::{Column, Dim, Real};
+use linkage_runtime::{Build, Column, Dim, Real};
 use modes::{InModes, in_modes, limits_in};
 use problem::Problem;
 

@@ -8,7 +8,7 @@ use crate::MotionError;
 use crate::contact::motion::nearer;
 use crate::contact::tolerance::{is_negligible, sum_tolerance};
 use crate::contact::{ContactLaw, Mode};
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// The limit on updates of slipping forces that depend on the forces of redundant contacts.
 const MOST_UPDATES: usize = 40;

@@ -13,7 +13,7 @@ use super::problem::length;
 use crate::contact::Mode;
 use crate::contact::tolerance::held_tolerance;
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Column, Dim, Real, real};
+use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// The limit on iterations for the forces at one point of the path, and on bisections.
 const MOST_ITERATIONS: usize = 500;

@@ -5,7 +5,7 @@ use crate::contact::held::{Response, slipping};
 use crate::contact::tolerance::{held_tolerance, sum_tolerance};
 use crate::contact::{ContactLaw, Mode, ReducedEquations};
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Column, Dim, PositionError, Real, real};
+use linkage_runtime::{Build, Column, Dim, PositionError, Real, real};
 
 /// A reaction as a function of the contact forces.
 #[derive(Debug, Clone, Copy)]

@@ -9,7 +9,7 @@ use super::budget::Budget;
 use super::problem::length;
 use super::slip::{Homogeneous, Roots, Slips};
 use linkage_runtime::__shared::solve;
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use linkage_runtime::{Build, Column, Dim, Matrix, Real, real};
 
 /// A cell that is not decided at this radius, relative to the cube, is given up.
 const LEAST_RADIUS: f64 = 1e-6;

@@ -9,7 +9,7 @@ use super::budget::Budget;
 use super::problem::length;
 use crate::contact::tolerance::sum_tolerance;
 use linkage_runtime::__shared::{contraction, solve};
-use linkage_runtime::{Column, Dim, Matrix, Real, real};
+use linkage_runtime::{Build, Column, Dim, Matrix, Real, real};
 
 /// The most solutions that are stored.
 const MOST_ROOTS: usize = 8;
