@@ -51,7 +51,7 @@ pub fn with_tip(mut error: Error, words: &[String]) -> Error {
     error
 }
 
-/// What to write instead of a word that a command does not take.
+/// A tip: the words that a command takes in place of one that it does not.
 fn unknown(all: &Command, command: &mut Command, word: &str, words: &[String]) -> Option<String> {
     command.build();
     let longs: Vec<&str> = command.get_arguments().filter_map(Arg::get_long).collect();
@@ -94,7 +94,7 @@ fn unknown(all: &Command, command: &mut Command, word: &str, words: &[String]) -
     }
 }
 
-/// How the value of a name is written.
+/// The form of the value of a name.
 fn assignments(assigned: &str, has_at: bool) -> String {
     let input = if has_at { format!(", that of an input `--at {assigned}`") } else { String::new() };
     format!("the value of a parameter is written `--set {assigned}`{input}")

@@ -193,7 +193,7 @@ pub struct Call {
 }
 
 impl Mechanism {
-    /// The lines of the user's doc comment.
+    /// The lines of the doc comment.
     #[must_use]
     pub fn documentation(&self) -> Vec<String> {
         documentation(&self.attributes)

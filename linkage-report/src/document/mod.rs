@@ -4,6 +4,7 @@ mod latex;
 pub(crate) mod outline;
 pub(crate) mod sheet;
 mod text;
+mod whole;
 
 use crate::FpCore;
 use crate::sheet::{Sheet, Values};
@@ -37,11 +38,11 @@ pub trait Document {
 
 impl Document for Derivation<'_> {
     fn to_text(&self) -> String {
-        written(|text| outline::write_whole(&Sheet::new(self), &mut text::Text::new(text)))
+        written(|text| whole::write_whole(&Sheet::new(self), &mut text::Text::new(text)))
     }
 
     fn to_latex(&self) -> String {
-        written(|text| outline::write_whole(&Sheet::new(self), &mut latex::Latex::new(text)))
+        written(|text| whole::write_whole(&Sheet::new(self), &mut latex::Latex::new(text)))
     }
 
     fn fpcore(&self) -> Vec<FpCore<'_>> {
@@ -95,15 +96,15 @@ pub(crate) fn text_of(sheet: &Sheet<'_>) -> String {
     written(|text| {
         let pen = text::Text::new(text);
         match &sheet.values {
-            Some(values) => outline::write_whole(sheet, &mut pen.at(values)),
-            None => outline::write_whole(sheet, &mut { pen }),
+            Some(values) => whole::write_whole(sheet, &mut pen.at(values)),
+            None => whole::write_whole(sheet, &mut { pen }),
         }
     })
 }
 
 /// Writes a sheet as LaTeX.
 pub(crate) fn latex_of(sheet: &Sheet<'_>) -> String {
-    written(|text| outline::write_whole(sheet, &mut latex::Latex::new(text).at(sheet.values.as_ref())))
+    written(|text| whole::write_whole(sheet, &mut latex::Latex::new(text).at(sheet.values.as_ref())))
 }
 
 fn written(write: impl FnOnce(&mut String) -> core::fmt::Result) -> String {

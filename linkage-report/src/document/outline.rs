@@ -2,8 +2,6 @@
 
 use core::fmt;
 
-use super::sheet as by_hand;
-use crate::sheet::Sheet;
 use linkage_runtime::derivation::{
     Counts, Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Quantity, Root, SceneDerivation, Symbol,
 };
@@ -193,48 +191,6 @@ pub(super) trait Pen: Lines {
     fn kernels(&mut self, kernels: &[Kernel<'_>]) -> fmt::Result;
 }
 
-/// Writes all parts of a sheet but its pictures and properties: equations are numbered through.
-pub(super) fn write_whole(sheet: &Sheet<'_>, pen: &mut dyn Pen) -> fmt::Result {
-    let derivation = sheet.derivation;
-    let mut number = 0;
-    pen.title(sheet.title.as_deref().unwrap_or(derivation.mechanism))?;
-    sheet.about.iter().try_for_each(|paragraph| pen.lead(paragraph))?;
-    pen.heading(words::COORDINATES)?;
-    for (role, symbols) in sheet.roles() {
-        pen.list(role, &mut symbols.into_iter())?;
-    }
-    pen.counts(derivation.counts())?;
-
-    match derivation.unknowns {
-        [] => {
-            pen.heading(words::OPEN_CHAIN)?;
-            pen.lead(words::LEAD_OPEN_CHAIN)?;
-        }
-        _ => solved(derivation, pen, &mut number)?,
-    }
-    if let Some(by_hand) = sheet.by_hand {
-        by_hand::write(by_hand, pen, &mut number)?;
-    }
-
-    quantities(pen, &mut number, words::POINTS, derivation.points)?;
-    quantities(pen, &mut number, words::OUTPUTS, derivation.outputs)?;
-    if !sheet.tables.is_empty() {
-        pen.heading(words::NUMBERS)?;
-    }
-    for table in &sheet.tables {
-        pen.table(&table.caption, &table.rows)?;
-    }
-    if !derivation.kernels.is_empty() {
-        pen.heading(words::OPERATIONS)?;
-        pen.kernels(derivation.kernels)?;
-    }
-    conditions(pen, sheet.conditions().into_iter())?;
-    for scene in &sheet.scenes {
-        write_scene(scene, pen, &mut number)?;
-    }
-    Ok(())
-}
-
 /// Writes the conditions of the formulas, if there are some.
 pub(super) fn conditions<'a>(
     pen: &mut dyn Pen,
@@ -248,7 +204,7 @@ pub(super) fn conditions<'a>(
 }
 
 /// Writes the constraint equations, and the solutions for position, velocity and acceleration.
-fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
+pub(super) fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
     pen.heading(words::CONSTRAINTS)?;
     pen.lead(words::LEAD_CONSTRAINTS)?;
     pen.general_equation(&CONSTRAINTS)?;
@@ -435,7 +391,12 @@ pub(super) fn equations<P: Lines + ?Sized>(pen: &mut P, number: &mut usize, equa
     Ok(())
 }
 
-fn quantities(pen: &mut dyn Pen, number: &mut usize, heading: &str, quantities: &[Quantity<'_>]) -> fmt::Result {
+pub(super) fn quantities(
+    pen: &mut dyn Pen,
+    number: &mut usize,
+    heading: &str,
+    quantities: &[Quantity<'_>],
+) -> fmt::Result {
     if !quantities.is_empty() {
         pen.heading(heading)?;
     }

@@ -7,10 +7,7 @@
 use linkage_runtime::OutputMotion;
 use linkage_runtime::derivation::GroupForm;
 
-use super::local::Local;
-
-/// A vector of the plane.
-pub(super) type Vector = [f64; 2];
+use super::local::{Local, Vector};
 
 /// The kind of a dyad, with R for a joint that turns and P for one that slides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

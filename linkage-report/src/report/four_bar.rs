@@ -7,8 +7,8 @@ use std::fmt;
 
 use linkage_runtime::derivation::KinematicChain;
 
-use super::dyad::{Dyad, DyadKind, Vector, dot, scaled};
-use super::local::Local;
+use super::dyad::{Dyad, DyadKind, dot, scaled};
+use super::local::{Local, Vector};
 
 /// A loop of four links with turning joints, one of which is the ground.
 #[derive(Debug, Clone, PartialEq)]

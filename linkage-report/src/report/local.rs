@@ -3,7 +3,8 @@
 use linkage_runtime::derivation::{Derivation, GroupForm};
 use linkage_runtime::{Build, Dim, Kinematic, Mechanism};
 
-use super::dyad::Vector;
+/// A vector of the plane.
+pub(super) type Vector = [f64; 2];
 
 /// A function of the rates of unknowns, then of inputs.
 type OfRates<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
