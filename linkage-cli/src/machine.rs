@@ -219,11 +219,13 @@ impl Machine {
         if self.unknowns.is_empty() {
             return self.motion(inputs, &vec![0.0; inputs.len()]).map(|motion| vec![(String::new(), motion)]);
         }
+        let [_, _, turns] = self.design.mechanism().branch_fields();
+        let turns: Vec<&str> = turns.iter().map(|(name, _)| *name).collect();
         let all = self.design.call("branches", &[given(inputs)]).map_err(|error| error.to_string())?;
         let position = |data: &Data| {
             let unknowns = self.unknowns_of(data.get("pose").unwrap_or(&Data::Nothing));
             let motion = Motion { inputs: inputs.to_vec(), unknowns, data: data.clone() };
-            (data.get("branch").map(words).unwrap_or_default(), motion)
+            (data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion)
         };
         Ok(all.list().iter().map(position).collect())
     }
@@ -248,10 +250,10 @@ fn given(numbers: &[f64]) -> Data {
     }
 }
 
-/// A branch as it is chosen on the command line.
-fn words(branch: &Data) -> String {
+/// A branch as it is chosen on the command line, without the turns of angles, which are 0.
+fn words(branch: &Data, turns: &[&str]) -> String {
     let Data::Fields(fields) = branch else { return String::new() };
-    let each = fields.iter().map(|(name, value)| match value {
+    let each = fields.iter().filter(|(name, _)| !turns.contains(&&**name)).map(|(name, value)| match value {
         Data::Text(word) => format!("{name}={}", word.to_lowercase()),
         other => format!("{name}={}", other.number().unwrap_or(f64::NAN)),
     });

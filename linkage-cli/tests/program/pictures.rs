@@ -209,8 +209,8 @@ fn reports() {
     for line in [
         "4 links (ground, theta2, theta3, theta4) meet in 4 joints, all of which turn.",
         "At theta2 = 20° there are 2 modes.\n",
-        "Mode 1 (theta3_theta4=left): theta3 = 70.55076545",
-        "The transmission angle of theta3, theta4 is 58.98",
+        "Mode 1 (theta3_theta4=left): theta3 = 70.55077° and theta4 = −50.46595°.",
+        "The transmission angle of theta3, theta4 is 58.98329°.",
         "Mode 2 (theta3_theta4=right): theta3 = ",
         "is a crank-rocker, seen from theta2",
         "This report follows no motion.",
