@@ -36,6 +36,9 @@ pub enum Command {
     /// Find the mistakes of files, each with its line and its place in the line
     #[command(after_help = "Examples:\n  linkage check wiper.linkage\n  linkage check --format json *.linkage")]
     Check(Check),
+    /// List the names of a mechanism: parameters, inputs, choices of --branch, points, outputs, columns of a table
+    #[command(after_help = "Example:\n  linkage names wiper.linkage")]
+    Names(Names),
     /// Write the derivation: equations, Jacobians, velocity ratios, accelerations, all as formulas
     #[command(
         after_help = "Examples:\n  linkage sheet wiper.linkage\n  linkage sheet wiper.linkage --at theta2=60deg -o wiper.tex"
@@ -95,6 +98,23 @@ pub enum MessageFormat {
     /// For readers, with the marked line
     Text,
     /// One array, for editors: file, line, column, length, text, help
+    Json,
+}
+
+#[derive(Args)]
+pub struct Names {
+    #[command(flatten)]
+    pub source: From,
+    /// The form of the list
+    #[arg(long, value_enum, default_value_t = NamesFormat::Text)]
+    pub format: NamesFormat,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum NamesFormat {
+    /// For readers
+    Text,
+    /// A list with an object for each mechanism
     Json,
 }
 
@@ -162,18 +182,21 @@ pub struct Numbers {
     #[command(flatten)]
     pub source: From,
     /// The value of a parameter, instead of its default
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub set: Vec<Assignment>,
     /// The position of a group that has several: a word such as left, or a number [default: the first]
-    #[arg(long, value_name = "GROUP=SIDE")]
+    #[arg(long, value_name = "GROUP=SIDE,…", value_delimiter = ',')]
     pub branch: Vec<Choice>,
+    /// The value near which an unknown without a closed form is at the first position
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
+    pub guess: Vec<Assignment>,
 }
 
 /// One position.
 #[derive(Args)]
 pub struct Place {
     /// The value of an input [default: 60deg]
-    #[arg(long, value_name = "INPUT=VALUE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
 }
 
@@ -192,7 +215,7 @@ const MOST_STEPS: i64 = 1_000_000;
 #[derive(Args)]
 pub struct Along {
     /// The value of an input that is held [default: 60deg]
-    #[arg(long, value_name = "INPUT=VALUE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
     /// The input that moves [default: the first that is not held]
     #[arg(long, value_name = "INPUT")]
@@ -220,16 +243,19 @@ pub struct Table {
     /// The columns to print, by name and in this order
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub columns: Vec<String>,
+    /// Print the least and the largest value of each column, where they are, and their difference
+    #[arg(long)]
+    pub summary: bool,
     /// Print angles in degrees
     #[arg(long)]
     pub degrees: bool,
-    /// Print at most so many digits [default: all]
+    /// Print at most so many digits [default: all, of text: 6]
     #[arg(long, value_name = "NUMBER")]
     pub digits: Option<usize>,
-    /// The form of the table
-    #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
-    pub format: TableFormat,
-    /// The file to write, `-` for standard output
+    /// The form of the table [default: by the ending of OUT; else csv, of a summary text]
+    #[arg(long, value_enum)]
+    pub format: Option<TableFormat>,
+    /// The file to write, .csv, .json or .txt; `-` for standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: PathBuf,
 }
@@ -240,6 +266,8 @@ pub enum TableFormat {
     Csv,
     /// A list of numbers for each column
     Json,
+    /// For readers, with columns below each other
+    Text,
 }
 
 #[derive(Args)]

@@ -3,11 +3,17 @@
 //! Each command is a file of `commands/`. They share four things: a [`source`] is read within bounds, [`messages`] show its
 //! mistakes, [`output`] writes a file next to the old one and renames it, and a [`failure`] becomes the exit code.
 
+mod about;
+mod aligned;
+mod angles;
 mod arguments;
+mod columns;
 mod commands;
 mod failure;
 mod figure;
+mod following;
 mod interrupt;
+mod kinks;
 mod machine;
 mod messages;
 mod mistakes;
@@ -18,8 +24,10 @@ mod picture;
 mod plain;
 mod position;
 mod progress;
+mod solver;
 mod source;
 mod tips;
+mod unwound;
 mod values;
 
 use std::process::ExitCode;

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use crate::arguments::Along;
 use crate::failure::Failure;
 use crate::machine::Machine;
+use crate::names::once;
 use crate::values::{Assignment, Value};
 
 /// The angle at which an input is held without a value: every crank can be there.
@@ -64,6 +65,7 @@ impl Path {
 /// The inputs with these values, and the first value of the one that moves; angles without one are held at 60 degrees.
 pub fn held(machine: &Machine, at: &[Assignment], moving: Option<(usize, f64)>) -> Result<Vec<f64>, Failure> {
     let mut inputs: Vec<Option<f64>> = machine.inputs.iter().map(|input| input.is_angle.then_some(HELD)).collect();
+    once("--at", at.iter().map(|at| at.name.as_str()))?;
     for Assignment { name, value } in at {
         let place = machine.input(name)?;
         inputs[place] = Some(machine.inputs[place].value(*value)?);

@@ -1,5 +1,7 @@
 //! Names among those that there are.
 
+use std::collections::BTreeSet;
+
 use linkage_compiler::diagnostics::suggestion;
 
 use crate::failure::Failure;
@@ -10,7 +12,13 @@ pub fn place(of: &str, kind: &str, name: &str, names: &[&str]) -> Result<usize, 
     found.ok_or_else(|| {
         let meant = suggestion(name, names.iter().copied());
         let meant = if meant.is_empty() { format!(": it has {}", listed(names)) } else { meant };
-        Failure::Argument(format!("{of} has no {kind} `{name}`{meant}"))
+        // The other kinds are names in a mechanism.
+        let list = match (kind, meant.ends_with('?')) {
+            ("mechanism", _) => "",
+            (_, true) => " `linkage names` lists all names",
+            (_, false) => "; `linkage names` lists all names",
+        };
+        Failure::Argument(format!("{of} has no {kind} `{name}`{meant}{list}"))
     })
 }
 
@@ -21,5 +29,14 @@ pub fn listed(names: &[&str]) -> String {
         Some((last, [])) => last.clone(),
         Some((last, others)) => format!("{} and {last}", others.join(", ")),
         None => "none".to_owned(),
+    }
+}
+
+/// The failure that an option names one thing twice.
+pub fn once<'n>(option: &str, names: impl IntoIterator<Item = &'n str>) -> Result<(), Failure> {
+    let mut known = BTreeSet::new();
+    match names.into_iter().find(|name| !known.insert(*name)) {
+        Some(name) => Err(Failure::Argument(format!("{option} has `{name}` twice: write it once"))),
+        None => Ok(()),
     }
 }

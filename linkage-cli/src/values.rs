@@ -1,13 +1,15 @@
-//! Values in arguments: `l2=25`, `theta2=60deg`, `theta3_theta4=left`.
+//! Values in arguments: `l2=25`, `theta2=60deg`, `theta2=pi/3`, `theta3_theta4=left`.
 
 use std::f64::consts::TAU;
 use std::str::FromStr;
 
+use linkage_compiler::budget::Budget;
 use linkage_compiler::graph::{Graph, Number};
 use linkage_compiler::syntax::Unit;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::Lit;
 
-/// A number as the language writes it: `25`, `-0.5`, `60deg`, `12rpm`.
+/// A number as the language writes it: `25`, `-0.5`, `60deg`, `12rpm`, or an expression of numbers, such as `pi/6`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Value {
     pub number: f64,
@@ -44,14 +46,14 @@ impl FromStr for Value {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let no_number = || format!("`{text}` is not a number: write one such as `25`, `-0.5`, `60deg` or `12rpm`");
+        let no_number = || not_a_number(text);
         let (is_negative, positive) = text.strip_prefix('-').map_or((false, text), |rest| (true, rest));
         // A literal can have a sign of its own.
         let literal = positive.starts_with(|first: char| first.is_ascii_digit()).then(|| syn::parse_str(positive));
-        let (digits, unit) = match literal.ok_or_else(no_number)? {
-            Ok(Lit::Int(number)) => (number.base10_digits().to_owned(), number.suffix().to_owned()),
-            Ok(Lit::Float(number)) => (number.base10_digits().to_owned(), number.suffix().to_owned()),
-            _ => return Err(no_number()),
+        let (digits, unit) = match literal {
+            Some(Ok(Lit::Int(number))) => (number.base10_digits().to_owned(), number.suffix().to_owned()),
+            Some(Ok(Lit::Float(number))) => (number.base10_digits().to_owned(), number.suffix().to_owned()),
+            _ => return expression(text),
         };
         let is_plain = unit.is_empty();
         let unit = match unit.as_str() {
@@ -69,6 +71,38 @@ impl FromStr for Value {
         let value = value.filter(|value| value.is_finite()).ok_or_else(|| format!("`{text}` is too large"))?;
         Ok(Self { number: if is_negative { -value } else { value }, is_plain })
     }
+}
+
+fn not_a_number(text: &str) -> String {
+    format!("`{text}` is not a number: write one such as `25`, `-0.5`, `60deg`, `12rpm` or `pi/6`")
+}
+
+/// The value of an expression, as the compiler reads the default of a parameter.
+fn expression(text: &str) -> Result<Value, String> {
+    let no_number = || not_a_number(text);
+    let tokens: Vec<TokenTree> = text.parse::<TokenStream>().map_err(|_| no_number())?.into_iter().collect();
+    let is_first_sign = |token: &TokenTree| matches!(token, TokenTree::Punct(sign) if sign.as_char() == '-');
+    let is_allowed = |token: &TokenTree| match token {
+        TokenTree::Punct(sign) => "+-*/^.".contains(sign.as_char()),
+        TokenTree::Group(group) => group.delimiter() == Delimiter::Parenthesis,
+        TokenTree::Ident(_) | TokenTree::Literal(_) => true,
+    };
+    // A sign has a number after it.
+    let begins = match tokens.as_slice() {
+        [sign, first, ..] if is_first_sign(sign) => !matches!(first, TokenTree::Punct(_)),
+        [first, ..] => !matches!(first, TokenTree::Punct(_)),
+        [] => false,
+    };
+    if !begins || !tokens.iter().all(is_allowed) {
+        return Err(no_number());
+    }
+    let mechanism = format!("mechanism Number {{ param number = {text}; input x; output product = number * x; }}");
+    let mechanisms = linkage_compiler::text::read(&mechanism, &Budget::default()).map_err(|_| no_number())?;
+    let graph = mechanisms.first().map(|mechanism| &mechanism.graph).ok_or_else(no_number)?;
+    let default = mechanisms[0].parameters.iter().find_map(|parameter| parameter.default).ok_or_else(no_number)?;
+    let value = graph.as_number(default).map(Number::to_f64).or_else(|| graph.constant_value(default));
+    let number = value.filter(|value| value.is_finite()).ok_or_else(no_number)?;
+    Ok(Value { number, is_plain: !text.contains(char::is_alphabetic) })
 }
 
 /// The two sides of the first `=`.
@@ -130,9 +164,29 @@ mod tests {
         );
     }
 
+    /// An expression is that of a default as well.
+    #[test]
+    fn expressions_are_numbers() {
+        for (text, expected) in [
+            ("pi/6", PI / 6.0),
+            ("2*pi", TAU),
+            ("-pi/2", -PI / 2.0),
+            ("2*3", 6.0),
+            ("(1 + 2)/4", 0.75),
+            ("sqrt(4)", 2.0),
+        ] {
+            assert_eq!(value(text), Ok(expected), "{text}");
+        }
+        let angle = |text: &str| text.parse::<Value>().and_then(|value| value.angle("theta"));
+        assert_eq!([angle("4*pi").is_ok(), angle("4*90deg").is_ok(), angle("4*90").is_ok()], [true, true, false]);
+    }
+
     #[test]
     fn what_is_no_number() {
-        for text in ["", "-", "x", "25mm", "6O", "nan", "inf", "1;2", "2*3", "'a'", "--5", "+5", "1e999"] {
+        for text in [
+            "", "-", "x", "25mm", "6O", "nan", "inf", "1;2", "2*", "2*x", "1,2", "2 3", "{2}", "'a'", "--5", "+5",
+            "1e999",
+        ] {
             assert!(value(text).is_err(), "{text}: {:?}", value(text));
         }
         for text in ["l2", "=", "l2=", "=5", "l2=x"] {

@@ -6,6 +6,7 @@ use super::draw::{painter, undrawn};
 use crate::arguments::Animate;
 use crate::failure::Failure;
 use crate::figure::Figure;
+use crate::kinks;
 use crate::machine::{Machine, Motion};
 use crate::motion::Path;
 use crate::output::{self, Form, form, next_to};
@@ -44,6 +45,7 @@ pub fn run(arguments: &Animate) -> Result<(), Failure> {
     let steps = if is_gif { steps.min((MOST_FRAMES * seconds) as u32).max(2) } else { steps };
     let frames = frames(&machine, &path, course, steps)?;
     let [Some(first), Some(last)] = [frames.first(), frames.last()] else { return Ok(()) };
+    kinks::warn(&machine, &path, frames.iter().map(|motion| motion.inputs[path.moving]));
     if is_far(&figure.joints(first), &figure.joints(last)) {
         anstream::eprintln!(
             "the film jumps back to its start, which is another position: \

@@ -7,10 +7,12 @@ mod completions;
 mod documents;
 mod draw;
 mod fpcore;
+mod names;
 mod new;
 mod report;
 mod rust;
 mod sheet;
+mod summary;
 mod table;
 
 pub use documents::Documents;
@@ -23,6 +25,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
     match command {
         Command::New(arguments) => new::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
+        Command::Names(arguments) => names::run(&arguments),
         Command::Sheet(arguments) => sheet::run(&arguments),
         Command::Table(arguments) => table::run(&arguments),
         Command::Draw(arguments) => draw::run(&arguments),

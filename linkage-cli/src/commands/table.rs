@@ -1,23 +1,37 @@
 //! `linkage table`: a motion as columns.
 
+use linkage_compiler::diagnostics::{is_near, suggestion};
 use linkage_report::Table;
 
+use super::summary::Summary;
+use crate::aligned::aligned;
 use crate::arguments::{self, TableFormat};
+use crate::columns;
 use crate::failure::Failure;
-use crate::machine::{Coordinate, Machine, Motion};
+use crate::kinks;
+use crate::machine::{Machine, Motion};
 use crate::motion::Path;
+use crate::names::listed;
 use crate::output::{self, Form, form};
 use crate::progress;
+use crate::unwound::{Turned, Unwound};
+
+/// The digits of a table for readers.
+const FOR_READERS: usize = 6;
+
+/// The most near names of a column that does not exist.
+const MOST_NEAR: usize = 6;
 
 pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
-    let forms: [Form; 2] = [("CSV", &["csv", "txt"]), ("JSON", &["json"])];
-    let is_json = form(&arguments.output, "a table", &forms)? == Some(1);
+    let format = format(arguments)?;
     let machine = Machine::of(&arguments.numbers)?;
     let path = Path::of(&machine, &arguments.along)?;
-    let rate = arguments.rate.map_or(0.0, |value| value.number);
+    let rate = rate(&machine, &path, arguments)?;
+    let all = columns::names([&machine.inputs, &machine.unknowns], [&machine.points, &machine.outputs], rate != 0.0);
+    let asked = asked(&all, &arguments.columns)?;
     let mut rates = vec![0.0; machine.inputs.len()];
     rates[path.moving] = rate;
-    let mut table = Table::new(names(&machine, rate != 0.0));
+    let mut table = Table::new(all);
     let mut unwound = Unwound::default();
     let (mut missing, mut first) = (0, None);
     let steps = arguments.along.steps;
@@ -25,7 +39,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         let value = path.step(step, steps);
         let inputs = path.at(value);
         let mut row = inputs.clone();
-        row.extend((rate != 0.0).then(|| (value - path.ends[0]) / rate));
+        row.extend((rate != 0.0).then(|| ((value - path.ends[0]) / rate).abs()));
         match machine.motion(&inputs, &rates) {
             Ok(motion) => row.extend(numbers(&machine, &unwound.next(&machine, &motion), &motion)),
             Err(error) => {
@@ -42,47 +56,116 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         }
         anstream::eprintln!("{missing} of {} rows have no position; the first: {error}", steps + 1);
     }
-    let table = shown(&machine, table, arguments)?;
-    let text = match arguments.format {
-        TableFormat::Csv if !is_json => table.to_csv(),
-        _ => table.to_json() + "\n",
+    kinks::warn(&machine, &path, (0..=steps).map(|step| path.step(step, steps)));
+    let digits = arguments.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
+    let table = with_units(&machine, table, arguments.degrees)?;
+    let text = match arguments.summary {
+        true => {
+            let units = with_units(&machine, Table::new(table.names()), arguments.degrees)?;
+            let input = &machine.inputs[path.moving].name.text;
+            Summary::of(&table, &units, input, &summed(&machine, &table, &asked))?.to_text(format, digits)?
+        }
+        false => {
+            let table = if asked.is_empty() { table } else { table.select(&asked).map_err(wrong)? };
+            let table = digits.map_or(table.clone(), |digits| table.digits(digits));
+            match format {
+                TableFormat::Csv => table.to_csv(),
+                TableFormat::Json => table.to_json() + "\n",
+                // No name has a comma.
+                TableFormat::Text => {
+                    aligned(table.to_csv().lines().map(|line| line.split(',').map(str::to_owned).collect()).collect())
+                }
+            }
+        }
     };
     output::write(&arguments.output, text.as_bytes(), &arguments.numbers.source.file)
 }
 
-/// The columns that are asked for, with angles in degrees if these are.
-fn shown(machine: &Machine, table: Table, arguments: &arguments::Table) -> Result<Table, Failure> {
-    let wrong = |error: linkage_report::table::TableError| Failure::Argument(error.to_string());
-    let mut table = table;
-    if arguments.degrees {
-        let angles = machine.inputs.iter().chain(&machine.unknowns).filter(|coordinate| coordinate.is_angle);
-        table = table.degrees_of(angles.map(|angle| &angle.name.text)).map_err(wrong)?;
-    }
-    if !arguments.columns.is_empty() {
-        table = table.select(&arguments.columns).map_err(wrong)?;
-    }
-    Ok(match arguments.digits {
-        Some(digits) => table.digits(digits),
-        None => table,
-    })
+fn wrong(error: linkage_report::table::TableError) -> Failure {
+    Failure::Argument(error.to_string())
 }
 
-/// The names of the columns.
-fn names(machine: &Machine, is_moving: bool) -> Vec<String> {
-    let orders = |name: &String| ["", "_rate", "_acceleration"].map(|end| format!("{name}{end}"));
-    let of_point = ["x", "y", "velocity_x", "velocity_y", "speed", "acceleration_x", "acceleration_y"];
-    let inputs = machine.inputs.iter().map(|input| input.name.text.clone());
-    let time = is_moving.then(|| "time".to_owned());
-    let unknowns = machine.unknowns.iter().flat_map(|unknown| orders(&unknown.name.text));
-    let points = machine.points.iter().flat_map(|point| of_point.map(|of| format!("{}_{of}", point.text)));
-    let outputs = machine.outputs.iter().flat_map(|output| orders(&output.text));
-    inputs.chain(time).chain(unknowns).chain(points).chain(outputs).collect()
+/// The form that is asked for, by its name or by the ending of the file.
+fn format(arguments: &arguments::Table) -> Result<TableFormat, Failure> {
+    let of_place = [TableFormat::Csv, TableFormat::Json, TableFormat::Text];
+    let forms: [Form; 3] = [("CSV", &["csv"]), ("JSON", &["json"]), ("text", &["txt"])];
+    let usual = if arguments.summary { TableFormat::Text } else { TableFormat::Csv };
+    let of_ending = form(&arguments.output, "a table", &forms)?.and_then(|place| of_place.get(place).copied());
+    Ok(arguments.format.or(of_ending).unwrap_or(usual))
+}
+
+/// The rate of the moving input, 0 without one. Time begins at 0 and goes on, so the rate has the direction of the range.
+fn rate(machine: &Machine, path: &Path, arguments: &arguments::Table) -> Result<f64, Failure> {
+    let Some(value) = arguments.rate else { return Ok(0.0) };
+    let (rate, [from, to]) = (value.number, path.ends);
+    let name = &machine.inputs[path.moving].name.text;
+    if rate == 0.0 {
+        return Err(Failure::Argument(format!(
+            "at --rate 0, `{name}` does not move: leave it out, or write such as 45rpm"
+        )));
+    }
+    if (rate > 0.0) != (to > from) {
+        let [rate, range] = if rate > 0.0 { ["grows", "falls"] } else { ["falls", "grows"] };
+        let message =
+            format!("at this --rate `{name}` {rate}, and it {range} from --from to --to: change the sign or the ends");
+        return Err(Failure::Argument(message));
+    }
+    Ok(rate)
+}
+
+/// The columns that are asked for.
+fn asked(all: &[String], columns: &[String]) -> Result<Vec<String>, Failure> {
+    let asked: Vec<String> =
+        columns.iter().map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect();
+    match asked.iter().find(|name| !all.contains(name)) {
+        None => Ok(asked),
+        Some(name) if name == "time" => {
+            Err(Failure::Argument("`time` is a column of a motion with a rate: write --rate VALUE".to_owned()))
+        }
+        Some(name) => {
+            let is_like = |other: &&String| {
+                is_near(&name.to_lowercase(), &other.to_lowercase()) || other.starts_with(&format!("{name}_"))
+            };
+            let near: Vec<&str> = all.iter().filter(is_like).map(String::as_str).take(MOST_NEAR).collect();
+            let near = match near.as_slice() {
+                [] => suggestion(name, all.iter().map(String::as_str)).replace('?', ""),
+                near => format!("; near names: {}", listed(near)),
+            };
+            Err(Failure::Argument(format!("the table has no column `{name}`{near}; `linkage names` lists all columns")))
+        }
+    }
+}
+
+/// The columns of a summary: those that are asked for, or all that move: no inputs, no time, and rates with `--rate` only.
+fn summed(machine: &Machine, table: &Table, asked: &[String]) -> Vec<String> {
+    if !asked.is_empty() {
+        return asked.to_vec();
+    }
+    let is_moving = table.column("time").is_some();
+    let is_given = |name: &str| name == "time" || machine.inputs.iter().any(|input| input.name.text == name);
+    let is_rate = |name: &str| columns::OF_RATES.iter().any(|end| name.ends_with(end));
+    let names = table.names().into_iter().filter(|name| !is_given(name) && (is_moving || !is_rate(name)));
+    names.map(str::to_owned).collect()
+}
+
+/// The table with the unit of time, and with angles in degrees if these are asked for.
+fn with_units(machine: &Machine, mut table: Table, is_in_degrees: bool) -> Result<Table, Failure> {
+    if table.column("time").is_some() {
+        table = table.unit("time", "s").map_err(wrong)?;
+    }
+    if is_in_degrees {
+        let coordinates = machine.inputs.iter().chain(&machine.unknowns).filter(|coordinate| coordinate.is_angle);
+        let outputs = machine.outputs.iter().zip(&machine.output_angles).filter(|(_, angle)| angle.is_some());
+        let names = coordinates.map(|angle| &angle.name.text).chain(outputs.map(|(output, _)| &output.text));
+        table = table.degrees_of(names).map_err(wrong)?;
+    }
+    Ok(table)
 }
 
 /// The numbers of a row after inputs and time.
-fn numbers(machine: &Machine, unknowns: &[f64], motion: &Motion) -> Vec<f64> {
+fn numbers(machine: &Machine, turned: &Turned, motion: &Motion) -> Vec<f64> {
     let mut row = Vec::new();
-    for (unknown, value) in machine.unknowns.iter().zip(unknowns) {
+    for (unknown, value) in machine.unknowns.iter().zip(&turned.unknowns) {
         let field = &unknown.name.field;
         row.extend([
             *value,
@@ -96,30 +179,9 @@ fn numbers(machine: &Machine, unknowns: &[f64], motion: &Motion) -> Vec<f64> {
         row.extend([x, y, velocity_x, velocity_y, (velocity_x * velocity_x + velocity_y * velocity_y).sqrt()]);
         row.extend(["acceleration.x", "acceleration.y"].map(of));
     }
-    for output in &machine.outputs {
-        row.extend(
-            ["value", "rate", "acceleration"].map(|of| motion.number(&format!("outputs.{}.{of}", output.field))),
-        );
+    for (output, value) in machine.outputs.iter().zip(&turned.outputs) {
+        let of = |of: &str| motion.number(&format!("outputs.{}.{of}", output.field));
+        row.extend([*value, of("rate"), of("acceleration")]);
     }
     row
-}
-
-/// The angles of the last row: those of the next are the nearest to them.
-#[derive(Default)]
-struct Unwound(Option<Vec<f64>>);
-
-impl Unwound {
-    fn next(&mut self, machine: &Machine, motion: &Motion) -> Vec<f64> {
-        let near = |(of, value): (&Coordinate, &f64), last: f64| match of.is_angle {
-            true => value + ((last - value) / std::f64::consts::TAU).round() * std::f64::consts::TAU,
-            false => *value,
-        };
-        let values = machine.unknowns.iter().zip(&motion.unknowns);
-        let now: Vec<f64> = match &self.0 {
-            Some(last) => values.zip(last).map(|(now, last)| near(now, *last)).collect(),
-            None => motion.unknowns.clone(),
-        };
-        self.0 = Some(now.clone());
-        now
-    }
 }

@@ -6,3 +6,4 @@ mod folder;
 mod interrupts;
 mod numbers;
 mod pictures;
+mod tables;

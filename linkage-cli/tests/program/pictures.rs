@@ -77,7 +77,7 @@ fn the_ending_of_a_file_says_its_form() {
     for (arguments, what) in [
         ("sheet four.linkage", "a sheet is HTML, LaTeX or text: write -o NAME.html, NAME.tex or NAME.txt"),
         ("sheet four.linkage --format latex", "this sheet is LaTeX: write -o NAME.tex"),
-        ("table four.linkage", "a table is CSV or JSON: write -o NAME.csv or NAME.json"),
+        ("table four.linkage", "a table is CSV, JSON or text: write -o NAME.csv, NAME.json or NAME.txt"),
         ("report four.linkage", "a report is text or HTML: write -o NAME.txt or NAME.html"),
         ("draw four.linkage", "a picture is SVG or PNG: write -o NAME.svg or NAME.png"),
         ("animate four.linkage", "a film is SVG or GIF: write -o NAME.svg or NAME.gif"),

@@ -1,0 +1,181 @@
+//! Positions, velocities and accelerations: calls of the functions of a mechanism.
+
+use linkage_interpreter::{Data, Design};
+use linkage_runtime::lane::arctangent2;
+
+use crate::failure::Failure;
+use crate::values::Value;
+
+/// A name as written, and that of its field.
+#[derive(Debug, Clone)]
+pub struct Named {
+    pub text: String,
+    pub field: String,
+}
+
+/// A coordinate.
+#[derive(Debug, Clone)]
+pub struct Coordinate {
+    pub name: Named,
+    pub is_angle: bool,
+}
+
+impl Coordinate {
+    /// The number of an argument as its value.
+    pub fn value(&self, value: Value) -> Result<f64, Failure> {
+        match self.is_angle {
+            true => value.angle(&self.name.text).map_err(Failure::Argument),
+            false => Ok(value.number),
+        }
+    }
+
+    /// A value for readers, an angle in degrees to the millionth.
+    pub fn shown(&self, value: f64) -> String {
+        match self.is_angle {
+            true => format!("{}°", (value.to_degrees() * 1e6).round() / 1e6),
+            false => value.to_string(),
+        }
+    }
+}
+
+/// A position with its rates, at one choice of inputs.
+pub struct Motion {
+    /// The values of the inputs.
+    pub inputs: Vec<f64>,
+    /// The values of the unknowns.
+    pub unknowns: Vec<f64>,
+    /// True for each unknown that is found as a direction: its angle is from -pi to pi.
+    pub are_directions: Vec<bool>,
+    /// Their rates and accelerations.
+    pub rates: Vec<f64>,
+    pub accelerations: Vec<f64>,
+    data: Data,
+}
+
+impl Motion {
+    /// The pose, with which functions are called.
+    pub fn pose(&self) -> Data {
+        self.data.get("pose").cloned().unwrap_or(Data::Nothing)
+    }
+
+    /// A number of the motion: `points.c.velocity.x`.
+    pub fn number(&self, path: &str) -> f64 {
+        self.data.get(path).and_then(Data::number).unwrap_or(f64::NAN)
+    }
+}
+
+/// A mechanism with values of its parameters, and a branch.
+pub struct Solver {
+    pub name: String,
+    pub inputs: Vec<Coordinate>,
+    pub unknowns: Vec<Coordinate>,
+    /// True if it has points or outputs.
+    pub has_quantities: bool,
+    /// The largest parameter that is a length: the scale of lengths that are 0.
+    pub length: f64,
+    pub design: Design,
+    pub branch: Data,
+}
+
+impl Solver {
+    /// The motion at the position that Newton's method finds from these unknowns.
+    pub fn motion_near(&self, inputs: &[f64], unknowns: &[f64], rates: &[f64]) -> Result<Motion, String> {
+        let of = |coordinates: &'_ [Coordinate], values: &[f64]| -> Vec<(String, Data)> {
+            let fields = coordinates.iter().map(|coordinate| coordinate.name.field.clone());
+            fields.zip(values.iter().copied().map(Data::from)).collect()
+        };
+        let guess = [of(&self.inputs, inputs), of(&self.unknowns, unknowns)].concat();
+        let guess = Data::fields(guess.iter().map(|(name, value)| (name.as_str(), value.clone())));
+        self.called("full_kinematics_near", guess, inputs, rates)
+    }
+
+    /// The motion on the branch.
+    pub fn motion(&self, inputs: &[f64], rates: &[f64]) -> Result<Motion, String> {
+        self.called("full_kinematics", Self::given(inputs), inputs, rates)
+    }
+
+    /// The unknowns at the position with the number in the branch.
+    pub fn listed(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
+        let pose = self.design.call("assemble", &[Self::given(inputs), self.branch.clone()]);
+        let pose = pose.map_err(|error| error.to_string())?;
+        Ok(self.of_pose(&pose).0)
+    }
+
+    /// All positions at these inputs, each with its branch in words; or why they are not listed.
+    pub fn positions(&self, inputs: &[f64]) -> Result<Vec<(String, Motion)>, String> {
+        if self.unknowns.is_empty() {
+            return self.motion(inputs, &vec![0.0; inputs.len()]).map(|motion| vec![(String::new(), motion)]);
+        }
+        let [_, _, turns] = self.design.mechanism().branch_fields();
+        let turns: Vec<&str> = turns.iter().map(|(name, _)| *name).collect();
+        let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| error.to_string())?;
+        let position = |data: &Data| {
+            let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
+            let [rates, accelerations] = [(); 2].map(|()| vec![f64::NAN; unknowns.len()]);
+            let inputs = inputs.to_vec();
+            let motion = Motion { inputs, unknowns, are_directions, rates, accelerations, data: data.clone() };
+            (data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion)
+        };
+        Ok(all.list().iter().map(position).collect())
+    }
+
+    /// Inputs as an argument.
+    fn given(numbers: &[f64]) -> Data {
+        match numbers {
+            [only] => Data::from(*only),
+            several => Data::from(several),
+        }
+    }
+
+    /// The motion that a function returns; without points and outputs, it is another one.
+    fn called(&self, function: &str, from: Data, inputs: &[f64], rates: &[f64]) -> Result<Motion, String> {
+        let still = vec![0.0; inputs.len()];
+        let arguments = [from, self.branch.clone(), Self::given(rates), Self::given(&still)];
+        let function = if self.has_quantities { function } else { function.trim_start_matches("full_") };
+        let data = self.design.call(function, &arguments).map_err(|error| error.to_string())?;
+        let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
+        let of = |what: &str| -> Vec<f64> {
+            let number =
+                |unknown: &Coordinate| data.get(&format!("{what}.{}", unknown.name.field)).and_then(Data::number);
+            self.unknowns.iter().map(|unknown| number(unknown).unwrap_or(f64::NAN)).collect()
+        };
+        let [rates, accelerations] = ["rates", "accelerations"].map(of);
+        Ok(Motion { inputs: inputs.to_vec(), unknowns, are_directions, rates, accelerations, data })
+    }
+
+    /// The unknowns of a pose, and which of them are directions.
+    fn of_pose(&self, pose: &Data) -> (Vec<f64>, Vec<bool>) {
+        let unknowns =
+            self.unknowns.iter().map(|unknown| match pose.get(&unknown.name.field).map(Data::numbers).as_deref() {
+                Some([cosine, sine]) => (arctangent2(*sine, *cosine), true),
+                Some([value]) => (*value, false),
+                _ => (f64::NAN, false),
+            });
+        unknowns.unzip()
+    }
+
+    /// The values of inputs in a sentence.
+    pub fn at(&self, inputs: &[f64]) -> String {
+        let each = self.inputs.iter().zip(inputs).map(|(input, value)| match input.is_angle {
+            true => format!("{} = {:.4}°", input.name.text, value.to_degrees()),
+            false => format!("{} = {value:.6}", input.name.text),
+        });
+        each.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The largest length among parameters and these values of inputs and unknowns.
+    pub fn largest_length(&self, inputs: &[f64], unknowns: &[f64]) -> f64 {
+        let all = self.inputs.iter().zip(inputs).chain(self.unknowns.iter().zip(unknowns));
+        all.filter(|(of, _)| !of.is_angle).fold(self.length, |largest, (_, value)| largest.max(value.abs()))
+    }
+}
+
+/// A branch as it is chosen on the command line, without the turns of angles, which are 0.
+fn words(branch: &Data, turns: &[&str]) -> String {
+    let Data::Fields(fields) = branch else { return String::new() };
+    let each = fields.iter().filter(|(name, _)| !turns.contains(&&**name)).map(|(name, value)| match value {
+        Data::Text(word) => format!("{name}={}", word.to_lowercase()),
+        other => format!("{name}={}", other.number().unwrap_or(f64::NAN)),
+    });
+    each.collect::<Vec<_>>().join(", ")
+}

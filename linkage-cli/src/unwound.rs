@@ -1,0 +1,53 @@
+//! Angles that go on from row to row, instead of back by a turn at pi.
+//!
+//! An unknown that is found as a direction has the turn nearest to the last row. An output is its formula at these unknowns, as in
+//! the library, whose motions count turns. `atan2` in an output that is an angle goes on as an unknown does.
+
+use std::f64::consts::TAU;
+
+use crate::machine::{Machine, Motion};
+
+/// Unknowns and outputs of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turned {
+    pub unknowns: Vec<f64>,
+    pub outputs: Vec<f64>,
+}
+
+/// The last row.
+#[derive(Default)]
+pub struct Unwound(Option<Turned>);
+
+impl Unwound {
+    /// The row of a motion, on the turns nearest to the last one.
+    pub fn next(&mut self, machine: &Machine, motion: &Motion) -> Turned {
+        let mut now = Turned { unknowns: motion.unknowns.clone(), outputs: Self::outputs(machine, motion) };
+        if let Some(last) = &self.0 {
+            let directions = now.unknowns.iter_mut().zip(&last.unknowns).zip(&motion.are_directions);
+            directions.filter(|(_, is_one)| **is_one).for_each(|((value, last), _)| *value = near(*value, *last, TAU));
+            // The difference of two values of the formula is a number of jumps: where there are none, all digits stay.
+            if now.unknowns != motion.unknowns {
+                let [on, off] =
+                    [&now.unknowns, &motion.unknowns].map(|unknowns| machine.outputs_at(&motion.inputs, unknowns));
+                now.outputs.iter_mut().zip(on.iter().zip(off)).for_each(|(value, (on, off))| *value += on - off);
+            }
+            let outputs = now.outputs.iter_mut().zip(&last.outputs).zip(&machine.output_angles);
+            for ((value, last), angle) in outputs {
+                if let Some(jump) = angle.and_then(|angle| angle.jump) {
+                    *value = near(*value, *last, jump);
+                }
+            }
+        }
+        self.0 = Some(now.clone());
+        now
+    }
+
+    fn outputs(machine: &Machine, motion: &Motion) -> Vec<f64> {
+        machine.outputs.iter().map(|output| motion.number(&format!("outputs.{}.value", output.field))).collect()
+    }
+}
+
+/// The value and a number of periods, nearest to the last one.
+fn near(value: f64, last: f64, period: f64) -> f64 {
+    value + ((last - value) / period).round() * period
+}
