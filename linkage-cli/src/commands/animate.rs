@@ -113,7 +113,7 @@ impl Course {
             Self::Once([_, to]) if step == steps => to,
             Self::Once([from, to]) => from + (to - from) * share,
             Self::BackAndForth([_, to]) if 2 * step == steps => to,
-            Self::BackAndForth([from, _]) if step % steps == 0 => from,
+            Self::BackAndForth([from, _]) if step.is_multiple_of(steps) => from,
             Self::BackAndForth([from, to]) => {
                 let middle = f64::midpoint(from, to);
                 middle - (to - middle) * (TAU * share).cos()

@@ -46,6 +46,9 @@ struct Picture {
     caption: String,
 }
 
+/// Symbols, with the values that are known.
+type Symbols<'a> = Vec<(Formula<'a>, Option<f64>)>;
+
 /// A builder for a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet<'a> {
@@ -167,7 +170,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// The parameters with their values, the inputs and the unknowns, each kind with its heading.
-    pub(crate) fn roles(&self) -> Vec<(&'static str, Vec<(Formula<'a>, Option<f64>)>)> {
+    pub(crate) fn roles(&self) -> Vec<(&'static str, Symbols<'a>)> {
         let Derivation { parameters, inputs, unknowns, .. } = *self.derivation;
         let value = |name: &str| self.given.iter().rfind(|(other, _)| other == name).map(|(_, value)| *value);
         let roles = [(words::GIVEN, parameters), (words::DRIVEN, inputs), (words::UNKNOWN, unknowns)];
