@@ -27,8 +27,6 @@ pub struct About {
     pub defaults: Vec<(Option<String>, Kind)>,
     /// The groups that have several positions.
     pub groups: Vec<Group>,
-    /// True for each parameter that is an angle.
-    pub are_angles: Vec<bool>,
     /// The functions that are declared by `extern fn`.
     pub functions: Vec<String>,
     /// The places of the unknowns that are found from a guess or a list; none if all positions have a closed form.
@@ -96,7 +94,6 @@ impl About {
             output_angles: angles::of_outputs(mechanism),
             parameters: mechanism.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
             defaults: mechanism.parameters.iter().map(|of| (of.default_text.clone(), of.kind)).collect(),
-            are_angles: mechanism.parameters.iter().map(|parameter| parameter.kind == Kind::Angle).collect(),
             functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),
             derivation: lowered.derivation,
         }

@@ -31,7 +31,7 @@ pub struct Machine {
     parameters: Vec<(String, f64)>,
     /// Its positions without regard to a motion.
     pub solver: Solver,
-    /// How positions are found where they have no closed form.
+    /// The finder of positions without a closed form.
     following: Option<Following>,
 }
 
@@ -151,10 +151,12 @@ fn parameters(about: &About, mechanism: &Mechanism, set: &[Assignment]) -> Resul
     once("--set", set.iter().map(|set| set.name.as_str()))?;
     for Assignment { name, value } in set {
         let place = place(&about.name, "parameter", name, &names)?;
-        values[place] = match about.are_angles[place] {
-            true => value.angle(name).map_err(Failure::Argument)?,
-            false => value.number,
-        };
+        values[place] = match about.defaults[place].1 {
+            Kind::Angle => value.angle(name),
+            Kind::Length => value.length(name),
+            Kind::Number => Ok(value.number),
+        }
+        .map_err(Failure::Argument)?;
     }
     let parameters: Vec<(String, f64)> = about.parameters.iter().cloned().zip(values).collect();
     match parameters.iter().find(|(_, value)| value.is_nan()) {
@@ -165,7 +167,7 @@ fn parameters(about: &About, mechanism: &Mechanism, set: &[Assignment]) -> Resul
     }
 }
 
-/// How a motion without closed forms begins: from the guess that is given, or from a position that is listed.
+/// The beginning of a motion without closed forms: the guess that is given, or a position that is listed.
 fn start(about: &About, mechanism: &Mechanism, numbers: &Numbers) -> Result<Option<Start>, Failure> {
     let (name, wrong) = (&about.name, |message: String| Err(Failure::Argument(message)));
     let [_, listed, _] = mechanism.branch_fields();

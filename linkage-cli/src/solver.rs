@@ -24,9 +24,10 @@ impl Coordinate {
     /// The number of an argument as its value.
     pub fn value(&self, value: Value) -> Result<f64, Failure> {
         match self.is_angle {
-            true => value.angle(&self.name.text).map_err(Failure::Argument),
-            false => Ok(value.number),
+            true => value.angle(&self.name.text),
+            false => value.length(&self.name.text),
         }
+        .map_err(Failure::Argument)
     }
 
     /// A value for readers, an angle in degrees to the millionth.

@@ -15,16 +15,42 @@ pub struct Value {
     pub number: f64,
     /// True if it was written without a unit.
     pub is_plain: bool,
+    /// The quantities that its unit measures.
+    pub measures: Option<&'static str>,
 }
 
 impl Value {
     /// The number as an angle. One without a unit is in radians, and more than a turn is not meant, as in the language.
     pub fn angle(self, name: &str) -> Result<f64, String> {
-        let Self { number, is_plain } = self;
+        let Self { number, is_plain, measures } = self;
+        if measures == Some(Unit::TurnsPerMinute.of()) {
+            return Err(format!("`{name}` is an angle, and `rpm` is a unit of speeds: write such as `60deg`"));
+        }
         let is_meant = !is_plain || number.abs() <= TAU;
         is_meant.then_some(number).ok_or_else(|| {
             format!("`{name}` is an angle, and {number} radians are more than a turn: write `{number}deg`")
         })
+    }
+}
+
+impl Value {
+    /// The number as a length, which has the unit of all lengths.
+    pub fn length(self, name: &str) -> Result<f64, String> {
+        match self.measures {
+            None => Ok(self.number),
+            Some(what) => Err(format!("`{name}` is a length, and this is a unit of {what}: write a plain number")),
+        }
+    }
+
+    /// The number as the rate of an angle or a length.
+    pub fn rate(self, of: &str, is_angle: bool) -> Result<f64, String> {
+        match self.measures {
+            Some(what) if what == Unit::Degrees.of() => {
+                Err(format!("--rate is a speed, and this is a unit of {what}: write such as `45rpm`"))
+            }
+            Some(what) if !is_angle => Err(format!("`{of}` is a length, and this is a unit of {what} of rotation")),
+            _ => Ok(self.number),
+        }
     }
 }
 
@@ -69,7 +95,8 @@ impl FromStr for Value {
             graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node))
         });
         let value = value.filter(|value| value.is_finite()).ok_or_else(|| format!("`{text}` is too large"))?;
-        Ok(Self { number: if is_negative { -value } else { value }, is_plain })
+        let measures = (!is_plain).then(|| unit.of());
+        Ok(Self { number: if is_negative { -value } else { value }, is_plain, measures })
     }
 }
 
@@ -102,7 +129,7 @@ fn expression(text: &str) -> Result<Value, String> {
     let default = mechanisms[0].parameters.iter().find_map(|parameter| parameter.default).ok_or_else(no_number)?;
     let value = graph.as_number(default).map(Number::to_f64).or_else(|| graph.constant_value(default));
     let number = value.filter(|value| value.is_finite()).ok_or_else(no_number)?;
-    Ok(Value { number, is_plain: !text.contains(char::is_alphabetic) })
+    Ok(Value { number, is_plain: !text.contains(char::is_alphabetic), measures: None })
 }
 
 /// The two sides of the first `=`.

@@ -22,6 +22,9 @@ const SCALE: f32 = 1.5;
 const SECONDS: f64 = 4.0;
 const MOST_SECONDS: f64 = 600.0;
 
+/// A motion that takes less cannot be seen: ten frames of a GIF.
+const LEAST_SECONDS: f64 = 0.2;
+
 /// The most frames of an SVG, which has the places of all joints in each.
 const MOST_STEPS: u32 = 10_000;
 
@@ -75,7 +78,15 @@ pub fn run(arguments: &Animate) -> Result<(), Failure> {
 fn seconds(arguments: &Animate, length: f64) -> Result<f64, Failure> {
     let seconds = match (arguments.rate, arguments.seconds) {
         (Some(rate), _) if rate.number == 0.0 => return Err(Failure::Argument("--rate is not 0".to_owned())),
-        (Some(rate), _) => length / rate.number.abs(),
+        (Some(rate), _) => {
+            let seconds = length / rate.number.abs();
+            if seconds < LEAST_SECONDS {
+                let message =
+                    format!("at this --rate the film takes {seconds:.3} seconds: for slow motion write --seconds");
+                return Err(Failure::Argument(message));
+            }
+            seconds
+        }
         (None, given) => given.map_or(SECONDS, |seconds| seconds.number),
     };
     match seconds > 0.0 && seconds <= MOST_SECONDS {

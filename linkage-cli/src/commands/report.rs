@@ -26,6 +26,11 @@ pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
     let of_unknown = |name: &str| machine.unknowns.iter().chain(&machine.inputs).find(|of| of.name.text == name);
     let is_angle = |name: &str| of_unknown(name).is_some_and(|of| of.is_angle);
     let modes = match &positions {
+        // The reason is that of the position on the first branch.
+        Ok(positions) if positions.is_empty() => {
+            let why = machine.motion(&inputs, &vec![0.0; inputs.len()]).err();
+            ReportedModes::Missing(why.unwrap_or_else(|| "there is none at these inputs".to_owned()))
+        }
         Ok(positions) => ReportedModes::Listed(Modes {
             inputs: inputs.clone(),
             modes: positions.iter().map(listed).collect(),

@@ -1,5 +1,7 @@
 //! `linkage table`: a motion as columns.
 
+use std::f64::consts::TAU;
+
 use linkage_compiler::diagnostics::{is_near, suggestion};
 use linkage_report::Table;
 
@@ -97,8 +99,13 @@ fn format(arguments: &arguments::Table) -> Result<TableFormat, Failure> {
 /// The rate of the moving input, 0 without one. Time begins at 0 and goes on, so the rate has the direction of the range.
 fn rate(machine: &Machine, path: &Path, arguments: &arguments::Table) -> Result<f64, Failure> {
     let Some(value) = arguments.rate else { return Ok(0.0) };
-    let (rate, [from, to]) = (value.number, path.ends);
-    let name = &machine.inputs[path.moving].name.text;
+    let input = &machine.inputs[path.moving];
+    let name = &input.name.text;
+    let rate = value.rate(name, input.is_angle).map_err(Failure::Argument)?;
+    if input.is_angle && value.is_plain {
+        anstream::eprintln!("--rate {rate} is {rate} radians per second, {:.4}rpm", rate * 60.0 / TAU);
+    }
+    let [from, to] = path.ends;
     if rate == 0.0 {
         return Err(Failure::Argument(format!(
             "at --rate 0, `{name}` does not move: leave it out, or write such as 45rpm"

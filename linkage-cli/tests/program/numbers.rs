@@ -121,6 +121,16 @@ fn names_and_values_that_do_not_exist() {
         ),
         ("draw five.linkage", "the parameter `d` has no value: write --set d=VALUE"),
         ("animate four.linkage --seconds 0", "a film takes more than 0 and at most 600 seconds"),
+        (
+            "draw four.linkage --at theta2=45rpm",
+            "`theta2` is an angle, and `rpm` is a unit of speeds: write such as `60deg`",
+        ),
+        ("draw four.linkage --set l2=30deg", "`l2` is a length, and this is a unit of angles: write a plain number"),
+        ("table four.linkage --rate 45deg", "--rate is a speed, and this is a unit of angles: write such as `45rpm`"),
+        (
+            "animate four.linkage --rate 3000rpm",
+            "at this --rate the film takes 0.020 seconds: for slow motion write --seconds",
+        ),
         ("table four.linkage --from 1 --to 1", "--from and --to are equal"),
         ("table four.linkage --at theta2=1", "each input is held: leave out one --at"),
         ("draw four.linkage -o four.pdf", "a picture is SVG or PNG: write -o NAME.svg or NAME.png, not `.pdf`"),

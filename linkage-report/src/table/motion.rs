@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, MotionEnd, RangeOfMotion, RangeOptions};
-use linkage_runtime::{Assembly, Kinematic, Mechanism, PathError};
+use linkage_runtime::{Assembly, Dim, Kinematic, Mechanism, PathError};
 
 use super::{Cause, Mark, Quantity, Table};
 
@@ -44,7 +44,7 @@ impl Table {
     where
         M: Driven<Scalar = f64, Name = &'static str>,
     {
-        let mut table = Self::of_columns(columns::<M>(rate));
+        let mut table = Self::of_columns(columns(range.mechanism(), rate));
         let mut clock = Clock::new(rate);
         for input in inputs {
             let (row, motion) = row(range, input, &mut clock);
@@ -61,7 +61,7 @@ impl Table {
         let [least, most] = inputs.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], wide);
         let ends = range.ends().into_iter().zip(range.inputs()).filter_map(|(end, at)| Some((name_of(end)?, at)));
         let crossings = range.crossings().map(|crossing| ("change point".to_owned(), crossing.input));
-        let turn = if M::INPUT_ANGLES[0] { TAU } else { 0.0 };
+        let turn = if range.mechanism().input_angles()[0] { TAU } else { 0.0 };
         let column = inputs.name.clone();
         for (name, at) in crossings.chain(ends) {
             for at in [at - turn, at, at + turn].into_iter().filter(|at| (least..=most).contains(at)) {
@@ -118,7 +118,7 @@ pub(super) fn row<M: Driven<Scalar = f64, Name = &'static str>>(
     let mut row: Vec<f64> = [input].into_iter().chain(clock.at(input)).collect();
     let motion = range.motion(input, clock.rate, 0.0);
     if let Ok(motion) = &motion {
-        row.extend(numbers::<M>(motion));
+        row.extend(numbers(range.mechanism(), motion));
     }
     (row, motion)
 }
@@ -134,13 +134,13 @@ fn name_of(end: MotionEnd) -> Option<String> {
 }
 
 /// The columns of a motion.
-pub(super) fn columns<M: Driven>(rate: f64) -> Vec<(String, Quantity)> {
-    let is_own = is_the_input::<M>();
-    let parameter = match (is_own, M::INPUT_ANGLES.first()) {
+pub(super) fn columns<M: Driven>(mechanism: &M, rate: f64) -> Vec<(String, Quantity)> {
+    let is_own = is_the_input(mechanism);
+    let parameter = match (is_own, mechanism.input_angles().first()) {
         (true, Some(&is_angle)) => of_coordinate(is_angle, 0),
         _ => Quantity::Plain,
     };
-    let parameter = M::INPUTS.iter().map(|&name| (name.to_owned(), parameter));
+    let parameter = [(mechanism.input_name(0).to_string(), parameter)].into_iter();
     let time = (rate != 0.0).then(|| ("time".to_owned(), Quantity::Time));
     let inputs = if is_own { Vec::new() } else { coordinates(M::Of::INPUTS, M::Of::INPUT_ANGLES) };
     let unknowns = coordinates(M::UNKNOWNS, M::UNKNOWN_ANGLES);
@@ -181,17 +181,18 @@ pub(super) fn points_and_outputs<M: Kinematic>() -> impl Iterator<Item = (String
 }
 
 /// True if the parameter is the input of the mechanism itself.
-fn is_the_input<M: Driven>() -> bool {
-    M::INPUTS == M::Of::INPUTS
+fn is_the_input<M: Driven>(mechanism: &M) -> bool {
+    let of = mechanism.driven();
+    of.dims().1.count() == 1 && of.input_name(0) == mechanism.input_name(0)
 }
 
 /// The numbers of a motion in the order of their columns.
-fn numbers<M: Driven<Scalar = f64, Name = &'static str>>(motion: &MotionOf<M::Of>) -> Vec<f64> {
+fn numbers<M: Driven<Scalar = f64, Name = &'static str>>(mechanism: &M, motion: &MotionOf<M::Of>) -> Vec<f64> {
     let (of_unknowns, of_inputs) = M::Of::parts(&motion.position);
     let (unknown_rates, input_rates) = M::Of::rate_parts(&motion.rates);
     let (unknown_accelerations, input_accelerations) = M::Of::acceleration_parts(&motion.accelerations);
     let mut row = Vec::new();
-    if !is_the_input::<M>() {
+    if !is_the_input(mechanism) {
         let moving = of_inputs.iter().zip(&input_rates).zip(&input_accelerations);
         row.extend(moving.flat_map(|((value, rate), acceleration)| [value, rate, acceleration]));
     }

@@ -133,7 +133,7 @@ impl Table {
             rows.push((row, cause));
         }
         let loads = load_columns(scene, names.as_deref(), has_energy, |_| true);
-        let mut table = Self::of_columns(columns::<M>(rate).into_iter().chain(loads));
+        let mut table = Self::of_columns(columns(range.mechanism(), rate).into_iter().chain(loads));
         for (row, cause) in rows {
             table.push_partial(&row, cause);
         }

@@ -76,9 +76,10 @@ where
 
     const NAME: &'static str = M::NAME;
     const UNKNOWNS: &'static [&'static str] = M::UNKNOWNS;
-    const INPUTS: &'static [&'static str] = &["the parameter"];
+    // The path of the inputs is a value.
+    const INPUTS: &'static [&'static str] = panic!("the name of the parameter is `input_name` of the value");
     const UNKNOWN_ANGLES: &'static [bool] = M::UNKNOWN_ANGLES;
-    const INPUT_ANGLES: &'static [bool] = &[true];
+    const INPUT_ANGLES: &'static [bool] = panic!("the angles of the parameter are `input_angles` of the value");
     const GROUPS: &'static [Group<'static>] = M::GROUPS;
     const RANGES: &'static [&'static str] = M::RANGES;
 

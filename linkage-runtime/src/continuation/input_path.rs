@@ -1,7 +1,7 @@
 //! Paths of the inputs of a mechanism by one parameter.
 
 use crate::scalar::arithmetic::*;
-use crate::{Build, InputError, Mechanism, Name, PerInput};
+use crate::{Build, Dim, InputError, Mechanism, Name, PerInput};
 
 /// The inputs of a mechanism as functions v(s) of one parameter.
 ///
@@ -65,6 +65,7 @@ where
     }
 
     fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
+        const { assert!(INPUT < M::V::CAPACITY, "a mechanism has no input with this index") };
         let held: PerInput<M> = self.held.into();
         let unit = |place: usize| if place == INPUT { M::Scalar::one() } else { M::Scalar::zero() };
         let v = held.dim();

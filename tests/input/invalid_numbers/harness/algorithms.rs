@@ -23,6 +23,7 @@ struct Counted<'a, M>(&'a M);
 
 impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     type Scalar = f64;
+    type Name = M::Name;
     type U = M::U;
     type V = M::V;
     type G = M::G;
@@ -37,7 +38,7 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     const INPUTS: &'static [&'static str] = M::INPUTS;
     const UNKNOWN_ANGLES: &'static [bool] = M::UNKNOWN_ANGLES;
     const INPUT_ANGLES: &'static [bool] = M::INPUT_ANGLES;
-    const GROUPS: &'static [Group] = M::GROUPS;
+    const GROUPS: &'static [Group<'static>] = M::GROUPS;
     const RANGES: &'static [&'static str] = M::RANGES;
 
     fn coordinates(unknowns: PerUnknown<M>, inputs: PerInput<M>) -> M::Coordinates {
@@ -89,7 +90,7 @@ impl<M: Mechanism<Scalar = f64>> Mechanism for Counted<'_, M> {
     fn gamma(&self, pose: &M::Pose, rates: &M::Rates) -> PerUnknown<M> {
         self.0.gamma(pose, rates)
     }
-    fn solve_jacobian(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError> {
+    fn solve_jacobian(&self, pose: &M::Pose, right: &PerUnknown<M>) -> Result<PerUnknown<M>, PositionError<M::Name>> {
         self.0.solve_jacobian(pose, right)
     }
     fn length_scale(&self, pose: &M::Pose) -> f64 {
@@ -188,7 +189,7 @@ const SELDOM: usize = 40;
 /// Positions of a mechanism, if there are any.
 pub fn positions<M>(m: &M, s: &mut Source, positions: &mut Pool<M::Coordinates>)
 where
-    M: Mechanism<Scalar = f64, Coordinates: Draw>,
+    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V: Default, Coordinates: Draw>,
 {
     for _ in 0..2 {
         let guess = Draw::draw(s);
@@ -206,7 +207,7 @@ pub fn mechanism<M>(
     positions: &mut Pool<M::Coordinates>,
     poses: &mut Pool<M::Pose>,
 ) where
-    M: Mechanism<Scalar = f64, Coordinates: Draw + Finite, Pose: Draw + Finite + Debug + Copy>,
+    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V: Default, Coordinates: Draw + Finite, Pose: Draw + Finite + Debug + Copy>,
 {
     let m = &Counted(m);
     for _ in 0..2 {
@@ -240,7 +241,7 @@ pub fn mechanism<M>(
 /// The algorithms for any mechanism with one input.
 pub fn driven<M>(t: &mut Tally, s: &mut Source, m: &M, positions: &mut Pool<M::Coordinates>)
 where
-    M: Mechanism<Scalar = f64, V = D<1>, Coordinates: Draw + Finite, Rates: Draw + Finite, Pose: Finite + Debug>,
+    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V = D<1>, Coordinates: Draw + Finite, Rates: Draw + Finite, Pose: Finite + Debug>,
 {
     if s.below(SELDOM) > 0 {
         return;
@@ -299,7 +300,7 @@ where
 /// The algorithms for any scene.
 pub fn scene<S, M>(t: &mut Tally, s: &mut Source, scene: &S, positions: &mut Pool<M::Coordinates>)
 where
-    S: Scene<Scalar = f64, Mechanism = M, Reactions: Finite>,
+    S: Scene<Scalar = f64, Mechanism = M, Reactions: Finite, State: Default, Contacts: Default>,
     M: Mechanism<
             Scalar = f64,
             U = S::U,

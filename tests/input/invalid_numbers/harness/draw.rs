@@ -140,13 +140,13 @@ impl<const N: usize> Draw for [f64; N] {
     }
 }
 
-impl<R: Dim> Draw for Column<f64, R> {
+impl<R: Dim + Default> Draw for Column<f64, R> {
     fn draw(source: &mut Source) -> Self {
         Self::from_fn(|_| source.number())
     }
 }
 
-impl<R: Dim, C: Dim> Draw for Matrix<f64, R, C> {
+impl<R: Dim + Default, C: Dim + Default> Draw for Matrix<f64, R, C> {
     fn draw(source: &mut Source) -> Self {
         Self::from_fn(|_, _| source.number())
     }

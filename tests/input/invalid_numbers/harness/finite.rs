@@ -13,7 +13,7 @@ use linkage::__rt::Vector as ByCoordinate;
 use linkage::simulation::{Loads, State, Touch};
 use linkage::singularity::{Accuracy, Exchange, GroupMeasure, Singularity};
 use linkage::{
-    AnyBranch, Assembled, AssemblyMode, Balance, Bearing, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
+    AnyBranch, Assembled, AssemblyMode, Balance, Bearing, BorrowedName, Column, Contact, ContactCoordinate, ContactLaw, D, Dim, Elbow, Energy, Equations, Matrix,
     Mechanism, OutputMotion, PointMotion, Power, ReactionRow, Scene, Slider, Slope, Solution, StateRates, Unreduced,
 };
 
@@ -169,10 +169,10 @@ parts! {
             contacts drives drive_power joints accelerations
     }
     [U: Dim, V: Dim] ByCoordinate<f64, U, V> { ByCoordinate { unknowns, inputs } => unknowns inputs }
-    [] GroupMeasure<f64> {
+    [N] GroupMeasure<f64, N> {
         GroupMeasure { name: _, determinant, regularity, sigma_min, is_regular: _ } => determinant regularity sigma_min
     }
-    [] Exchange<f64> { Exchange { unknown: _, input: _, sigma_min } => sigma_min }
+    [N] Exchange<f64, N> { Exchange { unknown: _, input: _, sigma_min } => sigma_min }
 }
 
 impl Finite for ContactLaw<f64> {
@@ -194,7 +194,7 @@ impl Finite for Limit<f64> {
     }
 }
 
-impl<Q: Finite + Copy> Finite for Event<Q> {
+impl<Q: Finite + Copy, N: BorrowedName> Finite for Event<Q, N> {
     fn all_finite(&self) -> bool {
         match self {
             Self::ChangePoint { tangents, .. } => tangents.iter().all(Finite::all_finite),
