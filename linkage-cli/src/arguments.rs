@@ -237,7 +237,7 @@ pub struct Table {
     pub numbers: Numbers,
     #[command(flatten)]
     pub along: Along,
-    /// The rate of the moving input, such as 45rpm; time is then a column
+    /// The rate of the moving input, such as 45rpm, or a plain number of radians per second; time is then a column
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub rate: Option<Value>,
     /// The columns to print, by name and in this order

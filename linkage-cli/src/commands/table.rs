@@ -1,7 +1,5 @@
 //! `linkage table`: a motion as columns.
 
-use std::f64::consts::TAU;
-
 use linkage_compiler::diagnostics::{is_near, suggestion};
 use linkage_report::Table;
 
@@ -102,9 +100,6 @@ fn rate(machine: &Machine, path: &Path, arguments: &arguments::Table) -> Result<
     let input = &machine.inputs[path.moving];
     let name = &input.name.text;
     let rate = value.rate(name, input.is_angle).map_err(Failure::Argument)?;
-    if input.is_angle && value.is_plain {
-        anstream::eprintln!("--rate {rate} is {rate} radians per second, {:.4}rpm", rate * 60.0 / TAU);
-    }
     let [from, to] = path.ends;
     if rate == 0.0 {
         return Err(Failure::Argument(format!(
