@@ -29,7 +29,7 @@
 //! assert!((first - second).largest() < 1e-13 * second.largest());
 //! // With one input the velocity ratios are the transmission ratios.
 //! assert_eq!(at.transmission_ratios(), Some(at.ratios.column(0)));
-//! # Ok::<(), linkage::PositionError<M::Name>>(())
+//! # Ok::<(), linkage::PositionError>(())
 //! ```
 
 use nalgebra::{Matrix2, Point2, Vector2};

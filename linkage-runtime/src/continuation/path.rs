@@ -60,7 +60,7 @@ crate::__by_fields!([M: Mechanism] PathStep<M> { position, rates, length, event 
 ///     path: Path<'static, Lever>,
 /// }
 ///
-/// fn started(m: Lever) -> Result<Walk, PathError<M::Name>> {
+/// fn started(m: Lever) -> Result<Walk, PathError> {
 ///     let start = LeverCoordinates { theta: 0.0, s: 3.0, phi: 0.0 };
 ///     Ok(Walk { path: Path::new(m, &start, Direction::Increasing)? })
 /// }
