@@ -88,7 +88,8 @@ impl<T: Real, U: Dim, V: Dim> Analysis<T, U, V> {
     /// The numbers at a position, at these rates `v'` and accelerations `v''` of the inputs.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a number is not finite.
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a number is not finite.
     pub fn of<M: Kinematic<Scalar = T, U = U, V = V>>(
         mechanism: &M,
         pose: &M::Pose,

@@ -163,12 +163,14 @@ pub trait Kinematic:
     /// The rates q' at the rates v' of the inputs.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a rate is not finite.
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a rate is not finite.
     fn velocity(&self, pose: &Self::Pose, input_rates: Self::Inputs) -> Result<Self::Rates, PositionErrorOf<Self>>;
     /// The accelerations `q''` at the rates `q'` and the accelerations `v''` of the inputs.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if an acceleration is not finite.
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if an acceleration is not finite.
     fn acceleration(
         &self,
         pose: &Self::Pose,
@@ -192,7 +194,8 @@ pub trait Kinematic:
     /// computation.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a coordinate or a result is not
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a coordinate or a result is not
     /// finite.
     fn motion(
         &self,
@@ -205,7 +208,7 @@ pub trait Kinematic:
     /// needs no body of it.
     ///
     /// # Errors
-    /// Those of `kinematics`, and [`PositionError::NotFinite`] if a result is not finite.
+    /// Those of `kinematics`, and [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn full_kinematics(
         &self,
         guess: &Self::Coordinates,
@@ -225,7 +228,8 @@ pub trait Kinematic:
     /// The velocity ratios W = -J^-1 A with u' = W v'. A mechanism without unknowns needs no body of it.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a ratio is not finite.
     fn velocity_ratios(&self, _: &Self::Pose) -> Result<Ratios<Self, Self::U>, PositionErrorOf<Self>> {
         const { no_unknowns::<Self>() };
         let (u, v, _) = self.dims();
@@ -235,7 +239,8 @@ pub trait Kinematic:
     /// coordinates while this input alone moves, at the rate 1.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a ratio is not finite.
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a ratio is not finite.
     fn ratios_by_input(&self, pose: &Self::Pose) -> Result<Column<Self::Rates, Self::V>, PositionErrorOf<Self>> {
         let ratios = self.velocity_ratios(pose)?;
         let (_, v) = ratios.dims();
@@ -244,14 +249,14 @@ pub trait Kinematic:
     /// The points. A mechanism without points needs no body of this and of the next three functions.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn points(&self, _: &Self::Pose) -> Result<Self::Points<Point2<Self::Scalar>>, PositionErrorOf<Self>> {
         Ok(none::<Self::P, _, _>(Point2::origin()))
     }
     /// The velocities of the points at the rates q'.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn point_velocities(
         &self,
         _: &Self::Pose,
@@ -262,7 +267,7 @@ pub trait Kinematic:
     /// The accelerations of the points at the rates `q'` and the accelerations `q''`.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn point_accelerations(
         &self,
         _: &Self::Pose,
@@ -274,28 +279,29 @@ pub trait Kinematic:
     /// For each point the matrix of its velocity by the rates of the inputs.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn point_ratios(&self, _: &Self::Pose) -> Result<Self::Points<Ratios<Self, D<2>>>, PositionErrorOf<Self>> {
         Ok(none::<Self::P, _, _>(D.zero_matrix(self.dims().1)))
     }
     /// The outputs. A mechanism without outputs needs no body of this and of the next three functions.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn outputs(&self, _: &Self::Pose) -> Result<Self::Outputs<Self::Scalar>, PositionErrorOf<Self>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// The rates of the outputs at the rates q'.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn output_rates(&self, _: &Self::Pose, _: &Self::Rates) -> Result<Self::Outputs<Self::Scalar>, PositionErrorOf<Self>> {
         Ok(none::<Self::O, _, _>(Self::Scalar::zero()))
     }
     /// The second derivatives of the outputs at the rates `q'` and the accelerations `q''`.
     ///
     /// # Errors
-    /// [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn output_accelerations(
         &self,
         _: &Self::Pose,
@@ -307,7 +313,8 @@ pub trait Kinematic:
     /// For each output the row of its rate by the rates of the inputs.
     ///
     /// # Errors
-    /// [`PositionError::Singular`] if J is singular, [`PositionError::NotFinite`] if a result is not finite.
+    /// [`PositionError::Singular`](crate::PositionError::Singular) if J is singular,
+    /// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a result is not finite.
     fn output_ratios(&self, _: &Self::Pose) -> Result<Self::Outputs<Ratios<Self, D<1>>>, PositionErrorOf<Self>> {
         Ok(none::<Self::O, _, _>(D.zero_matrix(self.dims().1)))
     }

@@ -205,7 +205,8 @@ fn threshold<T: Real>(count: usize) -> T {
 /// input, too slow for an inner loop.
 ///
 /// # Errors
-/// [`PositionError::NotFinite`] if an entry of the Jacobian, a determinant or a rate is not a finite number.
+/// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if an entry of the Jacobian, a determinant or a rate is
+/// not a finite number.
 pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity<M>, PositionErrorOf<M>> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let Equilibrated { unknowns: j, inputs: a, unknown_scales, input_scales, .. } = &equilibrated;
@@ -259,7 +260,7 @@ pub fn report<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Singularity
 /// Computes sigma min of a position only.
 ///
 /// # Errors
-/// [`PositionError::NotFinite`] if an entry of the Jacobian is not a finite number.
+/// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if an entry of the Jacobian is not a finite number.
 pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scalar, PositionErrorOf<M>> {
     let sigma_min = Decomposition::of(Equilibrated::of(mechanism, pose)?.unknowns).least();
     finite(mechanism.name(), Name::from_static("a singular value"), [sigma_min])?;
@@ -269,7 +270,8 @@ pub fn sigma_min<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<M::Scala
 /// Computes the residual of a position and the accuracy that it can have, eps / sigma min.
 ///
 /// # Errors
-/// [`PositionError::NotFinite`] if a residual or an entry of the Jacobian is not a finite number.
+/// [`PositionError::NotFinite`](crate::PositionError::NotFinite) if a residual or an entry of the Jacobian is not a finite
+/// number.
 pub fn accuracy<M: Mechanism>(mechanism: &M, pose: &M::Pose) -> Result<Accuracy<M>, PositionErrorOf<M>> {
     let equilibrated = Equilibrated::of(mechanism, pose)?;
     let residual = mechanism.residual(pose);
