@@ -15,15 +15,15 @@ pub struct Figure<'m> {
 
 impl<'m> Figure<'m> {
     pub fn of(machine: &'m Machine) -> Result<Self, Failure> {
-        let skeleton = machine.derivation.skeleton.as_ref();
+        let skeleton = machine.about.derivation.skeleton.as_ref();
         let skeleton = skeleton.ok_or_else(|| {
-            Failure::Outside(format!("`{}` has no drawing: write `derive drawing;` in it", machine.name))
+            Failure::Outside(format!("`{}` has no drawing: write `derive drawing;` in it", machine.about.name))
         })?;
         for place in &skeleton.unplaced {
             anstream::eprintln!(
                 "loop {} of `{}` is drawn from the origin: if it begins at another joint, declare a point on it",
                 place + 1,
-                machine.name
+                machine.about.name
             );
         }
         Ok(Self { machine, skeleton })
@@ -43,7 +43,7 @@ impl<'m> Figure<'m> {
     }
 
     fn places(&self, nodes: &[[linkage_compiler::graph::NodeId; 2]], motion: &Motion) -> Vec<[f64; 2]> {
-        let graph = &self.machine.derivation.graph;
+        let graph = &self.machine.about.derivation.graph;
         let bind = |symbol| self.machine.symbol(graph.symbol_name(symbol), motion);
         let numbers = graph.evaluate(nodes.as_flattened(), bind);
         numbers.chunks_exact(2).map(|at| [at[0], at[1]]).collect()

@@ -38,7 +38,7 @@ const NAMED: usize = 5;
 /// Says on standard error where the motion through these values of the moving input has a corner.
 pub fn warn(machine: &Machine, path: &Path, values: impl IntoIterator<Item = f64>) {
     let found = find(machine, path, values);
-    let input = &machine.inputs[path.moving];
+    let input = &machine.about.inputs[path.moving];
     let name = &input.name.text;
     let end = if input.is_angle { "deg" } else { "" };
     for of in found.iter().take(NAMED) {
@@ -147,7 +147,7 @@ struct Search<'m> {
 impl Search<'_> {
     /// The position at a value, if it has one with rates.
     fn place(&self, value: f64) -> Option<Place> {
-        let mut rates = vec![0.0; self.machine.inputs.len()];
+        let mut rates = vec![0.0; self.machine.about.inputs.len()];
         rates[self.path.moving] = 1.0;
         let motion = self.machine.motion(&self.path.at(value), &rates).ok()?;
         Some(Place { value, motion })
@@ -159,7 +159,7 @@ impl Search<'_> {
         let range = (self.path.ends[1] - self.path.ends[0]).abs();
         let length = |of: &Place| self.machine.solver.largest_length(&of.motion.inputs, &of.motion.unknowns);
         let length = length(from).max(length(to));
-        let unknowns = self.machine.unknowns.iter().enumerate().map(|(index, unknown)| {
+        let unknowns = self.machine.about.unknowns.iter().enumerate().map(|(index, unknown)| {
             let pair = |of: fn(&Place) -> &Vec<f64>| [of(from)[index], of(to)[index]];
             let values = pair(|of| &of.motion.unknowns);
             let [rates, accelerations] = [pair(|of| &of.motion.rates), pair(|of| &of.motion.accelerations)];

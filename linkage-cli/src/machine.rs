@@ -1,13 +1,11 @@
 //! A mechanism with numbers: values of its parameters, a branch, and the inputs that are held.
 
 use linkage_compiler::Lowered;
-use linkage_compiler::derivation::Derivation;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::model::Kind;
 use linkage_interpreter::{Data, Mechanism};
 
 use crate::about::{About, chosen};
-use crate::angles::Angle;
 use crate::arguments::Numbers;
 use crate::failure::Failure;
 use crate::following::{Following, Start};
@@ -19,15 +17,7 @@ use crate::values::{Assignment, Choice};
 
 /// A mechanism with values for all but its inputs.
 pub struct Machine {
-    pub name: String,
-    pub inputs: Vec<Coordinate>,
-    pub unknowns: Vec<Coordinate>,
-    pub points: Vec<Named>,
-    pub outputs: Vec<Named>,
-    /// The outputs that are angles.
-    pub output_angles: Vec<Option<Angle>>,
-    /// Its formulas, for the drawing.
-    pub derivation: Derivation,
+    pub about: About,
     parameters: Vec<(String, f64)>,
     /// Its positions without regard to a motion.
     pub solver: Solver,
@@ -61,10 +51,7 @@ impl Machine {
         let has_quantities = !about.points.is_empty() || !about.outputs.is_empty();
         let (inputs, unknowns) = (about.inputs.clone(), about.unknowns.clone());
         let solver = Solver { name: about.name.clone(), inputs, unknowns, has_quantities, length, design, branch };
-        let About { name, inputs, unknowns, points, outputs, output_angles, derivation, .. } = about;
-        let machine =
-            Self { name, inputs, unknowns, points, outputs, output_angles, derivation, parameters, solver, following };
-        Ok((machine, result))
+        Ok((Self { about, parameters, solver, following }, result))
     }
 
     /// The parameters with their values.
@@ -74,7 +61,7 @@ impl Machine {
 
     /// Values of the inputs in words.
     pub fn at(&self, inputs: &[f64]) -> String {
-        let each = self.inputs.iter().zip(inputs);
+        let each = self.about.inputs.iter().zip(inputs);
         let each = each.map(|(input, value)| format!("{} = {}", input.name.text, input.shown(*value)));
         each.collect::<Vec<_>>().join(", ")
     }
@@ -91,7 +78,7 @@ impl Machine {
 
     /// The quadratic velocity terms at rates of the unknowns, then of the inputs.
     pub fn gamma(&self, pose: &Data, rates: &[f64]) -> Vec<f64> {
-        let coordinates = self.unknowns.iter().chain(&self.inputs);
+        let coordinates = self.about.unknowns.iter().chain(&self.about.inputs);
         let named = coordinates.zip(rates).map(|(of, rate)| (of.name.field.as_str(), Data::from(*rate)));
         self.numbers("gamma", &[pose.clone(), Data::fields(named)])
     }
@@ -103,8 +90,8 @@ impl Machine {
 
     /// The place of an input.
     pub fn input(&self, name: &str) -> Result<usize, Failure> {
-        let names: Vec<&str> = self.inputs.iter().map(|input| input.name.text.as_str()).collect();
-        place(&self.name, "input", name, &names)
+        let names: Vec<&str> = self.about.inputs.iter().map(|input| input.name.text.as_str()).collect();
+        place(&self.about.name, "input", name, &names)
     }
 
     /// Position, velocity and acceleration; rates are constant. Without a closed form it is a position of the motion through those
@@ -123,7 +110,7 @@ impl Machine {
 
     /// The outputs by their formulas at these values of the unknowns, whose angles may be on other turns.
     pub fn outputs_at(&self, inputs: &[f64], unknowns: &[f64]) -> Vec<f64> {
-        let derivation = &self.derivation;
+        let derivation = &self.about.derivation;
         let nodes: Vec<NodeId> = derivation.outputs.iter().flat_map(|output| output.value.iter().copied()).collect();
         derivation.graph.evaluate(&nodes, |symbol| self.value(derivation.graph.symbol_name(symbol), inputs, unknowns))
     }
@@ -139,7 +126,7 @@ impl Machine {
             values.get(place).copied()
         };
         let parameter = self.parameters.iter().find(|(other, _)| other == name).map(|(_, value)| *value);
-        let coordinate = of(&self.inputs, inputs).or_else(|| of(&self.unknowns, unknowns));
+        let coordinate = of(&self.about.inputs, inputs).or_else(|| of(&self.about.unknowns, unknowns));
         parameter.or(coordinate).unwrap_or(f64::NAN)
     }
 }

@@ -21,12 +21,13 @@ pub struct Path {
 
 impl Path {
     pub fn of(machine: &Machine, along: &Along) -> Result<Self, Failure> {
-        let free = || machine.inputs.iter().position(|input| along.at.iter().all(|at| at.name != input.name.text));
+        let free =
+            || machine.about.inputs.iter().position(|input| along.at.iter().all(|at| at.name != input.name.text));
         let moving = match &along.along {
             Some(name) => machine.input(name)?,
             None => free().ok_or_else(|| Failure::Argument("each input is held: leave out one --at".to_owned()))?,
         };
-        let input = &machine.inputs[moving];
+        let input = &machine.about.inputs[moving];
         let given = |value: &Option<Value>| value.map(|value| input.value(value)).transpose();
         let turn = if input.is_angle { [Some(0.0), Some(TAU)] } else { [None, None] };
         let ends = [given(&along.from)?.or(turn[0]), given(&along.to)?.or(turn[1])];
@@ -51,7 +52,7 @@ impl Path {
     /// True for one or more whole turns.
     pub fn is_turn(&self, machine: &Machine) -> bool {
         let [from, to] = self.ends;
-        machine.inputs[self.moving].is_angle && ((to - from) / TAU).fract() == 0.0
+        machine.about.inputs[self.moving].is_angle && ((to - from) / TAU).fract() == 0.0
     }
 
     /// The value of the moving input at one of this number of equal steps.
@@ -64,16 +65,17 @@ impl Path {
 
 /// The inputs with these values, and the first value of the one that moves; angles without one are held at 60 degrees.
 pub fn held(machine: &Machine, at: &[Assignment], moving: Option<(usize, f64)>) -> Result<Vec<f64>, Failure> {
-    let mut inputs: Vec<Option<f64>> = machine.inputs.iter().map(|input| input.is_angle.then_some(HELD)).collect();
+    let mut inputs: Vec<Option<f64>> =
+        machine.about.inputs.iter().map(|input| input.is_angle.then_some(HELD)).collect();
     once("--at", at.iter().map(|at| at.name.as_str()))?;
     for Assignment { name, value } in at {
         let place = machine.input(name)?;
-        inputs[place] = Some(machine.inputs[place].value(*value)?);
+        inputs[place] = Some(machine.about.inputs[place].value(*value)?);
     }
     if let Some((moving, first)) = moving {
         inputs[moving] = Some(first);
     }
-    let each = machine.inputs.iter().zip(inputs).map(|(input, value)| {
+    let each = machine.about.inputs.iter().zip(inputs).map(|(input, value)| {
         let name = &input.name.text;
         value.ok_or_else(|| Failure::Argument(format!("the input `{name}` has no value: write --at {name}=VALUE")))
     });

@@ -82,7 +82,7 @@ impl Numbers {
 /// The coordinates with their values.
 fn coordinates<'m>(machine: &'m Machine, motion: &'m Motion) -> impl Iterator<Item = (&'m Coordinate, f64)> {
     let values = motion.inputs.iter().chain(&motion.unknowns);
-    machine.inputs.iter().chain(&machine.unknowns).zip(values.copied())
+    machine.about.inputs.iter().chain(&machine.about.unknowns).zip(values.copied())
 }
 
 /// The numbers of all names in formulas; those of rates and accelerations if the inputs have rates.
@@ -94,14 +94,14 @@ fn values(machine: &Machine, motion: &Motion, rates: Option<&[f64]>) -> Values {
     for (of, value) in coordinates(machine, motion) {
         values.set(&of.name.text, 0, value);
     }
-    for (input, rate) in machine.inputs.iter().zip(rates.into_iter().flatten()) {
+    for (input, rate) in machine.about.inputs.iter().zip(rates.into_iter().flatten()) {
         values.set(&input.name.text, 1, *rate).set(&input.name.text, 2, 0.0);
     }
-    for unknown in machine.unknowns.iter().filter(|_| rates.is_some()) {
+    for unknown in machine.about.unknowns.iter().filter(|_| rates.is_some()) {
         let of = |kind: &str| motion.number(&format!("{kind}.{}", unknown.name.field));
         values.set(&unknown.name.text, 1, of("rates")).set(&unknown.name.text, 2, of("accelerations"));
     }
-    let pairs = machine.unknowns.iter().flat_map(|of| machine.inputs.iter().map(move |by| (of, by)));
+    let pairs = machine.about.unknowns.iter().flat_map(|of| machine.about.inputs.iter().map(move |by| (of, by)));
     for ((of, by), ratio) in pairs.zip(machine.ratios(motion)) {
         values.set_ratio(&of.name.text, &by.name.text, ratio);
     }
@@ -120,19 +120,19 @@ fn tables(machine: &Machine, motion: &Motion, rates: Option<&[f64]>) -> Vec<(&'s
     ];
     for (caption, of_unknown, of_point, end) in orders {
         let Some(rates) = rates else { break };
-        let of_inputs = machine.inputs.iter().zip(rates);
+        let of_inputs = machine.about.inputs.iter().zip(rates);
         let inputs =
             of_inputs.filter(|_| end == "rate").map(|(input, rate)| (format!("{}_rate", input.name.text), *rate));
-        let unknowns = machine.unknowns.iter().map(|unknown| {
+        let unknowns = machine.about.unknowns.iter().map(|unknown| {
             (format!("{}_{end}", unknown.name.text), motion.number(&format!("{of_unknown}.{}", unknown.name.field)))
         });
-        let points = machine.points.iter().flat_map(|point| {
+        let points = machine.about.points.iter().flat_map(|point| {
             ["x", "y"].map(|axis| {
                 let value = motion.number(&format!("points.{}.{of_point}.{axis}", point.field));
                 (format!("{axis}_{}_{end}", point.text), value)
             })
         });
-        let outputs = machine.outputs.iter().map(|output| {
+        let outputs = machine.about.outputs.iter().map(|output| {
             (format!("{}_{end}", output.text), motion.number(&format!("outputs.{}.{end}", output.field)))
         });
         tables.push((caption, inputs.chain(unknowns).chain(points).chain(outputs).collect()));

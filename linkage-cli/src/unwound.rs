@@ -31,7 +31,7 @@ impl Unwound {
                     [&now.unknowns, &motion.unknowns].map(|unknowns| machine.outputs_at(&motion.inputs, unknowns));
                 now.outputs.iter_mut().zip(on.iter().zip(off)).for_each(|(value, (on, off))| *value += on - off);
             }
-            let outputs = now.outputs.iter_mut().zip(&last.outputs).zip(&machine.output_angles);
+            let outputs = now.outputs.iter_mut().zip(&last.outputs).zip(&machine.about.output_angles);
             for ((value, last), angle) in outputs {
                 if let Some(jump) = angle.and_then(|angle| angle.jump) {
                     *value = near(*value, *last, jump);
@@ -43,7 +43,7 @@ impl Unwound {
     }
 
     fn outputs(machine: &Machine, motion: &Motion) -> Vec<f64> {
-        machine.outputs.iter().map(|output| motion.number(&format!("outputs.{}.value", output.field))).collect()
+        machine.about.outputs.iter().map(|output| motion.number(&format!("outputs.{}.value", output.field))).collect()
     }
 }
 

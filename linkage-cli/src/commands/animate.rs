@@ -56,7 +56,7 @@ pub fn run(arguments: &Animate) -> Result<(), Failure> {
         );
     }
     let joints = frames.iter().map(|motion| figure.joints(motion));
-    let mut film = figure.with_parts(first, |parts| parts.animation(machine.name.as_str(), joints, seconds));
+    let mut film = figure.with_parts(first, |parts| parts.animation(machine.about.name.as_str(), joints, seconds));
     if let Some(width) = arguments.size.width {
         film.width(width);
     }
@@ -136,7 +136,7 @@ impl Course {
 /// Once over whole turns that have all positions; else back and forth over the longest part that has, which may pass the
 /// beginning of a turn. Messages say so.
 fn course(machine: &Machine, path: &Path, steps: u32, is_back_and_forth: bool) -> Result<Course, Failure> {
-    let rates = vec![0.0; machine.inputs.len()];
+    let rates = vec![0.0; machine.about.inputs.len()];
     let at = |step: u32| machine.motion(&path.at(path.step(step, steps)), &rates);
     let errors: Vec<Option<String>> = progress::over("computing", 0..steps + 1).map(|step| at(step).err()).collect();
     let is_turn = path.is_turn(machine);
@@ -156,7 +156,7 @@ fn course(machine: &Machine, path: &Path, steps: u32, is_back_and_forth: bool) -
         anstream::eprintln!("{missing} of {} positions do not exist; the first: {}", steps + 1, first_error());
     }
     if !is_back_and_forth {
-        let input = &machine.inputs[path.moving];
+        let input = &machine.about.inputs[path.moving];
         let [from, to] = ends.map(|value| input.shown(value));
         anstream::eprintln!("`{}` goes from {from} to {to} and back", input.name.text);
     }
@@ -165,7 +165,7 @@ fn course(machine: &Machine, path: &Path, steps: u32, is_back_and_forth: bool) -
 
 /// The positions of a film, the first one again at its end.
 fn frames(machine: &Machine, path: &Path, course: Course, steps: u32) -> Result<Vec<Motion>, Failure> {
-    let rates = vec![0.0; machine.inputs.len()];
+    let rates = vec![0.0; machine.about.inputs.len()];
     let at = |step: u32| machine.motion(&path.at(course.at(step, steps)), &rates);
     (0..=steps).map(at).collect::<Result<_, _>>().map_err(Failure::Outside)
 }

@@ -36,7 +36,7 @@ pub fn run(arguments: &Draw) -> Result<(), Failure> {
 
 /// The drawing of a position.
 pub fn drawing(machine: &Machine, figure: &Figure<'_>, motion: &Motion) -> Drawing {
-    figure.with_parts(motion, |parts| parts.drawing(machine.name.as_str(), figure.joints(motion)))
+    figure.with_parts(motion, |parts| parts.drawing(machine.about.name.as_str(), figure.joints(motion)))
 }
 
 /// A painter; a message if it has no fonts.

@@ -23,7 +23,8 @@ pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
     let (machine, documents) = &Machine::with(numbers, Documents::of)?;
     let inputs = held(machine, &place.at, None)?;
     let positions = machine.positions(&inputs);
-    let of_unknown = |name: &str| machine.unknowns.iter().chain(&machine.inputs).find(|of| of.name.text == name);
+    let of_unknown =
+        |name: &str| machine.about.unknowns.iter().chain(&machine.about.inputs).find(|of| of.name.text == name);
     let is_angle = |name: &str| of_unknown(name).is_some_and(|of| of.is_angle);
     let modes = match &positions {
         // The reason is that of the position on the first branch.
@@ -43,7 +44,7 @@ pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
     let lender = Lender::default();
     let Some(derivation) = documents.derivation(&lender)? else { return Ok(()) };
     let of_position = |(_, motion): &(String, Motion)| {
-        let are_angles = machine.unknowns.iter().map(|unknown| unknown.is_angle).collect();
+        let are_angles = machine.about.unknowns.iter().map(|unknown| unknown.is_angle).collect();
         let (pose, jacobian) = (motion.pose(), machine.jacobian(motion));
         Local::new(&derivation, are_angles, jacobian, move |rates| machine.gamma(&pose, rates))
     };

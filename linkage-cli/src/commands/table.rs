@@ -27,9 +27,13 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
     let machine = Machine::of(&arguments.numbers)?;
     let path = Path::of(&machine, &arguments.along)?;
     let rate = rate(&machine, &path, arguments)?;
-    let all = columns::names([&machine.inputs, &machine.unknowns], [&machine.points, &machine.outputs], rate != 0.0);
+    let all = columns::names(
+        [&machine.about.inputs, &machine.about.unknowns],
+        [&machine.about.points, &machine.about.outputs],
+        rate != 0.0,
+    );
     let asked = asked(&all, &arguments.columns)?;
-    let mut rates = vec![0.0; machine.inputs.len()];
+    let mut rates = vec![0.0; machine.about.inputs.len()];
     rates[path.moving] = rate;
     let mut table = Table::new(all);
     let mut unwound = Unwound::default();
@@ -62,7 +66,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
     let text = match arguments.summary {
         true => {
             let units = with_units(&machine, Table::new(table.names()), arguments.degrees)?;
-            let input = &machine.inputs[path.moving].name.text;
+            let input = &machine.about.inputs[path.moving].name.text;
             Summary::of(&table, &units, input, &summed(&machine, &table, &asked))?.to_text(format, digits)?
         }
         false => {
@@ -97,7 +101,7 @@ fn format(arguments: &arguments::Table) -> Result<TableFormat, Failure> {
 /// The rate of the moving input, 0 without one. Time begins at 0 and goes on, so the rate has the direction of the range.
 fn rate(machine: &Machine, path: &Path, arguments: &arguments::Table) -> Result<f64, Failure> {
     let Some(value) = arguments.rate else { return Ok(0.0) };
-    let input = &machine.inputs[path.moving];
+    let input = &machine.about.inputs[path.moving];
     let name = &input.name.text;
     let rate = value.rate(name, input.is_angle).map_err(Failure::Argument)?;
     let [from, to] = path.ends;
@@ -144,7 +148,7 @@ fn summed(machine: &Machine, table: &Table, asked: &[String]) -> Vec<String> {
         return asked.to_vec();
     }
     let is_moving = table.column("time").is_some();
-    let is_given = |name: &str| name == "time" || machine.inputs.iter().any(|input| input.name.text == name);
+    let is_given = |name: &str| name == "time" || machine.about.inputs.iter().any(|input| input.name.text == name);
     let is_rate = |name: &str| columns::OF_RATES.iter().any(|end| name.ends_with(end));
     let names = table.names().into_iter().filter(|name| !is_given(name) && (is_moving || !is_rate(name)));
     names.map(str::to_owned).collect()
@@ -156,8 +160,10 @@ fn with_units(machine: &Machine, mut table: Table, is_in_degrees: bool) -> Resul
         table = table.unit("time", "s").map_err(wrong)?;
     }
     if is_in_degrees {
-        let coordinates = machine.inputs.iter().chain(&machine.unknowns).filter(|coordinate| coordinate.is_angle);
-        let outputs = machine.outputs.iter().zip(&machine.output_angles).filter(|(_, angle)| angle.is_some());
+        let coordinates =
+            machine.about.inputs.iter().chain(&machine.about.unknowns).filter(|coordinate| coordinate.is_angle);
+        let outputs =
+            machine.about.outputs.iter().zip(&machine.about.output_angles).filter(|(_, angle)| angle.is_some());
         let names = coordinates.map(|angle| &angle.name.text).chain(outputs.map(|(output, _)| &output.text));
         table = table.degrees_of(names).map_err(wrong)?;
     }
@@ -167,7 +173,7 @@ fn with_units(machine: &Machine, mut table: Table, is_in_degrees: bool) -> Resul
 /// The numbers of a row after inputs and time.
 fn numbers(machine: &Machine, turned: &Turned, motion: &Motion) -> Vec<f64> {
     let mut row = Vec::new();
-    for (unknown, value) in machine.unknowns.iter().zip(&turned.unknowns) {
+    for (unknown, value) in machine.about.unknowns.iter().zip(&turned.unknowns) {
         let field = &unknown.name.field;
         row.extend([
             *value,
@@ -175,13 +181,13 @@ fn numbers(machine: &Machine, turned: &Turned, motion: &Motion) -> Vec<f64> {
             motion.number(&format!("accelerations.{field}")),
         ]);
     }
-    for point in &machine.points {
+    for point in &machine.about.points {
         let of = |path: &str| motion.number(&format!("points.{}.{path}", point.field));
         let [x, y, velocity_x, velocity_y] = ["position.x", "position.y", "velocity.x", "velocity.y"].map(of);
         row.extend([x, y, velocity_x, velocity_y, (velocity_x * velocity_x + velocity_y * velocity_y).sqrt()]);
         row.extend(["acceleration.x", "acceleration.y"].map(of));
     }
-    for (output, value) in machine.outputs.iter().zip(&turned.outputs) {
+    for (output, value) in machine.about.outputs.iter().zip(&turned.outputs) {
         let of = |of: &str| motion.number(&format!("outputs.{}.{of}", output.field));
         row.extend([*value, of("rate"), of("acceleration")]);
     }
