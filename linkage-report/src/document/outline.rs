@@ -165,7 +165,7 @@ pub(crate) trait Lines {
     fn display(&mut self, formula: &Formula<'_>) -> fmt::Result;
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result;
     fn matrix(&mut self, matrix: &FormulaMatrix<'_>) -> fmt::Result;
-    /// A constraint equation. It is zero at every position, so no number of a position stands beside it.
+    /// A constraint equation. It is zero at every position, so it has no numbers of a position.
     fn zero(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
         self.equation(number, equation)
     }
