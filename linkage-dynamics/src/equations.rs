@@ -2,7 +2,7 @@
 
 use crate::MotionError;
 use linkage_runtime::__shared::all_finite;
-use linkage_runtime::{Column, Dim, Matrix, Mechanism, Real};
+use linkage_runtime::{Column, Dim, Matrix, Mechanism, Name, Real};
 
 /// The equations of motion in the inputs, without frictions and stops: `M v'' = Q`, `u' = W v'`, `u'' = W v'' + bias`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,13 +31,13 @@ impl<T: Real, U: Dim, V: Dim> Equations<T, U, V> {
     /// # Errors
     /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J is singular,
     /// [`PositionError::NotFinite`](linkage_runtime::PositionError::NotFinite) if a number is not finite.
-    pub fn at<M: Mechanism<Scalar = T, Name = &'static str, U = U, V = V>>(
+    pub fn at<M: Mechanism<Scalar = T, U = U, V = V>>(
         mechanism: &M,
         q: &M::Coordinates,
         input_rates: impl Into<Column<T, V>>,
         mass: impl Into<Matrix<T, V, V>>,
         forces: impl Into<Column<T, V>>,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, MotionError<M::Name>> {
         let (input_rates, mass, forces) = (input_rates.into(), mass.into(), forces.into());
         let pose = mechanism.pose_at(q);
         let mut ratios = mechanism.jacobian_inputs(&pose);
@@ -47,7 +47,7 @@ impl<T: Real, U: Dim, V: Dim> Equations<T, U, V> {
         let rates = M::rates(ratios * input_rates, input_rates);
         let bias = -mechanism.solve_jacobian(&pose, &mechanism.gamma(&pose, &rates))?;
         let values = mass.iter().chain(forces.iter()).chain(ratios.iter()).chain(bias.iter());
-        all_finite(M::NAME, "the equations of motion", values)?;
+        all_finite(mechanism.name(), Name::from_static("the equations of motion"), values)?;
         Ok(Self { mass, forces, ratios, bias })
     }
 }

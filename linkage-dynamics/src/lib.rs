@@ -31,6 +31,7 @@ pub use equations::Equations;
 pub use equilibrium::Balance;
 pub use error::{CrossingRates, MotionError};
 pub use scene::{
-    Accelerations, Coordinates, Inputs, Kink, Prescribed, Rates, Scene, StateColumn, StateParts, StateRates,
+    Accelerations, Coordinates, Inputs, Kink, MotionErrorOf, NameOf, Prescribed, Rates, Scene, StateColumn, StateParts,
+    StateRates,
 };
 pub use unreduced::Unreduced;

@@ -3,7 +3,7 @@
 use crate::contact::{ContactMotion, Contacts, ReducedEquations};
 use crate::scene::{Accelerations, Coordinates, Inputs, Rates};
 use crate::simulation::Loads;
-use crate::{ContactLaw, Equations, MotionError, Scene};
+use crate::{ContactLaw, Equations, MotionErrorOf, NameOf, Scene};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Build, Column, Mechanism, PerInput};
 
@@ -11,7 +11,7 @@ use linkage_runtime::{Build, Column, Mechanism, PerInput};
 type Laws<S> = Column<Option<<S as Scene>::Scalar>, <S as Scene>::V>;
 
 type MotionOf<S> = (
-    ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>,
+    ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts, NameOf<S>>,
     ContactMotion<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>,
 );
 
@@ -24,7 +24,7 @@ pub fn bearing_loss<S: Scene>(
     t: S::Scalar,
     q: &Coordinates<S>,
     input_rates: Inputs<S>,
-) -> Result<S::Scalar, MotionError> {
+) -> Result<S::Scalar, MotionErrorOf<S>> {
     let (equations, motion) = motion(scene, t, q, input_rates, &laws(scene, t))?;
     let losses = equations.contacts.iter().zip(&motion.forces).map(|(contact, &force)| match contact.law {
         ContactLaw::Bearing { .. } => -force * contact.rate(&equations.rates).0,
@@ -42,7 +42,7 @@ pub fn reactions<S: Scene>(
     t: S::Scalar,
     q: &Coordinates<S>,
     input_rates: Inputs<S>,
-) -> Result<S::Reactions, MotionError> {
+) -> Result<S::Reactions, MotionErrorOf<S>> {
     let (equations, motion) = motion(scene, t, q, input_rates, &laws(scene, t))?;
     let (rates, accelerations) = moving(scene, t, q, &equations.rates, &motion)?;
     scene.reactions(t, q, &rates, &accelerations, &motion.forces)
@@ -51,13 +51,13 @@ pub fn reactions<S: Scene>(
 /// The forces of frictions, stops, drives and joints in the motion that starts at a state.
 ///
 /// # Errors
-/// Those of [`reactions`], and [`MotionError::NotFinite`].
+/// Those of [`reactions`], and [`MotionError::NotFinite`](crate::MotionError::NotFinite).
 pub(crate) fn loads<S: Scene>(
     scene: &S,
     t: S::Scalar,
     q: &Coordinates<S>,
     input_rates: Inputs<S>,
-) -> Result<Loads<S>, MotionError> {
+) -> Result<Loads<S>, MotionErrorOf<S>> {
     loads_with(scene, t, q, input_rates, &laws(scene, t))
 }
 
@@ -70,7 +70,7 @@ pub(crate) fn loads_of_motion<S: Scene>(
     t: S::Scalar,
     q: &Coordinates<S>,
     (input_rates, input_accelerations): (Inputs<S>, Inputs<S>),
-) -> Result<Loads<S>, MotionError> {
+) -> Result<Loads<S>, MotionErrorOf<S>> {
     let accelerations: PerInput<S::Mechanism> = input_accelerations.into();
     loads_with(scene, t, q, input_rates, &accelerations.map(Some))
 }
@@ -83,7 +83,7 @@ fn loads_with<S: Scene>(
     q: &Coordinates<S>,
     input_rates: Inputs<S>,
     laws: &Laws<S>,
-) -> Result<Loads<S>, MotionError> {
+) -> Result<Loads<S>, MotionErrorOf<S>> {
     let (ReducedEquations { rates, .. }, motion) = motion(scene, t, q, input_rates, laws)?;
     let (free, _) = ReducedEquations::unprescribed(scene, t, &S::state(q, &rates.into()))?;
     let residual = motion.residual(&free);
@@ -110,7 +110,7 @@ pub fn drive_forces<S: Scene>(
     t: S::Scalar,
     q: &Coordinates<S>,
     input_rates: Inputs<S>,
-) -> Result<Inputs<S>, MotionError> {
+) -> Result<Inputs<S>, MotionErrorOf<S>> {
     loads(scene, t, q, input_rates).map(|loads| loads.drives)
 }
 
@@ -121,7 +121,7 @@ fn moving<S: Scene>(
     q: &Coordinates<S>,
     rates: &PerInput<S::Mechanism>,
     motion: &ContactMotion<S::Scalar, S::V, S::Contacts>,
-) -> Result<(Rates<S>, Accelerations<S>), MotionError> {
+) -> Result<(Rates<S>, Accelerations<S>), MotionErrorOf<S>> {
     let Equations { ratios, bias, .. } = scene.equations(t, &S::state(q, &(*rates).into()))?;
     let all = S::Mechanism::rates(ratios * *rates, *rates);
     let unknowns = ratios * motion.acceleration + bias;
@@ -141,7 +141,7 @@ fn motion<S: Scene>(
     q: &Coordinates<S>,
     input_rates: Inputs<S>,
     laws: &Laws<S>,
-) -> Result<MotionOf<S>, MotionError> {
+) -> Result<MotionOf<S>, MotionErrorOf<S>> {
     let rates: PerInput<S::Mechanism> = input_rates.into();
     let evaluate = |rates: &PerInput<S::Mechanism>| {
         let (mut equations, _) = ReducedEquations::unprescribed(scene, t, &S::state(q, &(*rates).into()))?;

@@ -7,7 +7,7 @@ use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
 use linkage_runtime::{
-    Build, Column, Dim, InputError, JointForces, Mechanism, Name, PerInput, PositionError, Real, newton, real,
+    Build, Column, Dim, InputError, Joint, JointForces, Mechanism, Name, PerInput, PositionError, Real, newton, real,
 };
 
 /// Values shared by the functions of a scene, at one position and one set of input rates.
@@ -52,13 +52,39 @@ pub trait Scene {
     /// The number of frictions and stops.
     type Contacts: Dim;
     /// The kinematics.
-    type Mechanism: Mechanism<Scalar = Self::Scalar, Name = &'static str, U = Self::U, V = Self::V>;
+    type Mechanism: Mechanism<Scalar = Self::Scalar, U = Self::U, V = Self::V>;
     /// The forces in the joints that `reaction` statements name, or `()`.
-    type Reactions: JointForces<Self::Scalar>;
+    type Reactions: JointForces<Self::Scalar, NameOf<Self>>;
 
     /// The name of the scene, used in errors.
     const NAME: &'static str;
+    /// True if a friction depends on the reaction of its joint.
+    const BEARINGS: bool = false;
+    /// The kinks of its laws, without those of user functions.
+    const KINKS: &'static [Kink] = &[];
 
+    /// The name of the scene, used in errors. Here and below: the names of emitted code are constants, those of a scene at run
+    /// time are of its value.
+    #[inline]
+    fn name(&self) -> NameOf<Self> {
+        Name::from_static(Self::NAME)
+    }
+    /// True if a friction depends on the reaction of its joint. Without one [`bearings`](Self::bearings) is not called.
+    #[inline]
+    fn has_bearings(&self) -> bool {
+        Self::BEARINGS
+    }
+    /// The kinks of its laws, without those of user functions.
+    #[inline]
+    fn kinks(&self) -> impl Iterator<Item = Kink<NameOf<Self>>> {
+        Self::KINKS.iter().map(|kink| kink.map_names(Name::from_static))
+    }
+    /// The joints of its [`Reactions`](Self::Reactions), also before these are computed.
+    #[inline]
+    fn joints(&self) -> impl Iterator<Item = Joint<NameOf<Self>>> {
+        let joints = <Self::Reactions as JointForces<Self::Scalar, NameOf<Self>>>::JOINTS;
+        joints.iter().map(|joint| joint.map_names(Name::from_static))
+    }
     /// The kinematics.
     fn mechanism(&self) -> &Self::Mechanism;
     /// The number of frictions and stops. A scene needs a body of it if it is not a constant.
@@ -81,19 +107,19 @@ pub trait Scene {
     /// # Errors
     /// [`InputError::OutOfRange`] if a mass, an inertia or a friction is negative, with its name, or if the restitution
     /// of a stop is not between 0 and 1; [`InputError::EmptyRange`] with the name of a stop.
-    fn check(&self) -> Result<(), MotionError>;
+    fn check(&self) -> Result<(), MotionErrorOf<Self>>;
     /// `y' = (W v', v'')`, without frictions and stops.
     ///
     /// # Errors
     /// [`PositionError::Singular`] where J is singular, [`MotionError::NoInertia`] where an input could accelerate
     /// without a force, [`PositionError::NotFinite`] with the name of the body or the effect whose value is not finite.
-    fn derivative(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError>;
+    fn derivative(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionErrorOf<Self>>;
     /// M, Q, W and `u''` at `v'' = 0`: [`derivative`](Self::derivative) where no input is prescribed.
     ///
     /// # Errors
     /// [`PositionError::Singular`] where J is singular, [`PositionError::NotFinite`] with the name of the body or the
     /// effect whose value is not finite.
-    fn equations(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<EquationsOf<Self>, MotionError>;
+    fn equations(&self, t: Self::Scalar, state: &StateColumn<Self>) -> Result<EquationsOf<Self>, MotionErrorOf<Self>>;
     /// The frictions and stops in the order of declaration, at a position and the rates q'.
     ///
     /// # Errors
@@ -104,10 +130,7 @@ pub trait Scene {
         t: Self::Scalar,
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
-    ) -> Result<ContactsOf<Self>, MotionError>;
-    /// True if a friction depends on the reaction of its joint. Without one [`bearings`](Self::bearings) is not called.
-    const BEARINGS: bool = false;
-
+    ) -> Result<ContactsOf<Self>, MotionErrorOf<Self>>;
     /// The reactions of the contacts with the law [`ContactLaw::Bearing`], at a position and the rates q'.
     ///
     /// # Errors
@@ -117,7 +140,7 @@ pub trait Scene {
         _: Self::Scalar,
         _: &Coordinates<Self>,
         _: &Rates<Self>,
-    ) -> Result<BearingsOf<Self>, MotionError> {
+    ) -> Result<BearingsOf<Self>, MotionErrorOf<Self>> {
         Ok(self.contact_count().repeat(None))
     }
     /// M and F of `M q'' + Psi_q' lambda = F` in all coordinates, at the rates `q'`: they hold for any choice of
@@ -130,7 +153,7 @@ pub trait Scene {
         t: Self::Scalar,
         q: &Coordinates<Self>,
         rates: &Rates<Self>,
-    ) -> Result<UnreducedOf<Self>, MotionError>;
+    ) -> Result<UnreducedOf<Self>, MotionErrorOf<Self>>;
     /// The forces in the joints in a motion with the rates `q'`, the accelerations `(u'', v'')`, and these forces of
     /// frictions and stops along their scalars.
     ///
@@ -143,11 +166,9 @@ pub trait Scene {
         rates: &Rates<Self>,
         accelerations: &Accelerations<Self>,
         contact_forces: &Column<Self::Scalar, Self::Contacts>,
-    ) -> Result<Self::Reactions, MotionError>;
-    /// The kinks of its laws, without those of user functions.
-    const KINKS: &'static [Kink] = &[];
-
-    /// The expression at whose zeros the law of `KINKS[place]` has a kink or a jump, where it changes its sign.
+    ) -> Result<Self::Reactions, MotionErrorOf<Self>>;
+    /// The expression at whose zeros the law of the kink at this place of [`kinks`](Self::kinks) has a kink or a jump, where it
+    /// changes its sign.
     fn kink(&self, place: usize, t: Self::Scalar, q: &Coordinates<Self>, rates: &Rates<Self>) -> Self::Scalar {
         let _ = (place, t, q, rates);
         Self::Scalar::one()
@@ -165,7 +186,7 @@ pub trait Scene {
         t: Self::Scalar,
         q: &Coordinates<Self>,
         input_rates: impl Into<Inputs<Self>>,
-    ) -> Result<Loads<Self>, MotionError>
+    ) -> Result<Loads<Self>, MotionErrorOf<Self>>
     where
         Self: Sized,
     {
@@ -182,7 +203,7 @@ pub trait Scene {
         q: &Coordinates<Self>,
         input_rates: impl Into<Inputs<Self>>,
         input_accelerations: impl Into<Inputs<Self>>,
-    ) -> Result<Loads<Self>, MotionError>
+    ) -> Result<Loads<Self>, MotionErrorOf<Self>>
     where
         Self: Sized,
     {
@@ -196,7 +217,7 @@ pub trait Scene {
         &self,
         _: &Coordinates<Self>,
         _: &Inputs<Self>,
-    ) -> Result<Option<Energy<Self::Scalar>>, MotionError> {
+    ) -> Result<Option<Energy<Self::Scalar>>, MotionErrorOf<Self>> {
         Ok(None)
     }
     /// The prescribed motion of each input, or None.
@@ -206,8 +227,8 @@ pub trait Scene {
     ///
     /// # Errors
     /// [`PositionError::NotConverged`] if no position is found, [`PositionError::NotFinite`] if a number is not finite.
-    fn project(&self, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionError> {
-        all_finite(Self::NAME, "the state", state.iter())?;
+    fn project(&self, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionErrorOf<Self>> {
+        all_finite(self.name(), Name::from_static("the state"), state.iter())?;
         let StateParts { q, input_rates } = Self::parts(state);
         let closed = newton(self.mechanism(), &q)?;
         Ok(Self::state(&closed.coordinates, &input_rates))
@@ -223,23 +244,29 @@ pub trait Scene {
         t: Self::Scalar,
         q: &Coordinates<Self>,
         input_rates: &Inputs<Self>,
-    ) -> Result<StateColumn<Self>, MotionError> {
+    ) -> Result<StateColumn<Self>, MotionErrorOf<Self>> {
         self.check()?;
         let (inputs, rates): (_, PerInput<Self::Mechanism>) = (Self::Mechanism::inputs(q), (*input_rates).into());
         // At a kink the rate after it.
         let laws = one_sided(self, t, true);
         let given = inputs.iter().zip(&rates).zip(&laws);
-        for (&coordinate, ((&value, &rate), law)) in Self::Mechanism::INPUTS.iter().zip(given) {
+        for (input, ((&value, &rate), law)) in given.enumerate() {
             let Some(law) = law else { continue };
             // Relative to an infinite value of the law every difference would be zero.
-            finite(Self::NAME, "the law of a drive", [law.value, law.rate])?;
+            finite(self.name(), Name::from_static("the law of a drive"), [law.value, law.rate])?;
             for (quantity, given, law) in [("position", value, law.value), ("rate", rate, law.rate)] {
                 let gap = (given - law).abs();
                 // The comparison is false for NaN, which is inconsistent too.
                 let agrees = gap <= Self::Scalar::default_epsilon().sqrt() * (given.abs() + law.abs());
                 if !agrees {
-                    let gap = to_f64(gap);
-                    return Err(InputError::Inconsistent { scene: Self::NAME, coordinate, quantity, gap }.into());
+                    let (coordinate, quantity) = (self.mechanism().input_name(input), Name::from_static(quantity));
+                    return Err(InputError::Inconsistent {
+                        scene: self.name(),
+                        coordinate,
+                        quantity,
+                        gap: to_f64(gap),
+                    }
+                    .into());
                 }
             }
         }
@@ -252,7 +279,7 @@ pub trait Scene {
             for Contact { name, along, law } in self.contacts(t, &q, &rest)? {
                 if let ContactLaw::Stop { lower, upper, .. } = law {
                     let resolution = resolution_by_inputs(self.mechanism(), &scales, &q, &along)?;
-                    within(Self::NAME, name, (along.value, resolution), [lower, upper])?;
+                    within(self.name(), name, (along.value, resolution), [lower, upper])?;
                 }
             }
         }
@@ -260,6 +287,10 @@ pub trait Scene {
     }
 }
 
+/// The type of the names of a scene, those of its mechanism.
+pub type NameOf<S> = <<S as Scene>::Mechanism as Mechanism>::Name;
+/// The error of a motion, with names of a scene.
+pub type MotionErrorOf<S> = MotionError<NameOf<S>>;
 /// The coordinates q of a scene by name.
 pub type Coordinates<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
 /// The rates q' of all coordinates of a scene by name.
@@ -277,7 +308,8 @@ type BearingsOf<S> = Column<
     Option<Bearing<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V, <S as Scene>::Contacts>>,
     <S as Scene>::Contacts,
 >;
-type ContactsOf<S> = Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>, <S as Scene>::Contacts>;
+type ContactsOf<S> =
+    Column<Contact<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V, NameOf<S>>, <S as Scene>::Contacts>;
 
 /// The state y = (q, v') of a scene, by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -301,11 +333,19 @@ pub struct StateRates<R, V> {
 
 /// A kink or a jump of a law of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Kink {
+pub struct Kink<N = &'static str> {
     /// The effect with the law, as in errors: `drive x`.
-    pub effect: &'static str,
+    pub effect: N,
     /// True if its expression depends on time alone.
     pub is_timed: bool,
+}
+
+impl<N> Kink<N> {
+    /// This kink with another name.
+    #[inline]
+    pub fn map_names<M>(self, f: impl FnOnce(N) -> M) -> Kink<M> {
+        Kink { effect: f(self.effect), is_timed: self.is_timed }
+    }
 }
 
 /// The prescribed motion of an input at one time.
@@ -342,7 +382,7 @@ pub(crate) fn sign_at<S: Scene + ?Sized>(scene: &S, place: usize, t: S::Scalar) 
 /// Returns t, or if an expression of time alone is zero there, a time next to it, in this direction, where none is.
 pub(crate) fn beside<S: Scene + ?Sized>(scene: &S, t: S::Scalar, is_forward: bool) -> S::Scalar {
     let is_smooth = |t: S::Scalar| {
-        let mut kinks = S::KINKS.iter().enumerate();
+        let mut kinks = scene.kinks().enumerate();
         kinks.all(|(place, kink)| !kink.is_timed || sign_at(scene, place, t) != 0)
     };
     if is_smooth(t) {
@@ -379,11 +419,6 @@ pub(crate) fn one_sided<S: Scene + ?Sized>(
     })
 }
 
-/// Returns the name of the coordinate of a column of [J A].
-pub(crate) fn coordinate_name<M: Mechanism>(column: usize) -> &'static str {
-    M::UNKNOWNS.iter().chain(M::INPUTS).nth(column).copied().unwrap_or_default()
-}
-
 /// The forces of frictions, stops, drives and joints.
 #[cfg_attr(
     feature = "serde",
@@ -413,12 +448,12 @@ pub struct Loads<S: Scene> {
 
 impl<S: Scene> Loads<S> {
     /// Checks that all forces are finite; those in the joints are already checked.
-    pub(crate) fn finite(self, t: S::Scalar) -> Result<Self, MotionError> {
+    pub(crate) fn finite(self, t: S::Scalar) -> Result<Self, MotionErrorOf<S>> {
         let drives: PerInput<S::Mechanism> = self.drives.into();
         let Vector { unknowns, inputs } = &self.accelerations;
         let forces = self.contacts.iter().chain(drives.iter()).chain([&self.drive_power]);
         if !forces.chain(unknowns.iter()).chain(inputs.iter()).all(S::Scalar::is_finite) {
-            return Err(MotionError::NotFinite { quantity: "the loads", t: to_f64(t) });
+            return Err(MotionError::NotFinite { quantity: Name::from_static("the loads"), t: to_f64(t) });
         }
         Ok(self)
     }

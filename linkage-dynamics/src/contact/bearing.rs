@@ -5,7 +5,7 @@
 
 use crate::contact::Contact;
 use crate::{MotionError, Unreduced};
-use linkage_runtime::{Build, Column, Dim, Matrix, PositionError, Real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Matrix, PositionError, Real};
 
 /// The reaction R of a joint with friction. Its limit is `factor` |R|, see
 /// [`ContactLaw::Bearing`](crate::ContactLaw::Bearing).
@@ -105,7 +105,7 @@ impl<T: Real, V: Dim, C: Dim> ReducedReaction<T, V, C> {
 }
 
 /// A scene at one state in independent coordinates z: `(u', v') = N z'` and `(u'', v'') = N z'' + b`.
-pub(crate) struct Reduction<'a, T: Real, U: Dim, V: Dim, C: Dim> {
+pub(crate) struct Reduction<'a, T: Real, U: Dim, V: Dim, C: Dim, N: BorrowedName> {
     /// The rows of N of the unknowns and of the inputs.
     pub basis: (&'a Matrix<T, U, V>, &'a Matrix<T, V, V>),
     /// b.
@@ -113,20 +113,20 @@ pub(crate) struct Reduction<'a, T: Real, U: Dim, V: Dim, C: Dim> {
     /// M and F.
     pub all: &'a Unreduced<T, U, V>,
     /// S.
-    pub contacts: &'a Column<Contact<T, U, V>, C>,
+    pub contacts: &'a Column<Contact<T, U, V, N>, C>,
 }
 
-impl<T: Real, U: Dim, V: Dim, C: Dim> Reduction<'_, T, U, V, C> {
+impl<T: Real, U: Dim, V: Dim, C: Dim, N: BorrowedName> Reduction<'_, T, U, V, C, N> {
     /// Reduces the bearings of a scene; `solve` returns the x with [J A] x = `rows` that is zero in z.
     ///
     /// # Errors
     /// Those of `solve`; [`PositionError::NotFinite`] with the name of a contact whose reaction is not finite.
     pub(crate) fn bearings(
         &self,
-        scene: &'static str,
+        scene: N,
         bearings: &Column<Option<Bearing<T, U, V, C>>, C>,
-        mut solve: impl FnMut(&Column<T, U>) -> Result<(Column<T, U>, Column<T, V>), MotionError>,
-    ) -> Result<Bearings<T, V, C>, MotionError> {
+        mut solve: impl FnMut(&Column<T, U>) -> Result<(Column<T, U>, Column<T, V>), MotionError<N>>,
+    ) -> Result<Bearings<T, V, C>, MotionError<N>> {
         let mut reduced = self.contacts.dim().repeat(None);
         for (place, bearing) in bearings.iter().enumerate() {
             let Some(Bearing { components }) = bearing else { continue };

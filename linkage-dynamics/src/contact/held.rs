@@ -12,7 +12,7 @@ use super::{ContactLaw, Mode};
 use crate::MotionError;
 use crate::inertia::Inertia;
 use linkage_runtime::__shared::{Ranked, reduce_rows};
-use linkage_runtime::{Build, Column, Dim, Matrix, Real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Matrix, Real};
 
 /// The accelerations due to forces along some of the contacts.
 pub(super) struct Response<T: Real, V: Dim, C: Dim> {
@@ -33,11 +33,11 @@ impl<T: Real, V: Dim, C: Dim> Response<T, V, C> {
     ///
     /// # Errors
     /// Those of [`Inertia::new`].
-    pub(super) fn new(
-        equations: &ReducedEquations<T, V, C>,
+    pub(super) fn new<N: BorrowedName>(
+        equations: &ReducedEquations<T, V, C, N>,
         forces: &Column<T, C>,
         is_requested: impl Fn(usize) -> bool,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, MotionError<N>> {
         let ReducedEquations { scene, coordinates, mass, contacts, .. } = equations;
         let (v, c) = equations.dims();
         let inertia = Inertia::new(*scene, coordinates, mass)?;
@@ -94,7 +94,10 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// # Errors
     /// Those of [`Response::new`].
     #[inline(always)]
-    pub(super) fn new(equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Result<Self, MotionError> {
+    pub(super) fn new<N: BorrowedName>(
+        equations: &ReducedEquations<T, V, C, N>,
+        modes: &Column<Mode, C>,
+    ) -> Result<Self, MotionError<N>> {
         let forces = modes.dim().column(|place| slipping(modes[place], &equations.contacts[place].law));
         Self::with_forces(equations, modes, &forces)
     }
@@ -105,11 +108,11 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// Those of [`Response::new`].
     // Inlined always: a result of 200 bytes that was just written is slow to move.
     #[inline(always)]
-    pub(super) fn with_forces(
-        equations: &ReducedEquations<T, V, C>,
+    pub(super) fn with_forces<N: BorrowedName>(
+        equations: &ReducedEquations<T, V, C, N>,
         modes: &Column<Mode, C>,
         forces: &Column<T, C>,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, MotionError<N>> {
         let response = Response::new(equations, forces, |place| modes[place].is_held())?;
         let (mut order, mut count) = (modes.dim().repeat(0), 0);
         for place in (0..modes.dim().count()).filter(|&place| modes[place].is_held()) {
@@ -122,7 +125,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     }
 
     /// `v''`.
-    pub(super) fn acceleration(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
+    pub(super) fn acceleration<N: BorrowedName>(&self, equations: &ReducedEquations<T, V, C, N>) -> Column<T, V> {
         let mut acceleration = self.response.acceleration;
         for (&row, &force) in self.factors.order.iter().zip(&self.forces).take(self.factors.rank) {
             acceleration += self.response.columns.column(row) * force;
@@ -133,7 +136,7 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
 
     /// Returns v' projected so that s' = 0 of the held contacts: removes rounding error and the error of the event
     /// time.
-    pub(super) fn rates(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
+    pub(super) fn rates<N: BorrowedName>(&self, equations: &ReducedEquations<T, V, C, N>) -> Column<T, V> {
         let impulses = self.factors.solve(|row| -equations.contacts[row].rate(&equations.rates).0);
         let mut rates = equations.rates;
         for (&row, &impulse) in self.factors.order.iter().zip(&impulses).take(self.factors.rank) {
@@ -145,7 +148,12 @@ impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
 
     /// Corrects x so that S x + `rest` = 0 holds exactly for the held contacts, not only to rounding error: it solves
     /// for one coordinate of each. The rate of a resting block is then exactly 0.
-    fn enforce(&self, equations: &ReducedEquations<T, V, C>, x: &mut Column<T, V>, rest: impl Fn(usize) -> T) {
+    fn enforce<N: BorrowedName>(
+        &self,
+        equations: &ReducedEquations<T, V, C, N>,
+        x: &mut Column<T, V>,
+        rest: impl Fn(usize) -> T,
+    ) {
         let (rank, (v, c)) = (self.factors.rank, equations.dims());
         let mut rows = c.repeat(v.zeros());
         let mut pivots = c.repeat(0);

@@ -8,7 +8,7 @@ use super::bounded::{Bounds, bounded};
 use super::held::Response;
 use super::reduced::ReducedEquations;
 use crate::MotionError;
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 /// A stop that takes part in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,10 +31,10 @@ pub(super) struct After<T: Real, V: Dim, C: Dim> {
 ///
 /// # Errors
 /// [`MotionError::NoContactForces`] if a prescribed motion drives through a stop.
-pub(super) fn impact<T: Real, V: Dim, C: Dim>(
-    equations: &ReducedEquations<T, V, C>,
+pub(super) fn impact<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    equations: &ReducedEquations<T, V, C, N>,
     struck: &Column<Option<Struck<T>>, C>,
-) -> Result<After<T, V, C>, MotionError> {
+) -> Result<After<T, V, C>, MotionError<N>> {
     let response = Response::new(equations, &struck.dim().zeros(), |place| struck[place].is_some())?;
     // All rows are oriented inward.
     let inward = struck.map(|struck| struck.map_or(T::zero(), |struck| struck.inward));

@@ -13,13 +13,17 @@ use super::reduced::ReducedEquations;
 use super::tolerance::held_tolerance;
 use super::{ContactLaw, Mode};
 use linkage_runtime::__shared::{Ranked, reduce_rows};
-use linkage_runtime::{Build, Column, Dim, Real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real};
 
 impl<T: Real, V: Dim, C: Dim> Held<T, V, C> {
     /// Returns for each contact the least margin of the motions in which it moves, divided by its |s'|, so that it is a
     /// force: the contact slips or opens where it falls through zero. The tolerance of the force is added, so that a
     /// contact loaded exactly to its limit holds.
-    pub(super) fn margins(&self, equations: &ReducedEquations<T, V, C>, modes: &Column<Mode, C>) -> Column<T, C> {
+    pub(super) fn margins<N: BorrowedName>(
+        &self,
+        equations: &ReducedEquations<T, V, C, N>,
+        modes: &Column<Mode, C>,
+    ) -> Column<T, C> {
         let limits = equations.contacts.map(|contact| match contact.law {
             ContactLaw::Friction { limit } => limit,
             ContactLaw::Bearing { .. } | ContactLaw::Stop { .. } => T::zero(),

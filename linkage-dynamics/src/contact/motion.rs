@@ -2,7 +2,7 @@
 
 use super::Mode;
 use super::reduced::{ReducedContact, ReducedEquations};
-use linkage_runtime::{Column, Dim, Real};
+use linkage_runtime::{BorrowedName, Column, Dim, Real};
 
 /// The accelerations, and the forces of the contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +26,7 @@ pub struct ContactMotion<T: Real, V: Dim, C: Dim> {
 
 impl<T: Real, V: Dim, C: Dim> ContactMotion<T, V, C> {
     /// `M v'' - Q - S' f` of equations in which no motion is prescribed: the forces of the drives.
-    pub(crate) fn residual(&self, equations: &ReducedEquations<T, V, C>) -> Column<T, V> {
+    pub(crate) fn residual<N: BorrowedName>(&self, equations: &ReducedEquations<T, V, C, N>) -> Column<T, V> {
         let mut residual = equations.mass * self.acceleration - equations.forces;
         for (contact, &force) in equations.contacts.iter().zip(&self.forces) {
             residual -= contact.row * force;
@@ -36,7 +36,11 @@ impl<T: Real, V: Dim, C: Dim> ContactMotion<T, V, C> {
 }
 
 /// Returns the nearer stop and the distance to it.
-pub(super) fn nearer<T: Real, V: Dim>(contact: &ReducedContact<T, V>, lower: T, upper: T) -> (Mode, T) {
+pub(super) fn nearer<T: Real, V: Dim, N: BorrowedName>(
+    contact: &ReducedContact<T, V, N>,
+    lower: T,
+    upper: T,
+) -> (Mode, T) {
     let (below, above) = (contact.value - lower, upper - contact.value);
     if below <= above { (Mode::AtLower, below) } else { (Mode::AtUpper, above) }
 }

@@ -7,7 +7,7 @@ use super::tolerance::ZERO_ULPS;
 use super::{ContactLaw, Mode};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 impl<T: Real, C: Dim> Contacts<T, C> {
     /// True if s rests on a stop.
@@ -20,12 +20,12 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ///
     /// # Errors
     /// [`MotionError::LeftStop`] if a distance is larger: s has jumped. Those of [`motion`](Self::motion).
-    pub(crate) fn return_to_stops<V: Dim>(
+    pub(crate) fn return_to_stops<V: Dim, N: BorrowedName>(
         &self,
         t: T,
-        equations: &ReducedEquations<T, V, C>,
+        equations: &ReducedEquations<T, V, C, N>,
         most: T,
-    ) -> Result<Option<Column<T, V>>, MotionError> {
+    ) -> Result<Option<Column<T, V>>, MotionError<N>> {
         let mut moved = *equations;
         moved.rates = equations.dims().0.zeros();
         let mut has_left = false;

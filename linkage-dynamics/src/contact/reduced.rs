@@ -2,21 +2,25 @@
 
 use super::bearing::{ReducedBearing, Reduction};
 use super::{Contact, ContactLaw};
-use crate::scene::{Rates, StateColumn, coordinate_name};
+use crate::scene::{Rates, StateColumn};
 use crate::{Equations, MotionError, Scene, StateParts};
-use linkage_runtime::{Build, Column, Dim, Matrix, Mechanism, PerInput, Real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Matrix, Mechanism, PerInput, Real};
 
 /// `M v'' = Q + S' f`, where v are `V` independent coordinates, the inputs of a scene or others, and f the forces of the
 /// contacts, whose scalars s have `s' = S v' + drift` and `s'' = S v'' + bias`.
 ///
 /// No force accelerates a coordinate whose motion is prescribed: see [`prescribe`](Self::prescribe).
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound(serialize = "T: serde::Serialize")))]
-pub struct ReducedEquations<T: Real, V: Dim, C: Dim> {
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(serialize = "T: serde::Serialize, N: serde::Serialize"))
+)]
+pub struct ReducedEquations<T: Real, V: Dim, C: Dim, N: BorrowedName = &'static str> {
     /// The name of the scene, used in errors.
-    pub scene: &'static str,
+    pub scene: N,
     /// The names of the coordinates, used in errors.
-    pub coordinates: Column<&'static str, V>,
+    pub coordinates: Column<N, V>,
     /// M.
     pub mass: Matrix<T, V, V>,
     /// Q, without contacts.
@@ -24,17 +28,21 @@ pub struct ReducedEquations<T: Real, V: Dim, C: Dim> {
     /// v'.
     pub rates: Column<T, V>,
     /// The contacts in the order of the scene.
-    pub contacts: Column<ReducedContact<T, V>, C>,
+    pub contacts: Column<ReducedContact<T, V, N>, C>,
     /// The reactions of the contacts with the law [`ContactLaw::Bearing`].
     pub bearings: Column<Option<ReducedBearing<T, V, C>>, C>,
 }
 
 /// A contact in the independent coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(bound(serialize = "T: serde::Serialize")))]
-pub struct ReducedContact<T: Real, V: Dim> {
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize),
+    serde(bound(serialize = "T: serde::Serialize, N: serde::Serialize"))
+)]
+pub struct ReducedContact<T: Real, V: Dim, N = &'static str> {
     /// The name used in errors.
-    pub name: &'static str,
+    pub name: N,
     /// s.
     pub value: T,
     /// Its row of S: `ds/dv`.
@@ -47,17 +55,17 @@ pub struct ReducedContact<T: Real, V: Dim> {
     pub law: ContactLaw<T>,
 }
 
-impl<T: Real, V: Dim> ReducedContact<T, V> {
+impl<T: Real, V: Dim, N: BorrowedName> ReducedContact<T, V, N> {
     /// Reduces a contact to independent coordinates z, in which `(u', v') = N z'` and `(u'', v'') = N z'' + bias`; N and
     /// the bias are given as their rows of u and of v.
     pub(crate) fn new<U: Dim>(
-        contact: &Contact<T, U, V>,
+        contact: &Contact<T, U, V, N>,
         (of_unknowns, of_inputs): (&Matrix<T, U, V>, &Matrix<T, V, V>),
         (bias_of_unknowns, bias_of_inputs): (&Column<T, U>, &Column<T, V>),
     ) -> Self {
         let Contact { name, along, law } = contact;
         Self {
-            name,
+            name: *name,
             value: along.value,
             row: of_unknowns.tr_mul(&along.unknowns) + of_inputs.tr_mul(&along.inputs),
             drift: T::zero(),
@@ -73,22 +81,22 @@ impl<T: Real, V: Dim> ReducedContact<T, V> {
     }
 }
 
-impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
+impl<T: Real, V: Dim, C: Dim, N: BorrowedName> ReducedEquations<T, V, C, N> {
     /// Builds the equations of a scene in its inputs, with the prescribed motions applied.
     ///
     /// # Errors
     /// Those of [`Scene::equations`], [`Scene::contacts`] and [`Scene::bearings`].
-    pub fn of<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<Self, MotionError>
+    pub fn of<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<Self, MotionError<N>>
     where
-        S: Scene<Scalar = T, V = V, Contacts = C>,
+        S: Scene<Scalar = T, V = V, Contacts = C, Mechanism: Mechanism<Name = N>>,
     {
         Self::with_rates(scene, t, state).map(|(reduced, _)| reduced)
     }
 
     /// Builds the equations in the inputs, and q'.
-    pub(crate) fn with_rates<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<(Self, Rates<S>), MotionError>
+    pub(crate) fn with_rates<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<(Self, Rates<S>), MotionError<N>>
     where
-        S: Scene<Scalar = T, V = V, Contacts = C>,
+        S: Scene<Scalar = T, V = V, Contacts = C, Mechanism: Mechanism<Name = N>>,
     {
         let (mut reduced, rates) = Self::unprescribed(scene, t, state)?;
         reduced.prescribe_all(&scene.prescribed(t).map(|law| law.map(|law| law.acceleration)));
@@ -105,31 +113,31 @@ impl<T: Real, V: Dim, C: Dim> ReducedEquations<T, V, C> {
     }
 
     /// Builds the equations in the inputs before the prescribed motions are applied, and q'.
-    pub(crate) fn unprescribed<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<(Self, Rates<S>), MotionError>
+    pub(crate) fn unprescribed<S>(scene: &S, t: T, state: &StateColumn<S>) -> Result<(Self, Rates<S>), MotionError<N>>
     where
-        S: Scene<Scalar = T, V = V, Contacts = C>,
+        S: Scene<Scalar = T, V = V, Contacts = C, Mechanism: Mechanism<Name = N>>,
     {
         let Equations { mass, forces, ratios, bias } = scene.equations(t, state)?;
         let StateParts { q, input_rates } = S::parts(state);
         let input_rates: PerInput<S::Mechanism> = input_rates.into();
         let rates = S::Mechanism::rates(ratios * input_rates, input_rates);
-        let (u, v) = ratios.dims();
+        let (_, v) = ratios.dims();
         let (identity, none) = (v.identity(), v.zeros());
         let (basis, bias) = ((&ratios, &identity), (&bias, &none));
         let found = scene.contacts(t, &q, &rates)?;
         let mut bearings = scene.contact_count().repeat(None);
-        if S::BEARINGS {
+        if scene.has_bearings() {
             let mechanism = scene.mechanism();
             let pose = mechanism.pose_at(&q);
             let all = scene.unreduced(t, &q, &rates)?;
             let reduction = Reduction { basis, bias, all: &all, contacts: &found };
-            bearings = reduction.bearings(S::NAME, &scene.bearings(t, &q, &rates)?, |rows| {
+            bearings = reduction.bearings(scene.name(), &scene.bearings(t, &q, &rates)?, |rows| {
                 Ok((mechanism.solve_jacobian(&pose, rows)?, v.zeros()))
             })?;
         }
         let contacts = found.map(|contact| ReducedContact::new(&contact, basis, bias));
-        let coordinates = v.column(|input| coordinate_name::<S::Mechanism>(u.count() + input));
-        Ok((Self { scene: S::NAME, coordinates, mass, forces, rates: input_rates, contacts, bearings }, rates))
+        let coordinates = v.column(|input| scene.mechanism().input_name(input));
+        Ok((Self { scene: scene.name(), coordinates, mass, forces, rates: input_rates, contacts, bearings }, rates))
     }
 
     /// The numbers of coordinates and of contacts.

@@ -9,7 +9,7 @@ use super::tolerance::{ZERO_ULPS, held_tolerance, is_negligible};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 /// A rebound that takes less than this many ulps of the time is treated as rest.
 const SHORTEST_FLIGHT_ULPS: f64 = 64.0;
@@ -27,12 +27,12 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// [`MotionError::NoContactForces`] if no contact forces satisfy a prescribed motion, those of `evaluate`, and
     /// [`MotionError::ContactWithoutEnd`] after 1000 impacts. With a [`Bearing`](ContactLaw::Bearing)
     /// [`MotionError::NoMotion`], [`MotionError::SeveralMotions`] or [`MotionError::UndecidedMotion`].
-    pub fn settle<V: Dim>(
+    pub fn settle<V: Dim, N: BorrowedName>(
         &mut self,
         t: T,
         rates: &Column<T, V>,
-        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<Column<T, V>, MotionError> {
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<Column<T, V>, MotionError<N>> {
         self.settle_by(t, rates, evaluate, false)
     }
 
@@ -41,22 +41,22 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ///
     /// # Errors
     /// Those of [`settle`](Self::settle).
-    pub(crate) fn settle_together<V: Dim>(
+    pub(crate) fn settle_together<V: Dim, N: BorrowedName>(
         &mut self,
         t: T,
         rates: &Column<T, V>,
-        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<Column<T, V>, MotionError> {
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<Column<T, V>, MotionError<N>> {
         self.settle_by(t, rates, evaluate, true)
     }
 
-    fn settle_by<V: Dim>(
+    fn settle_by<V: Dim, N: BorrowedName>(
         &mut self,
         t: T,
         rates: &Column<T, V>,
-        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
+        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
         is_together: bool,
-    ) -> Result<Column<T, V>, MotionError> {
+    ) -> Result<Column<T, V>, MotionError<N>> {
         let mut equations = evaluate(rates)?;
         // The mode in which each contact with s' = 0 would be held; None for the others.
         let mut at_rest: Column<Option<Mode>, C> = self.modes.dim().column(|place| self.at_rest(place, &equations));
@@ -93,13 +93,13 @@ impl<T: Real, C: Dim> Contacts<T, C> {
 
     /// Lets a friction slip, or s leave its stop, where no force along s can hold it, since ds/dv = 0: at rest at a dead
     /// centre s moves with `s'' = 0` first, then by its quadratic term, `s = b(v'') t^4 / 8`.
-    fn leave_dead_centres<V: Dim>(
+    fn leave_dead_centres<V: Dim, N: BorrowedName>(
         &mut self,
-        equations: &ReducedEquations<T, V, C>,
-        evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<(), MotionError> {
+        equations: &ReducedEquations<T, V, C, N>,
+        evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<(), MotionError<N>> {
         let is_dead =
-            |(mode, contact): (&Mode, &ReducedContact<T, V>)| mode.is_held() && contact.row.iter().all(T::is_zero);
+            |(mode, contact): (&Mode, &ReducedContact<T, V, N>)| mode.is_held() && contact.row.iter().all(T::is_zero);
         if equations.has_bearings() || !self.modes.iter().zip(&equations.contacts).any(is_dead) {
             return Ok(());
         }
@@ -121,7 +121,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Returns the mode in which a contact would be held, if s' is zero or has just changed its sign; None if it moves.
-    fn at_rest<V: Dim>(&self, place: usize, equations: &ReducedEquations<T, V, C>) -> Option<Mode> {
+    fn at_rest<V: Dim, N: BorrowedName>(&self, place: usize, equations: &ReducedEquations<T, V, C, N>) -> Option<Mode> {
         let contact = &equations.contacts[place];
         let (rate, size) = contact.rate(&equations.rates);
         match (self.modes[place], contact.law) {
@@ -138,9 +138,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
 
     /// Returns the stops that take part in an impact, those on which s rests included; None if s hits no stop. If
     /// `is_together`, all that s touches, without rebound.
-    fn struck<V: Dim>(
+    fn struck<V: Dim, N: BorrowedName>(
         &self,
-        equations: &ReducedEquations<T, V, C>,
+        equations: &ReducedEquations<T, V, C, N>,
         at_rest: &Column<Option<Mode>, C>,
         is_together: bool,
     ) -> Option<Column<Option<Struck<T>>, C>> {
@@ -163,14 +163,14 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Applies an impact: returns the equations at the rates after it, and updates the contacts at rest and those hit.
-    fn strike<V: Dim>(
+    fn strike<V: Dim, N: BorrowedName>(
         &mut self,
         t: T,
         mut struck: Column<Option<Struck<T>>, C>,
-        equations: &ReducedEquations<T, V, C>,
+        equations: &ReducedEquations<T, V, C, N>,
         at_rest: &mut Column<Option<Mode>, C>,
-        evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<ReducedEquations<T, V, C>, MotionError> {
+        evaluate: &mut impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>> {
         let least = T::default_epsilon().sqrt();
         let mut has_ended = false;
         for place in (0..at_rest.dim().count()).filter(|&place| at_rest[place].is_none()) {
@@ -255,7 +255,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
 
     /// Lets all stops that s touches take part in an impact, those that were not hit without rebound: where a series of
     /// impacts ends, a body that struck two stops in turn is pressed to both.
-    fn join_touched<V: Dim>(&self, equations: &ReducedEquations<T, V, C>, struck: &mut Column<Option<Struck<T>>, C>) {
+    fn join_touched<V: Dim, N: BorrowedName>(
+        &self,
+        equations: &ReducedEquations<T, V, C, N>,
+        struck: &mut Column<Option<Struck<T>>, C>,
+    ) {
         for (place, of) in struck.iter_mut().enumerate().filter(|(_, of)| of.is_none()) {
             let contact = &equations.contacts[place];
             let ContactLaw::Stop { lower, upper, .. } = contact.law else { continue };
@@ -265,11 +269,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Chooses the modes of the contacts at rest: held by a force within its bounds, or released.
-    fn choose<V: Dim>(
+    fn choose<V: Dim, N: BorrowedName>(
         &mut self,
-        equations: &ReducedEquations<T, V, C>,
+        equations: &ReducedEquations<T, V, C, N>,
         at_rest: &Column<Option<Mode>, C>,
-    ) -> Result<(), MotionError> {
+    ) -> Result<(), MotionError<N>> {
         if equations.has_bearings() {
             self.modes = reaction::choose(equations, &self.modes, at_rest)?;
             for (hardest, _) in self.hardest.iter_mut().zip(at_rest).filter(|(_, side)| side.is_some()) {
@@ -309,12 +313,12 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// Holds again the contacts that are released at their limit and do not accelerate away, to rounding error: those
     /// whose margin is positive if they are held. `sizes` are the sums of the magnitudes of the terms of `s''`. This is the
     /// test that ends the mode, so that a contact held here is not released again at the same state.
-    fn hold_again<V: Dim>(
+    fn hold_again<V: Dim, N: BorrowedName>(
         &mut self,
-        equations: &ReducedEquations<T, V, C>,
+        equations: &ReducedEquations<T, V, C, N>,
         at_rest: &Column<Option<Mode>, C>,
         sizes: &Column<T, C>,
-    ) -> Result<(), MotionError> {
+    ) -> Result<(), MotionError<N>> {
         let acceleration = self.acceleration(equations)?;
         let mut held = self.modes;
         for (place, contact) in equations.contacts.iter().enumerate() {

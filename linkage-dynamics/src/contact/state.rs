@@ -8,7 +8,7 @@ use super::tolerance::{gap_tolerance, is_negligible, sum_tolerance, within};
 use super::{ContactLaw, Mode, reaction};
 use crate::MotionError;
 use crate::integrate::{Crossing, Guard};
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 /// The modes of the contacts of a scene, with the memory needed from one event to the next.
 ///
@@ -71,11 +71,11 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// # Errors
     /// [`InputError::BeyondStop`](linkage_runtime::InputError::BeyondStop) if an s is beyond its stop; those of
     /// [`settle`](Self::settle).
-    pub fn begin<V: Dim>(
+    pub fn begin<V: Dim, N: BorrowedName>(
         t: T,
         rates: &Column<T, V>,
-        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<(Self, Column<T, V>), MotionError> {
+        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<(Self, Column<T, V>), MotionError<N>> {
         let equations = evaluate(rates)?;
         let mut contacts = Self::open(equations.contacts.dim());
         let rates = contacts.start_from(&equations, t, rates, evaluate)?;
@@ -83,23 +83,23 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Does the same as [`begin`](Self::begin), with the resolution stored here; returns the rates.
-    pub(crate) fn start<V: Dim>(
+    pub(crate) fn start<V: Dim, N: BorrowedName>(
         &mut self,
         t: T,
         rates: &Column<T, V>,
-        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<Column<T, V>, MotionError> {
+        mut evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<Column<T, V>, MotionError<N>> {
         let equations = evaluate(rates)?;
         self.start_from(&equations, t, rates, evaluate)
     }
 
-    fn start_from<V: Dim>(
+    fn start_from<V: Dim, N: BorrowedName>(
         &mut self,
-        equations: &ReducedEquations<T, V, C>,
+        equations: &ReducedEquations<T, V, C, N>,
         t: T,
         rates: &Column<T, V>,
-        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<Column<T, V>, MotionError> {
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<Column<T, V>, MotionError<N>> {
         for (contact, &resolution) in equations.contacts.iter().zip(&self.resolution) {
             if let ContactLaw::Stop { lower, upper, .. } = contact.law {
                 within(equations.scene, contact.name, (contact.value, resolution), [lower, upper])?;
@@ -129,10 +129,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// Returns the nearer stop, the gap to it, and the tolerance of the gap.
-    pub(super) fn nearest<V: Dim>(
+    pub(super) fn nearest<V: Dim, N: BorrowedName>(
         &self,
         place: usize,
-        contact: &ReducedContact<T, V>,
+        contact: &ReducedContact<T, V, N>,
         [lower, upper]: [T; 2],
     ) -> (Mode, T, T) {
         let (side, gap) = nearer(contact, lower, upper);
@@ -145,12 +145,12 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ///
     /// # Errors
     /// Those of [`settle`](Self::settle).
-    pub fn resume<V: Dim>(
+    pub fn resume<V: Dim, N: BorrowedName>(
         &mut self,
         t: T,
         rates: &Column<T, V>,
-        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C>, MotionError>,
-    ) -> Result<Column<T, V>, MotionError> {
+        evaluate: impl FnMut(&Column<T, V>) -> Result<ReducedEquations<T, V, C, N>, MotionError<N>>,
+    ) -> Result<Column<T, V>, MotionError<N>> {
         let mut evaluate = evaluate;
         let equations = evaluate(rates)?;
         for (mode, contact) in self.modes.iter_mut().zip(&equations.contacts) {
@@ -171,7 +171,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// accelerations of free inputs. With a [`Bearing`](ContactLaw::Bearing) [`MotionError::NoMotion`] or
     /// [`MotionError::SeveralMotions`] where none or several accelerations satisfy the laws in these modes, and
     /// [`MotionError::UndecidedMotion`].
-    pub fn motion<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<ContactMotion<T, V, C>, MotionError> {
+    pub fn motion<V: Dim, N: BorrowedName>(
+        &self,
+        equations: &ReducedEquations<T, V, C, N>,
+    ) -> Result<ContactMotion<T, V, C>, MotionError<N>> {
         if equations.has_bearings() {
             return reaction::motion(equations, &self.modes);
         }
@@ -200,7 +203,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ///
     /// # Errors
     /// Those of [`motion`](Self::motion).
-    pub fn acceleration<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, V>, MotionError> {
+    pub fn acceleration<V: Dim, N: BorrowedName>(
+        &self,
+        equations: &ReducedEquations<T, V, C, N>,
+    ) -> Result<Column<T, V>, MotionError<N>> {
         if equations.has_bearings() {
             return Ok(reaction::motion(equations, &self.modes)?.acceleration);
         }
@@ -212,7 +218,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ///
     /// # Errors
     /// Those of [`motion`](Self::motion).
-    pub fn events<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<Column<T, C>, MotionError> {
+    pub fn events<V: Dim, N: BorrowedName>(
+        &self,
+        equations: &ReducedEquations<T, V, C, N>,
+    ) -> Result<Column<T, C>, MotionError<N>> {
         let mut values = self.modes.dim().repeat(T::one());
         if self.modes.iter().any(|mode| mode.is_held()) {
             values = if equations.has_bearings() {
@@ -235,10 +244,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// The event functions as guards; the rate is known for open stops. Where slip begins, or where s leaves a stop without
     /// load, s' and the gap are zero within rounding error for some time: a contact slips until s' is negative beyond its
     /// rounding error, and a stop that is touched is hit where s' is negative beyond it.
-    pub(crate) fn guards<V: Dim>(
+    pub(crate) fn guards<V: Dim, N: BorrowedName>(
         &self,
-        equations: &ReducedEquations<T, V, C>,
-    ) -> Result<Column<Guard<T>, C>, MotionError> {
+        equations: &ReducedEquations<T, V, C, N>,
+    ) -> Result<Column<Guard<T>, C>, MotionError<N>> {
         let values = self.events(equations)?;
         Ok(self.modes.dim().column(|place| {
             let contact = &equations.contacts[place];
@@ -269,7 +278,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     ///
     /// # Errors
     /// Those of [`motion`](Self::motion).
-    pub fn review<V: Dim>(&self, equations: &ReducedEquations<T, V, C>) -> Result<ContactReview<T, V>, MotionError> {
+    pub fn review<V: Dim, N: BorrowedName>(
+        &self,
+        equations: &ReducedEquations<T, V, C, N>,
+    ) -> Result<ContactReview<T, V>, MotionError<N>> {
         let values = self.events(equations)?;
         let mut modes_hold = true;
         for (place, (&value, contact)) in values.iter().zip(&equations.contacts).enumerate() {
@@ -296,10 +308,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     }
 
     /// The bounds of the forces of the held contacts.
-    pub(super) fn bounds<V: Dim>(
+    pub(super) fn bounds<V: Dim, N: BorrowedName>(
         &self,
         response: &Response<T, V, C>,
-        equations: &ReducedEquations<T, V, C>,
+        equations: &ReducedEquations<T, V, C, N>,
     ) -> Column<Option<Bounds<T>>, C> {
         let endless = real::<T>(f64::INFINITY);
         self.modes.dim().column(|place| {

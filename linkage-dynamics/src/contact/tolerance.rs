@@ -1,7 +1,7 @@
 //! The rounding errors below which a sum, a gap or a pivot counts as zero.
 
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{InputError, Real, real};
+use linkage_runtime::{BorrowedName, InputError, Real, real};
 
 /// A rate or a gap below this many ulps of the magnitudes of its terms counts as zero.
 pub(super) const ZERO_ULPS: f64 = 16.0;
@@ -28,12 +28,12 @@ pub(super) fn is_negligible<T: Real>((sum, size): (T, T)) -> bool {
 }
 
 /// Checks that a scalar is not beyond its stops by more than its tolerance.
-pub(crate) fn within<T: Real>(
-    scene: &'static str,
-    stop: &'static str,
+pub(crate) fn within<T: Real, N: BorrowedName>(
+    scene: N,
+    stop: N,
     (value, resolution): (T, T),
     [lower, upper]: [T; 2],
-) -> Result<(), InputError> {
+) -> Result<(), InputError<N>> {
     for (gap, bound) in [(lower - value, lower), (value - upper, upper)] {
         if gap > resolution.max(gap_tolerance(value, bound)) {
             return Err(InputError::BeyondStop { scene, stop, gap: to_f64(gap) });

@@ -6,9 +6,8 @@
 use nalgebra::ComplexField;
 
 use super::tableau::{self, Control, Slopes, Tableau};
-use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, InputError, Real};
+use linkage_runtime::{Column, Dim, InputError, Name, Real};
 
 /// The safety factor of the step-size controller.
 const SAFETY: f64 = 0.9;
@@ -58,9 +57,13 @@ impl<T: Real, N: Dim> Tolerance<T, N> {
     /// [`InputError::OutOfRange`] if the relative tolerance is below ten ulps or above 1, or a scale is not positive
     /// and finite.
     pub fn new(relative: f64, scale: impl Into<Column<T, N>>) -> Result<Self, InputError> {
+        Self::checked(relative, scale.into())
+    }
+
+    /// The tolerance, or an error with names of a system.
+    pub(crate) fn checked<S: Name>(relative: f64, scale: Column<T, N>) -> Result<Self, InputError<S>> {
         let least = LEAST_TOLERANCE_ULPS * to_f64(T::default_epsilon());
         within("the relative tolerance", relative, least, 1.0)?;
-        let scale = scale.into();
         for &scale in &scale {
             positive("the scale of a component", to_f64(scale))?;
         }
@@ -95,16 +98,16 @@ impl<T: Real, N: Dim> Tolerance<T, N> {
 }
 
 /// Checks that a setting is between `least` and `most`.
-pub(super) fn within(quantity: &'static str, value: f64, least: f64, most: f64) -> Result<(), InputError> {
+pub(super) fn within<S: Name>(quantity: &'static str, value: f64, least: f64, most: f64) -> Result<(), InputError<S>> {
     if (least..=most).contains(&value) {
         Ok(())
     } else {
-        Err(InputError::OutOfRange { of: None, quantity, value, least, most })
+        Err(InputError::OutOfRange { of: None, quantity: S::from_static(quantity), value, least, most })
     }
 }
 
 /// Checks that a setting is positive and finite.
-pub(super) fn positive(quantity: &'static str, value: f64) -> Result<(), InputError> {
+pub(super) fn positive<S: Name>(quantity: &'static str, value: f64) -> Result<(), InputError<S>> {
     within(quantity, value, f64::MIN_POSITIVE, f64::MAX)
 }
 
@@ -138,12 +141,12 @@ pub(super) fn error<T: Real, N: Dim>(
 /// units of |y| / |f|. If the rate or the state is zero, the first length is 1e-6 `span`, or less if the state moves by
 /// its scale sooner.
 #[inline]
-pub(super) fn first_length<T: Real, N: Dim>(
+pub(super) fn first_length<T: Real, N: Dim, E>(
     order: u32,
     tolerance: &Tolerance<T, N>,
     (y, slope): (&Column<T, N>, &Column<T, N>),
     span: f64,
-    euler: impl FnOnce(f64) -> Result<Column<T, N>, MotionError>,
+    euler: impl FnOnce(f64) -> Result<Column<T, N>, E>,
 ) -> f64 {
     let size = |i: usize| to_f64(y[i]).abs();
     let (speed, distance) = (tolerance.norm(slope, size), tolerance.norm(y, size));

@@ -3,7 +3,7 @@
 use super::crossing::Action;
 use super::integration::{Integration, Place, Step, StepOf, finite};
 use super::search::Found;
-use super::system::{StateOf, System};
+use super::system::{ErrorOf, StateOf, System};
 use super::tableau::Method;
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
@@ -12,7 +12,7 @@ use linkage_runtime::__shared::to_f64;
 impl<S: System, M: Method> Integration<S, M> {
     /// Searches the last step after the fraction `from` for the next event: first on a cubic, which requires no
     /// evaluation of the rate, then on the dense output if there may be one.
-    pub(super) fn search(&mut self, from: f64) -> Result<Found<S>, MotionError> {
+    pub(super) fn search(&mut self, from: f64) -> Result<Found<S>, ErrorOf<S>> {
         let resolution = self.resolution();
         let signs = self.signs;
         if self.interpolant.is_none() {
@@ -34,7 +34,7 @@ impl<S: System, M: Method> Integration<S, M> {
     }
 
     /// Delivers the next event at this time.
-    pub(super) fn deliver(&mut self) -> Result<StepOf<S>, MotionError> {
+    pub(super) fn deliver(&mut self) -> Result<StepOf<S>, ErrorOf<S>> {
         let (t, state) = (self.t, self.state);
         let resolution = 4.0 * self.resolution() * to_f64(self.to.0 - self.from.0).abs();
         // Events count as simultaneous with the one before them, so that impacts cannot follow each other at ulps of the
@@ -74,7 +74,7 @@ impl<S: System, M: Method> Integration<S, M> {
     }
 
     /// Restarts the motion here from this state.
-    pub(crate) fn restart(&mut self, state: StateOf<S>) -> Result<(), MotionError> {
+    pub(crate) fn restart(&mut self, state: StateOf<S>) -> Result<(), ErrorOf<S>> {
         finite("the state after an event", self.t, &state)?;
         self.state = state;
         self.has_rate = false;

@@ -2,10 +2,10 @@
 
 use super::crossing::Crossing;
 use super::sampled::{FunctionSample, Sample, is_same, sampled};
-use super::system::{StateOf, System};
+use super::system::{ErrorOf, StateOf, System};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, Column, Dim};
+use linkage_runtime::{Build, Column, Dim, Name};
 
 /// The most events of one guard at one time: guards that are zero within rounding error may trigger each other.
 const MAX_REPEATS: u32 = 8;
@@ -182,7 +182,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         system: &mut S,
         (t, state): (S::Scalar, &StateOf<S>),
         (later, after): (S::Scalar, &StateOf<S>),
-    ) -> Result<(), MotionError> {
+    ) -> Result<(), ErrorOf<S>> {
         let length = later - t;
         let now = sampled(system, (0.0, length), (t, state))?;
         for (function, guard) in self.guards.iter_mut().zip(&now.guards) {
@@ -191,7 +191,10 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         if self.events.dim().count() > 0 {
             let next = system.events(later, after)?.map(to_f64);
             if !next.iter().all(|value| value.is_finite()) {
-                return Err(MotionError::NotFinite { quantity: "an event function", t: to_f64(later) });
+                return Err(MotionError::NotFinite {
+                    quantity: Name::from_static("an event function"),
+                    t: to_f64(later),
+                });
             }
             for ((function, FunctionSample { value, .. }), next) in self.events.iter_mut().zip(now.events).zip(next) {
                 let on_zero = value == 0.0 || value.abs() <= function.residual;

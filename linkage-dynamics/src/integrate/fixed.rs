@@ -2,9 +2,8 @@
 
 use super::control::{positive, within};
 use super::integration::finite;
-use super::system::{IntoSystem, StateOf, System};
+use super::system::{ErrorOf, IntoSystem, StateOf, System};
 use super::tableau::{self, SLOPES, Stage, Weights};
-use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Build, Column, D, real};
@@ -39,12 +38,12 @@ impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
     /// Starts from state `y` at `start` with steps of this length, negative for steps back in time.
     ///
     /// # Errors
-    /// [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length is zero or not finite, or `start` is not, [`MotionError::NotFinite`] if the state is not.
+    /// [`InputError::OutOfRange`](linkage_runtime::InputError::OutOfRange) if the length is zero or not finite, or `start` is not, [`MotionError::NotFinite`](crate::MotionError::NotFinite) if the state is not.
     pub fn new<B>(
         system: impl IntoSystem<B, System = S>,
         (start, y): (S::Scalar, impl Into<StateOf<S>>),
         length: S::Scalar,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, ErrorOf<S>> {
         let y = y.into();
         within("the time", to_f64(start), f64::MIN, f64::MAX)?;
         positive("the step", to_f64(length.abs()))?;
@@ -79,8 +78,8 @@ impl<S: System<Events = D<0>, Guards = D<0>>> FixedStep<S> {
     /// Takes a step.
     ///
     /// # Errors
-    /// Those of the system, and [`MotionError::NotFinite`]; time and state then stay unchanged.
-    pub fn step(&mut self) -> Result<(), MotionError> {
+    /// Those of the system, and [`MotionError::NotFinite`](crate::MotionError::NotFinite); time and state then stay unchanged.
+    pub fn step(&mut self) -> Result<(), ErrorOf<S>> {
         let (t, h) = (self.t(), self.length);
         let y = self.system.before_step(t, &self.state)?.unwrap_or(self.state);
         let mut slopes = [y.dim().zeros(); SLOPES];

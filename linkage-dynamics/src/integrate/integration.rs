@@ -10,7 +10,7 @@ use super::system::{StateOf, System};
 use super::tableau::Slopes;
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Column, Dim, Real};
+use linkage_runtime::{Column, Dim, Name, Real};
 
 /// The cost of an integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -100,6 +100,13 @@ pub struct Integration<S: System, M = Dop853> {
     pub(super) has_crossed: bool,
 }
 
-pub(super) fn finite<T: Real, N: Dim>(quantity: &'static str, t: T, values: &Column<T, N>) -> Result<(), MotionError> {
-    if values.is_finite() { Ok(()) } else { Err(MotionError::NotFinite { quantity, t: to_f64(t) }) }
+pub(super) fn finite<T: Real, N: Dim, S: Name>(
+    quantity: &'static str,
+    t: T,
+    values: &Column<T, N>,
+) -> Result<(), MotionError<S>> {
+    if values.is_finite() {
+        return Ok(());
+    }
+    Err(MotionError::NotFinite { quantity: S::from_static(quantity), t: to_f64(t) })
 }

@@ -51,7 +51,7 @@
 //! six or seven times in a step without an extremum; in a step with one about 36 times, or 130 without known rates.
 //!
 //! Events at times that differ by rounding error count as simultaneous. If a function restarts the motion again and again
-//! there, the integration ends with [`MotionError::EventsWithoutEnd`].
+//! there, the integration ends with [`MotionError::EventsWithoutEnd`](crate::MotionError::EventsWithoutEnd).
 //!
 //! **Reproducibility.** The same calls give the same bits: no random numbers and no clock are used. A rate may have
 //! internal state, such as the last position as the guess for the next; this state must depend only on the calls, and
@@ -92,10 +92,8 @@ pub use dopri5::Dopri5;
 pub use fixed::FixedStep;
 pub use integration::{Counts, Integration, Step};
 pub use outputs::Outputs;
-pub use system::{Guard, IntoSystem, Rate, StateOf, StateVector, System, Watched, watched};
+pub use system::{ErrorOf, Guard, IntoSystem, Rate, StateOf, StateVector, System, Watched, watched};
 pub use tableau::{Control, Method, Stage, Tableau, Weights};
-
-use crate::MotionError;
 
 /// Starts an integration by the method of Dormand and Prince of order 8(5,3), for accuracy.
 ///
@@ -109,7 +107,7 @@ pub fn dop853<S: System, B>(
     start: (S::Scalar, impl Into<StateOf<S>>),
     end: S::Scalar,
     tolerance: Tolerance<S::Scalar, S::N>,
-) -> Result<Integration<S, Dop853>, MotionError> {
+) -> Result<Integration<S, Dop853>, ErrorOf<S>> {
     Integration::new(system, start, end, tolerance)
 }
 
@@ -123,6 +121,6 @@ pub fn dopri5<S: System, B>(
     start: (S::Scalar, impl Into<StateOf<S>>),
     end: S::Scalar,
     tolerance: Tolerance<S::Scalar, S::N>,
-) -> Result<Integration<S, Dopri5>, MotionError> {
+) -> Result<Integration<S, Dopri5>, ErrorOf<S>> {
     Integration::new(system, start, end, tolerance)
 }

@@ -2,9 +2,8 @@
 
 use super::control::within;
 use super::integration::Integration;
-use super::system::{StateOf, System};
+use super::system::{ErrorOf, StateOf, System};
 use super::tableau::Method;
-use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 
@@ -27,7 +26,7 @@ impl<'a, S: System, M, I> Outputs<'a, S, M, I> {
 }
 
 impl<S: System, M: Method, I> Outputs<'_, S, M, I> {
-    fn state_at(&mut self, t: S::Scalar) -> Result<Option<StateOf<S>>, MotionError> {
+    fn state_at(&mut self, t: S::Scalar) -> Result<Option<StateOf<S>>, ErrorOf<S>> {
         let ([earliest, latest], end) = (self.integration.reached(), self.integration.end());
         let forward = end >= earliest;
         within("the output time", to_f64(t), to_f64(earliest.min(end)), to_f64(earliest.max(end)))?;
@@ -43,7 +42,7 @@ impl<S: System, M: Method, I> Outputs<'_, S, M, I> {
 }
 
 impl<S: System, M: Method, I: Iterator<Item = S::Scalar>> Iterator for Outputs<'_, S, M, I> {
-    type Item = Result<(S::Scalar, StateOf<S>), MotionError>;
+    type Item = Result<(S::Scalar, StateOf<S>), ErrorOf<S>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed {

@@ -7,12 +7,12 @@ use super::dense::Interpolant;
 use super::event::EventSigns;
 use super::integration::{Counts, Instant, Integration, Place, Step, StepOf, finite};
 use super::search::Found;
-use super::system::{IntoSystem, StateOf, System};
+use super::system::{ErrorOf, IntoSystem, StateOf, System};
 use super::tableau::{self, Method, SLOPES};
 use super::{Outputs, step};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, InputError};
+use linkage_runtime::{Build, InputError, Name};
 
 /// The largest correction of a state by projection, divided by the tolerance, after which the rate computed before it
 /// is still used.
@@ -33,7 +33,7 @@ impl<S: System, M: Method> Integration<S, M> {
         (start, y): (S::Scalar, impl Into<StateOf<S>>),
         end: S::Scalar,
         tolerance: Tolerance<S::Scalar, S::N>,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, ErrorOf<S>> {
         let (system, y) = (system.into_system(), y.into());
         for t in [start, end] {
             within("the time", to_f64(t), f64::MIN, f64::MAX)?;
@@ -73,7 +73,7 @@ impl<S: System, M: Method> Integration<S, M> {
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
-    pub fn first_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
+    pub fn first_step(mut self, length: S::Scalar) -> Result<Self, InputError<S::Name>> {
         positive("the first step", to_f64(length))?;
         self.controller.length = Some(to_f64(length));
         Ok(self)
@@ -83,7 +83,7 @@ impl<S: System, M: Method> Integration<S, M> {
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
-    pub fn largest_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
+    pub fn largest_step(mut self, length: S::Scalar) -> Result<Self, InputError<S::Name>> {
         positive("the largest step", to_f64(length))?;
         self.largest = to_f64(length);
         Ok(self)
@@ -159,7 +159,7 @@ impl<S: System, M: Method> Integration<S, M> {
     ///
     /// # Errors
     /// Those of the rate if the method evaluates it for dense output, and [`MotionError::NotFinite`].
-    pub fn interpolant(&mut self) -> Result<Interpolant<S::Scalar, S::N>, MotionError> {
+    pub fn interpolant(&mut self) -> Result<Interpolant<S::Scalar, S::N>, ErrorOf<S>> {
         if let Some(interpolant) = self.interpolant {
             return Ok(interpolant);
         }
@@ -170,7 +170,7 @@ impl<S: System, M: Method> Integration<S, M> {
         tableau::evaluate(rate, table.dense_stages, table.end + 1, (t, &y), h, &mut self.slopes)?;
         let interpolant = self.cubic().complete(table, &self.slopes);
         if !interpolant.is_finite() {
-            return Err(MotionError::NotFinite { quantity: "the dense output", t: to_f64(t) });
+            return Err(MotionError::NotFinite { quantity: Name::from_static("the dense output"), t: to_f64(t) });
         }
         self.interpolant = Some(interpolant);
         Ok(interpolant)
@@ -186,7 +186,7 @@ impl<S: System, M: Method> Integration<S, M> {
     ///
     /// # Errors
     /// Those of [`advance`](Self::advance).
-    pub fn finish(&mut self, mut watch: impl FnMut(&StepOf<S>, f64) -> bool) -> Result<(), MotionError> {
+    pub fn finish(&mut self, mut watch: impl FnMut(&StepOf<S>, f64) -> bool) -> Result<(), ErrorOf<S>> {
         while let Some(step) = self.advance()? {
             if !watch(&step, self.progress()) {
                 break;
@@ -201,7 +201,7 @@ impl<S: System, M: Method> Integration<S, M> {
     /// Those of the system, if no shorter step avoids them; [`MotionError::NotFinite`], [`MotionError::StepTooSmall`],
     /// [`MotionError::TooManySteps`], [`MotionError::Stiff`], [`MotionError::EventsWithoutEnd`]. After an error the
     /// integration has ended, with the time and state before it.
-    pub fn advance(&mut self) -> Result<Option<StepOf<S>>, MotionError> {
+    pub fn advance(&mut self) -> Result<Option<StepOf<S>>, ErrorOf<S>> {
         if self.is_over() {
             return Ok(None);
         }
@@ -215,7 +215,7 @@ impl<S: System, M: Method> Integration<S, M> {
         result.map(Some)
     }
 
-    fn proceed(&mut self) -> Result<StepOf<S>, MotionError> {
+    fn proceed(&mut self) -> Result<StepOf<S>, ErrorOf<S>> {
         if self.signs.has_pending() {
             return self.deliver();
         }
@@ -268,7 +268,7 @@ impl<S: System, M: Method> Integration<S, M> {
     pub(crate) fn with<S2: System<Scalar = S::Scalar, N = S::N>, M2: Method>(
         self,
         system: impl FnOnce(S) -> S2,
-    ) -> Result<Integration<S2, M2>, MotionError> {
+    ) -> Result<Integration<S2, M2>, ErrorOf<S2>> {
         let (largest, most_steps, stiffness_every, parts) =
             (self.largest, self.most_steps, self.stiffness_every, self.parts);
         let (length, safety) = (self.controller.length, self.controller.safety);
@@ -333,7 +333,7 @@ impl<S: System, M: Method> Integration<S, M> {
     }
 
     /// Restarts the motion from this state at a time just after the one reached. Outputs before it remain.
-    pub(crate) fn restart_at(&mut self, t: S::Scalar, state: StateOf<S>) -> Result<(), MotionError> {
+    pub(crate) fn restart_at(&mut self, t: S::Scalar, state: StateOf<S>) -> Result<(), ErrorOf<S>> {
         self.restart(state)?;
         self.t = t;
         self.has_crossed = true;
@@ -355,7 +355,7 @@ impl<S: System, M: Method> Integration<S, M> {
     }
 
     /// The state at a time within the last step; at its ends exactly the stored states.
-    pub(crate) fn state_within(&mut self, t: S::Scalar) -> Result<StateOf<S>, MotionError> {
+    pub(crate) fn state_within(&mut self, t: S::Scalar) -> Result<StateOf<S>, ErrorOf<S>> {
         if t == self.from.0 {
             return Ok(self.from.1);
         }
@@ -375,7 +375,7 @@ impl<S: System, M: Method> Integration<S, M> {
 }
 
 impl<S: System, M: Method> Iterator for Integration<S, M> {
-    type Item = Result<StepOf<S>, MotionError>;
+    type Item = Result<StepOf<S>, ErrorOf<S>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()

@@ -3,10 +3,10 @@
 use nalgebra::ComplexField;
 
 use super::dense::Interpolant;
-use super::system::{Guard, StateOf, System};
+use super::system::{ErrorOf, Guard, StateOf, System};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, Column, Dim, real};
+use linkage_runtime::{Build, Column, Dim, Name, real};
 
 /// Two values of a function within this many ulps count as equal, so that a constant with rounding errors has no
 /// extremum. At 0 each such error costs the evaluations of dense output; at 1e4 extrema of a relative depth of 1e-12
@@ -48,7 +48,7 @@ pub(super) fn sampled<S: System>(
     system: &mut S,
     (at, length): (f64, S::Scalar),
     (t, state): (S::Scalar, &StateOf<S>),
-) -> Result<SampleOf<S>, MotionError> {
+) -> Result<SampleOf<S>, ErrorOf<S>> {
     let unknown = FunctionSample { value: 0.0, rate: 0.0, is_known: false };
     let (of_events, of_guards) = system.counts();
     let (mut events, mut guards) = (of_events.repeat(unknown), of_guards.repeat(unknown));
@@ -66,7 +66,7 @@ pub(super) fn sampled<S: System>(
     if sample.each().all(|sample| sample.value.is_finite()) {
         Ok(sample)
     } else {
-        Err(MotionError::NotFinite { quantity: "an event function", t: to_f64(t) })
+        Err(MotionError::NotFinite { quantity: Name::from_static("an event function"), t: to_f64(t) })
     }
 }
 
@@ -87,19 +87,19 @@ impl<K: Dim, C: Dim> Sample<K, C> {
 
 impl<S: System> SampledStep<'_, S> {
     /// Samples the functions at a fraction of the step, with the rates that the system supplies.
-    pub(super) fn sample(&mut self, at: f64) -> Result<SampleOf<S>, MotionError> {
+    pub(super) fn sample(&mut self, at: f64) -> Result<SampleOf<S>, ErrorOf<S>> {
         let Self { system, step, .. } = self;
         sampled(*system, (at, step.length()), (step.time(at), &step.at_fraction(real(at))))
     }
 
     /// Samples the functions slightly nearer to the middle of the step, for a difference quotient.
-    pub(super) fn nearby_sample(&mut self, at: f64) -> Result<SampleOf<S>, MotionError> {
+    pub(super) fn nearby_sample(&mut self, at: f64) -> Result<SampleOf<S>, ErrorOf<S>> {
         let little = ComplexField::sqrt(self.resolution);
         self.sample(if at < 0.5 { at + little } else { at - little })
     }
 
     /// Samples the functions with all rates; those that the system does not supply by difference quotients.
-    pub(super) fn sample_with_rates(&mut self, at: f64) -> Result<SampleOf<S>, MotionError> {
+    pub(super) fn sample_with_rates(&mut self, at: f64) -> Result<SampleOf<S>, ErrorOf<S>> {
         let mut sample = self.sample(at)?;
         if sample.each().any(|sample| !sample.is_known) {
             let nearby = self.nearby_sample(at)?;

@@ -7,8 +7,7 @@ use super::event::{EventSign, EventSigns};
 use super::passage::{Course, Next, may_pass};
 use super::sampled::{FunctionSample, Sample, SampledStep};
 use super::samples::Samples;
-use super::system::{StateOf, System};
-use crate::MotionError;
+use super::system::{ErrorOf, StateOf, System};
 use linkage_runtime::jacobian::first_not_positive;
 use linkage_runtime::{Build, Column, Dim, real};
 
@@ -52,7 +51,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         (step, is_cubic): (&Interpolant<S::Scalar, S::N>, bool),
         (from, parts): (f64, usize),
         resolution: f64,
-    ) -> Result<Found<S>, MotionError> {
+    ) -> Result<Found<S>, ErrorOf<S>> {
         let mut course = SampledStep { system, step, resolution };
         // Guards with known rates are examined at the ends of four parts.
         let (signs, mut parts) = (*self, if self.guards.dim().count() > 0 { parts.next_multiple_of(4) } else { parts });
@@ -77,7 +76,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         &mut self,
         course: &mut SampledStep<'_, S>,
         parts: usize,
-    ) -> Result<Found<S>, MotionError> {
+    ) -> Result<Found<S>, ErrorOf<S>> {
         let mut before = course.sample(0.0)?;
         let mut samples = Samples::new(self.grow(&before));
         samples.push(before.unknown());
@@ -162,7 +161,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         &mut self,
         course: &mut SampledStep<'_, S>,
         (from, parts): (f64, usize),
-    ) -> Result<Found<S>, MotionError> {
+    ) -> Result<Found<S>, ErrorOf<S>> {
         let mut before = course.sample_with_rates(from)?;
         let mut samples = Samples::new(self.grow(&before));
         if from == 0.0 {
@@ -197,7 +196,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         course: &mut SampledStep<'_, S>,
         before: Sample<K, C>,
         here: &Sample<K, C>,
-    ) -> Result<Option<(f64, f64)>, MotionError> {
+    ) -> Result<Option<(f64, f64)>, ErrorOf<S>> {
         let mut before = before;
         // Each of the other functions has at most one extremum here.
         for _ in 0..self.each().count() {
@@ -221,7 +220,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         (before, here): (&Sample<K, C>, &Sample<K, C>),
         errors: &Column<f64, C>,
         left: &mut u32,
-    ) -> Result<Option<(f64, f64)>, MotionError> {
+    ) -> Result<Option<(f64, f64)>, ErrorOf<S>> {
         let width = here.at - before.at;
         // Near an extremum an error of the time of sqrt(resolution) changes the value by its rounding error only.
         let near = ComplexField::sqrt(course.resolution) / width;
@@ -268,7 +267,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         course: &mut SampledStep<'_, S>,
         before: &Sample<K, C>,
         here: &Sample<K, C>,
-    ) -> Result<Option<Sample<K, C>>, MotionError> {
+    ) -> Result<Option<Sample<K, C>>, ErrorOf<S>> {
         let mut first: Option<Sample<K, C>> = None;
         for (place, (function, (start, end))) in self.each().zip(before.each().zip(here.each())).enumerate() {
             if !function.has_extremum(start, end) {
@@ -280,7 +279,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             let still = if function.rate_away(start) == 0.0 { f64::MIN_POSITIVE } else { 0.0 };
             // Near an extremum an error of the time of sqrt(resolution) changes the value by its rounding error only.
             let enough = ComplexField::sqrt(course.resolution);
-            first_not_positive::<_, MotionError>(
+            first_not_positive::<_, ErrorOf<S>>(
                 [before.at, here.at],
                 [still - function.rate_away(start), -function.rate_away(end)],
                 enough,
@@ -308,10 +307,10 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         &mut self,
         course: &mut SampledStep<'_, S>,
         (start, end): (f64, f64),
-    ) -> Result<Hit<S>, MotionError> {
+    ) -> Result<Hit<S>, ErrorOf<S>> {
         let ends = [self.least_distance(&course.sample(start)?), self.least_distance(&course.sample(end)?)];
         let resolution = course.resolution;
-        let at = first_not_positive::<_, MotionError>([start, end], ends, resolution, |at| {
+        let at = first_not_positive::<_, ErrorOf<S>>([start, end], ends, resolution, |at| {
             Ok(Some(self.least_distance(&course.sample(at)?)))
         })?;
         let there = course.sample(at)?;

@@ -4,16 +4,16 @@ use nalgebra::ComplexField;
 
 use super::control;
 use super::integration::{Counts, Integration, finite};
-use super::system::{StateOf, System};
+use super::system::{ErrorOf, StateOf, System};
 use super::tableau::{self, Method, Weights};
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::real;
+use linkage_runtime::{Name, real};
 
 impl<S: System, M: Method> Integration<S, M> {
     /// Takes a step.
-    pub(super) fn step(&mut self) -> Result<(), MotionError> {
+    pub(super) fn step(&mut self) -> Result<(), ErrorOf<S>> {
         let rule = const { &M::TABLEAU.control };
         let mut is_new = !self.has_rate;
         if let Some(state) = self.system.before_step(self.t, &self.state)? {
@@ -95,7 +95,7 @@ impl<S: System, M: Method> Integration<S, M> {
     /// Attempts a step to `end`: returns its relative error and the new state, whose slope is evaluated if the step may
     /// be accepted.
     #[inline]
-    fn attempt(&mut self, (t, y): (S::Scalar, &StateOf<S>), end: S::Scalar) -> Result<(f64, StateOf<S>), MotionError> {
+    fn attempt(&mut self, (t, y): (S::Scalar, &StateOf<S>), end: S::Scalar) -> Result<(f64, StateOf<S>), ErrorOf<S>> {
         let table = const { &M::TABLEAU };
         let h = end - t;
         // Errors of other steps.
@@ -110,7 +110,10 @@ impl<S: System, M: Method> Integration<S, M> {
         }
         let error = control::error(table, &self.tolerance, (y, &next), &self.slopes, to_f64(h));
         if error.is_nan() {
-            return Err(MotionError::NotFinite { quantity: "the rate or the state", t: to_f64(end) });
+            return Err(MotionError::NotFinite {
+                quantity: Name::from_static("the rate or the state"),
+                t: to_f64(end),
+            });
         }
         if !of_end && error <= 1.0 {
             self.slopes[table.end] = self.slope(end, &next)?;
@@ -119,7 +122,7 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok((error + uncertain.unwrap_or(0.0), next))
     }
 
-    fn slope(&mut self, t: S::Scalar, y: &StateOf<S>) -> Result<StateOf<S>, MotionError> {
+    fn slope(&mut self, t: S::Scalar, y: &StateOf<S>) -> Result<StateOf<S>, ErrorOf<S>> {
         self.counts.evaluations += 1;
         let slope = self.system.rate(t, y)?;
         finite("the rate", t, &slope)?;
@@ -159,7 +162,7 @@ const fn uses(weights: Weights, slope: usize) -> bool {
 pub(super) fn counted<'a, S: System>(
     system: &'a mut S,
     counts: &'a mut Counts,
-) -> impl FnMut(S::Scalar, &StateOf<S>) -> Result<StateOf<S>, MotionError> + 'a {
+) -> impl FnMut(S::Scalar, &StateOf<S>) -> Result<StateOf<S>, ErrorOf<S>> + 'a {
     move |t, y| {
         counts.evaluations += 1;
         system.rate(t, y)

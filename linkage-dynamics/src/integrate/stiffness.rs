@@ -13,7 +13,7 @@
 
 use super::control::Tolerance;
 use super::integration::Integration;
-use super::system::System;
+use super::system::{ErrorOf, System};
 use super::tableau::{self, Method};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
@@ -44,7 +44,7 @@ impl<S: System, M: Method> Integration<S, M> {
     ///
     /// # Errors
     /// [`MotionError::Stiff`].
-    pub(super) fn test_stiffness(&mut self) -> Result<(), MotionError> {
+    pub(super) fn test_stiffness(&mut self) -> Result<(), ErrorOf<S>> {
         let every = self.stiffness_every;
         if every == 0 || (self.stiff == 0 && !self.counts.accepted.is_multiple_of(every)) {
             return Ok(());

@@ -7,7 +7,7 @@ use nalgebra::SVector;
 use super::{Action, Crossing, Interpolant};
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Build, Column, D, Dim, Real};
+use linkage_runtime::{BorrowedName, Build, Column, D, Dim, Real};
 
 /// The value of a guard function at one state: where it falls below zero, the law of the rate changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Guard<T> {
 
 /// The state of a system, or its rate.
 pub type StateOf<S> = Column<<S as System>::Scalar, <S as System>::N>;
+/// The error of an integration, with names of a system.
+pub type ErrorOf<S> = MotionError<<S as System>::Name>;
 
 /// A system of differential equations y' = f(t, y) with events and guards. A Rust function of (t, y) is a system
 /// without events ([`IntoSystem`]).
@@ -29,6 +31,8 @@ pub type StateOf<S> = Column<<S as System>::Scalar, <S as System>::N>;
 pub trait System {
     /// The scalar type of times and components.
     type Scalar: Real;
+    /// The type of names in its errors: `&'static str`, or names that are borrowed.
+    type Name: BorrowedName;
     /// The number of components of the state.
     type N: Dim;
     /// The number of events.
@@ -40,7 +44,7 @@ pub trait System {
     ///
     /// # Errors
     /// If the rate does not exist at this state; a shorter step is then tried.
-    fn rate(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<StateOf<Self>, MotionError>;
+    fn rate(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<StateOf<Self>, ErrorOf<Self>>;
 
     /// The largest estimated error of each component of the rates returned since the last call, or None if these are
     /// exact to rounding error. It adds to the error of a step.
@@ -58,8 +62,11 @@ pub trait System {
     ///
     /// # Errors
     /// If they cannot be computed; the integration then ends.
-    fn events(&mut self, t: Self::Scalar, y: &StateOf<Self>)
-    -> Result<Column<Self::Scalar, Self::Events>, MotionError>;
+    fn events(
+        &mut self,
+        t: Self::Scalar,
+        y: &StateOf<Self>,
+    ) -> Result<Column<Self::Scalar, Self::Events>, ErrorOf<Self>>;
 
     /// The direction in which each must pass through zero.
     fn crossings(&self) -> Column<Crossing, Self::Events> {
@@ -75,7 +82,7 @@ pub trait System {
         &mut self,
         t: Self::Scalar,
         y: &StateOf<Self>,
-    ) -> Result<Column<Guard<Self::Scalar>, Self::Guards>, MotionError> {
+    ) -> Result<Column<Guard<Self::Scalar>, Self::Guards>, ErrorOf<Self>> {
         let _ = (t, y);
         Ok(self.counts().1.repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
     }
@@ -89,7 +96,7 @@ pub trait System {
         event: usize,
         t: Self::Scalar,
         y: &StateOf<Self>,
-    ) -> Result<Action<StateOf<Self>>, MotionError> {
+    ) -> Result<Action<StateOf<Self>>, ErrorOf<Self>> {
         let _ = (event, t, y);
         Ok(Action::Record)
     }
@@ -108,7 +115,7 @@ pub trait System {
     /// # Errors
     /// Any error ends the integration.
     #[inline]
-    fn change_of_law(&mut self, step: &Interpolant<Self::Scalar, Self::N>) -> Result<Option<f64>, MotionError> {
+    fn change_of_law(&mut self, step: &Interpolant<Self::Scalar, Self::N>) -> Result<Option<f64>, ErrorOf<Self>> {
         let _ = step;
         Ok(None)
     }
@@ -118,7 +125,7 @@ pub trait System {
     ///
     /// # Errors
     /// Any error ends the integration.
-    fn before_step(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<Option<StateOf<Self>>, MotionError> {
+    fn before_step(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<Option<StateOf<Self>>, ErrorOf<Self>> {
         let _ = (t, y);
         Ok(None)
     }
@@ -190,6 +197,7 @@ where
     F: FnMut(Y::Scalar, &Y) -> Result<Y, MotionError>,
 {
     type Scalar = Y::Scalar;
+    type Name = &'static str;
     type N = Y::N;
     type Events = D<0>;
     type Guards = D<0>;
@@ -258,6 +266,7 @@ where
     A: FnMut(usize, Y::Scalar, &Y) -> Result<Action<Y>, MotionError>,
 {
     type Scalar = Y::Scalar;
+    type Name = &'static str;
     type N = Y::N;
     type Events = D<K>;
     type Guards = D<0>;

@@ -1,6 +1,5 @@
 //! Embedded Runge-Kutta pairs as tables, and the stages of a step.
 
-use crate::MotionError;
 use linkage_runtime::{Build, Column, Dim, Real, real};
 
 /// A linear combination of slopes: the index of each slope and its coefficient.
@@ -77,14 +76,14 @@ pub(super) fn combination<T: Real, N: Dim>(slopes: &Slopes<T, N>, weights: Weigh
 
 /// Computes the slopes of these stages, numbered upwards from `from`.
 #[inline(always)]
-pub(super) fn evaluate<T: Real, N: Dim>(
-    mut rate: impl FnMut(T, &Column<T, N>) -> Result<Column<T, N>, MotionError>,
+pub(super) fn evaluate<T: Real, N: Dim, E>(
+    mut rate: impl FnMut(T, &Column<T, N>) -> Result<Column<T, N>, E>,
     stages: &[Stage],
     from: usize,
     (t, y): (T, &Column<T, N>),
     h: T,
     slopes: &mut Slopes<T, N>,
-) -> Result<(), MotionError> {
+) -> Result<(), E> {
     for (number, stage) in (from..).zip(stages) {
         let inner = *y + combination(slopes, stage.weights) * h;
         slopes[number] = rate(t + real::<T>(stage.node) * h, &inner)?;

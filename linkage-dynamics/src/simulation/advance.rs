@@ -7,10 +7,10 @@ use super::state::{State, Touch};
 use super::watch::{Then, Watch};
 use crate::contact::{Change, Contacts};
 use crate::integrate::{Method, Step};
-use crate::{Coordinates, MotionError, Scene, StateColumn};
+use crate::{Coordinates, MotionError, MotionErrorOf, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{same_signs, to_f64};
-use linkage_runtime::{Column, Dim, Mechanism, real};
+use linkage_runtime::{Column, Dim, Mechanism, Name, real};
 
 /// Along a step in the inputs the signs of the determinants are checked each time that a coordinate has moved so far, in
 /// radians or divided by the scale of its length. Change points of one group are about pi apart.
@@ -36,7 +36,7 @@ struct End<S: Scene> {
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     /// Advances to the next event or to the end of the step; None at the end. False for an event of the contacts that
     /// changes nothing, which only outputs stop at: the motion restarts there.
-    pub(super) fn proceed(&mut self) -> Result<Option<bool>, MotionError> {
+    pub(super) fn proceed(&mut self) -> Result<Option<bool>, MotionErrorOf<S>> {
         loop {
             let is_prepared = core::mem::take(&mut self.is_prepared);
             if self.integration.is_at_boundary() && !is_prepared {
@@ -118,7 +118,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         step: &Step<S::Scalar, S::State>,
         contacts: &Contacts<S::Scalar, S::Contacts>,
         is_long: bool,
-    ) -> Result<End<S>, MotionError> {
+    ) -> Result<End<S>, MotionErrorOf<S>> {
         let motion = self.integration.system();
         let projected = motion.projected(step.t, &step.state)?;
         let projected = match motion.on_stops(contacts, step.t, &projected, self.largest_deviation()) {
@@ -136,15 +136,18 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     /// rounding error of the time, rests on all of them. Other errors, and a second one at this time, are returned in the
     /// words of a simulation: with the name of the contact or the kink, and next to a change point as that of the forces
     /// in joints.
-    fn settle_together(&mut self, error: MotionError) -> Result<Option<bool>, MotionError> {
+    fn settle_together(&mut self, error: MotionErrorOf<S>) -> Result<Option<bool>, MotionErrorOf<S>> {
         let MotionError::EventsWithoutEnd { t, event } = error else {
             let motion = self.integration.system();
-            return Err(motion.corners.explained(S::NAME, motion.of_reactions(self.integration.state(), error)));
+            return Err(motion
+                .corners
+                .explained(motion.scene.name(), motion.of_reactions(self.integration.state(), error)));
         };
         // Contacts are numbered after the user's events.
         let Some(place) = event.checked_sub(self.watched_events()) else { return Err(error) };
-        let contact = self.integration.system().names.iter().nth(place).copied().unwrap_or_default();
-        let error = MotionError::ContactWithoutEnd { scene: S::NAME, contact, t };
+        let motion = self.integration.system();
+        let contact = motion.names.as_slice().get(place).copied().unwrap_or_else(|| Name::from_static(""));
+        let error = MotionError::ContactWithoutEnd { scene: motion.scene.name(), contact, t };
         if !self.integration.continue_after_repeats() {
             return Err(error);
         }
@@ -205,7 +208,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Repeats the last step in other coordinates than the inputs.
-    fn go_back(&mut self) -> Result<(), MotionError> {
+    fn go_back(&mut self) -> Result<(), MotionErrorOf<S>> {
         let (t, y) = self.from;
         self.integration.go_back(t, y);
         self.steps_before_return = STEPS_BEFORE_RETURN;
@@ -215,7 +218,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Applies the user's action at an event.
-    fn happens(&mut self, event: usize, state: &mut State<S>) -> Result<(), MotionError> {
+    fn happens(&mut self, event: usize, state: &mut State<S>) -> Result<(), MotionErrorOf<S>> {
         let motion = self.integration.system_mut();
         match motion.watch.at_event(event, state)? {
             Then::GoOn => {}
@@ -231,7 +234,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Applies impacts and mode changes of the contacts.
-    fn settle(&mut self, state: &mut State<S>, projected: &StateColumn<S>) -> Result<(), MotionError> {
+    fn settle(&mut self, state: &mut State<S>, projected: &StateColumn<S>) -> Result<(), MotionErrorOf<S>> {
         let (after, changes) = self.integration.system_mut().settled(state.t, projected)?;
         self.integration.restart(after)?;
         self.note(state, changes);

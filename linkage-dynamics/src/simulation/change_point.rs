@@ -79,7 +79,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         tolerance: S::Scalar,
     ) -> Ahead<S> {
         // At a change point forces in joints are infinite or undetermined, and with them these frictions.
-        if S::BEARINGS {
+        if self.scene.has_bearings() {
             return Ahead::Clear;
         }
         let (q, rates) = Self::unpack(y);

@@ -1,8 +1,8 @@
 //! The memory of the kinks of a motion.
 
-use crate::MotionError;
+use crate::{MotionError, NameOf, Scene};
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Real, real};
+use linkage_runtime::{BorrowedName, Real, real};
 
 /// The most kinks in a row without a longer step between them. A force that always points towards its kink, such as
 /// -x'/|x'|, has them without end.
@@ -14,47 +14,50 @@ const GATHERED: f64 = 1e-3;
 
 /// The change of a law between two neighbouring times.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Corner<T> {
+pub(super) struct Corner<T, N> {
     /// The last time before the change.
     pub(super) before: T,
     /// The first time after it.
     pub(super) after: T,
     /// The effect with the law.
-    pub(super) effect: &'static str,
+    pub(super) effect: N,
 }
+
+/// The change of a law of a scene.
+pub(super) type CornerOf<S> = Corner<<S as Scene>::Scalar, NameOf<S>>;
 
 /// The kinks of a motion.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Corners<T> {
+pub(super) struct Corners<T, N> {
     /// The start of the step.
     pub(super) from: T,
     pub(super) is_forward: bool,
     /// The end of the simulation.
     pub(super) end: T,
     /// The change at the end of the step.
-    pub(super) ahead: Option<Corner<T>>,
+    pub(super) ahead: Option<Corner<T, N>>,
     /// A change that the integration of a drive has shown.
-    pub(super) found: Option<Corner<T>>,
+    pub(super) found: Option<Corner<T, N>>,
     /// The effect whose kink is at the end of the last step, for a kink of the state.
-    pub(super) passed: Option<&'static str>,
+    pub(super) passed: Option<N>,
     /// The kink of the state before which the last step has ended, and the sign of its expression; that before which
     /// this step is to end.
     pub(super) towards: Option<(usize, i8)>,
     pub(super) approached: Option<(usize, i8)>,
     /// The effect whose kink this step is to go over.
-    pub(super) crossing: Option<&'static str>,
+    pub(super) crossing: Option<N>,
     /// The number of times in a row that a step was shortened for a drive.
     pub(super) shortened: u32,
     /// The number of kinks in a row without a longer step, and the time of the first of these.
     pub(super) in_a_row: u32,
     pub(super) first: T,
     /// The last kink, the time since the one before it, and the longest such time.
-    pub(super) last: Option<(&'static str, T)>,
+    pub(super) last: Option<(N, T)>,
     pub(super) gap: T,
     pub(super) longest: T,
 }
 
-impl<T: Real> Corners<T> {
+impl<T: Real, N: BorrowedName> Corners<T, N> {
     pub(super) fn new(start: T, end: T) -> Self {
         Self {
             from: start,
@@ -79,7 +82,7 @@ impl<T: Real> Corners<T> {
     ///
     /// # Errors
     /// [`MotionError::KinksWithoutEnd`] after too many in a row.
-    pub(super) fn note(&mut self, scene: &'static str, effect: &'static str, t: T) -> Result<(), MotionError> {
+    pub(super) fn note(&mut self, scene: N, effect: N, t: T) -> Result<(), MotionError<N>> {
         if self.in_a_row == 0 {
             self.first = t;
         }
@@ -101,7 +104,7 @@ impl<T: Real> Corners<T> {
     }
 
     /// The error of an integration, which names the effect if kinks that gather at a time have ended it.
-    pub(super) fn explained(&self, scene: &'static str, error: MotionError) -> MotionError {
+    pub(super) fn explained(&self, scene: N, error: MotionError<N>) -> MotionError<N> {
         let gather = self.gap < self.longest * real(GATHERED);
         match (error, self.last) {
             (MotionError::TooManySteps { t, .. } | MotionError::StepTooSmall { t, .. }, Some((effect, _)))

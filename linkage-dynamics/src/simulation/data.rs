@@ -5,7 +5,7 @@ use super::state::State;
 use super::watch::{Unwatched, Watch};
 use crate::contact::Contacts;
 use crate::integrate::{Dop853, Integration};
-use crate::{MotionError, Scene, StateColumn};
+use crate::{MotionErrorOf, Scene, StateColumn};
 use linkage_runtime::{Column, Mechanism};
 
 /// The determinants of the groups of a scene; their signs distinguish branches.
@@ -35,7 +35,7 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) steps_before_return: u32,
     pub(super) is_over: bool,
     /// The error that ends the simulation after the current state.
-    pub(super) failure: Option<MotionError>,
+    pub(super) failure: Option<MotionErrorOf<S>>,
     /// True if the coordinates of the next step are chosen.
     pub(super) is_prepared: bool,
 }

@@ -10,11 +10,10 @@ use super::sheet::Errors;
 use super::watch::Watch;
 use crate::contact::{ReducedContact, ReducedEquations, Reduction};
 use crate::integrate::{Crossing, Guard, System};
-use crate::scene::coordinate_name;
-use crate::{Mode, MotionError, Rates, Scene, StateColumn};
+use crate::{Mode, MotionErrorOf, NameOf, Rates, Scene, StateColumn};
 use linkage_runtime::__shared::all_finite;
 use linkage_runtime::__shared::arithmetic::*;
-use linkage_runtime::{Build, Column, Dim, Mechanism, PerInput, real};
+use linkage_runtime::{Build, Column, Dim, Mechanism, Name, PerInput, real};
 
 /// The largest distance of a motion from the crossing on its sheet, in half lengths of its line; it begins within 2.5 of
 /// them.
@@ -23,7 +22,7 @@ const LONGEST_WAY: f64 = 3.0;
 impl<S: Scene, W> Motion<'_, S, W> {
     /// y' in the current coordinates.
     #[inline]
-    fn rate_at(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+    fn rate_at(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         let (q, free_rates) = Self::unpack(y);
         let (independent, frame) = match &self.parametrisation {
             Parametrisation::Inputs if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) => {
@@ -64,9 +63,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
         &self,
         t: S::Scalar,
         (equations, rates): &(Reduced<S>, Rates<S>),
-    ) -> Result<StateColumn<S>, MotionError> {
+    ) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         let accelerations = self.contacts.acceleration(equations).map_err(|error| error.at(t))?;
-        all_finite(S::NAME, "the acceleration", accelerations.iter())?;
+        all_finite(self.scene.name(), Name::from_static("the acceleration"), accelerations.iter())?;
         // y' is packed in the layout of y.
         let (unknowns, inputs) = S::Mechanism::rate_parts(rates);
         Ok(Self::pack(&S::Mechanism::coordinates(unknowns, inputs), &accelerations))
@@ -78,7 +77,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         independent: &Choice<S>,
         frame: &Frame<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
-    ) -> Result<(Reduced<S>, Rates<S>), MotionError> {
+    ) -> Result<(Reduced<S>, Rates<S>), MotionErrorOf<S>> {
         let (mut equations, rates) = self.unprescribed_by(independent, frame, (t, y))?;
         // Prescribed coordinates follow their laws.
         for (input, law) in self.prescribed(t).iter().enumerate() {
@@ -96,7 +95,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         independent: &Choice<S>,
         frame: &Frame<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
-    ) -> Result<(Reduced<S>, Rates<S>), MotionError> {
+    ) -> Result<(Reduced<S>, Rates<S>), MotionErrorOf<S>> {
         let (_, free_rates) = Self::unpack(y);
         let Frame { q, basis: (unknowns, inputs), bias, .. } = frame;
         let (unknowns, inputs) = (*unknowns, *inputs);
@@ -111,17 +110,24 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let (basis, bias) = ((&unknowns, &inputs), (&bias.unknowns, &bias.inputs));
         let found = self.scene.contacts(t, q, &rates)?;
         let mut bearings = self.scene.contact_count().repeat(None);
-        if S::BEARINGS {
+        if self.scene.has_bearings() {
             let reduction = Reduction { basis, bias, all: &all, contacts: &found };
-            bearings = reduction.bearings(S::NAME, &self.scene.bearings(t, q, &rates)?, |rows| {
+            bearings = reduction.bearings(self.scene.name(), &self.scene.bearings(t, q, &rates)?, |rows| {
                 let solution = self.factors(independent, q).solve(rows);
                 Ok((solution.unknowns, solution.inputs))
             })?;
         }
         let contacts = found.map(|contact| ReducedContact::new(&contact, basis, bias));
-        let coordinates = independent.free.map(coordinate_name::<S::Mechanism>);
-        let reduced =
-            ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates: free_rates, contacts, bearings };
+        let coordinates = independent.free.map(|column| self.scene.mechanism().coordinate_name(column));
+        let reduced = ReducedEquations {
+            scene: self.scene.name(),
+            coordinates,
+            mass,
+            forces,
+            rates: free_rates,
+            contacts,
+            bearings,
+        };
         Ok((reduced, rates))
     }
 }
@@ -148,12 +154,13 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
 impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
     type Scalar = S::Scalar;
+    type Name = NameOf<S>;
     type N = S::State;
     type Events = W::Events;
     type Guards = S::Contacts;
 
     #[inline]
-    fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+    fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         let t = self.beside(t);
         let rate = self.rate_at(t, y);
         match rate {
@@ -166,7 +173,7 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
         self.uncertainty.take()
     }
 
-    fn events(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Column<S::Scalar, W::Events>, MotionError> {
+    fn events(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Column<S::Scalar, W::Events>, MotionErrorOf<S>> {
         let state = self.state(t, y)?;
         self.watch.values(&state)
     }
@@ -184,11 +191,11 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
         &mut self,
         t: S::Scalar,
         y: &StateColumn<S>,
-    ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionError> {
+    ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionErrorOf<S>> {
         self.margins(t, y)
     }
 
-    fn before_step(&mut self, t: S::Scalar, _: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionError> {
+    fn before_step(&mut self, t: S::Scalar, _: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionErrorOf<S>> {
         self.begin_step(t);
         Ok(None)
     }
@@ -199,7 +206,7 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
     }
 
     #[inline]
-    fn change_of_law(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionError> {
+    fn change_of_law(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionErrorOf<S>> {
         self.kink_within(step)
     }
 }

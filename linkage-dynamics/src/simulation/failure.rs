@@ -6,8 +6,7 @@ use super::frame::Change;
 use super::independent::Independent;
 use super::motion::{Motion, Parametrisation};
 use crate::error::CrossingRates;
-use crate::scene::coordinate_name;
-use crate::{Coordinates, MotionError, Scene, StateColumn};
+use crate::{Coordinates, MotionError, MotionErrorOf, NameOf, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{smallest, to_f64};
 use linkage_runtime::held::Held;
@@ -21,28 +20,28 @@ const NEXT_TO_CHANGE_POINT: f64 = 0.01;
 
 impl<S: Scene, W> Motion<'_, S, W> {
     /// The change-point error with the group of least regularity, and the rates along the motions that cross.
-    pub(super) fn change_point_error(&self, q: &Coordinates<S>) -> MotionError {
+    pub(super) fn change_point_error(&self, q: &Coordinates<S>) -> MotionErrorOf<S> {
         MotionError::ChangePoint {
-            scene: S::NAME,
+            scene: self.scene.name(),
             group: self.least_regular_group(q),
             crossing: self.crossing_rates(q),
         }
     }
 
     /// The error for forces in joints next to a change point.
-    pub(super) fn no_reactions_error(&self, q: &Coordinates<S>) -> MotionError {
-        MotionError::UndeterminedReactions { scene: S::NAME, group: self.least_regular_group(q) }
+    pub(super) fn no_reactions_error(&self, q: &Coordinates<S>) -> MotionErrorOf<S> {
+        MotionError::UndeterminedReactions { scene: self.scene.name(), group: self.least_regular_group(q) }
     }
 
     /// The error of a step; next to a change point that of forces in joints, if frictions depend on them: steps fail
     /// there, since these forces become infinite or rounding errors.
-    pub(super) fn of_reactions(&self, y: &StateColumn<S>, error: MotionError) -> MotionError {
+    pub(super) fn of_reactions(&self, y: &StateColumn<S>, error: MotionErrorOf<S>) -> MotionErrorOf<S> {
         let is_of_step = matches!(
             error,
             MotionError::StepTooSmall { .. } | MotionError::TooManySteps { .. } | MotionError::Position(_)
         );
         let q = S::parts(y).q;
-        if !(S::BEARINGS && is_of_step) {
+        if !(self.scene.has_bearings() && is_of_step) {
             return error;
         }
         let mechanism = self.scene.mechanism();
@@ -51,7 +50,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if freely.regularity() < real(NEXT_TO_CHANGE_POINT) { self.no_reactions_error(&q) } else { error }
     }
 
-    fn least_regular_group(&self, q: &Coordinates<S>) -> &'static str {
+    fn least_regular_group(&self, q: &Coordinates<S>) -> NameOf<S> {
         let mechanism = self.scene.mechanism();
         Blocks::of(mechanism, &mechanism.pose_at(q)).least_regular().1
     }
@@ -76,7 +75,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The rates of two coordinates along the two motions of one input that cross at a position: the zeros of the
     /// quadratic form N (Psi_q x)_q x, where N is the left null vector of [J A] and x in its null space. `None` where
     /// the position is not a crossing of two motions.
-    fn crossing_rates(&self, q: &Coordinates<S>) -> Option<CrossingRates> {
+    fn crossing_rates(&self, q: &Coordinates<S>) -> Option<CrossingRates<NameOf<S>>> {
         if self.dims().1.count() != 1 {
             return None;
         }
@@ -110,11 +109,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let size = if x.abs() > y.abs() { x } else { y };
             [x / size, y / size]
         });
-        Some(CrossingRates { coordinates: columns.map(coordinate_name::<S::Mechanism>), rates })
+        Some(CrossingRates { coordinates: columns.map(|column| mechanism.coordinate_name(column)), rates })
     }
 
     /// The error if no choice of coordinates is regular: a prescribed input is at a dead point, or two motions cross.
-    pub(super) fn no_coordinates_error(&self, t: S::Scalar, q: &Coordinates<S>) -> MotionError {
+    pub(super) fn no_coordinates_error(&self, t: S::Scalar, q: &Coordinates<S>) -> MotionErrorOf<S> {
         let mechanism = self.scene.mechanism();
         let is_driven = self.prescribed_inputs(t).iter().any(|&held| held);
         let freely =
@@ -122,23 +121,23 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let is_regular = freely.regularity() > nearly_zero();
         if is_driven && is_regular {
             self.singular_error(q)
-        } else if S::BEARINGS {
+        } else if self.scene.has_bearings() {
             self.no_reactions_error(q)
         } else {
             self.change_point_error(q)
         }
     }
 
-    pub(super) fn singular_error(&self, q: &Coordinates<S>) -> MotionError {
+    pub(super) fn singular_error(&self, q: &Coordinates<S>) -> MotionErrorOf<S> {
         let mechanism = self.scene.mechanism();
         let (regularity, group) = Blocks::of(mechanism, &mechanism.pose_at(q)).least_regular();
         let regularity = to_f64(regularity);
-        PositionError::Singular { mechanism: S::Mechanism::NAME, group, regularity }.into()
+        PositionError::Singular { mechanism: mechanism.name(), group, regularity }.into()
     }
 }
 
 /// The change-point error for a start at one that is singular, else this error.
-pub(super) fn start_error<S: Scene>(scene: &S, q: &Coordinates<S>, error: MotionError) -> MotionError {
+pub(super) fn start_error<S: Scene>(scene: &S, q: &Coordinates<S>, error: MotionErrorOf<S>) -> MotionErrorOf<S> {
     if !matches!(error, MotionError::Position(PositionError::Singular { .. })) {
         return error;
     }

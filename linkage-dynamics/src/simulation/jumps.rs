@@ -9,7 +9,7 @@
 //! jump within the step, in the rate or in the position. So kinks without an expression are found too, as in a user
 //! function.
 
-use super::corners::Corner;
+use super::corners::{Corner, CornerOf};
 use super::data::Simulation;
 use super::motion::{Motion, ParametrisationOf};
 use super::state::State;
@@ -17,8 +17,7 @@ use super::watch::Watch;
 use crate::contact::{Change, ReducedEquations};
 use crate::inertia::Inertia;
 use crate::integrate::Method;
-use crate::scene::coordinate_name;
-use crate::{MotionError, Prescribed, Scene, StateColumn};
+use crate::{MotionError, MotionErrorOf, Prescribed, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Build, Column, Dim, Mechanism, PerInput, Real, real};
@@ -87,7 +86,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         input: usize,
         [from, to]: [S::Scalar; 2],
         (most, frequency): (S::Scalar, S::Scalar),
-    ) -> Option<Corner<S::Scalar>> {
+    ) -> Option<CornerOf<S>> {
         let scale = self.scales.coordinates.inputs[input];
         let law = |t: S::Scalar| -> Option<Law<S::Scalar>> {
             let law = self.prescribed(t)[input]?;
@@ -112,7 +111,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             }
         }
         let [value, rate] = defects(b.0 - a.0, &a.1.0, &b.1);
-        let effect = coordinate_name::<S::Mechanism>(self.dims().0.count() + input);
+        let effect = self.scene.mechanism().input_name(input);
         (value > most || rate > most).then_some(Corner { before: a.0, after: b.0, effect })
     }
 
@@ -122,7 +121,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         t: S::Scalar,
         y: &StateColumn<S>,
         jumps: &PerInput<S::Mechanism>,
-    ) -> Result<PerInput<S::Mechanism>, MotionError> {
+    ) -> Result<PerInput<S::Mechanism>, MotionErrorOf<S>> {
         let (q, rates) = Self::unpack(y);
         let mut equations = match self.frame(&q, &rates)? {
             None => ReducedEquations::unprescribed(&*self.scene, t, y)?.0,
@@ -134,7 +133,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 equations.prescribe(place, jumps[input]);
             }
         }
-        let inertia = Inertia::new(S::NAME, &equations.coordinates, &equations.mass)?;
+        let inertia = Inertia::new(self.scene.name(), &equations.coordinates, &equations.mass)?;
         Ok(rates + inertia.solve(&equations.forces))
     }
 
@@ -158,10 +157,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// [`MotionError::DriveJumps`] if a drive jumps in position, and those of impacts.
     fn crossed(
         &mut self,
-        corner: &Corner<S::Scalar>,
+        corner: &CornerOf<S>,
         y: &StateColumn<S>,
         frequency: S::Scalar,
-    ) -> Result<Crossed<S>, MotionError> {
+    ) -> Result<Crossed<S>, MotionErrorOf<S>> {
         let Corner { before, after, .. } = *corner;
         let inputs = S::Mechanism::inputs(&Self::unpack(y).0);
         let laws = self.scene.prescribed(after);
@@ -171,8 +170,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let size = law.value.abs() + inputs[input].abs() + self.scales.coordinates.inputs[input];
             let near = (law.value - inputs[input]).abs() <= most * size;
             if !near {
-                let coordinate = coordinate_name::<S::Mechanism>(self.dims().0.count() + input);
-                return Err(MotionError::DriveJumps { scene: S::NAME, coordinate, t: to_f64(after) });
+                let (scene, coordinate) = (self.scene.name(), self.scene.mechanism().input_name(input));
+                return Err(MotionError::DriveJumps { scene, coordinate, t: to_f64(after) });
             }
         }
         let velocity = self.velocity(y)?;
@@ -189,7 +188,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 
     /// Projects y, and changes the free rates where a drive has jumped since: for steps that do not end at kinks.
-    pub(super) fn projected_with_jumps(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+    pub(super) fn projected_with_jumps(
+        &self,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+    ) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         let projected = self.projected(t, y)?;
         let jumps = self.jumps(y, &self.prescribed(t), S::Scalar::zero());
         let (before, after) = (Self::unpack(y).1, Self::unpack(&projected).1);
@@ -253,21 +256,21 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// The change of a law at this time, if a step has ended there.
-    pub(super) fn corner(&self, t: S::Scalar) -> Option<Corner<S::Scalar>> {
+    pub(super) fn corner(&self, t: S::Scalar) -> Option<CornerOf<S>> {
         self.integration.system().corners.ahead.filter(|corner| corner.before == t)
     }
 
     /// Continues after the change of a law.
     pub(super) fn cross(
         &mut self,
-        corner: &Corner<S::Scalar>,
+        corner: &CornerOf<S>,
         state: &mut State<S>,
         y: &StateColumn<S>,
-    ) -> Result<(), MotionError> {
+    ) -> Result<(), MotionErrorOf<S>> {
         state.kink = Some(corner.effect);
         let frequency = self.frequency;
         let motion = self.integration.system_mut();
-        motion.corners.note(S::NAME, corner.effect, corner.before)?;
+        motion.corners.note(motion.scene.name(), corner.effect, corner.before)?;
         let (after, changes) = motion.crossed(corner, y, frequency)?;
         motion.corners.found = None;
         self.integration.restart_at(corner.after, after)?;
@@ -277,7 +280,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Continues after the change of a law at the time reached, without a step.
-    pub(super) fn cross_here(&mut self, corner: &Corner<S::Scalar>) -> Result<(), MotionError> {
+    pub(super) fn cross_here(&mut self, corner: &CornerOf<S>) -> Result<(), MotionErrorOf<S>> {
         let (t, motion) = (self.integration.t(), self.integration.system());
         let y = motion.projected(t, self.integration.state())?;
         let y = motion.on_stops(&motion.contacts, t, &y, self.largest_deviation())?;

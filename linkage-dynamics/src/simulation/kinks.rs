@@ -9,11 +9,11 @@
 //!
 //! An expression that touches zero without a change of sign is no kink.
 
-use super::corners::Corner;
+use super::corners::{Corner, CornerOf};
 use super::frame::Change;
 use super::motion::{Motion, Polynomial};
 use crate::scene::{Kink, beside, one_sided, sign, sign_at};
-use crate::{Coordinates, MotionError, Prescribed, Scene, StateColumn};
+use crate::{Coordinates, MotionErrorOf, NameOf, Prescribed, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::first_not_positive;
@@ -34,22 +34,23 @@ const AT_KINK_ULPS: f64 = 24.0;
 const NOISE_ULPS: f64 = 16.0;
 
 /// The first kink of the state in a step.
-struct FirstKink {
+struct FirstKink<N> {
     /// The fraction of the step.
     at: f64,
     place: usize,
+    effect: N,
     /// The sign of its expression before it.
     sign: i8,
 }
 
 /// True if a kink of the scene depends on time alone.
-fn has_timed<S: Scene>() -> bool {
-    S::KINKS.iter().any(|kink| kink.is_timed)
+fn has_timed<S: Scene>(scene: &S) -> bool {
+    scene.kinks().any(|kink| kink.is_timed)
 }
 
 /// True if a kink of the scene depends on the state.
-fn has_moving<S: Scene>() -> bool {
-    S::KINKS.iter().any(|kink| !kink.is_timed)
+fn has_moving<S: Scene>(scene: &S) -> bool {
+    scene.kinks().any(|kink| !kink.is_timed)
 }
 
 impl<S: Scene, W> Motion<'_, S, W> {
@@ -60,24 +61,24 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Returns t, or at a kink of time a time next to it within the step.
     pub(super) fn beside(&self, t: S::Scalar) -> S::Scalar {
-        if has_timed::<S>() { beside(&*self.scene, t, self.is_after(t)) } else { t }
+        if has_timed(&*self.scene) { beside(&*self.scene, t, self.is_after(t)) } else { t }
     }
 
     /// The prescribed motion of each input.
     pub(super) fn prescribed(&self, t: S::Scalar) -> Column<Option<Prescribed<S::Scalar>>, S::V> {
-        if has_timed::<S>() { one_sided(&*self.scene, t, self.is_after(t)) } else { self.scene.prescribed(t) }
+        if has_timed(&*self.scene) { one_sided(&*self.scene, t, self.is_after(t)) } else { self.scene.prescribed(t) }
     }
 
     /// Returns y a little later if an expression of the state is zero there and moves away from it: the law is then that
     /// after its kink.
     pub(super) fn off_kinks(&self, t: S::Scalar, y: &StateColumn<S>) -> Option<StateColumn<S>> {
         let is_smooth = |y: &StateColumn<S>| {
-            let mut kinks = S::KINKS.iter().enumerate();
+            let mut kinks = self.scene.kinks().enumerate();
             kinks.all(|(place, kink)| {
                 kink.is_timed || self.kink_value(place, t, y).is_some_and(|value| !value.is_zero())
             })
         };
-        if !has_moving::<S>() || is_smooth(y) {
+        if !has_moving(&*self.scene) || is_smooth(y) {
             return None;
         }
         let ((q, rates), velocity) = (Self::unpack(y), self.velocity(y).ok()?);
@@ -127,20 +128,20 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 
     /// The change of a law at the time t itself: the motion continues after it.
-    pub(super) fn corner_at(&self, t: S::Scalar) -> Option<Corner<S::Scalar>> {
+    pub(super) fn corner_at(&self, t: S::Scalar) -> Option<CornerOf<S>> {
         self.next_corner(t, t).filter(|corner| corner.before == t)
     }
 
     /// The first change of a law of time between two times, or just after the second.
-    fn next_corner(&self, t: S::Scalar, end: S::Scalar) -> Option<Corner<S::Scalar>> {
+    fn next_corner(&self, t: S::Scalar, end: S::Scalar) -> Option<CornerOf<S>> {
         let is_forward = self.corners.is_forward;
         let is_ahead = |a: S::Scalar, b: S::Scalar| if is_forward { a <= b } else { a >= b };
         let found = self.corners.found;
         let mut first = found.filter(|corner| is_ahead(t, corner.before) && is_ahead(corner.before, end));
-        if !has_timed::<S>() {
+        if !has_timed(&*self.scene) {
             return first;
         }
-        let timed = S::KINKS.iter().enumerate().filter(|(_, kink)| kink.is_timed);
+        let timed = self.scene.kinks().enumerate().filter(|(_, kink)| kink.is_timed);
         for (place, Kink { effect, .. }) in timed {
             // A zero at the end shows its change of sign a little later; not at the end of the simulation.
             let little = self.resolution_of_time(t, end);
@@ -232,10 +233,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 
     /// The first kink of the state in a step, located to `enough`.
-    fn first_kink(&self, step: &Polynomial<S>, enough: f64) -> Result<Option<FirstKink>, MotionError> {
+    fn first_kink(&self, step: &Polynomial<S>, enough: f64) -> Result<Option<FirstKink<NameOf<S>>>, MotionErrorOf<S>> {
         let (from, to) = step.interval();
-        let mut first: Option<FirstKink> = None;
-        for place in (0..S::KINKS.len()).filter(|&place| !S::KINKS[place].is_timed) {
+        let mut first: Option<FirstKink<NameOf<S>>> = None;
+        let moving = self.scene.kinks().enumerate().filter(|(_, kink)| !kink.is_timed);
+        for (place, Kink { effect, .. }) in moving {
             let value = |part: f64| {
                 let value = self.kink_value(place, from + (to - from) * real(part), &step.at_fraction(real(part)));
                 value.map_or(0.0, to_f64)
@@ -276,8 +278,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 let along = |value: f64| value * f64::from(own);
                 let ends = [along(values[last]), along(values[part])];
                 let parts = [part_at(last), part_at(part)];
-                let at = first_not_positive::<f64, MotionError>(parts, ends, enough, |at| Ok(Some(along(value(at)))))?;
-                let found = FirstKink { at, place, sign: own };
+                let at =
+                    first_not_positive::<f64, MotionErrorOf<S>>(parts, ends, enough, |at| Ok(Some(along(value(at)))))?;
+                let found = FirstKink { at, place, effect, sign: own };
                 if first.as_ref().is_none_or(|first| found.at < first.at) {
                     first = Some(found);
                 }
@@ -290,9 +293,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The fraction of a step at which it must end because a kink of the state is within it.
     ///
     /// # Errors
-    /// [`MotionError::KinksWithoutEnd`].
-    pub(super) fn kink_within(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionError> {
-        if !has_moving::<S>() {
+    /// [`MotionError::KinksWithoutEnd`](crate::MotionError::KinksWithoutEnd).
+    pub(super) fn kink_within(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionErrorOf<S>> {
+        if !has_moving(&*self.scene) {
             return Ok(None);
         }
         let (from, to) = step.interval();
@@ -304,15 +307,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
             self.corners.passed = crossing;
             return Ok(None);
         }
-        let Some(FirstKink { at, place, sign }) = self.first_kink(step, 0.25 * at_kink)? else {
+        let Some(FirstKink { at, place, effect, sign }) = self.first_kink(step, 0.25 * at_kink)? else {
             return Ok(None);
         };
         if at > at_kink {
             self.corners.approached = Some((place, sign));
             return Ok(Some((at - 0.5 * at_kink).max(0.5 * at_kink)));
         }
-        let effect = S::KINKS[place].effect;
-        self.corners.note(S::NAME, effect, from)?;
+        self.corners.note(self.scene.name(), effect, from)?;
         self.corners.crossing = Some(effect);
         Ok(Some(1.5 * at_kink))
     }

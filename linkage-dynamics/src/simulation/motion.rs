@@ -9,20 +9,20 @@ use super::state::{State, Touch};
 use super::watch::Unwatched;
 use crate::contact::{Contacts, ReducedEquations};
 use crate::integrate::Interpolant;
-use crate::{Coordinates, MotionError, Scene, StateColumn, StateParts};
+use crate::{Coordinates, MotionErrorOf, NameOf, Scene, StateColumn, StateParts};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, smallest};
 use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Elimination, Iteration, Jacobian, ScalesOf, contract, correction};
-use linkage_runtime::{Build, Column, D, Dim, Mechanism, PerInput, Real, newton, real};
+use linkage_runtime::{Build, Column, D, Dim, Mechanism, Name, PerInput, Real, newton, real};
 
 /// The parametrisation of a scene.
 pub(super) type ParametrisationOf<S> = Parametrisation<<S as Scene>::Scalar, <S as Scene>::U, <S as Scene>::V>;
 /// The states of a scene within a step.
 pub(super) type Polynomial<S> = Interpolant<<S as Scene>::Scalar, <S as Scene>::State>;
 /// The equations of motion of a scene in independent coordinates.
-pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts>;
+pub(super) type Reduced<S> = ReducedEquations<<S as Scene>::Scalar, <S as Scene>::V, <S as Scene>::Contacts, NameOf<S>>;
 /// The pose of a scene's mechanism.
 type PoseOf<S> = <<S as Scene>::Mechanism as Mechanism>::Pose;
 /// A choice of coordinates other than the inputs, and the frame at a position.
@@ -64,17 +64,17 @@ pub struct Motion<'a, S: Scene, W> {
     pub(super) scales: ScalesOf<S::Mechanism>,
     pub(super) parametrisation: ParametrisationOf<S>,
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
-    pub(super) names: Column<&'static str, S::Contacts>,
+    pub(super) names: Column<NameOf<S>, S::Contacts>,
     /// The largest estimated errors of interpolated y' since they were last asked for.
     pub(super) uncertainty: Option<StateColumn<S>>,
-    pub(super) corners: Corners<S::Scalar>,
+    pub(super) corners: Corners<S::Scalar, NameOf<S>>,
 }
 
 impl<'a, S: Scene> Motion<'a, S, Unwatched> {
     /// Starts in the inputs, with all contacts open. The motion is from the first to the second time.
     pub(super) fn new(scene: Held<'a, S>, scales: ScalesOf<S::Mechanism>, [start, end]: [S::Scalar; 2]) -> Self {
         let count = scene.contact_count();
-        let (contacts, names) = (Contacts::open(count), count.repeat(""));
+        let (contacts, names) = (Contacts::open(count), count.repeat(Name::from_static("")));
         let (parametrisation, uncertainty, corners) = (Parametrisation::Inputs, None, Corners::new(start, end));
         Self { scene, watch: Unwatched, scales, parametrisation, contacts, names, uncertainty, corners }
     }
@@ -124,7 +124,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         &self,
         q: &Coordinates<S>,
         rates: &PerInput<S::Mechanism>,
-    ) -> Result<ChosenFrame<'_, S>, MotionError> {
+    ) -> Result<ChosenFrame<'_, S>, MotionErrorOf<S>> {
         match &self.parametrisation {
             Parametrisation::Inputs => Ok(None),
             Parametrisation::Others(independent) => {
@@ -152,7 +152,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     }
 
     /// u' and v'.
-    pub(super) fn velocity(&self, y: &StateColumn<S>) -> Result<Change<S>, MotionError> {
+    pub(super) fn velocity(&self, y: &StateColumn<S>) -> Result<Change<S>, MotionErrorOf<S>> {
         let (q, rates) = Self::unpack(y);
         let mechanism = self.scene.mechanism();
         match &self.parametrisation {
@@ -171,7 +171,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         &self,
         q: &Coordinates<S>,
         rates: &PerInput<S::Mechanism>,
-    ) -> Result<StateColumn<S>, MotionError> {
+    ) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         match &self.parametrisation {
             Parametrisation::Inputs => Ok(Self::pack(q, rates)),
             Parametrisation::Others(independent) => {
@@ -196,17 +196,19 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         }
     }
 
-    pub(super) fn state(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<State<S>, MotionError> {
+    pub(super) fn state(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<State<S>, MotionErrorOf<S>> {
         let (q, _) = Self::unpack(y);
         let Change::<S> { unknowns, inputs } = self.velocity(y)?;
-        all_finite(S::NAME, "the state", [t].iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter()))?;
+        let time = [t];
+        let all = time.iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter());
+        all_finite(self.scene.name(), Name::from_static("the state"), all)?;
         let rates = S::Mechanism::rates(unknowns, inputs);
         let touch = |place: usize| Touch { name: self.names[place], mode: self.contacts.modes[place], change: None };
         Ok(State { t, q, rates, event: None, kink: None, contacts: self.names.dim().column(touch) })
     }
 
     /// Projects y onto the constraints, with prescribed inputs set to their laws.
-    pub(super) fn projected(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+    pub(super) fn projected(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         let (mut q, mut rates) = Self::unpack(y);
         let laws = self.prescribed(t);
         let mut inputs = S::Mechanism::inputs(&q);
@@ -237,7 +239,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     }
 
     /// Projects `q` with the same inputs. Mostly one Newton step suffices.
-    fn projected_in_inputs(&self, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionError> {
+    fn projected_in_inputs(&self, q: &Coordinates<S>) -> Result<Coordinates<S>, MotionErrorOf<S>> {
         let mechanism = self.scene.mechanism();
         let enough = S::Scalar::default_epsilon().sqrt() * real(LAST_CORRECTION_SQRT_EPSILONS);
         let projected = self.newton_near(q, enough, |pose| {
@@ -253,7 +255,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         &self,
         independent: &Choice<S>,
         q: &Coordinates<S>,
-    ) -> Result<Coordinates<S>, MotionError> {
+    ) -> Result<Coordinates<S>, MotionErrorOf<S>> {
         let mechanism = self.scene.mechanism();
         let projected = self.newton_near(q, S::Scalar::zero(), |pose| {
             let factors = independent.factors(mechanism, pose, &self.scales);
@@ -269,8 +271,8 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         &self,
         q: &Coordinates<S>,
         enough: S::Scalar,
-        step: impl Fn(&PoseOf<S>) -> Result<Option<Change<S>>, MotionError>,
-    ) -> Result<Option<Coordinates<S>>, MotionError> {
+        step: impl Fn(&PoseOf<S>) -> Result<Option<Change<S>>, MotionErrorOf<S>>,
+    ) -> Result<Option<Coordinates<S>>, MotionErrorOf<S>> {
         let mechanism = self.scene.mechanism();
         let small = S::Scalar::default_epsilon().sqrt();
         let mut last = None;

@@ -4,7 +4,7 @@ use super::frame::{Change, Frame};
 use super::independent::{Choice, LEAST_PIVOT_RATIO};
 use super::motion::Motion;
 use super::sheet::{ABSCISSAE, Errors, Node, NodeOf, SheetOf};
-use crate::{Coordinates, MotionError, Scene, StateColumn};
+use crate::{Coordinates, MotionErrorOf, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::larger;
 use linkage_runtime::{Dim, Mechanism, PerInput, real};
@@ -110,7 +110,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         sheet: &SheetOf<S>,
         q: &Coordinates<S>,
         rates: &PerInput<S::Mechanism>,
-    ) -> Result<Frame<S>, MotionError> {
+    ) -> Result<Frame<S>, MotionErrorOf<S>> {
         let factors = self.factors(&sheet.independent, q);
         let pivots = factors.pivots();
         let has_signs = sheet.has_signs(&pivots);

@@ -5,12 +5,12 @@ use super::state::State;
 use super::watch::Watch;
 use crate::integrate::Method;
 use crate::scene::Loads;
-use crate::{MotionError, Scene};
+use crate::{MotionErrorOf, Scene};
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{InputError, real};
+use linkage_runtime::{InputError, Name, real};
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
-    pub(super) fn output(&mut self, t: S::Scalar) -> Result<Option<State<S>>, MotionError> {
+    pub(super) fn output(&mut self, t: S::Scalar) -> Result<Option<State<S>>, MotionErrorOf<S>> {
         let end = self.integration.end();
         let [earliest, _] = self.integration.reached();
         let is_forward = end >= earliest;
@@ -19,7 +19,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         if !(ahead >= 0.0 && behind >= 0.0) {
             let [a, b] = [earliest, end].map(to_f64);
             let (least, most) = if a < b { (a, b) } else { (b, a) };
-            let (quantity, value) = ("the output time", to_f64(t));
+            let (quantity, value) = (Name::from_static("the output time"), to_f64(t));
             return Err(InputError::OutOfRange { of: None, quantity, value, least, most }.into());
         }
         while if is_forward { t > self.state.t } else { t < self.state.t } {
@@ -71,7 +71,7 @@ where
 {
     /// Returns each state with the forces there, as [`Simulation::loads`] does. Where these cannot be computed the item
     /// is the error, and the next state follows.
-    pub fn with_loads(self) -> impl Iterator<Item = Result<(State<S>, Loads<S>), MotionError>> {
+    pub fn with_loads(self) -> impl Iterator<Item = Result<(State<S>, Loads<S>), MotionErrorOf<S>>> {
         let mut states = self;
         core::iter::from_fn(move || {
             let state = states.next()?;
@@ -87,7 +87,7 @@ where
     W: Watch<S>,
     I: Iterator<Item = S::Scalar>,
 {
-    type Item = Result<State<S>, MotionError>;
+    type Item = Result<State<S>, MotionErrorOf<S>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed {

@@ -12,7 +12,7 @@ use super::motion::{Motion, Parametrisation, ParametrisationOf};
 use super::sheet::Sheet;
 use super::watch::Watch;
 use crate::integrate::{Method, Tolerance};
-use crate::{MotionError, Scene, StateColumn};
+use crate::{MotionErrorOf, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{same_signs, to_f64};
 use linkage_runtime::jacobian::Blocks;
@@ -46,7 +46,7 @@ const LEAST_REGULARITY: f64 = 1e-7;
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     /// Looks for singularities ahead and chooses the coordinates of the next step.
-    pub(super) fn prepare(&mut self) -> Result<(), MotionError> {
+    pub(super) fn prepare(&mut self) -> Result<(), MotionErrorOf<S>> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let before = self.from.0;
         self.from = (t, y);
@@ -97,7 +97,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Prepares for a singularity of the inputs expected after `time`.
-    fn prepare_for_singularity(&mut self, time: f64) -> Result<(), MotionError> {
+    fn prepare_for_singularity(&mut self, time: f64) -> Result<(), MotionErrorOf<S>> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
@@ -140,7 +140,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Changes to other coordinates, those with the largest pivots.
-    pub(super) fn leave_inputs(&mut self) -> Result<(), MotionError> {
+    pub(super) fn leave_inputs(&mut self) -> Result<(), MotionErrorOf<S>> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
@@ -152,7 +152,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Stays on the sheet, moved to the current position: nodes are found from near ones.
-    fn go_on(&mut self) -> Result<(), MotionError> {
+    fn go_on(&mut self) -> Result<(), MotionErrorOf<S>> {
         let y = *self.integration.state();
         let motion = self.integration.system();
         let Parametrisation::Over(sheet) = &motion.parametrisation else { return Ok(()) };
@@ -179,7 +179,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Keeps the current coordinates, or changes to better ones.
-    fn stay(&mut self, mut independent: Choice<S>) -> Result<(), MotionError> {
+    fn stay(&mut self, mut independent: Choice<S>) -> Result<(), MotionErrorOf<S>> {
         self.steps_before_return = self.steps_before_return.saturating_sub(1);
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
@@ -202,7 +202,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     /// Goes on the sheet through a change point if one is near.
-    fn look_ahead(&mut self, independent: Choice<S>) -> Result<(), MotionError> {
+    fn look_ahead(&mut self, independent: Choice<S>) -> Result<(), MotionErrorOf<S>> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         match motion.change_point_ahead(&independent, &y, self.direction(), real(self.relative)) {

@@ -6,7 +6,7 @@ use super::start::Start;
 use super::state::State;
 use super::watch::Unwatched;
 use crate::integrate::{FixedStep, System};
-use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
+use crate::{Coordinates, Inputs, MotionErrorOf, NameOf, Scene, StateColumn};
 use linkage_runtime::__shared::same_signs;
 use linkage_runtime::jacobian::Scales;
 use linkage_runtime::{Column, D, Mechanism};
@@ -23,19 +23,20 @@ struct Projected<'a, S: Scene<Contacts = D<0>>>(Motion<'a, S, Unwatched>);
 
 impl<S: Scene<Contacts = D<0>>> System for Projected<'_, S> {
     type Scalar = S::Scalar;
+    type Name = NameOf<S>;
     type N = S::State;
     type Events = D<0>;
     type Guards = D<0>;
 
-    fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+    fn rate(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         self.0.scene.derivative(self.0.beside(t), y)
     }
 
-    fn events(&mut self, _: S::Scalar, _: &StateColumn<S>) -> Result<Column<S::Scalar, D<0>>, MotionError> {
+    fn events(&mut self, _: S::Scalar, _: &StateColumn<S>) -> Result<Column<S::Scalar, D<0>>, MotionErrorOf<S>> {
         Ok(Column::from([]))
     }
 
-    fn before_step(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionError> {
+    fn before_step(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionErrorOf<S>> {
         self.0.begin_step(t);
         self.0.projected_with_jumps(t, y).map(Some)
     }
@@ -51,7 +52,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
         scene: impl IntoHeldScene<'a, By, Of = S>,
         start: Start<S::Scalar, Coordinates<S>, impl Into<Inputs<S>>>,
         length: S::Scalar,
-    ) -> Result<Self, MotionError> {
+    ) -> Result<Self, MotionErrorOf<S>> {
         let (scene, Start { t, q, input_rates }) = (scene.into_held_scene(), start);
         let y = scene.start(t, &q, &input_rates.into())?;
         let scales = Scales::of(scene.mechanism(), &scene.mechanism().pose_at(&q));
@@ -70,7 +71,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
     /// # Errors
     /// [`PositionError::NotConverged`](linkage_runtime::PositionError::NotConverged) if the constraints cannot be
     /// satisfied, [`PositionError::Singular`](linkage_runtime::PositionError::Singular) where J is singular.
-    pub fn state(&self) -> Result<State<S>, MotionError> {
+    pub fn state(&self) -> Result<State<S>, MotionErrorOf<S>> {
         let (t, motion) = (self.t(), &self.steps.system().0);
         motion.state(t, &motion.projected_with_jumps(t, self.steps.state())?)
     }
@@ -80,7 +81,7 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
     /// # Errors
     /// Those of the scene, and [`PositionError::Singular`](linkage_runtime::PositionError::Singular) if the step passes
     /// a singularity; time and state then stay unchanged.
-    pub fn step(&mut self) -> Result<(), MotionError> {
+    pub fn step(&mut self) -> Result<(), MotionErrorOf<S>> {
         let before = *self.steps.state();
         self.steps.step()?;
         let motion = &self.steps.system().0;

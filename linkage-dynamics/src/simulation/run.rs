@@ -11,11 +11,11 @@ use super::state::State;
 use super::watch::{EventFunctions, Then, Unwatched, Watch};
 use crate::integrate::{Counts, Crossing, Integration, Method, Tolerance};
 use crate::scene::Loads;
-use crate::{Coordinates, Inputs, MotionError, Scene, StateColumn};
+use crate::{Coordinates, Inputs, MotionError, MotionErrorOf, NameOf, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Dim, InputError, Mechanism, real};
+use linkage_runtime::{Dim, InputError, Mechanism, Name, real};
 
 /// The safety factor of the step-size controller. The speed of a mechanism varies within each turn; with the usual 0.9
 /// every third step is rejected.
@@ -40,7 +40,7 @@ pub fn simulate<'a, S: Scene, By>(
     start: Start<S::Scalar, Coordinates<S>, impl Into<Inputs<S>>>,
     end: S::Scalar,
     tolerance: f64,
-) -> Result<Simulation<'a, S>, MotionError> {
+) -> Result<Simulation<'a, S>, MotionErrorOf<S>> {
     let (scene, Start { t, q: given, input_rates }) = (scene.into_held_scene(), start);
     let y = scene.start(t, &given, &input_rates.into()).map_err(|error| start_error(&*scene, &given, error))?;
     let q = S::parts(&y).q;
@@ -51,7 +51,7 @@ pub fn simulate<'a, S: Scene, By>(
     let begun = begin(&mut motion, (t, y), end);
     let Begun { y, frequency, state } = begun.map_err(|error| start_error(&*motion.scene, &given, error))?;
     let (contacts, scale) = (motion.contacts, scale_of(&motion, frequency));
-    let mut integration = Integration::new(motion, (t, y), end, Tolerance::new(tolerance, scale)?)?;
+    let mut integration = Integration::new(motion, (t, y), end, Tolerance::checked(tolerance, scale)?)?;
     integration.set_safety(SAFETY_IN_TURNS);
     Ok(Simulation {
         integration,
@@ -84,12 +84,12 @@ fn begin<S: Scene>(
     motion: &mut Motion<'_, S, Unwatched>,
     (t, y): (S::Scalar, StateColumn<S>),
     end: S::Scalar,
-) -> Result<Begun<S>, MotionError> {
+) -> Result<Begun<S>, MotionErrorOf<S>> {
     let y = motion.off_kinks(t, &y).filter(|_| motion.scene.derivative(motion.beside(t), &y).is_err()).unwrap_or(y);
     if motion.names.dim().count() > 0 && end < t {
         let contacts = motion.contacts_alone(t, &y)?.contacts;
-        let contact = contacts.iter().next().map(|contact| contact.name).unwrap_or_default();
-        return Err(MotionError::Irreversible { scene: S::NAME, contact });
+        let contact = contacts.iter().next().map_or_else(|| Name::from_static(""), |contact| contact.name);
+        return Err(MotionError::Irreversible { scene: motion.scene.name(), contact });
     }
     let y = if motion.names.dim().count() > 0 { motion.begin(t, &y)? } else { y };
     let velocity = motion.velocity(&y)?;
@@ -108,7 +108,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     ///
     /// # Errors
     /// Those of [`simulate`]; after it has succeeded there are none.
-    pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, M2, W>, MotionError> {
+    pub fn method<M2: Method>(self) -> Result<Simulation<'a, S, M2, W>, MotionErrorOf<S>> {
         self.with(|motion| motion)
     }
 
@@ -122,10 +122,10 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
         crossings: [Crossing; K],
         values: F,
         action: A,
-    ) -> Result<Simulation<'a, S, M, EventFunctions<F, A, K>>, MotionError>
+    ) -> Result<Simulation<'a, S, M, EventFunctions<F, A, K>>, MotionErrorOf<S>>
     where
-        F: FnMut(&State<S>) -> Result<[S::Scalar; K], MotionError>,
-        A: FnMut(usize, &State<S>) -> Result<Then<Inputs<S>>, MotionError>,
+        F: FnMut(&State<S>) -> Result<[S::Scalar; K], MotionErrorOf<S>>,
+        A: FnMut(usize, &State<S>) -> Result<Then<Inputs<S>>, MotionErrorOf<S>>,
     {
         self.with(|motion| motion.watched(EventFunctions { crossings, values, action }))
     }
@@ -133,7 +133,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     fn with<M2: Method, W2: Watch<S>>(
         self,
         motion: impl FnOnce(Motion<'a, S, W>) -> Motion<'a, S, W2>,
-    ) -> Result<Simulation<'a, S, M2, W2>, MotionError> {
+    ) -> Result<Simulation<'a, S, M2, W2>, MotionErrorOf<S>> {
         Ok(Simulation {
             integration: self.integration.with(motion)?,
             relative: self.relative,
@@ -164,7 +164,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
-    pub fn largest_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
+    pub fn largest_step(mut self, length: S::Scalar) -> Result<Self, InputError<NameOf<S>>> {
         self.integration = self.integration.largest_step(length)?;
         Ok(self)
     }
@@ -173,7 +173,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     ///
     /// # Errors
     /// [`InputError::OutOfRange`] if it is not positive and finite.
-    pub fn first_step(mut self, length: S::Scalar) -> Result<Self, InputError> {
+    pub fn first_step(mut self, length: S::Scalar) -> Result<Self, InputError<NameOf<S>>> {
         self.integration = self.integration.first_step(length)?;
         Ok(self)
     }
@@ -210,7 +210,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// # Errors
     /// Those of the equations of motion, and [`MotionError::UndeterminedReactions`] next to a change point if the scene
     /// has forces in joints.
-    pub fn loads(&self) -> Result<Loads<S>, MotionError> {
+    pub fn loads(&self) -> Result<Loads<S>, MotionErrorOf<S>> {
         let motion = self.integration.system();
         if let Some((t, y)) = self.output {
             return motion.loads(&self.contacts, t, &y);
@@ -249,7 +249,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     ///
     /// # Errors
     /// Those of [`advance`](Self::advance).
-    pub fn finish(&mut self, mut watch: impl FnMut(&State<S>, f64) -> bool) -> Result<(), MotionError> {
+    pub fn finish(&mut self, mut watch: impl FnMut(&State<S>, f64) -> bool) -> Result<(), MotionErrorOf<S>> {
         while let Some(state) = self.advance()? {
             if !watch(&state, self.progress()) {
                 break;
@@ -265,7 +265,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// [`PositionError::Singular`](linkage_runtime::PositionError::Singular) and
     /// [`MotionError::ChangePoint`] where the motion cannot be followed, and those of [`Integration::advance`]. After
     /// an error the simulation has ended.
-    pub fn advance(&mut self) -> Result<Option<State<S>>, MotionError> {
+    pub fn advance(&mut self) -> Result<Option<State<S>>, MotionErrorOf<S>> {
         let before = self.state.t;
         while let Some(has_changed) = self.advance_within()? {
             // Also at an event that changes nothing: the motion restarts there, and no state before it remains.
@@ -277,7 +277,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     }
 
     /// Does the same, and returns false at an event that changes nothing.
-    pub(super) fn advance_within(&mut self) -> Result<Option<bool>, MotionError> {
+    pub(super) fn advance_within(&mut self) -> Result<Option<bool>, MotionErrorOf<S>> {
         self.output = None;
         if self.is_over || (self.failure.is_none() && self.integration.is_over()) {
             return Ok(None);
@@ -289,7 +289,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
 }
 
 impl<S: Scene, M: Method, W: Watch<S>> Iterator for Simulation<'_, S, M, W> {
-    type Item = Result<State<S>, MotionError>;
+    type Item = Result<State<S>, MotionErrorOf<S>>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()

@@ -5,8 +5,7 @@ use super::scales::{resolution as resolution_of, resolution_by_inputs};
 use crate::contact::{Change, Contact, ContactReview, Contacts, ReducedContact, ReducedEquations, changes};
 use crate::integrate::Guard;
 use crate::scene::Loads;
-use crate::scene::coordinate_name;
-use crate::{Accelerations, Equations, Mode, MotionError, Scene, StateColumn};
+use crate::{Accelerations, Equations, Mode, MotionErrorOf, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::{Build, Column, Dim, Mechanism, PerInput};
 
@@ -30,8 +29,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// M, Q and the contacts in the current coordinates.
     ///
     /// # Errors
-    /// [`MotionError::ChangePoint`] if [J A] is nearly singular and the position is on no known sheet.
-    fn equations(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
+    /// [`MotionError::ChangePoint`](crate::MotionError::ChangePoint) if [J A] is nearly singular and the position is on no known sheet.
+    fn equations(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionErrorOf<S>> {
         let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         match self.frame(&q, &rates)? {
@@ -42,7 +41,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// The contacts with s and s' only, in the rates of all inputs, those of u as drift: no equations of motion are
     /// needed.
-    pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionError> {
+    pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionErrorOf<S>> {
         let t = self.beside(t);
         let (q, _) = Self::unpack(y);
         let velocity = self.velocity(y)?;
@@ -55,11 +54,11 @@ impl<S: Scene, W> Motion<'_, S, W> {
             bias: S::Scalar::zero(),
             law: contact.law,
         });
-        let (u, v) = self.dims();
-        let coordinates = v.column(|input| coordinate_name::<S::Mechanism>(u.count() + input));
+        let (_, v) = self.dims();
+        let coordinates = v.column(|input| self.scene.mechanism().input_name(input));
         let (mass, forces) = (v.identity(), v.zeros());
         let (rates, bearings) = (velocity.inputs, contacts.dim().repeat(None));
-        Ok(ReducedEquations { scene: S::NAME, coordinates, mass, forces, rates, contacts, bearings })
+        Ok(ReducedEquations { scene: self.scene.name(), coordinates, mass, forces, rates, contacts, bearings })
     }
 
     /// The event functions of the contacts, at the projected state.
@@ -67,7 +66,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         &self,
         t: S::Scalar,
         y: &StateColumn<S>,
-    ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionError> {
+    ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionErrorOf<S>> {
         // If the projection fails, y itself is used: a step in the inputs may have left the range in which the
         // mechanism can be assembled, and will be repeated.
         let y = self.projected(t, y).unwrap_or(*y);
@@ -77,7 +76,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 
     /// The rounding error of each s.
-    fn resolution(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<PerContact<S>, MotionError> {
+    fn resolution(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<PerContact<S>, MotionErrorOf<S>> {
         let (q, _) = Self::unpack(y);
         let velocity = self.velocity(y)?;
         let contacts = self.scene.contacts(t, &q, &S::Mechanism::rates(velocity.unknowns, velocity.inputs))?;
@@ -94,7 +93,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 
     /// Finds the modes at the start; returns y with the rates after any impact.
-    pub(super) fn begin(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionError> {
+    pub(super) fn begin(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         let (q, rates) = Self::unpack(y);
         let mut contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
@@ -105,22 +104,31 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 
     /// Applies a contact event at this state; returns y after it and the change of each contact.
-    pub(super) fn settled(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
+    pub(super) fn settled(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionErrorOf<S>> {
         self.changed(t, y, Settling::AtEvent)
     }
 
     /// Applies one impact without rebound to all stops that are touched.
-    pub(super) fn settled_together(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
+    pub(super) fn settled_together(
+        &mut self,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+    ) -> Result<Changed<S>, MotionErrorOf<S>> {
         self.changed(t, y, Settling::Together)
     }
 
     /// Updates the modes after the rates have changed to those of y.
-    pub(super) fn resumed(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionError> {
+    pub(super) fn resumed(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<Changed<S>, MotionErrorOf<S>> {
         self.changed(t, y, Settling::NewRates)
     }
 
     /// Settles the contacts at y.
-    fn changed(&mut self, t: S::Scalar, y: &StateColumn<S>, settling: Settling) -> Result<Changed<S>, MotionError> {
+    fn changed(
+        &mut self,
+        t: S::Scalar,
+        y: &StateColumn<S>,
+        settling: Settling,
+    ) -> Result<Changed<S>, MotionErrorOf<S>> {
         if self.names.dim().count() == 0 {
             return Ok((*y, self.names.dim().repeat(None)));
         }
@@ -150,7 +158,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         contacts: &Contacts<S::Scalar, S::Contacts>,
         t: S::Scalar,
         y: &StateColumn<S>,
-    ) -> Result<(StateColumn<S>, bool), MotionError> {
+    ) -> Result<(StateColumn<S>, bool), MotionErrorOf<S>> {
         if self.names.dim().count() == 0 {
             return Ok((*y, true));
         }
@@ -171,7 +179,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         t: S::Scalar,
         y: &StateColumn<S>,
         most: S::Scalar,
-    ) -> Result<StateColumn<S>, MotionError> {
+    ) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         if !contacts.has_stops() {
             return Ok(*y);
         }
@@ -191,7 +199,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         contacts: &Contacts<S::Scalar, S::Contacts>,
         t: S::Scalar,
         y: &StateColumn<S>,
-    ) -> Result<Loads<S>, MotionError> {
+    ) -> Result<Loads<S>, MotionErrorOf<S>> {
         let t = self.beside(t);
         let (q, rates) = Self::unpack(y);
         let (free, places) = match self.frame(&q, &rates)? {
@@ -213,7 +221,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let velocity = self.velocity(y)?;
         let rates = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let accelerations = self.accelerations(t, y, &motion.acceleration)?;
-        if size_of::<S::Reactions>() > 0 && self.is_next_to_change_point(&q) {
+        if self.scene.joints().next().is_some() && self.is_next_to_change_point(&q) {
             return Err(self.no_reactions_error(&q));
         }
         let joints = self.scene.reactions(t, &q, &rates, &accelerations, &motion.forces)?;
@@ -234,7 +242,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         t: S::Scalar,
         y: &StateColumn<S>,
         free: &PerInput<S::Mechanism>,
-    ) -> Result<Accelerations<S>, MotionError> {
+    ) -> Result<Accelerations<S>, MotionErrorOf<S>> {
         let (q, free_rates) = Self::unpack(y);
         let Some((_, frame)) = self.frame(&q, &free_rates)? else {
             let Equations { ratios, bias, .. } = self.scene.equations(t, y)?;

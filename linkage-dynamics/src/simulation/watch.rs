@@ -2,7 +2,7 @@
 
 use super::state::State;
 use crate::integrate::Crossing;
-use crate::{Inputs, MotionError, Scene};
+use crate::{Inputs, MotionErrorOf, Scene};
 use linkage_runtime::{Column, D, Dim};
 
 /// The action at an event of a simulation.
@@ -25,14 +25,14 @@ pub trait Watch<S: Scene> {
     ///
     /// # Errors
     /// If they cannot be computed; the simulation then ends.
-    fn values(&mut self, state: &State<S>) -> Result<Column<S::Scalar, Self::Events>, MotionError>;
+    fn values(&mut self, state: &State<S>) -> Result<Column<S::Scalar, Self::Events>, MotionErrorOf<S>>;
     /// The direction in which each must pass through zero.
     fn crossings(&self) -> Column<Crossing, Self::Events>;
     /// The action at an event.
     ///
     /// # Errors
     /// Any error ends the simulation.
-    fn at_event(&mut self, event: usize, state: &State<S>) -> Result<Then<Inputs<S>>, MotionError>;
+    fn at_event(&mut self, event: usize, state: &State<S>) -> Result<Then<Inputs<S>>, MotionErrorOf<S>>;
 }
 
 /// No events.
@@ -42,7 +42,7 @@ pub struct Unwatched;
 impl<S: Scene> Watch<S> for Unwatched {
     type Events = D<0>;
 
-    fn values(&mut self, _: &State<S>) -> Result<Column<S::Scalar, D<0>>, MotionError> {
+    fn values(&mut self, _: &State<S>) -> Result<Column<S::Scalar, D<0>>, MotionErrorOf<S>> {
         Ok(Column::from([]))
     }
 
@@ -50,7 +50,7 @@ impl<S: Scene> Watch<S> for Unwatched {
         Column::from([])
     }
 
-    fn at_event(&mut self, _: usize, _: &State<S>) -> Result<Then<Inputs<S>>, MotionError> {
+    fn at_event(&mut self, _: usize, _: &State<S>) -> Result<Then<Inputs<S>>, MotionErrorOf<S>> {
         Ok(Then::GoOn)
     }
 }
@@ -66,12 +66,12 @@ pub struct EventFunctions<F, A, const K: usize> {
 impl<S, F, A, const K: usize> Watch<S> for EventFunctions<F, A, K>
 where
     S: Scene,
-    F: FnMut(&State<S>) -> Result<[S::Scalar; K], MotionError>,
-    A: FnMut(usize, &State<S>) -> Result<Then<Inputs<S>>, MotionError>,
+    F: FnMut(&State<S>) -> Result<[S::Scalar; K], MotionErrorOf<S>>,
+    A: FnMut(usize, &State<S>) -> Result<Then<Inputs<S>>, MotionErrorOf<S>>,
 {
     type Events = D<K>;
 
-    fn values(&mut self, state: &State<S>) -> Result<Column<S::Scalar, D<K>>, MotionError> {
+    fn values(&mut self, state: &State<S>) -> Result<Column<S::Scalar, D<K>>, MotionErrorOf<S>> {
         (self.values)(state).map(Column::from)
     }
 
@@ -79,7 +79,7 @@ where
         Column::from(self.crossings)
     }
 
-    fn at_event(&mut self, event: usize, state: &State<S>) -> Result<Then<Inputs<S>>, MotionError> {
+    fn at_event(&mut self, event: usize, state: &State<S>) -> Result<Then<Inputs<S>>, MotionErrorOf<S>> {
         (self.action)(event, state)
     }
 }

@@ -32,7 +32,7 @@ pub trait Name: Clone + Debug + Display + PartialEq {
 }
 
 /// A name that is borrowed, with the list of the groups of its mechanism: the names of mechanisms, where their algorithms run.
-pub trait BorrowedName: Name<List: Copy> + Copy {
+pub trait BorrowedName: Name<List: Copy> + Copy + AsRef<str> {
     /// The groups of a mechanism.
     type Groups: Copy;
 

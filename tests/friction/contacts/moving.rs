@@ -36,6 +36,7 @@ impl<'a, S: Scene<Scalar = f64>> Moving<'a, S> {
 
 impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
     type Scalar = f64;
+    type Name = &'static str;
     type N = S::State;
     type Events = S::Contacts;
     type Guards = D<0>;

@@ -17,7 +17,7 @@ use super::search::Cell;
 use crate::contact::bounded::{Bounds, bounded};
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 /// The limit on updates of the limits. Each divides their error by about 1 / (friction coefficient).
 const MOST_UPDATES: usize = 40;
@@ -37,14 +37,14 @@ pub(super) enum Existence<T: Real, C: Dim> {
 }
 
 /// A held motion: the contacts in their modes, and the family of forces.
-pub(super) struct HeldForces<'a, T: Real, V: Dim, C: Dim> {
-    pub problem: &'a Problem<'a, T, V, C>,
+pub(super) struct HeldForces<'a, T: Real, V: Dim, C: Dim, N: BorrowedName> {
+    pub problem: &'a Problem<'a, T, V, C, N>,
     pub modes: &'a Column<Mode, C>,
     /// The contacts whose forces have bounds.
     pub is_bounded: Column<bool, C>,
 }
 
-impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
+impl<T: Real, V: Dim, C: Dim, N: BorrowedName> HeldForces<'_, T, V, C, N> {
     /// Searches a family for forces within all bounds.
     pub(super) fn admissible(&self, family: &Family<T, C>, budget: &mut Budget) -> Existence<T, C> {
         if self.is_admissible(&family.base) {

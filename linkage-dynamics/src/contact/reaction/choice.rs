@@ -18,7 +18,7 @@ use super::problem::Problem;
 use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::__shared::Ranked;
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 /// The most combinations that are enumerated: eight frictions at rest. With more contacts at rest one motion is
 /// searched for, by the active-set method with limits that are updated until they repeat; that there is no other is not
@@ -39,8 +39,8 @@ struct Found<T: Real, V: Dim, C: Dim> {
 }
 
 /// The combinations of modes.
-struct Enumeration<'a, T: Real, V: Dim, C: Dim> {
-    problem: &'a Problem<'a, T, V, C>,
+struct Enumeration<'a, T: Real, V: Dim, C: Dim, N: BorrowedName> {
+    problem: &'a Problem<'a, T, V, C, N>,
     /// The mode in which each contact at rest would be held.
     at_rest: &'a Column<Option<Mode>, C>,
     found: Option<Found<T, V, C>>,
@@ -53,11 +53,11 @@ struct Enumeration<'a, T: Real, V: Dim, C: Dim> {
 }
 
 /// Finds the modes of the contacts at rest. `modes` has those of the others.
-pub(super) fn choose<T: Real, V: Dim, C: Dim>(
-    problem: &Problem<'_, T, V, C>,
+pub(super) fn choose<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    problem: &Problem<'_, T, V, C, N>,
     modes: &Column<Mode, C>,
     at_rest: &Column<Option<Mode>, C>,
-) -> Result<Column<Mode, C>, Failure> {
+) -> Result<Column<Mode, C>, Failure<N>> {
     let options = at_rest.iter().flatten().map(|side| options(*side).len());
     let combinations = options.fold(1_usize, usize::saturating_mul);
     if combinations > MOST_COMBINATIONS {
@@ -95,9 +95,9 @@ fn options(side: Mode) -> &'static [Mode] {
     }
 }
 
-impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
+impl<T: Real, V: Dim, C: Dim, N: BorrowedName> Enumeration<'_, T, V, C, N> {
     /// Visits all modes of the contacts from `place` on.
-    fn visit(&mut self, place: usize, modes: &mut Column<Mode, C>) -> Result<(), Failure> {
+    fn visit(&mut self, place: usize, modes: &mut Column<Mode, C>) -> Result<(), Failure<N>> {
         if place == self.at_rest.dim().count() {
             return self.examine(modes);
         }
@@ -110,7 +110,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
     }
 
     /// Adds the motions in these modes.
-    fn examine(&mut self, modes: &Column<Mode, C>) -> Result<(), Failure> {
+    fn examine(&mut self, modes: &Column<Mode, C>) -> Result<(), Failure<N>> {
         let problem = self.problem;
         let family = Family::new(problem, modes);
         if !family.is_consistent || (family.spares > 0) != self.is_redundant || problem.is_beyond_reach(modes) {
@@ -143,7 +143,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
     }
 
     /// Modes in which the reaction of a slipping bearing depends on the forces of redundant contacts.
-    fn examine_coupled(&mut self, modes: &Column<Mode, C>, family: &Family<T, C>) -> Result<(), Failure> {
+    fn examine_coupled(&mut self, modes: &Column<Mode, C>, family: &Family<T, C>) -> Result<(), Failure<N>> {
         let problem = self.problem;
         let is_still = family.is_still(problem);
         let (acceleration, size) = problem.acceleration(&family.base);
@@ -231,7 +231,7 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
     }
 
     /// Adds a motion; of equal ones, that with the most held contacts stays.
-    fn add(&mut self, found: Found<T, V, C>) -> Result<(), Failure> {
+    fn add(&mut self, found: Found<T, V, C>) -> Result<(), Failure<N>> {
         let held = |found: &Found<T, V, C>| found.modes.iter().filter(|mode| mode.is_held()).count();
         match &self.found {
             Some(known) if !self.is_known(&found) => {
@@ -252,8 +252,8 @@ impl<T: Real, V: Dim, C: Dim> Enumeration<'_, T, V, C> {
 }
 
 /// One motion, by the active-set method with limits that are updated until they repeat.
-fn by_updates<T: Real, V: Dim, C: Dim>(
-    problem: &Problem<'_, T, V, C>,
+fn by_updates<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    problem: &Problem<'_, T, V, C, N>,
     modes: &Column<Mode, C>,
     at_rest: &Column<Option<Mode>, C>,
 ) -> Option<Column<Mode, C>> {

@@ -8,7 +8,7 @@ use super::slip::Slips;
 use crate::contact::tolerance::held_tolerance;
 use crate::contact::{ContactLaw, Mode};
 use linkage_runtime::__shared::Ranked;
-use linkage_runtime::{Build, Column, Dim, Real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real};
 
 /// The contact forces in given modes, as an affine function of the x.
 #[derive(Debug, Clone, Copy)]
@@ -25,7 +25,7 @@ pub(super) struct Family<T: Real, C: Dim> {
 }
 
 impl<T: Real, C: Dim> Family<T, C> {
-    pub(super) fn new<V: Dim>(problem: &Problem<'_, T, V, C>, modes: &Column<Mode, C>) -> Self {
+    pub(super) fn new<V: Dim, N: BorrowedName>(problem: &Problem<'_, T, V, C, N>, modes: &Column<Mode, C>) -> Self {
         let matrix = &problem.response.matrix;
         let c = modes.dim();
         let (mut order, mut count) = (c.repeat(0), 0);
@@ -103,7 +103,7 @@ impl<T: Real, C: Dim> Family<T, C> {
     }
 
     /// The equations for the magnitudes of the slipping forces, at zero forces of the redundant contacts.
-    pub(super) fn slips<V: Dim>(&self, problem: &Problem<'_, T, V, C>) -> Slips<T, C> {
+    pub(super) fn slips<V: Dim, N: BorrowedName>(&self, problem: &Problem<'_, T, V, C, N>) -> Slips<T, C> {
         let mut slips = Slips::none(self.base.dim());
         slips.count = self.slips;
         for row in 0..self.slips {
@@ -118,7 +118,7 @@ impl<T: Real, C: Dim> Family<T, C> {
     }
 
     /// True if the reaction of a slipping bearing depends on the forces of redundant contacts.
-    pub(super) fn is_coupled<V: Dim>(&self, problem: &Problem<'_, T, V, C>) -> bool {
+    pub(super) fn is_coupled<V: Dim, N: BorrowedName>(&self, problem: &Problem<'_, T, V, C, N>) -> bool {
         let spare = &self.columns.as_slice()[self.slips..self.slips + self.spares];
         self.slipping.iter().take(self.slips).filter_map(|&place| problem.reactions[place].as_ref()).any(|reaction| {
             !reaction.factor.is_zero()
@@ -132,7 +132,7 @@ impl<T: Real, C: Dim> Family<T, C> {
     }
 
     /// True if no x changes the accelerations.
-    pub(super) fn is_still<V: Dim>(&self, problem: &Problem<'_, T, V, C>) -> bool {
+    pub(super) fn is_still<V: Dim, N: BorrowedName>(&self, problem: &Problem<'_, T, V, C, N>) -> bool {
         self.columns.iter().take(self.slips + self.spares).all(|column| {
             (0..problem.response.acceleration.dim().count()).all(|row| {
                 let terms = problem.response.columns.row(row).component_mul(column);

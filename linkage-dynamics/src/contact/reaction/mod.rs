@@ -24,7 +24,7 @@ use super::motion::ContactMotion;
 use super::tolerance::held_tolerance;
 use super::{Mode, ReducedEquations};
 use crate::MotionError;
-use linkage_runtime::{Build, Column, Dim, Real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real};
 use modes::{InModes, in_modes, limits_in};
 use problem::Problem;
 
@@ -33,11 +33,11 @@ use problem::Problem;
 /// # Errors
 /// [`MotionError::NoMotion`], [`MotionError::SeveralMotions`], [`MotionError::UndecidedMotion`]; those of the mass
 /// matrix.
-pub(super) fn choose<T: Real, V: Dim, C: Dim>(
-    equations: &ReducedEquations<T, V, C>,
+pub(super) fn choose<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    equations: &ReducedEquations<T, V, C, N>,
     modes: &Column<Mode, C>,
     at_rest: &Column<Option<Mode>, C>,
-) -> Result<Column<Mode, C>, MotionError> {
+) -> Result<Column<Mode, C>, MotionError<N>> {
     let problem = Problem::new(equations)?;
     choice::choose(&problem, modes, at_rest).map_err(|failure| failure.of(equations.scene))
 }
@@ -46,10 +46,10 @@ pub(super) fn choose<T: Real, V: Dim, C: Dim>(
 ///
 /// # Errors
 /// Those of [`choose`].
-pub(super) fn motion<T: Real, V: Dim, C: Dim>(
-    equations: &ReducedEquations<T, V, C>,
+pub(super) fn motion<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    equations: &ReducedEquations<T, V, C, N>,
     modes: &Column<Mode, C>,
-) -> Result<ContactMotion<T, V, C>, MotionError> {
+) -> Result<ContactMotion<T, V, C>, MotionError<N>> {
     let problem = Problem::new(equations)?;
     let InModes { forces, are_unique, .. } =
         in_modes(&problem, modes).map_err(|failure| failure.of(equations.scene))?;
@@ -66,10 +66,10 @@ pub(super) fn motion<T: Real, V: Dim, C: Dim>(
 ///
 /// # Errors
 /// Those of [`choose`].
-pub(super) fn margins<T: Real, V: Dim, C: Dim>(
-    equations: &ReducedEquations<T, V, C>,
+pub(super) fn margins<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    equations: &ReducedEquations<T, V, C, N>,
     modes: &Column<Mode, C>,
-) -> Result<Column<T, C>, MotionError> {
+) -> Result<Column<T, C>, MotionError<N>> {
     let problem = Problem::new(equations)?;
     let found = in_modes(&problem, modes).map_err(|failure| failure.of(equations.scene))?;
     let forces = &found.forces;

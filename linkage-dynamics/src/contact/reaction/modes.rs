@@ -8,7 +8,7 @@ use crate::MotionError;
 use crate::contact::motion::nearer;
 use crate::contact::tolerance::{is_negligible, sum_tolerance};
 use crate::contact::{ContactLaw, Mode};
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 /// The limit on updates of slipping forces that depend on the forces of redundant contacts.
 const MOST_UPDATES: usize = 40;
@@ -18,14 +18,14 @@ const SAMPLES: [f64; 12] = [0.0, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0, 2.0, 5.0, 20.0, 
 
 /// The reason why no motion is chosen, with the name of a contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Failure {
-    NoMotion(&'static str),
-    Several(&'static str),
-    Undecided(&'static str),
+pub(super) enum Failure<N> {
+    NoMotion(N),
+    Several(N),
+    Undecided(N),
 }
 
-impl Failure {
-    pub(super) fn of(self, scene: &'static str) -> MotionError {
+impl<N: BorrowedName> Failure<N> {
+    pub(super) fn of(self, scene: N) -> MotionError<N> {
         match self {
             Self::NoMotion(contact) => MotionError::NoMotion { scene, contact, t: None },
             Self::Several(contact) => MotionError::SeveralMotions { scene, contact, t: None },
@@ -47,8 +47,8 @@ pub(super) struct InModes<T: Real, C: Dim> {
 
 /// The limits in the motion that begins with these rates of the held contacts; None if none begins so. `otherwise` has
 /// the forces to take where they are not unique.
-pub(super) fn limits_in<T: Real, V: Dim, C: Dim>(
-    problem: &Problem<'_, T, V, C>,
+pub(super) fn limits_in<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    problem: &Problem<'_, T, V, C, N>,
     modes: &Column<Mode, C>,
     rates: &Column<T, C>,
     otherwise: &Column<T, C>,
@@ -72,10 +72,10 @@ pub(super) fn limits_in<T: Real, V: Dim, C: Dim>(
     Some(modes.dim().column(|place| problem.limit(place, &forces)))
 }
 
-pub(super) fn in_modes<T: Real, V: Dim, C: Dim>(
-    problem: &Problem<'_, T, V, C>,
+pub(super) fn in_modes<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    problem: &Problem<'_, T, V, C, N>,
     modes: &Column<Mode, C>,
-) -> Result<InModes<T, C>, Failure> {
+) -> Result<InModes<T, C>, Failure<N>> {
     let mut budget = Budget::new();
     let family = Family::new(problem, modes);
     let held = HeldForces { problem, modes, is_bounded: modes.map(Mode::is_held) };
@@ -124,8 +124,8 @@ pub(super) fn in_modes<T: Real, V: Dim, C: Dim>(
 }
 
 /// True if the contacts that slip with s' = 0 accelerate in their direction, and open stops that s touches away from them.
-fn departs<T: Real, V: Dim, C: Dim>(
-    problem: &Problem<'_, T, V, C>,
+fn departs<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    problem: &Problem<'_, T, V, C, N>,
     modes: &Column<Mode, C>,
     forces: &Column<T, C>,
 ) -> bool {
@@ -146,8 +146,8 @@ fn departs<T: Real, V: Dim, C: Dim>(
 }
 
 /// The bearings that slip in these modes.
-pub(super) fn slipping_within<T: Real, V: Dim, C: Dim>(
-    problem: &Problem<'_, T, V, C>,
+pub(super) fn slipping_within<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    problem: &Problem<'_, T, V, C, N>,
     modes: &Column<Mode, C>,
 ) -> Column<bool, C> {
     modes.dim().column(|place| {
@@ -158,8 +158,8 @@ pub(super) fn slipping_within<T: Real, V: Dim, C: Dim>(
 
 /// Forces within their bounds where the slipping forces depend on those of redundant contacts: both are updated until
 /// they repeat, or some samples are tried.
-pub(super) fn in_family<T: Real, V: Dim, C: Dim>(
-    held: &HeldForces<'_, T, V, C>,
+pub(super) fn in_family<T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    held: &HeldForces<'_, T, V, C, N>,
     family: &Family<T, C>,
     budget: &mut Budget,
 ) -> Option<Column<T, C>> {
@@ -182,8 +182,8 @@ pub(super) fn in_family<T: Real, V: Dim, C: Dim>(
 }
 
 /// Forces within their bounds at some forces of the redundant contacts, each alone.
-pub(super) fn samples<'a, T: Real, V: Dim, C: Dim>(
-    held: &'a HeldForces<'_, T, V, C>,
+pub(super) fn samples<'a, T: Real, V: Dim, C: Dim, N: BorrowedName>(
+    held: &'a HeldForces<'_, T, V, C, N>,
     family: &'a Family<T, C>,
     budget: &'a mut Budget,
 ) -> impl Iterator<Item = Column<T, C>> + 'a {

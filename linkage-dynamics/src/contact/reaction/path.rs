@@ -13,14 +13,14 @@ use super::problem::length;
 use crate::contact::Mode;
 use crate::contact::tolerance::held_tolerance;
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Build, Column, Dim, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
 /// The limit on iterations for the forces at one point of the path, and on bisections.
 const MOST_ITERATIONS: usize = 500;
 
 /// The path of the forces of all held contacts.
-struct Path<'a, T: Real, V: Dim, C: Dim> {
-    held: &'a HeldForces<'a, T, V, C>,
+struct Path<'a, T: Real, V: Dim, C: Dim, N: BorrowedName> {
+    held: &'a HeldForces<'a, T, V, C, N>,
     /// The contact whose s is the motion.
     pivot: usize,
     /// a, zero for contacts that are not held.
@@ -29,7 +29,7 @@ struct Path<'a, T: Real, V: Dim, C: Dim> {
     moving: Column<T, C>,
 }
 
-impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
+impl<T: Real, V: Dim, C: Dim, N: BorrowedName> HeldForces<'_, T, V, C, N> {
     /// Decides whether frictions of one motion hold; None if this needs a search. `start` has the forces of the other
     /// contacts.
     pub(super) fn on_path(&self, start: &Column<T, C>) -> Option<Existence<T, C>> {
@@ -67,7 +67,7 @@ impl<T: Real, V: Dim, C: Dim> HeldForces<'_, T, V, C> {
     }
 }
 
-impl<T: Real, V: Dim, C: Dim> Path<'_, T, V, C> {
+impl<T: Real, V: Dim, C: Dim, N: BorrowedName> Path<'_, T, V, C, N> {
     /// The forces at which `s'' = 0`, or None if the contacts slip; no answer if an iteration does not end.
     fn zero(&self) -> Option<Option<Column<T, C>>> {
         let problem = self.held.problem;

@@ -5,7 +5,7 @@ use crate::contact::held::{Response, slipping};
 use crate::contact::tolerance::{held_tolerance, sum_tolerance};
 use crate::contact::{ContactLaw, Mode, ReducedEquations};
 use linkage_runtime::__shared::contraction;
-use linkage_runtime::{Build, Column, Dim, PositionError, Real, real};
+use linkage_runtime::{BorrowedName, Build, Column, Dim, PositionError, Real, real};
 
 /// A reaction as a function of the contact forces.
 #[derive(Debug, Clone, Copy)]
@@ -21,8 +21,8 @@ pub(super) struct Reaction<T: Real, C: Dim> {
 }
 
 /// The contacts at one state. No contact force is contained in the response.
-pub(super) struct Problem<'a, T: Real, V: Dim, C: Dim> {
-    pub equations: &'a ReducedEquations<T, V, C>,
+pub(super) struct Problem<'a, T: Real, V: Dim, C: Dim, N: BorrowedName> {
+    pub equations: &'a ReducedEquations<T, V, C, N>,
     pub response: Response<T, V, C>,
     pub reactions: Column<Option<Reaction<T, C>>, C>,
 }
@@ -52,10 +52,10 @@ impl<T: Real, C: Dim> Reaction<T, C> {
     }
 }
 
-impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
+impl<'a, T: Real, V: Dim, C: Dim, N: BorrowedName> Problem<'a, T, V, C, N> {
     /// # Errors
     /// Those of [`Response::new`]; [`PositionError::NotFinite`] with the name of a contact without a reaction.
-    pub(super) fn new(equations: &'a ReducedEquations<T, V, C>) -> Result<Self, MotionError> {
+    pub(super) fn new(equations: &'a ReducedEquations<T, V, C, N>) -> Result<Self, MotionError<N>> {
         let (_, c) = equations.dims();
         let response = Response::new(equations, &c.zeros(), |_| true)?;
         let mut reactions = c.repeat(None);
@@ -195,14 +195,14 @@ impl<'a, T: Real, V: Dim, C: Dim> Problem<'a, T, V, C> {
     }
 
     /// The contact to name in an error: the bearing whose limit depends most on its own force.
-    pub(super) fn strongest(&self) -> &'static str {
+    pub(super) fn strongest(&self) -> N {
         let gain = |place: usize| {
             let reaction = self.reactions[place].as_ref()?;
             Some(reaction.factor * length([0, 1].map(|k| reaction.by[k][place])))
         };
         let bearings = (0..self.reactions.dim().count()).filter_map(|place| Some((place, gain(place)?)));
         let strongest = bearings.reduce(|best, other| if other.1 > best.1 { other } else { best });
-        strongest.map_or("", |(place, _)| self.equations.contacts[place].name)
+        strongest.map_or_else(|| N::from_static(""), |(place, _)| self.equations.contacts[place].name)
     }
 }
 

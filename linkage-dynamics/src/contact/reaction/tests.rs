@@ -209,7 +209,7 @@ fn hold(equations: &Equations, forces: &Forces) -> bool {
 /// Runs `test` on the search for held forces and on their family.
 fn with_family<R>(
     equations: &Equations,
-    test: impl FnOnce(&HeldForces<'_, f64, D<1>, D<3>>, &Family<f64, D<3>>) -> R,
+    test: impl FnOnce(&HeldForces<'_, f64, D<1>, D<3>, &'static str>, &Family<f64, D<3>>) -> R,
 ) -> R {
     let modes = Column::repeat(Mode::Stick);
     let problem = Problem::new(equations).unwrap();

@@ -14,7 +14,7 @@ fn falling(_: f64, y: &State<2>) -> Rate<2> {
     Ok(vector![y[1], -GRAVITY])
 }
 
-fn ball(restitution: f64) -> impl System<Scalar = f64, N = D<2>> {
+fn ball(restitution: f64) -> impl System<Scalar = f64, Name = &'static str, N = D<2>> {
     watched(
         falling,
         [Crossing::Falling],
@@ -153,6 +153,7 @@ struct Block {
 
 impl System for Block {
     type Scalar = f64;
+    type Name = &'static str;
     type N = D<2>;
     type Events = D<2>;
     type Guards = D<0>;

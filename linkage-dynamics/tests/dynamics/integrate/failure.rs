@@ -176,6 +176,7 @@ const QUARTER: f64 = std::f64::consts::FRAC_PI_2;
 
 impl System for Quarters {
     type Scalar = f64;
+    type Name = &'static str;
     type N = D<2>;
     type Events = D<0>;
     type Guards = D<0>;
@@ -225,6 +226,7 @@ struct Rescaled(i32);
 
 impl System for Rescaled {
     type Scalar = f64;
+    type Name = &'static str;
     type N = D<1>;
     type Events = D<0>;
     type Guards = D<0>;
@@ -291,6 +293,7 @@ struct Uncertain {
 
 impl System for Uncertain {
     type Scalar = f64;
+    type Name = &'static str;
     type N = D<1>;
     type Events = D<0>;
     type Guards = D<0>;

@@ -57,6 +57,7 @@ struct Guarded<'a> {
 
 impl System for Guarded<'_> {
     type Scalar = f64;
+    type Name = &'static str;
     type N = D<1>;
     type Events = D<0>;
     type Guards = D<1>;
@@ -196,6 +197,7 @@ struct Wall {
 
 impl System for Wall {
     type Scalar = f64;
+    type Name = &'static str;
     type N = D<2>;
     type Events = D<0>;
     type Guards = D<1>;
@@ -317,6 +319,7 @@ struct Counted {
 
 impl System for Counted {
     type Scalar = f64;
+    type Name = &'static str;
     type N = D<2>;
     type Events = D<0>;
     type Guards = D<1>;
