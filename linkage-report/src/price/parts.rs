@@ -76,7 +76,7 @@ pub(super) fn parts<S: Scene<Scalar = f64>>(
             }),
         ));
     }
-    if S::BEARINGS {
+    if scene.has_bearings() {
         works.push((
             "bearings: forces in joints with friction",
             Box::new(move || {

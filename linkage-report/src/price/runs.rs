@@ -3,7 +3,7 @@
 use linkage_double::DoubleDouble;
 use linkage_dynamics::integrate::{Counts, Dop853, Dopri5, Method};
 use linkage_dynamics::simulation::{Simulation, Start, State, simulate};
-use linkage_dynamics::{MotionError, Scene, StateColumn, StateParts};
+use linkage_dynamics::{MotionError, MotionErrorOf, Scene, StateColumn, StateParts};
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::jacobian::Scales;
 use linkage_runtime::{Column, Mechanism};
@@ -39,12 +39,12 @@ pub(super) fn simulate_from<'a, S: Scene>(
     (t, y): (S::Scalar, &StateColumn<S>),
     end: S::Scalar,
     tolerance: f64,
-) -> Result<Simulation<'a, S>, MotionError> {
+) -> Result<Simulation<'a, S>, MotionErrorOf<S>> {
     let StateParts { q, input_rates } = S::parts(y);
     simulate(scene, Start { t, q, input_rates }, end, tolerance)
 }
 
-pub(super) fn run_by<S: Scene<Scalar = f64>>(
+pub(super) fn run_by<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>>(
     scene: &S,
     from: (f64, &StateColumn<S>),
     times: &[f64],
@@ -62,7 +62,7 @@ pub(super) fn run_by<S: Scene<Scalar = f64>>(
 }
 
 /// The states of a run at these times, the last of which is its end.
-pub(super) fn run<S: Scene, M: Method>(
+pub(super) fn run<S: Scene<Mechanism: Mechanism<Name = &'static str>>, M: Method>(
     scene: &S,
     from: (S::Scalar, &StateColumn<S>),
     times: &[S::Scalar],
@@ -95,13 +95,15 @@ pub(super) fn run<S: Scene, M: Method>(
 }
 
 /// The cost of a run without outputs.
-pub(super) fn run_to_end<S: Scene<Scalar = f64>>(
+pub(super) fn run_to_end<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>>(
     scene: &S,
     from: (f64, &StateColumn<S>),
     end: f64,
     (order, tolerance): (Order, f64),
 ) -> Result<Counts, MotionError> {
-    fn finished<S: Scene, M: Method>(motion: Simulation<'_, S>) -> Result<Counts, MotionError> {
+    fn finished<S: Scene<Mechanism: Mechanism<Name = &'static str>>, M: Method>(
+        motion: Simulation<'_, S>,
+    ) -> Result<Counts, MotionError> {
         let mut motion = motion.method::<M>()?.most_steps(MOST_STEPS);
         motion.finish(|_, _| true)?;
         Ok(motion.counts())

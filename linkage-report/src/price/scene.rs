@@ -5,9 +5,9 @@ use std::hint::black_box;
 use linkage_double::DoubleDouble;
 use linkage_dynamics::integrate::{Counts, Dop853};
 use linkage_dynamics::simulation::Start;
-use linkage_dynamics::{Coordinates, Inputs, MotionError, Scene, StateColumn};
+use linkage_dynamics::{Coordinates, Inputs, MotionError, MotionErrorOf, Scene, StateColumn};
 use linkage_runtime::derivation::SceneDerivation;
-use linkage_runtime::{Column, InputError};
+use linkage_runtime::{Column, InputError, Mechanism};
 
 use super::PriceError;
 use super::effects::{EffectPrice, effects};
@@ -141,8 +141,14 @@ impl ScenePrice {
         options: &ScenePriceOptions,
     ) -> Result<Self, PriceError>
     where
-        S: Scene<Scalar = f64>,
-        T: Scene<Scalar = DoubleDouble, U = S::U, V = S::V, State = S::State>,
+        S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>,
+        T: Scene<
+                Scalar = DoubleDouble,
+                Mechanism: Mechanism<Name = &'static str>,
+                U = S::U,
+                V = S::V,
+                State = S::State,
+            >,
     {
         check::<S>(options, [start.t, end])?;
         let times: Vec<f64> = (1..=options.samples)
@@ -243,8 +249,8 @@ impl ScenePrice {
         (other, other_start): (&O, StartOf<O>),
     ) -> Result<(), PriceError>
     where
-        S: Scene<Scalar = f64>,
-        O: Scene<Scalar = f64>,
+        S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>,
+        O: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>,
     {
         let options = &self.options;
         let one = measured(scene, start, self.times[1], options.samples)?;
@@ -297,7 +303,7 @@ struct Measured<'a> {
     evaluations: usize,
 }
 
-fn measured<S: Scene<Scalar = f64>>(
+fn measured<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>>(
     scene: &S,
     start: StartOf<S>,
     end: f64,
@@ -364,10 +370,10 @@ where
     S: Scene<Scalar = f64>,
     T: Scene<Scalar = DoubleDouble, State = S::State>,
 {
-    let slopes = |t: f64, y: &StateColumn<S>| -> Result<bool, MotionError> {
+    let slopes = |t: f64, y: &StateColumn<S>| -> Result<bool, MotionErrorOf<T>> {
         let (t, y) = (DoubleDouble::from(t), y.map(DoubleDouble::from));
         let rate = twice.derivative(t, &y)?;
-        let slope = |part: f64| -> Result<Column<f64, S::State>, MotionError> {
+        let slope = |part: f64| -> Result<Column<f64, S::State>, MotionErrorOf<T>> {
             let h = DoubleDouble::from(step * part);
             let moved = twice.derivative(t + h, &(y + rate * h))?;
             Ok((moved - rate).map(|change| change.high() / part))

@@ -82,7 +82,10 @@ impl Table {
         rate: f64,
     ) -> Result<Self, PathError>
     where
-        S: Scene<Scalar = f64, Mechanism: Kinematic + Driven<Of = <S as Scene>::Mechanism> + Assembly>,
+        S: Scene<
+                Scalar = f64,
+                Mechanism: Kinematic<Name = &'static str> + Driven<Of = <S as Scene>::Mechanism> + Assembly,
+            >,
     {
         let inputs = turn(steps);
         let range = on_branch(scene.mechanism(), branch, &inputs)?;
@@ -112,7 +115,7 @@ impl Table {
         rate: f64,
     ) -> Self
     where
-        S: Scene<Scalar = f64, Mechanism: Kinematic>,
+        S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
         M: Driven<Scalar = f64, Name = &'static str, Of = S::Mechanism>,
     {
         let mut clock = Clock::new(rate);
@@ -149,7 +152,7 @@ fn loads_and_energy<S>(
     motion: &MotionOf<S::Mechanism>,
 ) -> Result<(Loads<S>, Option<Energy<f64>>), MotionError>
 where
-    S: Scene<Scalar = f64, Mechanism: Kinematic>,
+    S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
 {
     let (_, rates) = S::Mechanism::rate_parts(&motion.rates);
     let (_, accelerations) = S::Mechanism::acceleration_parts(&motion.accelerations);
@@ -164,7 +167,7 @@ pub(super) fn of_energy(energy: Option<Energy<f64>>) -> impl Iterator<Item = f64
 }
 
 /// The names of frictions and stops; none where they cannot be evaluated.
-pub(super) fn contact_names<S: Scene>(
+pub(super) fn contact_names<S: Scene<Mechanism: Mechanism<Name = &'static str>>>(
     scene: &S,
     t: S::Scalar,
     q: &linkage_dynamics::Coordinates<S>,

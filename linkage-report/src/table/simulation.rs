@@ -52,7 +52,7 @@ impl Table {
     /// ```
     pub fn simulated<S, M, W>(simulation: &mut Simulation<'_, S, M, W>) -> Self
     where
-        S: Scene<Scalar = f64, Mechanism: Kinematic>,
+        S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
         M: Method,
         W: Watch<S>,
     {
@@ -79,7 +79,7 @@ impl Table {
     /// that it does not reach have a row without numbers.
     pub fn simulated_at<S, M, W>(simulation: &mut Simulation<'_, S, M, W>, times: impl IntoIterator<Item = f64>) -> Self
     where
-        S: Scene<Scalar = f64, Mechanism: Kinematic>,
+        S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
         M: Method,
         W: Watch<S>,
     {
@@ -118,7 +118,7 @@ struct Rows<S: Scene> {
     error: Option<MotionError>,
 }
 
-impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
+impl<S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>> Rows<S> {
     fn of<M: Method, W: Watch<S>>(simulation: &Simulation<'_, S, M, W>) -> Self {
         let (scene, state) = (simulation.scene(), simulation.state());
         let is_driven = scene.prescribed(state.t).map(|law| law.is_some());
@@ -170,7 +170,10 @@ fn in_words(change: Change) -> &'static str {
 }
 
 /// The energy at a state.
-fn energy<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<Energy<f64>>, MotionError> {
+fn energy<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>>(
+    scene: &S,
+    state: &State<S>,
+) -> Result<Option<Energy<f64>>, MotionError> {
     let (_, rates) = S::Mechanism::rate_parts(&state.rates);
     scene.kinetic_and_potential(&state.q, &Inputs::<S>::from(rates))
 }
@@ -178,7 +181,7 @@ fn energy<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<
 /// The numbers of a state before its loads, NaN for those that do not exist, and why.
 fn moving<S>(scene: &S, state: &State<S>, accelerations: Option<Accelerations<S>>) -> (Vec<f64>, Option<Cause>)
 where
-    S: Scene<Scalar = f64, Mechanism: Kinematic>,
+    S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
 {
     let (unknowns, inputs) = S::Mechanism::parts(&state.q);
     let nothing =
