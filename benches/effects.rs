@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use linkage::contact::{Contacts, ReducedEquations};
-use linkage::{Column, D, Mode, MotionError, PerInput, Scene, StateParts};
+use linkage::{Column, D, Mechanism, Mode, MotionError, PerInput, Scene, StateParts};
 use linkage_compiler::program::Operations;
 use linkage_tests::work::{Work, work};
 
@@ -50,12 +50,15 @@ impl Row {
         Self { title, scene: name, functions, bytes: size_of::<S>(), evaluate: Box::new(evaluate), times: Vec::new() }
     }
 
-    fn smooth<S: Scene<Scalar = f64, State = D<4>> + 'static>(title: &'static str, scene: S) -> Self {
+    fn smooth<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>, State = D<4>> + 'static>(
+        title: &'static str,
+        scene: S,
+    ) -> Self {
         Self::new(title, (S::NAME, &["rates"]), scene, |scene, y| scene.derivative(black_box(0.5), y))
     }
 
     /// A row with contacts in these modes.
-    fn in_contact<S: Scene<Scalar = f64, State = D<4>> + 'static>(
+    fn in_contact<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>, State = D<4>> + 'static>(
         title: &'static str,
         scene: S,
         modes: impl Into<Column<Mode, S::Contacts>>,

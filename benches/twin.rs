@@ -6,7 +6,7 @@
 
 use std::hint::black_box;
 
-use linkage::{Column, D, MotionError, PositionError, Real, Scene};
+use linkage::{Column, D, MotionError, MotionErrorOf, PositionError, Real, Scene};
 
 include!("../dev/gallery/src/mechanisms/four_bar_effects.rs");
 
@@ -206,7 +206,7 @@ fn mounted_by_hand(scene: &Mounted, y: &State) -> Result<State, MotionError> {
 }
 
 #[inline(never)]
-fn emitted<S: Scene<Scalar = f64, State = D<4>>>(scene: &S, y: &State) -> Result<State, MotionError> {
+fn emitted<S: Scene<Scalar = f64, State = D<4>>>(scene: &S, y: &State) -> Result<State, MotionErrorOf<S>> {
     scene.derivative(0.0, y)
 }
 

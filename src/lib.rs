@@ -19,8 +19,8 @@ pub use linkage_double::DoubleDouble;
 #[cfg(all(feature = "dynamics", any(feature = "std", feature = "libm")))]
 pub use linkage_dynamics::{
     Accelerations, Balance, Bearing, Contact, ContactCoordinate, ContactLaw, Coordinates, Energy, Equations, Inputs,
-    Kink, Mode, MotionError, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn, StateParts, StateRates,
-    Unreduced, contact, simulation,
+    Kink, Mode, MotionError, MotionErrorOf, NameOf, Power, Prescribed, Rates, ReactionRow, Scene, StateColumn,
+    StateParts, StateRates, Unreduced, contact, simulation,
 };
 #[cfg(feature = "interval")]
 pub use linkage_interval::{Interval, certify, enclose};

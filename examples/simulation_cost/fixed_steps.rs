@@ -9,7 +9,7 @@ use linkage::{D, MotionError, Scene, StateParts};
 
 use super::formulations::{Hold, Multipliers};
 use super::list::{ACCELERATIONS, Outcome, PROJECTED, REAL_TIME, STRONGLY, WEAKLY, Work};
-use super::problem::{Problem, State};
+use super::problem::{Emitted, Problem, State};
 
 /// The number of doublings of the number of steps; 0 for unoptimised code.
 const DOUBLINGS: u32 = if cfg!(debug_assertions) { 0 } else { 4 };
@@ -21,7 +21,7 @@ pub fn works<const N: usize, const U: usize, S>(
     [weak, strong]: [f64; 2],
 ) -> Vec<Work>
 where
-    S: Scene<Scalar = f64, U = D<U>, Contacts = D<0>> + 'static,
+    S: Emitted<U = D<U>, Contacts = D<0>> + 'static,
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let holds = [
@@ -53,7 +53,7 @@ where
 /// The final state by `RealTime`.
 fn in_the_inputs<S>(problem: &Problem<S>, steps: u32) -> Result<State<S>, MotionError>
 where
-    S: Scene<Scalar = f64, Contacts = D<0>>,
+    S: Emitted<Contacts = D<0>>,
 {
     let StateParts { q, input_rates } = S::parts(&problem.start);
     let mut clock = RealTime::new(&problem.scene, Start { t: 0.0, q, input_rates }, problem.end / f64::from(steps))?;
@@ -70,7 +70,7 @@ fn with_multipliers<const N: usize, const U: usize, S>(
     steps: u32,
 ) -> Result<State<S>, Box<dyn Error>>
 where
-    S: Scene<Scalar = f64, U = D<U>>,
+    S: Emitted<U = D<U>>,
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     let mut motion = Multipliers::<S, U, N>::new(problem, hold)?;

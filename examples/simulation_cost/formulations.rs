@@ -16,7 +16,7 @@ use std::error::Error;
 use linkage::nalgebra::{Const, DimMin, SMatrix, SVector};
 use linkage::{Build, Column, D, Dim, Matrix, Mechanism, PositionError, Scene, StateParts};
 
-use super::problem::{Problem, State};
+use super::problem::{Emitted, Problem, State};
 
 /// The treatment of the constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ impl<U: Dim, V: Dim> Moving<U, V> {
 }
 
 /// A motion in all coordinates; each linear system has `N` unknowns, accelerations and multipliers.
-pub struct Multipliers<'a, S: Scene<Scalar = f64>, const U: usize, const N: usize> {
+pub struct Multipliers<'a, S: Emitted, const U: usize, const N: usize> {
     problem: &'a Problem<S>,
     hold: Hold,
     pub state: Moving<S::U, S::V>,
@@ -60,7 +60,7 @@ const MOST_ITERATIONS: usize = 8;
 
 impl<'a, S, const U: usize, const N: usize> Multipliers<'a, S, U, N>
 where
-    S: Scene<Scalar = f64, U = D<U>>,
+    S: Emitted<U = D<U>>,
     Const<N>: DimMin<Const<N>, Output = Const<N>>,
 {
     pub fn new(problem: &'a Problem<S>, hold: Hold) -> Result<Self, PositionError> {

@@ -13,7 +13,7 @@ use super::list::{
     DIFFERENTIAL_EQUATIONS_5, DIFFERENTIAL_EQUATIONS_8, INTEGRATE_5, INTEGRATE_8, ODE_SOLVERS_5, ODE_SOLVERS_8,
     Outcome, SIMULATE_5, SIMULATE_8, Work,
 };
-use super::problem::{Problem, State};
+use super::problem::{Emitted, Problem, State};
 
 /// The limit on steps: the default of `linkage` and `ode_solvers`.
 pub const MOST_STEPS: usize = 100_000;
@@ -24,7 +24,7 @@ pub type End<S> = Result<(State<S>, usize), String>;
 /// A run with a given tolerance.
 type Run<S> = fn(&Problem<S>, f64) -> End<S>;
 
-pub fn works<S: Scene<Scalar = f64, State = D<N>> + 'static, const N: usize>(problem: &Rc<Problem<S>>) -> Vec<Work> {
+pub fn works<S: Emitted<State = D<N>> + 'static, const N: usize>(problem: &Rc<Problem<S>>) -> Vec<Work> {
     let methods: [(usize, Run<S>); 8] = [
         (SIMULATE_8, Problem::simulated::<Dop853>),
         (SIMULATE_5, Problem::simulated::<Dopri5>),
@@ -42,7 +42,7 @@ pub fn works<S: Scene<Scalar = f64, State = D<N>> + 'static, const N: usize>(pro
 const MOST_DIGITS: i32 = if cfg!(debug_assertions) { 7 } else { 13 };
 
 /// The runs of a method at tolerances from 1e-3 downwards.
-pub fn by_tolerance<S: Scene<Scalar = f64> + 'static>(
+pub fn by_tolerance<S: Emitted + 'static>(
     problem: &Rc<Problem<S>>,
     method: usize,
     end: impl Fn(&Problem<S>, f64) -> End<S> + Copy + 'static,
@@ -57,7 +57,7 @@ pub fn by_tolerance<S: Scene<Scalar = f64> + 'static>(
     })
 }
 
-impl<S: Scene<Scalar = f64>> Problem<S> {
+impl<S: Emitted> Problem<S> {
     fn simulated<M: Method>(&self, tolerance: f64) -> End<S> {
         let end = || {
             let StateParts { q, input_rates } = S::parts(&self.start);
@@ -87,7 +87,7 @@ impl<S: Scene<Scalar = f64>> Problem<S> {
     }
 }
 
-impl<S: Scene<Scalar = f64, State = D<N>>, const N: usize> Problem<S> {
+impl<S: Emitted<State = D<N>>, const N: usize> Problem<S> {
     fn by_ode_solvers<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<S> {
         let calls = Cell::new(0);
         let start = ode_solvers::SVector::<f64, N>::from(<[f64; N]>::from(self.start));
@@ -124,11 +124,11 @@ impl<S: Scene<Scalar = f64, State = D<N>>, const N: usize> Problem<S> {
 }
 
 /// The right-hand side with a count of its calls.
-struct Called<'a, S: Scene<Scalar = f64>>(&'a Problem<S>, &'a Cell<usize>);
+struct Called<'a, S: Emitted>(&'a Problem<S>, &'a Cell<usize>);
 
 impl<S, const N: usize> ode_solvers::System<f64, ode_solvers::SVector<f64, N>> for Called<'_, S>
 where
-    S: Scene<Scalar = f64, State = D<N>>,
+    S: Emitted<State = D<N>>,
 {
     #[inline]
     fn system(&self, t: f64, y: &ode_solvers::SVector<f64, N>, slope: &mut ode_solvers::SVector<f64, N>) {

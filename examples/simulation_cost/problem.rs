@@ -8,8 +8,13 @@ type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
 /// The state y = (q, v') of a scene.
 pub type State<S> = Column<f64, <S as Scene>::State>;
 
+/// A scene of emitted code: its errors are those of functions as systems of equations.
+pub trait Emitted: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>> {}
+
+impl<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>> Emitted for S {}
+
 /// A motion with known final state.
-pub struct Problem<S: Scene<Scalar = f64>> {
+pub struct Problem<S: Emitted> {
     pub scene: S,
     pub start: State<S>,
     /// The end time; the start is 0.
@@ -18,7 +23,7 @@ pub struct Problem<S: Scene<Scalar = f64>> {
     pub expected: State<S>,
 }
 
-impl<S: Scene<Scalar = f64>> Problem<S> {
+impl<S: Emitted> Problem<S> {
     /// Creates a problem from the initial position and input rates, and the end time with its position.
     pub fn new(
         scene: S,

@@ -8,12 +8,12 @@ use linkage_double::DoubleDouble;
 
 use linkage_examples::simulation_cost::formulations::{Hold, Multipliers};
 use linkage_examples::simulation_cost::four_bars::{self, Turning};
-use linkage_examples::simulation_cost::problem::{Problem, State};
+use linkage_examples::simulation_cost::problem::{Emitted, Problem, State};
 
 /// The coordinates at the end of the same problem by numbers of 31 digits.
 fn end<M: Method, S, L>(problem: &Problem<S>, scene: &L, tolerance: f64) -> State<S>
 where
-    S: Scene<Scalar = f64>,
+    S: Emitted,
     L: Scene<Scalar = DoubleDouble, State = S::State>,
 {
     let StateParts { q, input_rates } = L::parts(&problem.start.map(DoubleDouble::from));
@@ -68,7 +68,7 @@ fn the_reference_of_44_turns() {
 /// The motion with multipliers by steps of this number, and the widest gap on the way.
 fn with_multipliers<S>(problem: &Problem<S>, hold: Hold, steps: u32) -> (State<S>, f64)
 where
-    S: Scene<Scalar = f64, U = D<2>, V = D<1>>,
+    S: Emitted<U = D<2>, V = D<1>>,
 {
     let mut motion = Multipliers::<S, 2, 5>::new(problem, hold).unwrap();
     let h = problem.end / f64::from(steps);

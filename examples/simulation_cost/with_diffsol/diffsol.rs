@@ -8,14 +8,14 @@ use linkage::{Column, Dim, Scene};
 
 use linkage_examples::simulation_cost::integrators::{End, MOST_STEPS, by_tolerance};
 use linkage_examples::simulation_cost::list::{METHODS, Work};
-use linkage_examples::simulation_cost::problem::Problem;
+use linkage_examples::simulation_cost::problem::{Emitted, Problem};
 
-pub fn works<S: Scene<Scalar = f64> + 'static>(problem: &Rc<Problem<S>>) -> Vec<Work> {
+pub fn works<S: Emitted + 'static>(problem: &Rc<Problem<S>>) -> Vec<Work> {
     let method = METHODS.iter().position(|method| method.name.starts_with("diffsol")).expect("a method of the list");
     by_tolerance(problem, method, |problem, tolerance| end(problem, tolerance)).collect()
 }
 
-fn end<S: Scene<Scalar = f64>>(problem: &Problem<S>, tolerance: f64) -> End<S> {
+fn end<S: Emitted>(problem: &Problem<S>, tolerance: f64) -> End<S> {
     let calls = Cell::new(0);
     let rhs = |y: &[f64], _: &[f64], t: f64, slope: &mut [f64]| {
         calls.set(calls.get() + 1);

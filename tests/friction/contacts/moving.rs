@@ -2,7 +2,7 @@
 
 use linkage::contact::{ContactReview, Contacts, ReducedEquations};
 use linkage::integrate::{Action, Crossing, System, Tolerance, dop853};
-use linkage::{Build, Column, D, Mode, MotionError, Scene, StateParts};
+use linkage::{Build, Column, D, Mode, MotionErrorOf, NameOf, Scene, StateParts};
 
 type State<S> = Column<f64, <S as Scene>::State>;
 type Modes<S> = Column<Mode, <S as Scene>::Contacts>;
@@ -18,14 +18,14 @@ pub(super) struct Moving<'a, S: Scene<Scalar = f64>> {
 }
 
 impl<'a, S: Scene<Scalar = f64>> Moving<'a, S> {
-    pub(super) fn start(scene: &'a S, t: f64, y: &State<S>) -> Result<(Self, State<S>), MotionError> {
+    pub(super) fn start(scene: &'a S, t: f64, y: &State<S>) -> Result<(Self, State<S>), MotionErrorOf<S>> {
         let StateParts { q, input_rates: rates } = S::parts(y);
         let (contacts, rates) =
             Contacts::begin(t, &rates.into(), |rates| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into())))?;
         Ok((Self { scene, contacts, history: Vec::new(), mended: 0 }, S::state(&q, &rates.into())))
     }
 
-    fn settle(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionError> {
+    fn settle(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionErrorOf<S>> {
         let scene = self.scene;
         let StateParts { q, input_rates: rates } = S::parts(y);
         let at = |rates: &Column<f64, S::V>| ReducedEquations::of(scene, t, &S::state(&q, &(*rates).into()));
@@ -36,19 +36,19 @@ impl<'a, S: Scene<Scalar = f64>> Moving<'a, S> {
 
 impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
     type Scalar = f64;
-    type Name = &'static str;
+    type Name = NameOf<S>;
     type N = S::State;
     type Events = S::Contacts;
     type Guards = D<0>;
 
-    fn rate(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionError> {
+    fn rate(&mut self, t: f64, y: &State<S>) -> Result<State<S>, MotionErrorOf<S>> {
         let equations = ReducedEquations::of(self.scene, t, y)?;
         let acceleration = self.contacts.acceleration(&equations)?;
         let rates = S::parts(&self.scene.derivative(t, y)?).q;
         Ok(S::state(&rates, &acceleration.into()))
     }
 
-    fn events(&mut self, t: f64, y: &State<S>) -> Result<Column<f64, S::Contacts>, MotionError> {
+    fn events(&mut self, t: f64, y: &State<S>) -> Result<Column<f64, S::Contacts>, MotionErrorOf<S>> {
         self.contacts.events(&ReducedEquations::of(self.scene, t, y)?)
     }
 
@@ -56,14 +56,14 @@ impl<S: Scene<Scalar = f64>> System for Moving<'_, S> {
         self.contacts.crossings()
     }
 
-    fn at_event(&mut self, _: usize, t: f64, y: &State<S>) -> Result<Action<State<S>>, MotionError> {
+    fn at_event(&mut self, _: usize, t: f64, y: &State<S>) -> Result<Action<State<S>>, MotionErrorOf<S>> {
         let before = self.contacts.modes;
         let state = self.settle(t, y)?;
         self.history.push((t, before, self.contacts.modes));
         Ok(Action::Restart(state))
     }
 
-    fn before_step(&mut self, t: f64, y: &State<S>) -> Result<Option<State<S>>, MotionError> {
+    fn before_step(&mut self, t: f64, y: &State<S>) -> Result<Option<State<S>>, MotionErrorOf<S>> {
         let equations = ReducedEquations::of(self.scene, t, y)?;
         let ContactReview { rates, modes_hold } = self.contacts.review(&equations)?;
         if !modes_hold {

@@ -12,7 +12,7 @@
 use std::collections::BTreeMap;
 
 use linkage::simulation::{Simulation, State};
-use linkage::{MotionError, Scene};
+use linkage::{Mechanism, MotionError, Scene};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -191,7 +191,7 @@ fn compare<F: Family>(family: &F, number: u64, random: &mut SmallRng, counts: &m
 }
 
 /// The states of a simulation at these times.
-pub fn states<'a, S: Scene<Scalar = f64> + 'a>(
+pub fn states<'a, S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>> + 'a>(
     simulate: impl Fn() -> Result<Simulation<'a, S>, MotionError>,
     times: &[f64],
     observed: impl Fn(&State<S>) -> Observed,

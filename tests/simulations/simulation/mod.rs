@@ -24,10 +24,10 @@ mod stiffness;
 mod windows;
 
 use linkage::simulation::{Simulation, State};
-use linkage::{MotionError, Scene};
+use linkage::{MotionErrorOf, Scene};
 
 /// All states to the end, and the error that ended the motion.
-fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>, Option<MotionError>) {
+fn run<S: Scene<Scalar = f64>>(mut motion: Simulation<'_, S>) -> (Vec<State<S>>, Option<MotionErrorOf<S>>) {
     let mut states = Vec::new();
     let error = motion
         .finish(|state, _| {

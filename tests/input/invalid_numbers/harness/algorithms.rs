@@ -112,7 +112,7 @@ type Q<S> = <<S as Scene>::Mechanism as Mechanism>::Coordinates;
 type Rates<S> = <<S as Scene>::Mechanism as Mechanism>::Rates;
 type Inputs<S> = <<S as Scene>::Mechanism as Mechanism>::Inputs;
 
-impl<'a, S: Scene<Scalar = f64>> Scene for CountedScene<'a, S> {
+impl<'a, S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>> Scene for CountedScene<'a, S> {
     type Scalar = f64;
     type U = S::U;
     type V = S::V;
@@ -303,6 +303,7 @@ where
     S: Scene<Scalar = f64, Mechanism = M, Reactions: Finite, State: Default, Contacts: Default>,
     M: Mechanism<
             Scalar = f64,
+            Name = &'static str,
             U = S::U,
             V = S::V,
             Coordinates: Draw + Finite,
