@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use linkage::nalgebra::{Const, DimMin};
 use linkage::simulation::{RealTime, Start};
-use linkage::{D, MotionError, Scene, StateParts};
+use linkage::{D, MotionError, StateParts};
 
 use super::formulations::{Hold, Multipliers};
 use super::list::{ACCELERATIONS, Outcome, PROJECTED, REAL_TIME, STRONGLY, WEAKLY, Work};

@@ -14,7 +14,7 @@
 use std::error::Error;
 
 use linkage::nalgebra::{Const, DimMin, SMatrix, SVector};
-use linkage::{Build, Column, D, Dim, Matrix, Mechanism, PositionError, Scene, StateParts};
+use linkage::{Build, Column, D, Dim, Matrix, Mechanism, PositionError, StateParts};
 
 use super::problem::{Emitted, Problem, State};
 

@@ -7,7 +7,7 @@ use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use linkage::integrate::{Dop853, Dopri5, Integration, Method, Tolerance};
 use linkage::nalgebra::SVector;
 use linkage::simulation::{Start, simulate};
-use linkage::{Build, D, MotionError, Scene, StateParts};
+use linkage::{Build, D, MotionError, StateParts};
 
 use super::list::{
     DIFFERENTIAL_EQUATIONS_5, DIFFERENTIAL_EQUATIONS_8, INTEGRATE_5, INTEGRATE_8, ODE_SOLVERS_5, ODE_SOLVERS_8,

@@ -1,0 +1,308 @@
+//! Simulations of scenes whose numbers and names are known at run time: the bits and the words of those of emitted code.
+
+mod mechanism;
+mod scene;
+
+use linkage::integrate::{Crossing, Dop853, Dopri5, Method};
+use linkage::simulation::{AtSingularity, Loads, Start, State, Then, simulate};
+use linkage::{
+    Column, Coordinates, Dim, Inputs, JointForces, Mechanism, MotionErrorOf, PerInput, Scene, StateParts, linkage,
+};
+use linkage_gallery::{cart_pendulum, double_pendulum, four_bar_effects, slider_crank_contacts, slider_crank_scenes};
+
+use mechanism::{MechanismAtRunTime, Split, Texts, column};
+use scene::{Joints, SceneAtRunTime};
+
+/// What all names at run time end with.
+const MARK: &str = " at run time";
+
+linkage! {
+    /// Laws with kinks: of time and of the state.
+    mechanism Bent {
+        param m = 1, k = 3;
+        input x, y;
+        body ball { mass m; center (x + y, 0); }
+        body other { mass 2 * m; center (y, 0); }
+        scene Turned { inertia; drive x = abs(t - 1); spring k on y; }
+        scene Leaping { inertia; drive x = atan2(sin(t), cos(t)); }
+        scene Gathering { inertia; drive x = t^2 * abs(sin(1 / t)); }
+        scene Bouncing { inertia; potential k * abs(y) + x^2; }
+    }
+}
+
+linkage! {
+    /// A parallelogram, which passes change points.
+    mechanism Cranks {
+        param a = 0.1, b = 0.3, j = 0.01, m = 1, t0 = 0.1, hi = 3.3, e = 0.5, mu = 0.1, radius = 0.005;
+        input th;
+        unknown ph, ps;
+        loop a@th + b@ph = (b, 0) + a@ps;
+        body left { inertia j; angle th; }
+        body right { inertia j; angle ps; }
+        body bar { mass m; inertia 0.01; center a@th + (b/2)@ph; angle ph; }
+        scene Stopped { inertia; torque t0 on th; stop th in -100..hi, restitution e; reactions; }
+        scene Rubbed { inertia; torque t0 on th; friction mu, radius, reaction on ps; }
+    }
+}
+
+/// The bits of a list of numbers.
+fn bits<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> String {
+    numbers.into_iter().map(|number| format!("{:x} ", number.to_bits())).collect()
+}
+
+/// A state: all numbers by their bits, names and modes.
+fn of_state<S: Scene<Scalar = f64>>(state: &State<S>) -> String {
+    let ((u, v), (of_u, of_v)) = (S::Mechanism::parts(&state.q), S::Mechanism::rate_parts(&state.rates));
+    let numbers = bits([&state.t].into_iter().chain(&u).chain(&v).chain(&of_u).chain(&of_v));
+    let modes: Vec<_> = state.contacts.iter().map(|touch| state.mode(touch.name.as_ref())).collect();
+    let changes: Vec<_> = state.changes().collect();
+    format!("{numbers}{:?} {:?} {modes:?} {changes:?} {:?}", state.event, state.kink, state.contacts)
+}
+
+fn of_loads<S: Scene<Scalar = f64>>(scene: &S, loads: &Loads<S>) -> String {
+    let drives: PerInput<S::Mechanism> = loads.drives.into();
+    let accelerations = loads.accelerations.unknowns.iter().chain(&loads.accelerations.inputs);
+    let numbers = bits(loads.contacts.iter().chain(&drives).chain([&loads.drive_power]).chain(accelerations));
+    let joints: Vec<_> = loads.joints.joints().zip(loads.joints.each()).collect();
+    assert!(scene.joints().eq(joints.iter().map(|(joint, _)| *joint)));
+    let joints: Vec<_> = joints.iter().map(|(joint, force)| format!("{joint:?} {}", bits(force))).collect();
+    format!("{numbers}{} {joints:?}", loads.are_unique)
+}
+
+fn words<X>(found: Result<X, impl std::fmt::Debug + std::fmt::Display>, text: impl FnOnce(X) -> String) -> String {
+    found.map_or_else(|error| format!("{error} {error:?}"), text)
+}
+
+/// A motion of a scene: the position, the rates of the inputs, the first and the last time.
+#[derive(Clone, Copy)]
+struct Run<Q, R> {
+    q: Q,
+    rates: R,
+    times: [f64; 2],
+    tolerance: f64,
+}
+
+type RunOf<S> = Run<Coordinates<S>, Inputs<S>>;
+
+/// All that a scene computes in a motion, as text.
+fn all<S: Scene<Scalar = f64>>(scene: &S, run: RunOf<S>) -> Vec<String> {
+    let Run { q, rates, times: [start, end], .. } = run;
+    let column = |y: Column<f64, S::State>| bits(&y);
+    let mut found = vec![
+        scene.name().to_string(),
+        format!("{:?} {:?}", scene.kinks().collect::<Vec<_>>(), scene.joints().collect::<Vec<_>>()),
+        words(scene.check(), |()| String::new()),
+        words(scene.start(start, &q, &rates), column),
+        words(scene.loads(start, &q, rates), |loads| of_loads(scene, &loads)),
+        words(scene.loads_of_motion(start, &q, rates, rates), |loads| of_loads(scene, &loads)),
+        words(scene.kinetic_and_potential(&q, &rates), |energy| format!("{energy:?}")),
+    ];
+    if let Ok(y) = scene.start(start, &q, &rates) {
+        found.push(words(scene.derivative(start, &y), column));
+        let StateParts { q, input_rates } = S::parts(&y);
+        found.push(words(scene.loads(start, &q, input_rates), |loads| of_loads(scene, &loads)));
+    }
+    found.extend(steps::<S, Dop853>(scene, run, AtSingularity::Pass));
+    found.extend(steps::<S, Dopri5>(scene, Run { tolerance: 1e-4, ..run }, AtSingularity::Stop));
+    // Backwards, beyond all steps, and with a tolerance of zero.
+    found.extend(steps::<S, Dop853>(
+        scene,
+        Run { times: [start, start - 0.1 * (end - start)], ..run },
+        AtSingularity::Pass,
+    ));
+    found.extend(steps::<S, Dop853>(scene, Run { tolerance: 0.0, ..run }, AtSingularity::Pass));
+    found.push(words(few_steps(scene, run), |()| String::new()));
+    found
+}
+
+/// A simulation that may take three steps.
+fn few_steps<S: Scene<Scalar = f64>>(scene: &S, run: RunOf<S>) -> Result<(), MotionErrorOf<S>> {
+    let Run { q, rates, times: [t, end], tolerance } = run;
+    let start = Start { t, q, input_rates: rates };
+    let motion = simulate(scene, start, end, tolerance)?.largest_step(0.1 * (end - t))?.first_step(0.01 * (end - t))?;
+    motion.most_steps(3).finish(|_, _| true)
+}
+
+/// The states of a simulation with an event, its loads, its counts and its end, then the states at given times.
+fn steps<S: Scene<Scalar = f64>, M: Method>(scene: &S, run: RunOf<S>, at_singularity: AtSingularity) -> Vec<String> {
+    let Run { q, rates, times: [t, end], tolerance } = run;
+    let begun = || simulate(scene, Start { t, q, input_rates: rates }, end, tolerance)?.method::<M>();
+    let level = S::Mechanism::inputs(&q)[0] + 0.25;
+    let watched = begun().and_then(|motion| {
+        motion.at_singularity(at_singularity).events(
+            [Crossing::Either],
+            |state| Ok([S::Mechanism::inputs(&state.q)[0] - level]),
+            |_, _| Ok(Then::GoOn),
+        )
+    });
+    let mut motion = match watched {
+        Ok(motion) => motion,
+        Err(error) => return vec![format!("{error} {error:?}")],
+    };
+    let mut found = vec![of_state(motion.state())];
+    for _ in 0..2000 {
+        match motion.advance() {
+            Ok(Some(state)) => {
+                let loads = words(motion.loads(), |loads| of_loads(scene, &loads));
+                found.push(format!("{} {loads}", of_state(&state)));
+            }
+            Ok(None) => break,
+            Err(error) => {
+                found.push(format!("{error} {error:?}"));
+                break;
+            }
+        }
+    }
+    found.push(format!("{:?} {:?} {:x}", motion.counts(), motion.passages(), motion.progress().to_bits()));
+    let times = (0..=7).map(|part| t + (end - t) * 0.15 * f64::from(part));
+    if let Ok(mut motion) = begun() {
+        found.extend(
+            motion.at(times).with_loads().map(|state| {
+                words(state, |(state, loads)| format!("{} {}", of_state(&state), of_loads(scene, &loads)))
+            }),
+        );
+    }
+    found
+}
+
+/// Compares the motion of an emitted scene with that of the same scene at run time; returns the texts with marked names.
+#[track_caller]
+fn same<S>(scene: &S, q: Coordinates<S>, rates: impl Into<Inputs<S>>, times: [f64; 2]) -> Vec<String>
+where
+    S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>,
+{
+    let rates = rates.into();
+    let run = Run { q, rates, times, tolerance: 1e-8 };
+    let (u, v, _) = scene.mechanism().dims();
+    let still = S::Mechanism::rates(linkage::Build::zeros(u), linkage::Build::zeros(v));
+    let contacts: Vec<_> =
+        scene.contacts(times[0], &q, &still).map_or(Vec::new(), |all| all.iter().map(|contact| contact.name).collect());
+    let texts = Texts::of::<S>(&contacts);
+    let groups = texts.groups::<S::Mechanism>();
+    let joints: Joints<'_> = scene.joints().map(|joint| joint.map_names(|name| texts.own(name))).collect();
+    let here = SceneAtRunTime {
+        of: scene,
+        texts: &texts,
+        joints: &joints,
+        contacts: scene.contact_count().count(),
+        mechanism: MechanismAtRunTime { of: scene.mechanism(), texts: &texts, groups: &groups },
+    };
+    let rates: PerInput<S::Mechanism> = rates.into();
+    let run_here = Run { q: Split::of::<S::Mechanism>(&q), rates: column(&rates), times, tolerance: 1e-8 };
+    let (emitted, found) = (all(scene, run), all(&here, run_here));
+    assert_eq!(emitted.len(), found.len());
+    for (emitted, found) in emitted.iter().zip(&found) {
+        assert_eq!(*emitted, found.replace(MARK, ""));
+    }
+    found
+}
+
+/// True if a text, such as the error of a motion, has these words.
+fn says(found: &[String], words: &str) -> bool {
+    found.iter().any(|text| text.contains(words))
+}
+
+#[test]
+fn smooth_scenes() {
+    use four_bar_effects::{Driven, FourBar, FourBarCoordinates, Loaded, Smooth};
+    let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
+    let found = same(&Smooth::default(), q, 12.0, [0.0, 1.5]);
+    assert!(found[0] == "Smooth at run time" && found.len() > 50, "{}", found.len());
+    let found = same(&Loaded::default(), q, 12.0, [0.0, 1.0]);
+    assert!(says(&found, "at: \"C\""));
+    same(&Driven::default(), q, 15.0, [0.0, 1.0]);
+    // The drive begins with another rate.
+    let found = same(&Driven::default(), FourBarCoordinates { theta2: 0.0, ..q }, 12.0, [0.0, 1.0]);
+    assert!(says(&found, "theta2 at run time"), "{found:?}");
+    // Links that do not meet.
+    let torn = Loaded { mechanism: FourBar { l1: 5.0, ..FourBar::default() }, ..Loaded::default() };
+    let found = same(&torn, q, 12.0, [0.0, 1.0]);
+    assert!(says(&found, "FourBar at run time"), "{found:?}");
+
+    use cart_pendulum::{CartPendulumCoordinates, CartPendulumInputs, Shaken};
+    let q = CartPendulumCoordinates { x: 0.0, phi: 0.5 };
+    same(&Shaken::default(), q, CartPendulumInputs { x: 0.9, phi: -1.0 }, [0.0, 2.0]);
+    use double_pendulum::{DoublePendulumCoordinates, DoublePendulumInputs, Swinging};
+    let q = DoublePendulumCoordinates { theta1: 0.4, theta2: 1.9 };
+    same(&Swinging::default(), q, DoublePendulumInputs { theta1: 1.0, theta2: -2.0 }, [0.0, 2.0]);
+}
+
+/// The slider drives the crank: other coordinates at its dead points, or an end there.
+#[test]
+fn dead_points() {
+    use slider_crank_scenes::{MachineCoordinates, Pushed, Turning};
+    let q = MachineCoordinates { phi: 1.0, psi: -0.2, z: 0.2 };
+    let found = same(&Pushed::default(), q, -1.5, [0.0, 1.0]);
+    assert!(says(&found, "Piston at run time is singular") || says(&found, "of Piston at run time"), "{found:?}");
+    let massless = Turning { m2: 0.0, j2: 0.0, m3: 0.0, j3: 0.0, m4: 0.0, ..Turning::default() };
+    let found = same(&massless, q, 20.0, [0.0, 1.0]);
+    assert!(says(&found, "the mass matrix of Turning at run time is singular in phi at run time"), "{found:?}");
+    let negative = Turning { m4: -1.0, ..Turning::default() };
+    assert!(says(&same(&negative, q, 20.0, [0.0, 1.0]), "Turning at run time"));
+    let infinite = Turning { c: f64::INFINITY, ..Turning::default() };
+    assert!(says(&same(&infinite, q, 20.0, [0.0, 1.0]), "Turning at run time"));
+}
+
+#[test]
+fn frictions_and_stops() {
+    use four_bar_effects::{Everything, FourBarCoordinates};
+    let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
+    let found = same(&Everything::default(), q, 12.0, [0.0, 1.5]);
+    assert!(says(&found, "(\"stop on theta4 at run time\", Impact)"));
+    assert!(says(
+        &found,
+        "Everything at run time has a friction on theta4 at run time and cannot be simulated backwards"
+    ));
+    let beyond = Everything { upper: -1.5, ..Everything::default() };
+    assert!(says(&same(&beyond, q, 12.0, [0.0, 1.5]), "stop on theta4 at run time"));
+
+    use slider_crank_contacts::{Guided, Jointed, MachineCoordinates};
+    let q = MachineCoordinates { phi: 0.8, psi: 2.9, z: 0.4 };
+    assert!(says(&same(&Guided::default(), q, -4.0, [0.0, 1.5]), "(\"friction on z at run time\", Sticks)"));
+    same(&Jointed::default(), q, 2.0, [0.0, 3.0]);
+
+    use cart_pendulum::{CartPendulumCoordinates, CartPendulumInputs, Rubbing};
+    let q = CartPendulumCoordinates { x: 0.1, phi: 0.5 };
+    same(&Rubbing::default(), q, CartPendulumInputs { x: 0.9, phi: -1.0 }, [0.0, 3.0]);
+}
+
+#[test]
+fn frictions_by_reactions() {
+    use slider_crank_scenes::{MachineCoordinates, Worn};
+    let q = MachineCoordinates { phi: 1.0, psi: -0.2, z: 0.2 };
+    same(&Worn::default(), q, 20.0, [0.0, 2.0]);
+    // So much friction that there is no motion, or that there are several.
+    let found = same(&Worn { mu: 40.0, ..Worn::default() }, q, 20.0, [0.0, 2.0]);
+    assert!(says(&found, "of Worn at run time"), "{found:?}");
+    use four_bar_effects::{FourBarCoordinates, Worn as WornBars};
+    let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
+    same(&WornBars::default(), q, 2.0, [0.0, 2.0]);
+}
+
+#[test]
+fn kinks_of_laws() {
+    let found =
+        same(&Turned::default(), BentCoordinates { x: 1.0, y: 0.1 }, BentInputs { x: -1.0, y: 1.0 }, [0.0, 2.0]);
+    assert!(says(&found, "Some(\"drive x at run time\")"));
+    let q = BentCoordinates { x: 0.0, y: 0.1 };
+    let found = same(&Leaping::default(), q, BentInputs { x: 1.0, y: 0.0 }, [0.0, 4.0]);
+    assert!(says(&found, "the drive of x at run time in Leaping at run time jumps"), "{found:?}");
+    let q = BentCoordinates { x: 0.5, y: 0.1 };
+    let found = same(&Bouncing::default(), q, BentInputs { x: 1.0, y: 0.0 }, [0.0, 3.0]);
+    assert!(says(&found, "Some(\"potential k*abs(y) at run time\")"));
+    let x = 0.25 * f64::sin(2.0).abs();
+    let rate = |t: f64| 2.0 * t * f64::sin(1.0 / t) - f64::cos(1.0 / t);
+    let start = BentCoordinates { x, y: 0.0 };
+    let found = same(&Gathering::default(), start, BentInputs { x: rate(0.5), y: 0.0 }, [0.5, -0.5]);
+    assert!(says(&found, "has kinks without end"), "{found:?}");
+}
+
+#[test]
+fn change_points() {
+    let q = |th: f64| CranksCoordinates { th, ph: 0.0, ps: th };
+    same(&Stopped::default(), q(0.3), 2.0, [0.0, 4.0]);
+    let found = same(&Stopped::default(), q(0.0), 2.0, [0.0, 4.0]);
+    assert!(says(&found, "motions of Stopped at run time cross here, where group ph, ps at run time"), "{found:?}");
+    let found = same(&Rubbed::default(), q(0.3), 2.0, [0.0, 4.0]);
+    assert!(says(&found, "forces in joints of Rubbed at run time are infinite or undetermined"), "{found:?}");
+}
