@@ -11,7 +11,7 @@ use linkage_compiler::program::{self, ConstantValue, Implemented, Program, Scene
 
 use crate::code::{Function, Name, Names};
 use crate::program::{
-    Coordinate, Driver, Implementation, Lanes, Parameter, Scene, SceneTypes, Side, Types, UserFunction,
+    Coordinate, Driver, Group, Implementation, Lanes, Parameter, Scene, SceneTypes, Side, Types, UserFunction, Written,
 };
 use crate::translate::{Context, Untranslated};
 
@@ -93,6 +93,7 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
         traits,
         scenes,
         lanes: lanes(implementations),
+        written: written(implementations),
         names,
     })
 }
@@ -132,6 +133,31 @@ fn lanes(implementations: &[program::Implementation<Code>]) -> Lanes {
         }
     }
     lanes
+}
+
+/// The names as written, and the groups.
+fn written(implementations: &[program::Implementation<Code>]) -> Written {
+    let mut written = Written::default();
+    let of = implementations.iter().filter(|one| matches!(one.of, Implemented::Mechanism | Implemented::Kinematic));
+    for (name, value) in of.flat_map(|one| &one.constants) {
+        match (*name, value) {
+            ("UNKNOWNS", ConstantValue::Texts(names)) => written.unknowns.clone_from(names),
+            ("UNKNOWN_ANGLES", ConstantValue::Flags(flags)) => written.unknown_angles.clone_from(flags),
+            ("RANGES", ConstantValue::Texts(names)) => written.ranges.clone_from(names),
+            ("POINTS", ConstantValue::Texts(names)) => written.points.clone_from(names),
+            ("OUTPUTS", ConstantValue::Texts(names)) => written.outputs.clone_from(names),
+            ("GROUPS", ConstantValue::Groups(groups)) => {
+                let group = |of: &program::Group| Group {
+                    name: of.name.clone(),
+                    equations: of.equations.clone(),
+                    unknowns: of.unknowns.clone(),
+                };
+                written.groups = groups.iter().map(group).collect();
+            }
+            _ => {}
+        }
+    }
+    written
 }
 
 /// The places of the functions that are emitted, by their ids.

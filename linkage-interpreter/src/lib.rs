@@ -40,6 +40,7 @@
 //! Algorithms over a mechanism as a whole have its sizes in their types, and are there for emitted mechanisms only:
 //! [`WITHOUT`] names the functions that call one.
 
+mod at_run_time;
 mod call_error;
 mod code;
 mod columns;
@@ -56,6 +57,9 @@ mod tape;
 mod translate;
 mod written;
 
+pub use at_run_time::{
+    AllCoordinates, AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, NotPrepared, PoseAtRunTime, Prepared,
+};
 pub use call_error::CallError;
 pub use code::{Argument, Record, Shape};
 pub use columns::{Columns, Rejected, Values};

@@ -200,7 +200,7 @@ impl Design {
         Ok((&self.of.driver, &self.of.users))
     }
 
-    fn own(&self) -> Value {
+    pub(crate) fn own(&self) -> Value {
         let values = self.parameters.iter().copied().map(Value::Number);
         Value::record(self.of.driver.types.mechanism, self.of.driver.parameters.iter().copied().zip(values))
     }

@@ -42,6 +42,26 @@ pub(crate) struct Driver {
     pub(crate) traits: Vec<Implementation>,
     pub(crate) scenes: Vec<Scene>,
     pub(crate) lanes: Lanes,
+    pub(crate) written: Written,
+}
+
+/// The names as written, and the groups: the constants of the traits of the runtime.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub(crate) struct Written {
+    pub(crate) unknowns: Vec<String>,
+    pub(crate) unknown_angles: Vec<bool>,
+    pub(crate) groups: Vec<Group>,
+    pub(crate) ranges: Vec<String>,
+    pub(crate) points: Vec<String>,
+    pub(crate) outputs: Vec<String>,
+}
+
+/// Unknowns that are solved together, by indices, and the equations that determine them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Group {
+    pub(crate) name: String,
+    pub(crate) equations: Vec<usize>,
+    pub(crate) unknowns: Vec<usize>,
 }
 
 /// The columns of many positions.

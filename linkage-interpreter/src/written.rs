@@ -10,7 +10,7 @@ use crate::mechanism::Mechanism;
 use crate::program::Driver;
 
 /// The version of the form in which compiled mechanisms are written. It changes with the form.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The deepest nesting of the expressions of a function, and so of the calls that compute them. The gallery's is 11.
 const DEEPEST: usize = 200;
@@ -69,9 +69,17 @@ pub(crate) fn checked(driver: &Driver) -> Result<(), &'static str> {
         || driver.coordinates.len() != driver.about_coordinates.len()
         || driver.inputs.len() != driver.input_texts.len()
         || driver.inputs.len() != driver.input_angles.len()
+        || driver.unknowns.len() != driver.written.unknowns.len()
+        || driver.unknowns.len() != driver.written.unknown_angles.len()
+        || driver.points.len() != driver.written.points.len()
+        || driver.outputs.len() != driver.written.outputs.len()
         || driver.scenes.iter().any(|scene| scene.parameters.len() != scene.about_parameters.len())
     {
         return Err("names are missing");
+    }
+    let is_unknown = |place: &usize| *place < driver.unknowns.len();
+    if !driver.written.groups.iter().flat_map(|group| group.equations.iter().chain(&group.unknowns)).all(is_unknown) {
+        return Err("an unknown of a group does not exist");
     }
     Ok(())
 }

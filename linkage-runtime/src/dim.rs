@@ -147,6 +147,8 @@ impl<X: PartialEq, const N: usize> PartialEq for Bounded<X, N> {
     }
 }
 
+impl<X: Eq, const N: usize> Eq for Bounded<X, N> {}
+
 impl<X: Debug, const N: usize> Debug for Bounded<X, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         self.as_ref().fmt(f)

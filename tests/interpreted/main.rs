@@ -1,5 +1,6 @@
 //! Mechanisms at run time: the bits and the errors of the emitted code.
 
+mod algorithms;
 mod classics;
 mod columns;
 mod drawn;

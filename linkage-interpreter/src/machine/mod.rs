@@ -12,6 +12,7 @@ mod value;
 
 pub use defect::Defect;
 pub(crate) use failure::{Evaluated, Failure};
+pub(crate) use groups::MOST_UNKNOWNS;
 pub(crate) use scalar::Scalar;
 pub(crate) use value::Value;
 

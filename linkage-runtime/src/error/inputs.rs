@@ -41,6 +41,13 @@ impl<N: Name> InputValues<N> {
         self.names.as_ref().is_empty()
     }
 
+    /// These inputs with the names of a list.
+    #[must_use]
+    pub fn with_names<M: Name>(self, names: M::List) -> InputValues<M> {
+        let Self { values, are_angles, .. } = self;
+        InputValues { names, values, are_angles }
+    }
+
     /// These inputs with other names.
     #[must_use]
     pub fn map_names<M: Name<List: FromIterator<M>>>(self, f: impl FnMut(N) -> M) -> InputValues<M> {

@@ -127,6 +127,20 @@ impl<N: Name<List: Copy> + Copy> Copy for PositionError<N> {}
 impl<N: Name> PositionError<N> {
     /// This error with other names: borrowed ones become owned.
     pub fn map_names<M: Name<List: FromIterator<M>>>(self, mut f: impl FnMut(N) -> M) -> PositionError<M> {
+        let inputs = |inputs: InputValues<N>, f: &mut dyn FnMut(N) -> M| inputs.map_names(f);
+        self.renamed(&mut f, inputs)
+    }
+
+    /// This error with other names, and with the inputs of this list: owned names become borrowed.
+    pub fn with_names<M: Name>(self, inputs: M::List, mut f: impl FnMut(N) -> M) -> PositionError<M> {
+        self.renamed(&mut f, |values, _| if values.is_empty() { InputValues::default() } else { values.with_names(inputs) })
+    }
+
+    fn renamed<M: Name>(
+        self,
+        f: &mut dyn FnMut(N) -> M,
+        of_inputs: impl FnOnce(InputValues<N>, &mut dyn FnMut(N) -> M) -> InputValues<M>,
+    ) -> PositionError<M> {
         match self {
             Self::Singular { mechanism, group, regularity } => {
                 PositionError::Singular { mechanism: f(mechanism), group: f(group), regularity }
@@ -135,7 +149,7 @@ impl<N: Name> PositionError<N> {
                 mechanism: f(mechanism),
                 group: f(group),
                 gap,
-                inputs: inputs.map_names(f),
+                inputs: of_inputs(inputs, f),
             },
             Self::Undetermined { mechanism, group } => {
                 PositionError::Undetermined { mechanism: f(mechanism), group: f(group) }

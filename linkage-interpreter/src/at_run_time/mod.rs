@@ -1,0 +1,55 @@
+//! Mechanisms for the algorithms of the runtime: the traits of emitted mechanisms, implemented by running compiled functions.
+//!
+//! [`Design::prepared`](crate::Design::prepared) makes a design ready, and [`Prepared::with_inputs`] gives it the number of
+//! its inputs as a type: [`AtRunTime`] is then a [`Mechanism`](linkage_runtime::Mechanism), and paths, limits, circuits and
+//! the others take it as they take an emitted one. Numbers of unknowns, groups, points and outputs are values up to a
+//! capacity; names are borrowed from the compiled mechanism.
+
+mod branch;
+mod coordinates;
+mod kinematic;
+mod mechanism;
+mod names;
+mod not_prepared;
+mod pose;
+mod positions;
+mod prepared;
+mod read;
+
+use linkage_runtime::{Dim, UpTo};
+
+pub use branch::BranchAtRunTime;
+pub use coordinates::CoordinatesAtRunTime;
+pub use not_prepared::NotPrepared;
+pub use pose::PoseAtRunTime;
+pub use prepared::Prepared;
+
+/// The most unknowns, groups, points and outputs.
+pub(crate) const MOST: usize = 24;
+
+/// The most inputs.
+pub(crate) const MOST_INPUTS: usize = 3;
+
+/// The most numbers of a pose.
+pub(crate) const MOST_OF_POSE: usize = 256;
+
+/// The number of unknowns, groups, points or outputs.
+pub type Count = UpTo<MOST>;
+
+/// The number of coordinates.
+pub type AllCoordinates = UpTo<{ MOST + MOST_INPUTS }>;
+
+/// A mechanism with values of its parameters, with `V` inputs, that the algorithms of the runtime take.
+#[derive(Debug)]
+pub struct AtRunTime<'p, V> {
+    pub(crate) prepared: &'p Prepared<'p>,
+    pub(crate) inputs: V,
+}
+
+impl<V: Dim> Clone for AtRunTime<'_, V> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<V: Dim> Copy for AtRunTime<'_, V> {}

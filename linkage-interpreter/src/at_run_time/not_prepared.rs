@@ -1,0 +1,50 @@
+//! The reasons why a design is not ready for algorithms.
+
+use std::fmt::{self, Display, Formatter};
+
+use crate::error::Mistake;
+
+/// The reason why algorithms cannot take a mechanism at run time.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NotPrepared {
+    /// A user function is not given.
+    Mistake(Mistake),
+    /// The mechanism has more of something than a mechanism at run time can have.
+    TooLarge {
+        /// What there is too much of, in the plural.
+        of: &'static str,
+        /// The number.
+        count: usize,
+        /// The most.
+        most: usize,
+    },
+    /// The mechanism has another number of inputs than an algorithm takes.
+    Inputs {
+        /// The inputs of the mechanism.
+        count: usize,
+    },
+    /// The compiled code is damaged.
+    Defect(crate::Defect),
+}
+
+impl Display for NotPrepared {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mistake(error) => error.fmt(f),
+            Self::TooLarge { of, count, most } => write!(
+                f,
+                "the mechanism has {count} {of}, more than the {most} that a mechanism at run time can have: use `linkage!`"
+            ),
+            Self::Inputs { count } => write!(f, "the mechanism has {count} inputs, which this computation does not take"),
+            Self::Defect(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for NotPrepared {}
+
+impl From<Mistake> for NotPrepared {
+    fn from(mistake: Mistake) -> Self {
+        Self::Mistake(mistake)
+    }
+}
