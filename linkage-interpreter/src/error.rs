@@ -13,11 +13,13 @@ pub enum Error {
     Position(PositionError<Arc<str>>),
     /// The error of a function of a scene.
     Motion(MotionError<Arc<str>>),
-    /// A group of more unknowns than are factorised at run time.
+    /// More of something than a mechanism at run time can have.
     TooLarge {
-        /// The unknowns of the group.
-        unknowns: usize,
-        /// The most that a group can have.
+        /// What there is too much of, in the plural.
+        of: &'static str,
+        /// The number.
+        count: usize,
+        /// The most.
         most: usize,
     },
     /// A function of the runtime that is not there for mechanisms at run time.
@@ -42,9 +44,9 @@ impl Display for Error {
         match self {
             Self::Position(error) => error.fmt(f),
             Self::Motion(error) => error.fmt(f),
-            Self::TooLarge { unknowns, most } => write!(
+            Self::TooLarge { of, count, most } => write!(
                 f,
-                "a group has {unknowns} unknowns, more than the {most} that a mechanism at run time can have: use `linkage!`"
+                "there are {count} {of}, more than the {most} that a mechanism at run time can have: use `linkage!`"
             ),
             Self::NotAvailable { function } => {
                 write!(f, "`{function}` is not there for mechanisms at run time: use `linkage!`")

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::at_run_time::{NotPrepared, OfTheRuntime, Prepared};
 use crate::call_error::CallError;
 use crate::code::{Access, Argument, Function};
 use crate::convert::{to_data, to_value};
@@ -194,13 +195,48 @@ impl Design {
         })
     }
 
+    /// Makes the design ready for the algorithms of the runtime.
+    ///
+    /// ```
+    /// use linkage_interpreter::Program;
+    /// use linkage_runtime::continuation::{Direction, Path};
+    /// use linkage_runtime::{Branches, D};
+    ///
+    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+    /// let text = "
+    ///     mechanism FourBar {
+    ///         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
+    ///         input theta2;
+    ///         unknown theta3, theta4;
+    ///         loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+    ///     }
+    /// ";
+    /// let program = Program::compile(text).map_err(|messages| messages[0].clone())?;
+    /// let design = program.mechanism("FourBar")?.design();
+    /// let prepared = design.prepared()?;
+    /// let four_bar = prepared.with_inputs::<D<1>>()?;
+    /// let (_, start) = four_bar.all_positions([1.0].into()).map_err(|error| error.to_string())?.next().unwrap();
+    /// let mut path = Path::new(&four_bar, &start, Direction::Increasing).map_err(|error| error.to_string())?;
+    /// let end = path.advance_to(7.0).map_err(|error| error.to_string())?;
+    /// assert_eq!(end.inputs[0], 7.0);
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
+    /// # Errors
+    /// [`NotPrepared`].
+    pub fn prepared(&self) -> Result<Prepared<'_>, NotPrepared> {
+        let (driver, users) = self.parts()?;
+        Prepared::of(driver, users, self.own())
+    }
+
     /// The mechanism, and its user functions.
     pub(crate) fn parts(&self) -> Result<(&Driver, &[Option<User>]), Mistake> {
         self.of.complete()?;
         Ok((&self.of.driver, &self.of.users))
     }
 
-    pub(crate) fn own(&self) -> Value {
+    fn own(&self) -> Value {
         let values = self.parameters.iter().copied().map(Value::Number);
         Value::record(self.of.driver.types.mechanism, self.of.driver.parameters.iter().copied().zip(values))
     }
@@ -240,7 +276,7 @@ impl Design {
         let driver = &self.of.driver;
         let function = named(&driver.functions, function)?;
         self.of.complete()?;
-        let mut machine = Machine::new(driver, None, &self.of.users, Kind::Double);
+        let mut machine = Machine::new(driver, None, &self.of.users, Kind::Double).with_algorithms(&OfTheRuntime);
         let arguments = given(driver, function, arguments)?;
         let own = if function.is_method { self.own() } else { Value::Absent };
         let value = machine.call(Of::Driver, function, own, arguments)?;
@@ -323,7 +359,8 @@ impl SceneDesign {
         let (driver, scene) = (&self.of.of.driver, self.scene());
         let function = named(&scene.functions, function)?;
         self.of.of.complete()?;
-        let mut machine = Machine::new(driver, Some(scene), &self.of.of.users, Kind::Double);
+        let mut machine = Machine::new(driver, Some(scene), &self.of.of.users, Kind::Double)
+            .with_algorithms(&OfTheRuntime);
         let arguments = given(driver, function, arguments)?;
         let own = if function.is_method { self.own() } else { Value::Absent };
         let value = machine.call(Of::Scene, function, own, arguments)?;

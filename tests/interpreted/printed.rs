@@ -10,7 +10,7 @@ pub enum Printed {
     Word(String),
     List(Vec<Printed>),
     /// `name { field: value, .. }`
-    Fields(Vec<(String, Printed)>),
+    Fields(String, Vec<(String, Printed)>),
     /// `name(value, ..)`
     Case(String, Vec<Printed>),
 }
@@ -22,7 +22,7 @@ impl Printed {
             Self::Number(number) => numbers.push(*number),
             Self::Word(_) => {}
             Self::List(all) | Self::Case(_, all) => all.iter().for_each(|one| one.numbers(numbers)),
-            Self::Fields(all) => all.iter().for_each(|(_, one)| one.numbers(numbers)),
+            Self::Fields(_, all) => all.iter().for_each(|(_, one)| one.numbers(numbers)),
         }
     }
 }
@@ -92,7 +92,7 @@ fn value(letters: &mut Letters) -> Printed {
                 loop {
                     skip(letters);
                     if letters.next_if_eq(&'}').is_some() {
-                        return Printed::Fields(fields);
+                        return Printed::Fields(word, fields);
                     }
                     let name = self::word(letters);
                     assert_eq!(letters.next(), Some(':'), "{name}");

@@ -152,7 +152,11 @@ fn difference(path: &str, emitted: &Printed, own: &Data) -> Option<String> {
             // nalgebra writes a matrix by columns.
             found.filter(|_| !has_numbers(emitted, &by_columns(own)))
         }
-        (Printed::Fields(all), Data::Fields(own)) => {
+        // A case of several, by its name.
+        (Printed::Fields(name, all), Data::Fields(own)) if own.len() == 1 && *own[0].0 == **name => {
+            difference(path, &Printed::Fields(String::new(), all.clone()), &own[0].1)
+        }
+        (Printed::Fields(_, all), Data::Fields(own)) => {
             // The mark of a type without numbers.
             let all: Vec<_> = all.iter().filter(|(name, _)| name != "scalar").collect();
             if all.len() != own.len() {

@@ -81,6 +81,13 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
         self.prepared.driver.written.outputs.get(place).map_or("", String::as_str)
     }
 
+    // Of a number of inputs that is a value, the list of all coordinates does not tell unknowns from inputs.
+    fn accelerations(unknowns: Column<f64, Count>, inputs: Column<f64, V>) -> CoordinatesAtRunTime<V> {
+        CoordinatesAtRunTime { unknowns, inputs }
+    }
+    fn acceleration_parts(accelerations: &CoordinatesAtRunTime<V>) -> (Column<f64, Count>, Column<f64, V>) {
+        (accelerations.unknowns, accelerations.inputs)
+    }
     fn coordinates_of(pose: &PoseAtRunTime<V>) -> CoordinatesAtRunTime<V> {
         pose.coordinates
     }

@@ -5,6 +5,7 @@
 //! the others take it as they take an emitted one. Numbers of unknowns, groups, points and outputs are values up to a
 //! capacity; names are borrowed from the compiled mechanism.
 
+mod algorithms;
 mod branch;
 mod coordinates;
 mod kinematic;
@@ -18,6 +19,7 @@ mod read;
 
 use linkage_runtime::{Dim, UpTo};
 
+pub(crate) use algorithms::OfTheRuntime;
 pub use branch::BranchAtRunTime;
 pub use coordinates::CoordinatesAtRunTime;
 pub use not_prepared::NotPrepared;
@@ -28,7 +30,7 @@ pub use prepared::Prepared;
 pub(crate) const MOST: usize = 24;
 
 /// The most inputs.
-pub(crate) const MOST_INPUTS: usize = 3;
+pub(crate) const MOST_INPUTS: usize = 6;
 
 /// The most numbers of a pose.
 pub(crate) const MOST_OF_POSE: usize = 256;

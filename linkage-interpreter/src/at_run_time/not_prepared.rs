@@ -33,7 +33,7 @@ impl Display for NotPrepared {
             Self::Mistake(error) => error.fmt(f),
             Self::TooLarge { of, count, most } => write!(
                 f,
-                "the mechanism has {count} {of}, more than the {most} that a mechanism at run time can have: use `linkage!`"
+                "there are {count} {of}, more than the {most} that a mechanism at run time can have: use `linkage!`"
             ),
             Self::Inputs { count } => write!(f, "the mechanism has {count} inputs, which this computation does not take"),
             Self::Defect(error) => error.fmt(f),

@@ -7,11 +7,10 @@ use std::fmt;
 use linkage_runtime::{Bounded, Dim, Group, PositionError};
 
 use super::names::Texts;
-use super::{AllCoordinates, AtRunTime, Count, MOST, MOST_OF_POSE, NotPrepared};
+use super::{AtRunTime, Count, MOST, MOST_INPUTS, MOST_OF_POSE, NotPrepared};
 use crate::call_error::CallError;
 use crate::code::{Function, Name};
-use crate::machine::{Defect, Failure, Kind, Machine, Of, User, Value};
-use crate::mechanism::Design;
+use crate::machine::{Defect, Failure, Kind, MOST_UNKNOWNS, Machine, Of, User, Value};
 use crate::program::Driver;
 
 /// A design with what its traits need at hand. It borrows the design.
@@ -53,48 +52,19 @@ impl Fields {
     }
 }
 
-impl Design {
-    /// Makes the design ready for the algorithms of the runtime.
-    ///
-    /// ```
-    /// use linkage_interpreter::Program;
-    /// use linkage_runtime::continuation::{Direction, Path};
-    /// use linkage_runtime::{Branches, D};
-    ///
-    /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let text = "
-    ///     mechanism FourBar {
-    ///         param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
-    ///         input theta2;
-    ///         unknown theta3, theta4;
-    ///         loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
-    ///     }
-    /// ";
-    /// let program = Program::compile(text).map_err(|messages| messages[0].clone())?;
-    /// let design = program.mechanism("FourBar")?.design();
-    /// let prepared = design.prepared()?;
-    /// let four_bar = prepared.with_inputs::<D<1>>()?;
-    /// let (_, start) = four_bar.all_positions([1.0].into()).map_err(|error| error.to_string())?.next().unwrap();
-    /// let mut path = Path::new(&four_bar, &start, Direction::Increasing).map_err(|error| error.to_string())?;
-    /// let end = path.advance_to(7.0).map_err(|error| error.to_string())?;
-    /// assert_eq!(end.inputs[0], 7.0);
-    /// # Ok(())
-    /// # }
-    /// ```
-    ///
-    /// # Errors
-    /// [`NotPrepared`].
-    pub fn prepared(&self) -> Result<Prepared<'_>, NotPrepared> {
-        let (driver, users) = self.parts()?;
+impl<'d> Prepared<'d> {
+    /// A mechanism with these user functions and values of parameters.
+    pub(crate) fn of(driver: &'d Driver, users: &'d [Option<User>], own: Value) -> Result<Self, NotPrepared> {
         let counts = [
             ("unknowns", driver.unknowns.len()),
             ("groups", driver.written.groups.len()),
             ("points", driver.points.len()),
             ("outputs", driver.outputs.len()),
         ];
+        let inputs = ("inputs", driver.inputs.len(), MOST_INPUTS);
         let largest_group = driver.written.groups.iter().map(|group| group.unknowns.len()).max().unwrap_or_default();
         let counts = counts.map(|(of, count)| (of, count, MOST)).into_iter();
-        let counts = counts.chain([("unknowns in a group", largest_group, crate::machine::MOST_UNKNOWNS)]);
+        let counts = counts.chain([inputs, ("unknowns in a group", largest_group, MOST_UNKNOWNS)]);
         if let Some((of, count, most)) = { counts }.find(|(_, count, most)| count > most) {
             return Err(NotPrepared::TooLarge { of, count, most });
         }
@@ -105,7 +75,7 @@ impl Design {
         let mut prepared = Prepared {
             driver,
             users,
-            own: self.own(),
+            own,
             functions: functions.map(|function| (function.name.as_str(), function)).collect(),
             texts: Texts::of(driver),
             inputs: driver.input_texts.iter().map(|name| &**name).collect(),
@@ -130,17 +100,14 @@ impl Design {
             false => Err(NotPrepared::TooLarge { of: "numbers of a pose", count, most: MOST_OF_POSE }),
         }
     }
-}
 
-impl<'d> Prepared<'d> {
     /// The mechanism with the number of its inputs as a type: algorithms over motions of one input take `D<1>`.
     ///
     /// # Errors
     /// [`NotPrepared::Inputs`] if it has another number.
     pub fn with_inputs<V: Dim>(&self) -> Result<AtRunTime<'_, V>, NotPrepared> {
         let count = self.driver.inputs.len();
-        let inputs = V::new(count).filter(|_| AllCoordinates::new(count + self.driver.unknowns.len()).is_some());
-        inputs.map(|inputs| AtRunTime { prepared: self, inputs }).ok_or(NotPrepared::Inputs { count })
+        V::new(count).map(|inputs| AtRunTime { prepared: self, inputs }).ok_or(NotPrepared::Inputs { count })
     }
 
     /// The first failure of a call that is no error of the mechanism, as of damaged code. Algorithms find numbers that are none
@@ -190,7 +157,7 @@ impl<'d> Prepared<'d> {
     }
 
     /// The error of a call with borrowed names.
-    fn error(&self, failure: Box<Failure>) -> PositionError<&str> {
+    pub(crate) fn error(&self, failure: Box<Failure>) -> PositionError<&str> {
         match CallError::from(failure) {
             CallError::Function(crate::Error::Position(error)) => {
                 error.with_names(self.inputs.as_slice(), |name| self.texts.find(&name))

@@ -66,6 +66,20 @@ known! {
     UPPER 35 "upper"
     RESTITUTION 36 "restitution"
     RANGED 37 "Ranged"
+    COORDINATES 38 "coordinates"
+    ITERATIONS 39 "iterations"
+    RESIDUAL 40 "residual"
+    SAME_BRANCH 41 "same_branch"
+    OF 42 "of"
+    IS_ANGLE 43 "is_angle"
+    INPUT 44 "input"
+    GROUP 45 "group"
+    END 46 "end"
+    ASSEMBLED 47 "assembled"
+    UNBUILDABLE 48 "unbuildable"
+    EXACT 49 "Exact"
+    JOINT_RANGE 50 "JointRange"
+    BRACKETED 51 "Bracketed"
 }
 
 impl Default for Names {

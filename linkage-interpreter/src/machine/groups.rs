@@ -35,7 +35,7 @@ pub(crate) use sized;
 
 #[cold]
 pub(crate) fn too_many(count: usize) -> Box<Failure> {
-    Error::TooLarge { unknowns: count, most: MOST_UNKNOWNS }.into()
+    Error::TooLarge { of: "unknowns in a group", count, most: MOST_UNKNOWNS }.into()
 }
 
 /// The numbers of a list.

@@ -1,6 +1,7 @@
 //! The machine that runs compiled functions: expressions in the order of emitted code, functions of the runtime by
 //! themselves.
 
+mod algorithms;
 mod defect;
 mod evaluate;
 mod failure;
@@ -10,6 +11,7 @@ mod scalar;
 mod turns;
 mod value;
 
+pub(crate) use algorithms::{Algorithms, AroundPosition, Whole};
 pub use defect::Defect;
 pub(crate) use failure::{Evaluated, Failure};
 pub(crate) use groups::MOST_UNKNOWNS;
@@ -23,9 +25,6 @@ use crate::tape::Flag;
 /// The functions of the runtime that are not there for mechanisms at run time, with the functions of mechanisms and scenes
 /// that call them: algorithms over a mechanism or a scene as a whole.
 pub const WITHOUT: &[(&str, &str)] = &[
-    ("newton", "solve"),
-    ("newton_any_branch", "solve_any_branch"),
-    ("limits", "limits"),
     ("reactions", "reactions"),
     ("drive_forces", "drive_forces"),
     ("bearing_loss", "power"),
@@ -66,6 +65,8 @@ pub(crate) struct Machine<'c> {
     pub(crate) users: &'c [Option<User>],
     /// True if angles, points and outputs of lanes are wanted.
     pub(crate) has_quantities: bool,
+    /// The algorithms over a whole mechanism, for functions that callers name.
+    algorithms: Option<&'c dyn Algorithms>,
     slots: Vec<Value>,
     /// The slots of the function that runs begin here.
     base: usize,
@@ -79,7 +80,13 @@ pub(crate) struct Machine<'c> {
 impl<'c> Machine<'c> {
     pub(crate) fn new(driver: &'c Driver, scene: Option<&'c Scene>, users: &'c [Option<User>], kind: Kind) -> Self {
         let of = if scene.is_some() { Of::Scene } else { Of::Driver };
-        Self { driver, scene, users, has_quantities: false, slots: Vec::new(), base: 0, kind, of, depth: 0, calls: 0 }
+        let (slots, has_quantities, algorithms) = (Vec::new(), false, None);
+        Self { driver, scene, users, has_quantities, algorithms, slots, base: 0, kind, of, depth: 0, calls: 0 }
+    }
+
+    pub(crate) fn with_algorithms(mut self, algorithms: &'c dyn Algorithms) -> Self {
+        self.algorithms = Some(algorithms);
+        self
     }
 
     pub(crate) fn set_kind(&mut self, kind: Kind) {

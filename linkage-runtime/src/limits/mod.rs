@@ -101,11 +101,11 @@ pub enum Search<T> {
 /// # Errors
 /// [`PositionError::NotFinite`] if a number is not finite; an [`InputError`](crate::InputError) if the position is outside of
 /// a declared range.
-pub fn limits<M: Mechanism, const B: usize>(
+pub fn limits<M: Mechanism>(
     mechanism: &M,
     place: usize,
     position: &M::Pose,
-    bounds: [Bound<M::Scalar, M::Name>; B],
+    bounds: impl IntoIterator<Item = Bound<M::Scalar, M::Name>>,
     search: Search<M::Scalar>,
     assemble: impl Fn(&M::Coordinates) -> Result<M::Pose, PositionErrorOf<M>>,
     coordinates: impl Fn(&M::Pose) -> M::Coordinates,
@@ -113,7 +113,7 @@ pub fn limits<M: Mechanism, const B: usize>(
     let position = coordinates(position);
     let start = M::inputs(&position).as_slice().get(place).copied().unwrap_or_else(M::Scalar::zero);
     let [mut lower, mut upper] = [None; 2];
-    for bound in &bounds {
+    for bound in bounds {
         let not_finite =
             PositionError::NotFinite { mechanism: mechanism.name(), quantity: Name::from_static("a limit") };
         let [below, above] = bound.about(start).ok_or(not_finite)?;

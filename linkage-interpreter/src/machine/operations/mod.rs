@@ -28,14 +28,10 @@ impl Operation {
     /// The error of a function that is not there for mechanisms at run time, as [`WITHOUT`](super::WITHOUT) says.
     fn unavailable(self) -> Error {
         let function = match self {
-            Self::Newton => "newton",
-            Self::NewtonAnyBranch => "newton_any_branch",
             Self::Reactions => "reactions",
             Self::DriveForces => "drive_forces",
             Self::BearingLoss => "bearing_loss",
             Self::EquationsAt => "Equations::at",
-            // The parts of its arguments are evaluated first.
-            Self::LimitOfAngle | Self::LimitOfLength | Self::SearchLength | Self::SearchTurn | Self::Limits => "limits",
             _ => "",
         };
         Error::NotAvailable { function: function.into() }
@@ -70,6 +66,8 @@ impl<'c> Machine<'c> {
                 self.success(code, *one)?;
                 return self.success(code, *other);
             }
+            // The last is a function.
+            (Operation::Limits, [arguments @ .., _]) => return self.limits(code, arguments),
             _ => {}
         }
         let values = self.values(code, arguments)?;
@@ -220,6 +218,8 @@ impl<'c> Machine<'c> {
                 },
                 other => return Err(other.expected("an outcome").into()),
             },
+            Operation::Newton => self.newton(arguments.at(0)?, arguments.at(1)?, false)?,
+            Operation::NewtonAnyBranch => self.newton(arguments.at(0)?, arguments.at(1)?, true)?,
             Operation::Combinations => self.combinations(code, arguments.at(0)?, arguments.at(1)?)?,
             Operation::Existing => self.existing(code, arguments.at(0)?, arguments.at(1)?)?,
             Operation::Reduced => self.reduced(&arguments)?,

@@ -17,7 +17,9 @@ impl Machine<'_> {
     pub(super) fn of_values(&mut self, of: Operation, arguments: &Arguments) -> Evaluated<Option<Value>> {
         let value = || arguments.at(0);
         Ok(Some(match of {
-            Operation::Present => value()?.clone(),
+            Operation::Present | Operation::SearchLength => value()?.clone(),
+            Operation::SearchTurn => Value::Flag(true),
+            Operation::LimitOfAngle | Operation::LimitOfLength => Value::list(arguments.0.iter().cloned()),
             Operation::ValueOf => match value()? {
                 Value::Outcome(outcome) => outcome.as_ref().as_ref().map_or(Value::Absent, Value::clone),
                 other => other.clone(),
