@@ -184,7 +184,16 @@ impl<N> CrossingRates<N> {
 
 impl<N: Name> MotionError<N> {
     /// This error with other names: borrowed ones become owned.
-    pub fn map_names<M: Name<List: FromIterator<M>>>(self, mut f: impl FnMut(N) -> M) -> MotionError<M> {
+    pub fn map_names<M: Name<List: FromIterator<M>>>(self, f: impl FnMut(N) -> M) -> MotionError<M> {
+        match self {
+            Self::Position(error) => MotionError::Position(error.map_names(f)),
+            Self::Path(error) => MotionError::Path(error.map_names(f)),
+            other => other.with_names(M::List::default(), f),
+        }
+    }
+
+    /// This error with other names, and with the inputs of this list: owned names become borrowed.
+    pub fn with_names<M: Name>(self, inputs: M::List, mut f: impl FnMut(N) -> M) -> MotionError<M> {
         match self {
             Self::NoInertia { scene, coordinate, share } => {
                 MotionError::NoInertia { scene: f(scene), coordinate: f(coordinate), share }
@@ -223,8 +232,8 @@ impl<N: Name> MotionError<N> {
             Self::ContactWithoutEnd { scene, contact, t } => {
                 MotionError::ContactWithoutEnd { scene: f(scene), contact: f(contact), t }
             }
-            Self::Position(error) => MotionError::Position(error.map_names(f)),
-            Self::Path(error) => MotionError::Path(error.map_names(f)),
+            Self::Position(error) => MotionError::Position(error.with_names(inputs, f)),
+            Self::Path(error) => MotionError::Path(error.with_names(inputs, f)),
             Self::Input(error) => MotionError::Input(error.map_names(f)),
         }
     }

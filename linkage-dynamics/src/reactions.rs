@@ -85,7 +85,7 @@ fn loads_with<S: Scene>(
     laws: &Laws<S>,
 ) -> Result<Loads<S>, MotionErrorOf<S>> {
     let (ReducedEquations { rates, .. }, motion) = motion(scene, t, q, input_rates, laws)?;
-    let (free, _) = ReducedEquations::unprescribed(scene, t, &S::state(q, &rates.into()))?;
+    let (free, _) = ReducedEquations::unprescribed(scene, t, &scene.state_of(q, &rates.into()))?;
     let residual = motion.residual(&free);
     let drives: PerInput<S::Mechanism> =
         rates.dim().column(|input| laws[input].map_or_else(S::Scalar::zero, |_| residual[input]));
@@ -122,7 +122,7 @@ fn moving<S: Scene>(
     rates: &PerInput<S::Mechanism>,
     motion: &ContactMotion<S::Scalar, S::V, S::Contacts>,
 ) -> Result<(Rates<S>, Accelerations<S>), MotionErrorOf<S>> {
-    let Equations { ratios, bias, .. } = scene.equations(t, &S::state(q, &(*rates).into()))?;
+    let Equations { ratios, bias, .. } = scene.equations(t, &scene.state_of(q, &(*rates).into()))?;
     let all = S::Mechanism::rates(ratios * *rates, *rates);
     let unknowns = ratios * motion.acceleration + bias;
     Ok((all, Accelerations::<S> { unknowns, inputs: motion.acceleration }))
@@ -144,7 +144,7 @@ fn motion<S: Scene>(
 ) -> Result<MotionOf<S>, MotionErrorOf<S>> {
     let rates: PerInput<S::Mechanism> = input_rates.into();
     let evaluate = |rates: &PerInput<S::Mechanism>| {
-        let (mut equations, _) = ReducedEquations::unprescribed(scene, t, &S::state(q, &(*rates).into()))?;
+        let (mut equations, _) = ReducedEquations::unprescribed(scene, t, &scene.state_of(q, &(*rates).into()))?;
         equations.prescribe_all(laws);
         Ok(equations)
     };

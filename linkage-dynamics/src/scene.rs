@@ -92,10 +92,20 @@ pub trait Scene {
     fn contact_count(&self) -> Self::Contacts {
         Dim::least()
     }
-    /// y = (q, v').
+    /// y = (q, v') of a scene whose type says the order of its coordinates, as that of emitted code does.
     fn state(q: &Coordinates<Self>, input_rates: &Inputs<Self>) -> StateColumn<Self>;
-    /// Splits y into q and v'.
+    /// Splits y into q and v', likewise.
     fn parts(state: &StateColumn<Self>) -> StateParts<Coordinates<Self>, Inputs<Self>>;
+    /// y = (q, v'), in the order of the coordinates of this scene.
+    #[inline]
+    fn state_of(&self, q: &Coordinates<Self>, input_rates: &Inputs<Self>) -> StateColumn<Self> {
+        Self::state(q, input_rates)
+    }
+    /// Splits y into q and v', in the order of the coordinates of this scene.
+    #[inline]
+    fn parts_of(&self, state: &StateColumn<Self>) -> StateParts<Coordinates<Self>, Inputs<Self>> {
+        Self::parts(state)
+    }
     /// Splits `y'`, as [`derivative`](Self::derivative) returns it, into `q'` and `v''`.
     fn rate_parts(derivative: &StateColumn<Self>) -> StateRates<Rates<Self>, Inputs<Self>> {
         let StateParts { q, input_rates: input_accelerations } = Self::parts(derivative);
@@ -229,9 +239,9 @@ pub trait Scene {
     /// [`PositionError::NotConverged`] if no position is found, [`PositionError::NotFinite`] if a number is not finite.
     fn project(&self, state: &StateColumn<Self>) -> Result<StateColumn<Self>, MotionErrorOf<Self>> {
         all_finite(self.name(), Name::from_static("the state"), state.iter())?;
-        let StateParts { q, input_rates } = Self::parts(state);
+        let StateParts { q, input_rates } = self.parts_of(state);
         let closed = newton(self.mechanism(), &q)?;
-        Ok(Self::state(&closed.coordinates, &input_rates))
+        Ok(self.state_of(&closed.coordinates, &input_rates))
     }
 
     /// Builds the initial state: the position near `q` that satisfies the constraints with the inputs of `q`.
@@ -270,9 +280,9 @@ pub trait Scene {
                 }
             }
         }
-        let state = self.project(&Self::state(q, input_rates))?;
+        let state = self.project(&self.state_of(q, input_rates))?;
         if self.contact_count().count() > 0 {
-            let q = Self::parts(&state).q;
+            let q = self.parts_of(&state).q;
             let (u, v, _) = self.mechanism().dims();
             let rest = Self::Mechanism::rates(u.zeros(), v.zeros());
             let scales = Scales::of(self.mechanism(), &self.mechanism().pose_at(&q));

@@ -6,12 +6,12 @@ use linkage_compiler::Lowered;
 use linkage_compiler::graph::Graph;
 use linkage_compiler::ids::{FunctionId, Table};
 use linkage_compiler::lower::Code;
-use linkage_compiler::model::{self, Kind};
-use linkage_compiler::program::{self, ConstantValue, Implemented, Program, SceneProgram, TypeNames};
+use linkage_compiler::model::{self, Kind, Load, LoadKind};
+use linkage_compiler::program::{self, ConstantValue, Implemented, MULTIPLIERS, Program, SceneProgram, TypeNames};
 
 use crate::code::{Function, Name, Names};
 use crate::program::{
-    Coordinate, Driver, Group, Implementation, Lanes, Parameter, Scene, SceneTypes, Side, Types, UserFunction, Written,
+    Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Scene, SceneTypes, Side, Types, UserFunction, Written,
 };
 use crate::translate::{Context, Untranslated};
 
@@ -135,6 +135,15 @@ fn lanes(implementations: &[program::Implementation<Code>]) -> Lanes {
     lanes
 }
 
+/// A joint whose force is shown.
+fn joint(place: usize, of: &Load) -> Joint {
+    let (at, on) = match &of.kind {
+        LoadKind::Pin { joint, link } => (Some(joint.clone()), link.clone()),
+        LoadKind::Guide { block, .. } => (None, block.clone()),
+    };
+    Joint { name: of.field.clone(), at, on, place }
+}
+
 /// The names as written, and the groups.
 fn written(implementations: &[program::Implementation<Code>]) -> Written {
     let mut written = Written::default();
@@ -199,6 +208,18 @@ fn scene(of: &SceneProgram<Code>, driver: &Context, names: &mut Names) -> Result
     };
     let parameters = signatures.scene.parameters.iter().map(|&id| &signatures.mechanism.scene_parameters[id]);
     let parameters: Vec<&model::Parameter> = parameters.collect();
+    let loads = signatures.scene.loads.iter().map(|&place| (place, &signatures.mechanism.opened.loads[place]));
+    let constants = implementation.iter().flat_map(|one| &one.constants);
+    let kinks = constants.clone().find_map(|(_, value)| if let ConstantValue::Kinks(all) = value { Some(all) } else { None });
+    let kink = |of: &program::Kink| Kink { effect: of.effect.clone(), is_timed: of.is_timed };
+    let mut forces: Vec<(Name, Option<usize>)> = Vec::new();
+    for (_, load) in loads.clone() {
+        let length = matches!(load.kind, LoadKind::Pin { .. }).then_some(2);
+        forces.extend(load.fields().iter().map(|field| (names.of(field), length)));
+    }
+    if signatures.has_multipliers() {
+        forces.push((names.of(MULTIPLIERS), Some(signatures.dependent.len())));
+    }
     Ok(Scene {
         name: signatures.scene.name.to_string().into(),
         types: SceneTypes { scene: names.of(&signatures.types.itself), state: names.of("StateParts") },
@@ -207,5 +228,10 @@ fn scene(of: &SceneProgram<Code>, driver: &Context, names: &mut Names) -> Result
         about_parameters: parameters.iter().map(|of| parameter(&signatures.mechanism.graph, of)).collect(),
         functions: listed_functions(functions, &context, names)?,
         implementation: implementation.as_ref().map(|one| implemented(one, &context, names)).transpose()?,
+        contacts: signatures.scene.contacts.len(),
+        has_bearings: signatures.count_bearings() > 0,
+        kinks: kinks.into_iter().flatten().map(kink).collect(),
+        joints: loads.map(|(place, load)| joint(place, load)).collect(),
+        forces,
     })
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::at_run_time::{NotPrepared, OfTheRuntime, Prepared};
+use crate::at_run_time::{NotPrepared, OfTheRuntime, Prepared, PreparedScene};
 use crate::call_error::CallError;
 use crate::code::{Access, Argument, Function};
 use crate::convert::{to_data, to_value};
@@ -334,6 +334,15 @@ impl SceneDesign {
         let place = place.ok_or_else(|| Mistake::unknown(parameter, about.iter().map(|one| one.text.as_str())))?;
         self.parameters[place] = value;
         Ok(self)
+    }
+
+    /// Makes the scene ready for simulations.
+    ///
+    /// # Errors
+    /// [`NotPrepared`].
+    pub fn prepared(&self) -> Result<PreparedScene<'_>, NotPrepared> {
+        let (driver, users) = self.of.parts()?;
+        PreparedScene::of(driver, users, self.scene(), self.own())
     }
 
     /// The arguments of a function.

@@ -97,6 +97,31 @@ pub(crate) struct Scene {
     pub(crate) about_parameters: Vec<Parameter>,
     pub(crate) functions: Vec<Function>,
     pub(crate) implementation: Option<Implementation>,
+    pub(crate) contacts: usize,
+    pub(crate) has_bearings: bool,
+    pub(crate) kinks: Vec<Kink>,
+    pub(crate) joints: Vec<Joint>,
+    /// The fields of the forces in its joints: a number, or a list of this length.
+    pub(crate) forces: Vec<(Name, Option<usize>)>,
+}
+
+/// A kink or a jump of a law.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Kink {
+    pub(crate) effect: String,
+    pub(crate) is_timed: bool,
+}
+
+/// A joint whose force a scene shows, as `linkage_runtime::Joint`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Joint {
+    pub(crate) name: String,
+    /// The point at a pin; none of a guide.
+    pub(crate) at: Option<String>,
+    /// The link on which the force acts.
+    pub(crate) on: String,
+    /// Its place among the forces in joints of the mechanism.
+    pub(crate) place: usize,
 }
 
 /// The functions of a trait of the runtime.

@@ -118,7 +118,7 @@ impl<T: Real, V: Dim, C: Dim, N: BorrowedName> ReducedEquations<T, V, C, N> {
         S: Scene<Scalar = T, V = V, Contacts = C, Mechanism: Mechanism<Name = N>>,
     {
         let Equations { mass, forces, ratios, bias } = scene.equations(t, state)?;
-        let StateParts { q, input_rates } = S::parts(state);
+        let StateParts { q, input_rates } = scene.parts_of(state);
         let input_rates: PerInput<S::Mechanism> = input_rates.into();
         let rates = S::Mechanism::rates(ratios * input_rates, input_rates);
         let (_, v) = ratios.dims();

@@ -56,7 +56,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
                 continue;
             }
             let motion = self.integration.system();
-            let q = S::parts(&step.state).q;
+            let q = motion.scene.parts_of(&step.state).q;
             if matches!(motion.parametrisation, Parametrisation::Inputs)
                 && let Some(times) = self.sign_change(step.t, &q)
             {
@@ -170,14 +170,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let step = self.integration.cubic();
         let (start, end) = step.interval();
         let motion = self.integration.system();
-        let way = motion.scaled_norm(&Motion::<S, W>::column(&S::parts(&step.way()).q));
+        let way = motion.scaled_norm(&Motion::<S, W>::column(&motion.scene.parts_of(&step.way()).q));
         // NaN and infinity are errors of the step itself.
         let parts = (to_f64(way) / LONGEST_UNCHECKED).clamp(0.0, MOST_CHECKS);
         let (mut part, mut last) = (1.0, start);
         while part < parts {
             let between = start + (end - start) * real(part / parts);
             let is_before = (t - between) * (end - start) > S::Scalar::zero();
-            if is_before && !self.has_signs(&S::parts(&step.at(between)).q) {
+            if is_before && !self.has_signs(&motion.scene.parts_of(&step.at(between)).q) {
                 return Some([last, between]);
             }
             last = between;
@@ -195,16 +195,16 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
 
     /// The position between two times of the last step at which the signs of the determinants change.
     fn singularity(&self, [mut before, mut after]: [S::Scalar; 2]) -> Coordinates<S> {
-        let step = self.integration.cubic();
+        let (step, scene) = (self.integration.cubic(), &self.integration.system().scene);
         for _ in 0..MOST_BISECTIONS {
             let middle = before + (after - before) * real(0.5);
-            if self.has_signs(&S::parts(&step.at(middle)).q) {
+            if self.has_signs(&scene.parts_of(&step.at(middle)).q) {
                 before = middle;
             } else {
                 after = middle;
             }
         }
-        S::parts(&step.at(before)).q
+        scene.parts_of(&step.at(before)).q
     }
 
     /// Repeats the last step in other coordinates than the inputs.

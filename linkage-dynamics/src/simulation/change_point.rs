@@ -82,7 +82,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if self.scene.has_bearings() {
             return Ahead::Clear;
         }
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         let factors = self.factors(independent, &q);
         let velocity = factors.rates(&rates);
         let speed = self.scaled_norm(&velocity);

@@ -23,7 +23,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// y' in the current coordinates.
     #[inline]
     fn rate_at(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
-        let (q, free_rates) = Self::unpack(y);
+        let (q, free_rates) = self.unpack(y);
         let (independent, frame) = match &self.parametrisation {
             Parametrisation::Inputs if self.contacts.modes.iter().all(|&mode| mode == Mode::Open) => {
                 return self.scene.derivative(t, y);
@@ -52,7 +52,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         };
         let rate = self.rate_of(t, &self.equations_by(independent, &frame, (t, y))?)?;
         if let (true, Parametrisation::Over(sheet)) = (frame.is_interpolated, &self.parametrisation) {
-            let errors = self.errors_of_rate(&sheet.errors, &frame, (&free_rates, &Self::unpack(&rate).1));
+            let errors = self.errors_of_rate(&sheet.errors, &frame, (&free_rates, &self.unpack(&rate).1));
             self.uncertainty = Some(self.uncertainty.map_or(errors, |known| known.zip_map(&errors, S::Scalar::max)));
         }
         Ok(rate)
@@ -68,7 +68,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         all_finite(self.scene.name(), Name::from_static("the acceleration"), accelerations.iter())?;
         // y' is packed in the layout of y.
         let (unknowns, inputs) = S::Mechanism::rate_parts(rates);
-        Ok(Self::pack(&S::Mechanism::coordinates(unknowns, inputs), &accelerations))
+        Ok(self.pack(&S::Mechanism::coordinates(unknowns, inputs), &accelerations))
     }
 
     /// M, Q and the contacts reduced to a choice of independent coordinates z, and q'.
@@ -96,7 +96,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         frame: &Frame<S>,
         (t, y): (S::Scalar, &StateColumn<S>),
     ) -> Result<(Reduced<S>, Rates<S>), MotionErrorOf<S>> {
-        let (_, free_rates) = Self::unpack(y);
+        let (_, free_rates) = self.unpack(y);
         let Frame { q, basis: (unknowns, inputs), bias, .. } = frame;
         let (unknowns, inputs) = (*unknowns, *inputs);
         let rates = S::Mechanism::rates(unknowns * free_rates, inputs * free_rates);
@@ -148,7 +148,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let of_accelerations = errors.bias * speed * speed + (errors.basis + errors.position) * urge;
         let free = self.parametrisation.independent().map_or(scales.inputs, |independent| independent.of(scales));
         let q = S::Mechanism::coordinates(scales.unknowns * of_rates, scales.inputs * of_rates);
-        Self::pack(&q, &(free * of_accelerations))
+        self.pack(&q, &(free * of_accelerations))
     }
 }
 

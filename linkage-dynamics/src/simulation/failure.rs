@@ -40,7 +40,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             error,
             MotionError::StepTooSmall { .. } | MotionError::TooManySteps { .. } | MotionError::Position(_)
         );
-        let q = S::parts(y).q;
+        let q = self.scene.parts_of(y).q;
         if !(self.scene.has_bearings() && is_of_step) {
             return error;
         }

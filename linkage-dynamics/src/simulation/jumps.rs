@@ -63,7 +63,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         (t, y): (S::Scalar, &StateColumn<S>),
         (most, frequency): (S::Scalar, S::Scalar),
     ) -> Option<usize> {
-        let ((q, rates), (q_before, rates_before)) = (Self::unpack(y), Self::unpack(before));
+        let ((q, rates), (q_before, rates_before)) = (self.unpack(y), self.unpack(before));
         let inputs_before = S::Mechanism::inputs(&q_before);
         let inputs = S::Mechanism::inputs(&q);
         let laws = self.prescribed(t);
@@ -122,7 +122,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         y: &StateColumn<S>,
         jumps: &PerInput<S::Mechanism>,
     ) -> Result<PerInput<S::Mechanism>, MotionErrorOf<S>> {
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         let mut equations = match self.frame(&q, &rates)? {
             None => ReducedEquations::unprescribed(&*self.scene, t, y)?.0,
             Some((independent, frame)) => self.unprescribed_by(independent, &frame, (t, y))?.0,
@@ -139,7 +139,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// The jumps of prescribed rates from those of y to these laws; zero where they are rounding errors.
     fn jumps(&self, y: &StateColumn<S>, laws: &Laws<S>, frequency: S::Scalar) -> PerInput<S::Mechanism> {
-        let rates = Self::unpack(y).1;
+        let rates = self.unpack(y).1;
         rates.dim().column(|input| {
             let (Some(law), Some(place)) = (laws[input], place_of::<S>(&self.parametrisation, input)) else {
                 return S::Scalar::zero();
@@ -162,7 +162,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         frequency: S::Scalar,
     ) -> Result<Crossed<S>, MotionErrorOf<S>> {
         let Corner { before, after, .. } = *corner;
-        let inputs = S::Mechanism::inputs(&Self::unpack(y).0);
+        let inputs = S::Mechanism::inputs(&self.unpack(y).0);
         let laws = self.scene.prescribed(after);
         let most = S::Scalar::default_epsilon().sqrt();
         for (input, law) in laws.iter().enumerate() {
@@ -177,10 +177,10 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let velocity = self.velocity(y)?;
         let jumps = self.jumps(y, &laws, frequency);
         let has_jump = jumps.iter().any(|jump| !jump.is_zero());
-        let rates = if has_jump { self.kicked(before, y, &jumps)? } else { Self::unpack(y).1 };
-        let q = Self::moved(&Self::unpack(y).0, &(velocity * (after - before)));
+        let rates = if has_jump { self.kicked(before, y, &jumps)? } else { self.unpack(y).1 };
+        let q = Self::moved(&self.unpack(y).0, &(velocity * (after - before)));
         self.corners.from = after;
-        let kicked = self.projected(after, &Self::pack(&q, &rates))?;
+        let kicked = self.projected(after, &self.pack(&q, &rates))?;
         if !has_jump {
             return Ok((kicked, self.scene.contact_count().repeat(None)));
         }
@@ -195,15 +195,15 @@ impl<S: Scene, W> Motion<'_, S, W> {
     ) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         let projected = self.projected(t, y)?;
         let jumps = self.jumps(y, &self.prescribed(t), S::Scalar::zero());
-        let (before, after) = (Self::unpack(y).1, Self::unpack(&projected).1);
+        let (before, after) = (self.unpack(y).1, self.unpack(&projected).1);
         let least = S::Scalar::default_epsilon().sqrt();
         let has_jump = (0..jumps.dim().count()).any(|i| jumps[i].abs() > least * (before[i].abs() + after[i].abs()));
         if !has_jump {
             return Ok(projected);
         }
-        let q = Self::unpack(&projected).0;
-        let rates = self.kicked(t, &Self::pack(&q, &before), &jumps)?;
-        self.projected(t, &Self::pack(&q, &rates))
+        let q = self.unpack(&projected).0;
+        let rates = self.kicked(t, &self.pack(&q, &before), &jumps)?;
+        self.projected(t, &self.pack(&q, &rates))
     }
 }
 

@@ -81,14 +81,14 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if !has_moving(&*self.scene) || is_smooth(y) {
             return None;
         }
-        let ((q, rates), velocity) = (Self::unpack(y), self.velocity(y).ok()?);
+        let ((q, rates), velocity) = (self.unpack(y), self.velocity(y).ok()?);
         // From four ulps of the scales of the coordinates.
         let mut little = S::Scalar::default_epsilon() * real(4.0) / self.scaled_norm(&velocity);
         if !self.corners.is_forward {
             little = -little;
         }
         for _ in 0..8 {
-            let near = Self::pack(&Self::moved(&q, &(velocity * little)), &rates);
+            let near = self.pack(&Self::moved(&q, &(velocity * little)), &rates);
             if is_smooth(&near) {
                 return Some(near);
             }
@@ -193,7 +193,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// The value of an expression of the state; None if it cannot be computed.
     fn kink_value(&self, place: usize, t: S::Scalar, y: &StateColumn<S>) -> Option<S::Scalar> {
-        let (q, _) = Self::unpack(y);
+        let (q, _) = self.unpack(y);
         let velocity = self.velocity(y).ok()?;
         let value = self.scene.kink(place, t, &q, &S::Mechanism::rates(velocity.unknowns, velocity.inputs));
         value.is_finite().then_some(value)
@@ -202,7 +202,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// The rounding error of an expression of the state: the sum of its changes by the errors of each coordinate and of
     /// each rate, in a few ulps of their scales and of the speed of the motion.
     fn kink_noise(&self, place: usize, t: S::Scalar, y: &StateColumn<S>) -> Option<f64> {
-        let (q, _) = Self::unpack(y);
+        let (q, _) = self.unpack(y);
         let velocity = self.velocity(y).ok()?;
         let speed = self.scaled_norm(&velocity);
         let scales = &self.scales.coordinates;

@@ -95,12 +95,12 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
     }
 
     /// Packs a position and the rates of the independent coordinates into y.
-    pub(super) fn pack(q: &Coordinates<S>, rates: &PerInput<S::Mechanism>) -> StateColumn<S> {
-        S::state(q, &(*rates).into())
+    pub(super) fn pack(&self, q: &Coordinates<S>, rates: &PerInput<S::Mechanism>) -> StateColumn<S> {
+        self.scene.state_of(q, &(*rates).into())
     }
 
-    pub(super) fn unpack(y: &StateColumn<S>) -> (Coordinates<S>, PerInput<S::Mechanism>) {
-        let StateParts { q, input_rates } = S::parts(y);
+    pub(super) fn unpack(&self, y: &StateColumn<S>) -> (Coordinates<S>, PerInput<S::Mechanism>) {
+        let StateParts { q, input_rates } = self.scene.parts_of(y);
         (q, input_rates.into())
     }
 
@@ -153,7 +153,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
 
     /// u' and v'.
     pub(super) fn velocity(&self, y: &StateColumn<S>) -> Result<Change<S>, MotionErrorOf<S>> {
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         let mechanism = self.scene.mechanism();
         match &self.parametrisation {
             Parametrisation::Inputs => {
@@ -173,13 +173,13 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
         rates: &PerInput<S::Mechanism>,
     ) -> Result<StateColumn<S>, MotionErrorOf<S>> {
         match &self.parametrisation {
-            Parametrisation::Inputs => Ok(Self::pack(q, rates)),
+            Parametrisation::Inputs => Ok(self.pack(q, rates)),
             Parametrisation::Others(independent) => {
                 let mechanism = self.scene.mechanism();
                 let pose = mechanism.pose_at(q);
                 let right = mechanism.jacobian_inputs(&pose) * -*rates;
                 let rates = Change::<S> { unknowns: mechanism.solve_jacobian(&pose, &right)?, inputs: *rates };
-                Ok(Self::pack(q, &independent.of(&rates)))
+                Ok(self.pack(q, &independent.of(&rates)))
             }
             Parametrisation::Over(sheet) => {
                 // v' = N_v z'.
@@ -191,13 +191,13 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
                 if !is_regular {
                     return Err(self.singular_error(q));
                 }
-                Ok(Self::pack(q, &elimination.solve(rates).unknowns))
+                Ok(self.pack(q, &elimination.solve(rates).unknowns))
             }
         }
     }
 
     pub(super) fn state(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<State<S>, MotionErrorOf<S>> {
-        let (q, _) = Self::unpack(y);
+        let (q, _) = self.unpack(y);
         let Change::<S> { unknowns, inputs } = self.velocity(y)?;
         let time = [t];
         let all = time.iter().chain(y.iter()).chain(unknowns.iter()).chain(inputs.iter());
@@ -209,7 +209,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
 
     /// Projects y onto the constraints, with prescribed inputs set to their laws.
     pub(super) fn projected(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
-        let (mut q, mut rates) = Self::unpack(y);
+        let (mut q, mut rates) = self.unpack(y);
         let laws = self.prescribed(t);
         let mut inputs = S::Mechanism::inputs(&q);
         for (input, law) in laws.iter().enumerate() {
@@ -235,7 +235,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
                 if is_interpolated { q } else { self.projected_in(&sheet.independent, &q)? }
             }
         };
-        Ok(Self::pack(&q, &rates))
+        Ok(self.pack(&q, &rates))
     }
 
     /// Projects `q` with the same inputs. Mostly one Newton step suffices.

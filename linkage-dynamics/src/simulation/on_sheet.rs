@@ -146,7 +146,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// True if the motion is beyond the interpolated part and moves away from the crossing.
     pub(super) fn leaves(&self, sheet: &SheetOf<S>, y: &StateColumn<S>) -> bool {
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         let z = sheet.independent.of(&Self::column(&q));
         let x = sheet.x(&z);
         let is_leaving = x * sheet.across.dot(&rates) >= S::Scalar::zero();

@@ -52,7 +52,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         self.from = (t, y);
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
-        let pose = mechanism.pose_at(&S::parts(&y).q);
+        let pose = mechanism.pose_at(&motion.scene.parts_of(&y).q);
         let blocks = Blocks::of(mechanism, &pose);
         let (regularity, _) = blocks.least_regular();
         let determinants = *blocks.determinants();
@@ -107,13 +107,13 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         if !(is_near || is_next) {
             return Ok(());
         }
-        let q = S::parts(&y).q;
+        let q = motion.scene.parts_of(&y).q;
         let independent =
             Independent::choose(mechanism, &mechanism.pose_at(&q), &motion.scales, &motion.prescribed_inputs(t));
         let rates = independent.of(&velocity);
         let ahead = motion.change_point_ahead(
             &independent,
-            &Motion::<S, W>::pack(&q, &rates),
+            &motion.pack(&q, &rates),
             self.direction(),
             real(self.relative),
         );
@@ -144,7 +144,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
-        let pose = mechanism.pose_at(&S::parts(&y).q);
+        let pose = mechanism.pose_at(&motion.scene.parts_of(&y).q);
         let independent = Independent::choose(mechanism, &pose, &motion.scales, &motion.prescribed_inputs(t));
         let rates = independent.of(&motion.velocity(&y)?);
         self.exchange(Parametrisation::Others(independent), &rates);
@@ -159,7 +159,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         if motion.dims().1.count() == 1 {
             return Ok(());
         }
-        let (q, rates) = Motion::<S, W>::unpack(&y);
+        let (q, rates) = motion.unpack(&y);
         let z = sheet.independent.of(&Motion::<S, W>::column(&q));
         if let Some(moved) = motion.sheet_through(sheet, &z, &sheet.reach) {
             self.set(Parametrisation::Over(moved), &rates);
@@ -171,7 +171,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     pub(super) fn count_passage(&mut self, y: &StateColumn<S>) {
         let motion = self.integration.system();
         let Parametrisation::Over(sheet) = &motion.parametrisation else { return };
-        let pivots = motion.factors(&sheet.independent, &S::parts(y).q).pivots();
+        let pivots = motion.factors(&sheet.independent, &motion.scene.parts_of(y).q).pivots();
         let is_beyond = sheet.is_beyond(&pivots);
         if is_beyond != core::mem::replace(&mut self.is_beyond, is_beyond) {
             self.passages.change_points += 1;
@@ -184,7 +184,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         let mechanism = motion.scene.mechanism();
-        let (q, mut rates) = Motion::<S, W>::unpack(&y);
+        let (q, mut rates) = motion.unpack(&y);
         let pose = mechanism.pose_at(&q);
         let factors = independent.factors(mechanism, &pose, &motion.scales);
         independent.pivots = factors.pivots();
@@ -206,9 +206,9 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let (t, y) = (self.integration.t(), *self.integration.state());
         let motion = self.integration.system();
         match motion.change_point_ahead(&independent, &y, self.direction(), real(self.relative)) {
-            Ahead::Sheet(sheet) => self.exchange(Parametrisation::Over(sheet), &Motion::<S, W>::unpack(&y).1),
+            Ahead::Sheet(sheet) => self.exchange(Parametrisation::Over(sheet), &motion.unpack(&y).1),
             _ if independent.regularity() < real(LEAST_REGULARITY) => {
-                return Err(motion.no_coordinates_error(t, &S::parts(&y).q));
+                return Err(motion.no_coordinates_error(t, &motion.scene.parts_of(&y).q));
             }
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),
             Ahead::Clear => {}
@@ -224,9 +224,9 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     }
 
     fn set(&mut self, parametrisation: ParametrisationOf<S>, rates: &PerInput<S::Mechanism>) {
-        let q = S::parts(self.integration.state()).q;
+        let q = self.integration.system().scene.parts_of(self.integration.state()).q;
         self.integration.system_mut().parametrisation = parametrisation;
-        let y = Motion::<S, W>::pack(&q, rates);
+        let y = self.integration.system().pack(&q, rates);
         let scale = scale_of(self.integration.system(), self.frequency);
         // It cannot fail: the tolerance is unchanged, and the new scales are positive too.
         if let Ok(tolerance) = Tolerance::new(self.relative, scale) {
@@ -243,5 +243,5 @@ pub(super) fn scale_of<S: Scene, W>(motion: &Motion<'_, S, W>, frequency: S::Sca
     let scales = &motion.scales.coordinates;
     let scale = S::Mechanism::coordinates(scales.unknowns, scales.inputs);
     let rates = motion.parametrisation.independent().map_or(scales.inputs, |independent| independent.of(scales));
-    Motion::<S, W>::pack(&scale, &(rates * frequency))
+    motion.pack(&scale, &(rates * frequency))
 }

@@ -86,8 +86,8 @@ impl<'a, S: Scene<Contacts = D<0>>> RealTime<'a, S> {
         self.steps.step()?;
         let motion = &self.steps.system().0;
         let mechanism = motion.scene.mechanism();
-        let signs = |y: &StateColumn<S>| mechanism.block_determinants(&mechanism.pose_at(&S::parts(y).q));
-        let q = S::parts(self.steps.state()).q;
+        let signs = |y: &StateColumn<S>| mechanism.block_determinants(&mechanism.pose_at(&motion.scene.parts_of(y).q));
+        let q = motion.scene.parts_of(self.steps.state()).q;
         if same_signs(signs(&before).as_slice(), signs(self.steps.state()).as_slice()) {
             return Ok(());
         }

@@ -43,7 +43,7 @@ pub fn simulate<'a, S: Scene, By>(
 ) -> Result<Simulation<'a, S>, MotionErrorOf<S>> {
     let (scene, Start { t, q: given, input_rates }) = (scene.into_held_scene(), start);
     let y = scene.start(t, &given, &input_rates.into()).map_err(|error| start_error(&*scene, &given, error))?;
-    let q = S::parts(&y).q;
+    let q = scene.parts_of(&y).q;
     let mechanism = scene.mechanism();
     let pose = mechanism.pose_at(&q);
     let (scales, signs) = (Scales::of(mechanism, &pose), mechanism.block_determinants(&pose));
@@ -93,7 +93,7 @@ fn begin<S: Scene>(
     }
     let y = if motion.names.dim().count() > 0 { motion.begin(t, &y)? } else { y };
     let velocity = motion.velocity(&y)?;
-    let (_, accelerations) = Motion::<S, Unwatched>::unpack(&motion.scene.derivative(motion.beside(t), &y)?);
+    let (_, accelerations) = motion.unpack(&motion.scene.derivative(motion.beside(t), &y)?);
     let speed = motion.scaled_norm(&velocity);
     let urge = accelerations.component_div(&motion.scales.coordinates.inputs).largest().sqrt();
     let span = to_f64(end - t).abs();

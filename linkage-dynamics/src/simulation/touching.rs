@@ -32,7 +32,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// [`MotionError::ChangePoint`](crate::MotionError::ChangePoint) if [J A] is nearly singular and the position is on no known sheet.
     fn equations(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionErrorOf<S>> {
         let t = self.beside(t);
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         match self.frame(&q, &rates)? {
             None => ReducedEquations::of(&*self.scene, t, y),
             Some((independent, frame)) => Ok(self.equations_by(independent, &frame, (t, y))?.0),
@@ -43,7 +43,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     /// needed.
     pub(super) fn contacts_alone(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<Reduced<S>, MotionErrorOf<S>> {
         let t = self.beside(t);
-        let (q, _) = Self::unpack(y);
+        let (q, _) = self.unpack(y);
         let velocity = self.velocity(y)?;
         let rates_of_all = S::Mechanism::rates(velocity.unknowns, velocity.inputs);
         let contacts = self.scene.contacts(t, &q, &rates_of_all)?.map(|contact| ReducedContact {
@@ -77,7 +77,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// The rounding error of each s.
     fn resolution(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<PerContact<S>, MotionErrorOf<S>> {
-        let (q, _) = Self::unpack(y);
+        let (q, _) = self.unpack(y);
         let velocity = self.velocity(y)?;
         let contacts = self.scene.contacts(t, &q, &S::Mechanism::rates(velocity.unknowns, velocity.inputs))?;
         let mut resolution = contacts.dim().zeros();
@@ -94,13 +94,13 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Finds the modes at the start; returns y with the rates after any impact.
     pub(super) fn begin(&mut self, t: S::Scalar, y: &StateColumn<S>) -> Result<StateColumn<S>, MotionErrorOf<S>> {
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         let mut contacts = self.contacts.with_resolution(self.resolution(t, y)?);
-        let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
+        let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &self.pack(&q, rates));
         let rates = contacts.start(t, &rates, at).map_err(|error| error.at(t))?;
         self.names = self.contacts_alone(t, y)?.contacts.map(|contact| contact.name);
         self.contacts = contacts;
-        Ok(Self::pack(&q, &rates))
+        Ok(self.pack(&q, &rates))
     }
 
     /// Applies a contact event at this state; returns y after it and the change of each contact.
@@ -132,21 +132,21 @@ impl<S: Scene, W> Motion<'_, S, W> {
         if self.names.dim().count() == 0 {
             return Ok((*y, self.names.dim().repeat(None)));
         }
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         // In the change point itself a change of a contact may lead to any of the motions that cross.
         if self.is_at_change_point(&q) {
             return Err(self.change_point_error(&q));
         }
         self.contacts = self.contacts.with_resolution(self.resolution(t, y)?);
         let mut contacts = self.contacts;
-        let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &Self::pack(&q, rates));
+        let at = |rates: &PerInput<S::Mechanism>| self.equations(t, &self.pack(&q, rates));
         let rates = match settling {
             Settling::AtEvent => contacts.settle(t, &rates, at),
             Settling::NewRates => contacts.resume(t, &rates, at),
             Settling::Together => contacts.settle_together(t, &rates, at),
         };
         let rates = rates.map_err(|error| error.at(t))?;
-        let after = Self::pack(&q, &rates);
+        let after = self.pack(&q, &rates);
         let done = changes(&self.contacts.modes, &contacts);
         self.contacts = contacts;
         Ok((after, done))
@@ -169,7 +169,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         }
         let ContactReview { rates, modes_hold } =
             contacts.review(&self.equations(t, y)?).map_err(|error| error.at(t))?;
-        Ok((Self::pack(&S::parts(y).q, &rates), modes_hold))
+        Ok((self.pack(&self.scene.parts_of(y).q, &rates), modes_hold))
     }
 
     /// Returns y with each s on the stop on which it rests by these contacts; `most` is the largest distance from it.
@@ -184,9 +184,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
             return Ok(*y);
         }
         let Some(change) = contacts.return_to_stops(t, &self.equations(t, y)?, most)? else { return Ok(*y) };
-        let (q, rates) = Self::unpack(y);
-        let there = Self::moved(&q, &self.velocity(&Self::pack(&q, &change))?);
-        self.projected(t, &Self::pack(&there, &rates))
+        let (q, rates) = self.unpack(y);
+        let there = Self::moved(&q, &self.velocity(&self.pack(&q, &change))?);
+        self.projected(t, &self.pack(&there, &rates))
     }
 
     /// The forces of the contacts in the modes of `contacts`, of the drives by input, zero without a drive, and in the
@@ -201,7 +201,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         y: &StateColumn<S>,
     ) -> Result<Loads<S>, MotionErrorOf<S>> {
         let t = self.beside(t);
-        let (q, rates) = Self::unpack(y);
+        let (q, rates) = self.unpack(y);
         let (free, places) = match self.frame(&q, &rates)? {
             None => (ReducedEquations::unprescribed(&*self.scene, t, y)?.0, rates.dim().column(Some)),
             Some((independent, frame)) => {
@@ -243,7 +243,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         y: &StateColumn<S>,
         free: &PerInput<S::Mechanism>,
     ) -> Result<Accelerations<S>, MotionErrorOf<S>> {
-        let (q, free_rates) = Self::unpack(y);
+        let (q, free_rates) = self.unpack(y);
         let Some((_, frame)) = self.frame(&q, &free_rates)? else {
             let Equations { ratios, bias, .. } = self.scene.equations(t, y)?;
             return Ok(Accelerations::<S> { unknowns: ratios * *free + bias, inputs: *free });

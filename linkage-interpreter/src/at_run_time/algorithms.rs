@@ -2,15 +2,19 @@
 
 use std::sync::Arc;
 
+use linkage_dynamics::__rt::{bearing_loss, drive_forces, reactions};
+use linkage_dynamics::MotionError;
 use linkage_runtime::limits::{Bound, Limit, Limits, Search, limits};
 use linkage_runtime::{PositionError, RangeEnd, UpTo, newton, newton_any_branch};
 
 use super::read::{number, numbers};
-use super::{AtRunTime, MOST_INPUTS, NotPrepared, PoseAtRunTime, Prepared};
+use super::{
+    AtRunTime, MOST_INPUTS, NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime,
+};
 use crate::call_error::CallError;
 use crate::code::Name;
 use crate::error::Error;
-use crate::machine::{Algorithms, AroundPosition, Defect, Evaluated, Failure, Value, Whole};
+use crate::machine::{Algorithms, AroundPosition, Defect, Evaluated, Failure, Load, Moving, Value, Whole};
 
 /// The algorithms of the runtime.
 pub(crate) struct OfTheRuntime;
@@ -35,8 +39,24 @@ fn run(
 ) -> Evaluated<Value> {
     let prepared = Prepared::of(of.driver, of.users, of.own)?;
     let found = algorithm(&prepared.with_inputs()?);
-    match prepared.failure() {
-        None => Ok(found.map_err(Error::from)?),
+    unless(prepared.failure(), found.map_err(Error::from))
+}
+
+/// What an algorithm finds on a scene, likewise.
+fn run_scene(
+    of: Whole<'_>,
+    moving: &Moving<'_>,
+    algorithm: impl for<'a> FnOnce(&SceneAtRunTime<'a, Inputs>) -> Result<Value, MotionError<&'a str>>,
+) -> Evaluated<Value> {
+    let prepared = PreparedScene::of(of.driver, of.users, moving.scene, of.own)?;
+    let found = algorithm(&prepared.with_inputs()?);
+    unless(prepared.failure(), found.map_err(Error::from))
+}
+
+/// The result of an algorithm, unless a call has failed.
+fn unless(failure: Option<CallError>, found: Result<Value, Error>) -> Evaluated<Value> {
+    match failure {
+        None => Ok(found?),
         Some(CallError::Function(error)) => Err(error.into()),
         Some(CallError::Defect(defect)) => Err(defect.into()),
         Some(CallError::Mistake(mistake)) => Err(Defect::new(mistake.to_string()).into()),
@@ -87,6 +107,18 @@ impl Algorithms for OfTheRuntime {
             let coordinates = |pose: &PoseAtRunTime<Inputs>| pose.coordinates;
             let found = limits(mechanism, place, &position, bounds, search, assemble, coordinates)?;
             Ok(limits_value(found))
+        })
+    }
+
+    fn load(&self, of: Whole<'_>, moving: &Moving<'_>, load: Load) -> Evaluated<Value> {
+        run_scene(of, moving, |scene| {
+            let (mechanism, t) = (scene.mechanism, moving.t);
+            let (q, rates) = (mechanism.read_coordinates(moving.q), mechanism.read_inputs(moving.input_rates));
+            Ok(match load {
+                Load::Joints => reactions(scene, t, &q, rates)?.value(moving.scene),
+                Load::Drives => mechanism.inputs_value(&drive_forces(scene, t, &q, rates)?),
+                Load::LossOfBearings => Value::Number(bearing_loss(scene, t, &q, rates)?),
+            })
         })
     }
 }

@@ -16,6 +16,7 @@ mod pose;
 mod positions;
 mod prepared;
 mod read;
+mod scene;
 
 use linkage_runtime::{Dim, UpTo};
 
@@ -25,6 +26,7 @@ pub use coordinates::CoordinatesAtRunTime;
 pub use not_prepared::NotPrepared;
 pub use pose::PoseAtRunTime;
 pub use prepared::Prepared;
+pub use scene::{ContactCount, JointForcesAtRunTime, PreparedScene, SceneAtRunTime, StateCount};
 
 /// The most unknowns, groups, points and outputs.
 pub(crate) const MOST: usize = 24;

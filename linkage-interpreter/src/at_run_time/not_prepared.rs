@@ -23,6 +23,11 @@ pub enum NotPrepared {
         /// The inputs of the mechanism.
         count: usize,
     },
+    /// The scene has no `inertia`: nothing of it moves by itself.
+    NoInertia {
+        /// The scene.
+        scene: String,
+    },
     /// The compiled code is damaged.
     Defect(crate::Defect),
 }
@@ -36,6 +41,7 @@ impl Display for NotPrepared {
                 "there are {count} {of}, more than the {most} that a mechanism at run time can have: use `linkage!`"
             ),
             Self::Inputs { count } => write!(f, "the mechanism has {count} inputs, which this computation does not take"),
+            Self::NoInertia { scene } => write!(f, "`{scene}` has no `inertia`: nothing of it moves by itself"),
             Self::Defect(error) => error.fmt(f),
         }
     }

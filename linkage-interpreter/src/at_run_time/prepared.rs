@@ -10,13 +10,14 @@ use super::names::Texts;
 use super::{AtRunTime, Count, MOST, MOST_INPUTS, MOST_OF_POSE, NotPrepared};
 use crate::call_error::CallError;
 use crate::code::{Function, Name};
+use crate::error::Error;
 use crate::machine::{Defect, Failure, Kind, MOST_UNKNOWNS, Machine, Of, User, Value};
 use crate::program::Driver;
 
 /// A design with what its traits need at hand. It borrows the design.
 pub struct Prepared<'d> {
     pub(crate) driver: &'d Driver,
-    users: &'d [Option<User>],
+    pub(crate) users: &'d [Option<User>],
     own: Value,
     functions: BTreeMap<&'d str, &'d Function>,
     texts: Texts<'d>,
@@ -158,20 +159,25 @@ impl<'d> Prepared<'d> {
 
     /// The error of a call with borrowed names.
     pub(crate) fn error(&self, failure: Box<Failure>) -> PositionError<&str> {
-        match CallError::from(failure) {
-            CallError::Function(crate::Error::Position(error)) => {
-                error.with_names(self.inputs.as_slice(), |name| self.texts.find(&name))
+        self.error_of(CallError::from(failure))
+    }
+
+    /// The error of a call with borrowed names. A failure that is no error of the mechanism is kept, and numbers are none.
+    pub(crate) fn error_of(&self, error: CallError) -> PositionError<&str> {
+        match error {
+            CallError::Function(Error::Position(error)) => {
+                error.with_names(self.inputs.as_slice(), |name| self.name_of(&name))
             }
             other => {
                 self.keep(other);
-                self.not_finite()
+                PositionError::NotFinite { mechanism: &self.driver.name, quantity: "the position" }
             }
         }
     }
 
-    /// The error of numbers that are none.
-    pub(crate) fn not_finite(&self) -> PositionError<&str> {
-        PositionError::NotFinite { mechanism: &self.driver.name, quantity: "the position" }
+    /// A name of an error, borrowed.
+    pub(crate) fn name_of(&self, name: &str) -> &'d str {
+        self.texts.find(name)
     }
 
     /// The value of a pose with these numbers.

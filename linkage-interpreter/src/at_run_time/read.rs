@@ -115,6 +115,13 @@ impl<V: Dim> AtRunTime<'_, V> {
         CoordinatesAtRunTime { unknowns: column(&by_name(&driver.unknowns)), inputs: column(&by_name(&driver.inputs)) }
     }
 
+    /// The inputs that a value has by name, or their rates.
+    pub(crate) fn read_inputs(&self, value: &Value) -> Column<f64, V> {
+        let names = self.prepared.driver.inputs.iter();
+        let numbers: SmallVec<[f64; MOST]> = names.map(|name| number(field(value, *name))).collect();
+        column(&numbers)
+    }
+
     /// The value of coordinates, rates or accelerations.
     pub(crate) fn coordinates_value(&self, q: &CoordinatesAtRunTime<V>) -> Value {
         let driver = self.prepared.driver;

@@ -7,12 +7,13 @@ use super::failure::Evaluated;
 use super::value::Value;
 use super::{Machine, User};
 use crate::code::{Function, Id};
-use crate::program::Driver;
+use crate::program::{Driver, Scene};
 
 /// A mechanism with its user functions and its parameters.
 pub(crate) struct Whole<'w> {
     pub(crate) driver: &'w Driver,
     pub(crate) users: &'w [Option<User>],
+    /// The mechanism, or the scene with it.
     pub(crate) own: Value,
 }
 
@@ -30,12 +31,33 @@ pub(crate) struct AroundPosition<'p> {
     pub(crate) assemble: &'p dyn Fn(Value) -> Evaluated<Value>,
 }
 
+/// The motion of a scene that starts at a position with these rates of the inputs.
+pub(crate) struct Moving<'m> {
+    pub(crate) scene: &'m Scene,
+    pub(crate) t: f64,
+    pub(crate) q: &'m Value,
+    pub(crate) input_rates: &'m Value,
+}
+
+/// A load of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Load {
+    /// The forces in joints.
+    Joints,
+    /// The forces of drives.
+    Drives,
+    /// The power that frictions by reaction dissipate.
+    LossOfBearings,
+}
+
 /// The algorithms.
 pub(crate) trait Algorithms {
     /// The position near a guess by Newton's method, on its branch or on any.
     fn newton(&self, of: Whole<'_>, guess: &Value, is_on_any_branch: bool) -> Evaluated<Value>;
     /// The limits of an input about a position.
     fn limits(&self, of: Whole<'_>, about: &AroundPosition<'_>) -> Evaluated<Value>;
+    /// A load of the motion of a scene; the value is that of the scene.
+    fn load(&self, of: Whole<'_>, moving: &Moving<'_>, load: Load) -> Evaluated<Value>;
 }
 
 impl<'c> Machine<'c> {
@@ -49,6 +71,14 @@ impl<'c> Machine<'c> {
 
     pub(super) fn newton(&self, own: &Value, guess: &Value, is_on_any_branch: bool) -> Evaluated<Value> {
         self.algorithms()?.newton(self.whole(own.clone()), guess, is_on_any_branch)
+    }
+
+    /// A load of the scene: the arguments are the scene, t, q and v'.
+    pub(super) fn load(&self, arguments: &[Value], load: Load) -> Evaluated<Value> {
+        let ([own, Value::Number(t), q, input_rates], Some(scene)) = (arguments, self.scene) else {
+            return Err(Defect::new("a motion without a scene").into());
+        };
+        self.algorithms()?.load(self.whole(own.clone()), &Moving { scene, t: *t, q, input_rates }, load)
     }
 
     /// The limits of an input; the last argument of emitted code, the function that finds the coordinates of a pose, is known.

@@ -11,7 +11,7 @@ mod scalar;
 mod turns;
 mod value;
 
-pub(crate) use algorithms::{Algorithms, AroundPosition, Whole};
+pub(crate) use algorithms::{Algorithms, AroundPosition, Load, Moving, Whole};
 pub use defect::Defect;
 pub(crate) use failure::{Evaluated, Failure};
 pub(crate) use groups::MOST_UNKNOWNS;
@@ -25,9 +25,6 @@ use crate::tape::Flag;
 /// The functions of the runtime that are not there for mechanisms at run time, with the functions of mechanisms and scenes
 /// that call them: algorithms over a mechanism or a scene as a whole.
 pub const WITHOUT: &[(&str, &str)] = &[
-    ("reactions", "reactions"),
-    ("drive_forces", "drive_forces"),
-    ("bearing_loss", "power"),
     ("Equations::at", "equations"),
 ];
 

@@ -38,7 +38,7 @@ pub(super) fn parts<S: Scene<Scalar = f64>>(
         .iter()
         .filter_map(|(t, y)| {
             let derivative = scene.derivative(*t, y).ok()?;
-            Some((*t, S::parts(y).q, S::rate_parts(&derivative).rates))
+            Some((*t, scene.parts_of(y).q, S::rate_parts(&derivative).rates))
         })
         .collect();
     let with_rates = &with_rates;
@@ -54,7 +54,7 @@ pub(super) fn parts<S: Scene<Scalar = f64>>(
         "pose: sines and cosines",
         Box::new(move || {
             for (_, y) in at {
-                black_box(scene.mechanism().pose_at(&S::parts(black_box(y)).q));
+                black_box(scene.mechanism().pose_at(&scene.parts_of(black_box(y)).q));
             }
         }),
     ));

@@ -40,7 +40,7 @@ pub(super) fn simulate_from<'a, S: Scene>(
     end: S::Scalar,
     tolerance: f64,
 ) -> Result<Simulation<'a, S>, MotionErrorOf<S>> {
-    let StateParts { q, input_rates } = S::parts(y);
+    let StateParts { q, input_rates } = scene.parts_of(y);
     simulate(scene, Start { t, q, input_rates }, end, tolerance)
 }
 
@@ -76,7 +76,7 @@ pub(super) fn run<S: Scene<Mechanism: Mechanism<Name = &'static str>>, M: Method
     let mut states = Vec::with_capacity(times.len());
     let column = |state: &State<S>| {
         let (_, inputs) = S::Mechanism::rate_parts(&state.rates);
-        S::state(&state.q, &inputs.into())
+        scene.state_of(&state.q, &inputs.into())
     };
     loop {
         let next = motion.advance();
@@ -121,9 +121,9 @@ pub(super) fn error<S: Scene<Scalar = f64>>(
     difference: &Column<DoubleDouble, S::State>,
     at: &StateColumn<S>,
 ) -> f64 {
-    let (m, q) = (scene.mechanism(), S::parts(at).q);
+    let (m, q) = (scene.mechanism(), scene.parts_of(at).q);
     let scales = Scales::of(m, &m.pose_at(&q)).coordinates;
-    let difference = S::parts(&difference.map(DoubleDouble::high)).q;
+    let difference = scene.parts_of(&difference.map(DoubleDouble::high)).q;
     let (unknowns, inputs) = S::Mechanism::parts(&difference);
     let unknowns = unknowns.component_div(&scales.unknowns).abs();
     let inputs = inputs.component_div(&scales.inputs).abs();

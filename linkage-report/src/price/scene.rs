@@ -160,7 +160,7 @@ impl ScenePrice {
                 }
             })
             .collect();
-        let y = S::state(&start.q, &start.input_rates.into());
+        let y = scene.state_of(&start.q, &start.input_rates.into());
         let ends_early = |Failed { t, error }| PriceError::EndsEarly { scene: S::NAME, t, end, error: Box::new(error) };
         simulate_from(scene, (start.t, &y), end, TYPICAL).map_err(|error| PriceError::Start(Box::new(error)))?;
         // In `f64` first: a motion that ends early is known sooner.
@@ -309,7 +309,7 @@ fn measured<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>>(
     end: f64,
     samples: usize,
 ) -> Result<Measured<'_>, PriceError> {
-    let y = S::state(&start.q, &start.input_rates);
+    let y = scene.state_of(&start.q, &start.input_rates);
     let times: Vec<f64> =
         (1..=samples).map(|place| start.t + (end - start.t) * (place as f64 / samples as f64)).collect();
     simulate_from(scene, (start.t, &y), end, TYPICAL).map_err(|error| PriceError::Start(Box::new(error)))?;

@@ -76,7 +76,15 @@ impl<N: Name<List: Copy> + Copy> Copy for PathError<N> {}
 
 impl<N: Name> PathError<N> {
     /// This error with other names: borrowed ones become owned.
-    pub fn map_names<M: Name<List: FromIterator<M>>>(self, mut f: impl FnMut(N) -> M) -> PathError<M> {
+    pub fn map_names<M: Name<List: FromIterator<M>>>(self, f: impl FnMut(N) -> M) -> PathError<M> {
+        match self {
+            Self::Position(error) => PathError::Position(error.map_names(f)),
+            other => other.with_names(M::List::default(), f),
+        }
+    }
+
+    /// This error with other names, and with the inputs of this list: owned names become borrowed.
+    pub fn with_names<M: Name>(self, inputs: M::List, mut f: impl FnMut(N) -> M) -> PathError<M> {
         match self {
             Self::DeadPoint { mechanism, group, gap } => {
                 PathError::DeadPoint { mechanism: f(mechanism), group: f(group), gap }
@@ -92,7 +100,7 @@ impl<N: Name> PathError<N> {
                 PathError::Lost { mechanism: f(mechanism), group: f(group), iterations, residual, regularity }
             }
             Self::TooManySteps { mechanism, steps } => PathError::TooManySteps { mechanism: f(mechanism), steps },
-            Self::Position(error) => PathError::Position(error.map_names(f)),
+            Self::Position(error) => PathError::Position(error.with_names(inputs, f)),
             Self::Input(error) => PathError::Input(error.map_names(f)),
         }
     }

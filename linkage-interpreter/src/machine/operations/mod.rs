@@ -18,7 +18,7 @@ use super::failure::Evaluated;
 use super::groups::{factorised, list, numbers, pivots, sized};
 use super::scalar::Single;
 use super::value::Value;
-use super::{Kind, Machine};
+use super::{Kind, Load, Machine};
 use crate::code::{Function, Id, Name, Operation};
 use crate::error::Error;
 use arguments::{Arguments, number as number_of, side, triangle};
@@ -28,9 +28,6 @@ impl Operation {
     /// The error of a function that is not there for mechanisms at run time, as [`WITHOUT`](super::WITHOUT) says.
     fn unavailable(self) -> Error {
         let function = match self {
-            Self::Reactions => "reactions",
-            Self::DriveForces => "drive_forces",
-            Self::BearingLoss => "bearing_loss",
             Self::EquationsAt => "Equations::at",
             _ => "",
         };
@@ -220,6 +217,9 @@ impl<'c> Machine<'c> {
             },
             Operation::Newton => self.newton(arguments.at(0)?, arguments.at(1)?, false)?,
             Operation::NewtonAnyBranch => self.newton(arguments.at(0)?, arguments.at(1)?, true)?,
+            Operation::Reactions => self.load(values, Load::Joints)?,
+            Operation::DriveForces => self.load(values, Load::Drives)?,
+            Operation::BearingLoss => self.load(values, Load::LossOfBearings)?,
             Operation::Combinations => self.combinations(code, arguments.at(0)?, arguments.at(1)?)?,
             Operation::Existing => self.existing(code, arguments.at(0)?, arguments.at(1)?)?,
             Operation::Reduced => self.reduced(&arguments)?,

@@ -1,0 +1,55 @@
+//! The forces in the joints that a scene shows.
+
+use linkage_runtime::{Bounded, Column, Dim as _, Joint, JointForces, UpTo};
+
+use super::MOST_JOINTS;
+use crate::at_run_time::Count;
+use crate::at_run_time::read::numbers;
+use crate::machine::Value;
+use crate::program::Scene;
+
+/// The forces in the joints of a scene at run time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointForcesAtRunTime<'p> {
+    joints: &'p [Joint<&'p str>],
+    /// The two numbers of each force.
+    each: Bounded<[f64; 2], MOST_JOINTS>,
+    /// The Lagrange multipliers, where the scene asks for them.
+    pub multipliers: Column<f64, Count>,
+}
+
+impl<'p> JointForcesAtRunTime<'p> {
+    /// The forces that a value has: those in joints, then the multipliers. Without joints the value has none.
+    pub(crate) fn read(joints: &'p [Joint<&'p str>], value: &Value) -> Self {
+        let all = numbers(value);
+        let (each, multipliers) = all.split_at_checked(2 * joints.len()).unwrap_or_default();
+        let count = UpTo::new(joints.len()).unwrap_or_else(UpTo::least);
+        let number = |place: usize| each.get(place).copied().unwrap_or(f64::NAN);
+        let each = count.array(|place| [number(2 * place), number(2 * place + 1)]);
+        Self { joints, each, multipliers: crate::at_run_time::coordinates::column(multipliers) }
+    }
+
+    /// The value of these forces by name.
+    pub(crate) fn value(&self, scene: &Scene) -> Value {
+        let mut all = self.each.into_iter().flatten().chain(self.multipliers).map(Value::Number);
+        let mut next = || all.next().unwrap_or_default();
+        let fields = scene.forces.iter().map(|(field, length)| match length {
+            None => (*field, next()),
+            Some(length) => (*field, Value::list((0..*length).map(|_| next()))),
+        });
+        Value::record(scene.types.scene, fields.collect::<Vec<_>>())
+    }
+}
+
+impl<'p> JointForces<f64, &'p str> for JointForcesAtRunTime<'p> {
+    type Mechanism = ();
+
+    const JOINTS: &'static [Joint] = panic!("the joints are those of the value");
+
+    fn joints(&self) -> impl Iterator<Item = Joint<&'p str>> {
+        self.joints.iter().copied()
+    }
+    fn each(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.each.into_iter()
+    }
+}
