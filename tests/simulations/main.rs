@@ -2,6 +2,5 @@
 
 mod held;
 mod integrate_mechanism;
-mod run_time_scenes;
 mod simulation;
 mod simulation_cost;

@@ -4,6 +4,7 @@
 
 mod functions;
 mod motions;
+mod scenes;
 
 use linkage::{Column, D, Dim, Mechanism};
 use linkage_gallery::Fixture;

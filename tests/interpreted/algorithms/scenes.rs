@@ -1,23 +1,28 @@
-//! Simulations of scenes whose numbers and names are known at run time: the bits and the words of those of emitted code.
-
-mod mechanism;
-mod scene;
+//! Simulations, loads and positions at rest of scenes at run time: the bits and the words of those of emitted code.
 
 use linkage::integrate::{Crossing, Dop853, Dopri5, Method};
 use linkage::simulation::{AtSingularity, Loads, Start, State, Then, simulate};
 use linkage::{
-    Column, Coordinates, Dim, Inputs, JointForces, Mechanism, MotionErrorOf, PerInput, Scene, StateParts, linkage,
+    Column, Coordinates, D, Inputs, JointForces, Mechanism, MotionErrorOf, PerInput, Scene, StateParts, linkage,
 };
 use linkage_gallery::{cart_pendulum, double_pendulum, four_bar_effects, slider_crank_contacts, slider_crank_scenes};
+use linkage_interpreter::{Mechanism as Compiled, Program};
 
-use mechanism::{MechanismAtRunTime, Split, Texts, column};
-use scene::{Joints, SceneAtRunTime};
+use super::{Numbers, bits, coordinates};
+use crate::drawn::mechanisms;
 
-/// What all names at run time end with.
-const MARK: &str = " at run time";
+/// Mechanisms, and their text.
+macro_rules! with_text {
+    ($($tokens:tt)*) => {
+        linkage! { $($tokens)* }
 
-linkage! {
-    /// Laws with kinks: of time and of the state.
+        /// Their text.
+        const OF_THIS_FILE: &str = stringify!($($tokens)*);
+    };
+}
+
+with_text! {
+    // Laws with kinks: of time and of the state.
     mechanism Bent {
         param m = 1, k = 3;
         input x, y;
@@ -28,10 +33,8 @@ linkage! {
         scene Gathering { inertia; drive x = t^2 * abs(sin(1 / t)); }
         scene Bouncing { inertia; potential k * abs(y) + x^2; }
     }
-}
 
-linkage! {
-    /// A parallelogram, which passes change points.
+    // A parallelogram, which passes change points.
     mechanism Cranks {
         param a = 0.1, b = 0.3, j = 0.01, m = 1, t0 = 0.1, hi = 3.3, e = 0.5, mu = 0.1, radius = 0.005;
         input th;
@@ -43,11 +46,6 @@ linkage! {
         scene Stopped { inertia; torque t0 on th; stop th in -100..hi, restitution e; reactions; }
         scene Rubbed { inertia; torque t0 on th; friction mu, radius, reaction on ps; }
     }
-}
-
-/// The bits of a list of numbers.
-fn bits<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> String {
-    numbers.into_iter().map(|number| format!("{:x} ", number.to_bits())).collect()
 }
 
 /// A state: all numbers by their bits, names and modes.
@@ -99,7 +97,7 @@ fn all<S: Scene<Scalar = f64>>(scene: &S, run: RunOf<S>) -> Vec<String> {
     ];
     if let Ok(y) = scene.start(start, &q, &rates) {
         found.push(words(scene.derivative(start, &y), column));
-        let StateParts { q, input_rates } = S::parts(&y);
+        let StateParts { q, input_rates } = scene.parts_of(&y);
         found.push(words(scene.loads(start, &q, input_rates), |loads| of_loads(scene, &loads)));
     }
     found.extend(steps::<S, Dop853>(scene, run, AtSingularity::Pass));
@@ -153,7 +151,7 @@ fn steps<S: Scene<Scalar = f64>, M: Method>(scene: &S, run: RunOf<S>, at_singula
             }
         }
     }
-    found.push(format!("{:?} {:?} {:x}", motion.counts(), motion.passages(), motion.progress().to_bits()));
+    found.push(format!("{:?} {:?} {}", motion.counts(), motion.passages(), bits([&motion.progress()])));
     let times = (0..=7).map(|part| t + (end - t) * 0.15 * f64::from(part));
     if let Ok(mut motion) = begun() {
         found.extend(
@@ -165,35 +163,65 @@ fn steps<S: Scene<Scalar = f64>, M: Method>(scene: &S, run: RunOf<S>, at_singula
     found
 }
 
-/// Compares the motion of an emitted scene with that of the same scene at run time; returns the texts with marked names.
-#[track_caller]
-fn same<S>(scene: &S, q: Coordinates<S>, rates: impl Into<Inputs<S>>, times: [f64; 2]) -> Vec<String>
-where
-    S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>,
-{
-    let rates = rates.into();
-    let run = Run { q, rates, times, tolerance: 1e-8 };
-    let (u, v, _) = scene.mechanism().dims();
-    let still = S::Mechanism::rates(linkage::Build::zeros(u), linkage::Build::zeros(v));
-    let contacts: Vec<_> =
-        scene.contacts(times[0], &q, &still).map_or(Vec::new(), |all| all.iter().map(|contact| contact.name).collect());
-    let texts = Texts::of::<S>(&contacts);
-    let groups = texts.groups::<S::Mechanism>();
-    let joints: Joints<'_> = scene.joints().map(|joint| joint.map_names(|name| texts.own(name))).collect();
-    let here = SceneAtRunTime {
-        of: scene,
-        texts: &texts,
-        joints: &joints,
-        contacts: scene.contact_count().count(),
-        mechanism: MechanismAtRunTime { of: scene.mechanism(), texts: &texts, groups: &groups },
-    };
-    let rates: PerInput<S::Mechanism> = rates.into();
-    let run_here = Run { q: Split::of::<S::Mechanism>(&q), rates: column(&rates), times, tolerance: 1e-8 };
-    let (emitted, found) = (all(scene, run), all(&here, run_here));
-    assert_eq!(emitted.len(), found.len());
-    for (emitted, found) in emitted.iter().zip(&found) {
-        assert_eq!(*emitted, found.replace(MARK, ""));
+/// A scene of a mechanism, in a file of the gallery or in this one.
+#[derive(Clone, Copy)]
+struct Named {
+    file: &'static str,
+    mechanism: &'static str,
+    scene: &'static str,
+}
+
+impl Named {
+    fn of(file: &'static str, mechanism: &'static str, scene: &'static str) -> Self {
+        Self { file, mechanism, scene }
     }
+
+    fn compiled(&self) -> Compiled {
+        let all = match self.file {
+            "" => Program::compile(OF_THIS_FILE).expect("it compiles").mechanisms().to_vec(),
+            file => mechanisms(file),
+        };
+        all.into_iter().find(|one| one.name() == self.mechanism).expect("the mechanism")
+    }
+}
+
+/// Compares the motion of an emitted scene with that of the same scene at run time, with these parameters.
+#[track_caller]
+fn same<const V: usize, S>(
+    of: Named,
+    scene: &S,
+    set: &[(&str, f64)],
+    q: Coordinates<S>,
+    rates: impl Into<Inputs<S>>,
+    times: [f64; 2],
+) -> Vec<String>
+where
+    S: Scene<Scalar = f64, V = D<V>, Mechanism: Mechanism<Scalar = f64, Name = &'static str, V = D<V>>>,
+{
+    let compiled = of.compiled();
+    let (mut design, mut own) = (compiled.design(), Vec::new());
+    for &(name, value) in set {
+        match design.clone().with(name, value) {
+            Ok(changed) => design = changed,
+            Err(_) => own.push((name, value)),
+        }
+    }
+    let at_run_time = design.scene(of.scene).expect("the scene");
+    let at_run_time =
+        own.into_iter().fold(at_run_time, |scene, (name, value)| scene.with(name, value).expect("a parameter"));
+    let prepared = at_run_time.prepared().expect("a scene within the capacities");
+    let here = prepared.with_inputs::<D<V>>().expect("as many inputs");
+    let rates = rates.into();
+    let (unknowns, inputs) = S::Mechanism::parts(&q);
+    let numbers: Numbers = [unknowns.as_slice().to_vec(), inputs.as_slice().to_vec()];
+    let of_rates: PerInput<S::Mechanism> = rates.into();
+    let run_here = Run { q: coordinates::<linkage_interpreter::AtRunTime<'_, D<V>>>(&numbers), rates: of_rates, times, tolerance: 1e-8 };
+    let (emitted, found) = (all(scene, Run { q, rates, times, tolerance: 1e-8 }), all(&here, run_here));
+    for (emitted, found) in emitted.iter().zip(&found) {
+        assert_eq!(emitted, found, "{}", of.scene);
+    }
+    assert_eq!(emitted.len(), found.len());
+    assert_eq!(prepared.failure(), None);
     found
 }
 
@@ -205,26 +233,32 @@ fn says(found: &[String], words: &str) -> bool {
 #[test]
 fn smooth_scenes() {
     use four_bar_effects::{Driven, FourBar, FourBarCoordinates, Loaded, Smooth};
+    let of = |scene| Named::of("four_bar_effects", "FourBar", scene);
     let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
-    let found = same(&Smooth::default(), q, 12.0, [0.0, 1.5]);
-    assert!(found[0] == "Smooth at run time" && found.len() > 50, "{}", found.len());
-    let found = same(&Loaded::default(), q, 12.0, [0.0, 1.0]);
-    assert!(says(&found, "at: \"C\""));
-    same(&Driven::default(), q, 15.0, [0.0, 1.0]);
+    let found = same(of("Smooth"), &Smooth::default(), &[], q, 12.0, [0.0, 1.0]);
+    assert!(found[0] == "Smooth" && found.len() > 40, "{}", found.len());
+    assert!(says(&same(of("Loaded"), &Loaded::default(), &[], q, 12.0, [0.0, 0.5]), "at: \"C\""));
+    same(of("Driven"), &Driven::default(), &[], q, 15.0, [0.0, 0.5]);
     // The drive begins with another rate.
-    let found = same(&Driven::default(), FourBarCoordinates { theta2: 0.0, ..q }, 12.0, [0.0, 1.0]);
-    assert!(says(&found, "theta2 at run time"), "{found:?}");
+    let other = FourBarCoordinates { theta2: 0.0, ..q };
+    assert!(says(&same(of("Driven"), &Driven::default(), &[], other, 12.0, [0.0, 0.5]), "theta2"));
     // Links that do not meet.
     let torn = Loaded { mechanism: FourBar { l1: 5.0, ..FourBar::default() }, ..Loaded::default() };
-    let found = same(&torn, q, 12.0, [0.0, 1.0]);
-    assert!(says(&found, "FourBar at run time"), "{found:?}");
+    assert!(says(&same(of("Loaded"), &torn, &[("l1", 5.0)], q, 12.0, [0.0, 0.5]), "FourBar"));
+}
 
-    use cart_pendulum::{CartPendulumCoordinates, CartPendulumInputs, Shaken};
+#[test]
+fn open_chains() {
+    use cart_pendulum::{CartPendulumCoordinates, CartPendulumInputs, Rubbing, Shaken};
+    let of = |scene| Named::of("cart_pendulum", "CartPendulum", scene);
     let q = CartPendulumCoordinates { x: 0.0, phi: 0.5 };
-    same(&Shaken::default(), q, CartPendulumInputs { x: 0.9, phi: -1.0 }, [0.0, 2.0]);
+    let rates = CartPendulumInputs { x: 0.9, phi: -1.0 };
+    same(of("Shaken"), &Shaken::default(), &[], q, rates, [0.0, 1.0]);
+    same(of("Rubbing"), &Rubbing::default(), &[], q, rates, [0.0, 1.5]);
     use double_pendulum::{DoublePendulumCoordinates, DoublePendulumInputs, Swinging};
     let q = DoublePendulumCoordinates { theta1: 0.4, theta2: 1.9 };
-    same(&Swinging::default(), q, DoublePendulumInputs { theta1: 1.0, theta2: -2.0 }, [0.0, 2.0]);
+    let rates = DoublePendulumInputs { theta1: 1.0, theta2: -2.0 };
+    same(Named::of("double_pendulum", "DoublePendulum", "Swinging"), &Swinging::default(), &[], q, rates, [0.0, 1.0]);
 }
 
 /// The slider drives the crank: other coordinates at its dead points, or an end there.
@@ -232,77 +266,76 @@ fn smooth_scenes() {
 fn dead_points() {
     use slider_crank_scenes::{MachineCoordinates, Pushed, Turning};
     let q = MachineCoordinates { phi: 1.0, psi: -0.2, z: 0.2 };
-    let found = same(&Pushed::default(), q, -1.5, [0.0, 1.0]);
-    assert!(says(&found, "Piston at run time is singular") || says(&found, "of Piston at run time"), "{found:?}");
+    let found =
+        same(Named::of("slider_crank_scenes", "Piston", "Pushed"), &Pushed::default(), &[], q, -1.5, [0.0, 1.0]);
+    assert!(says(&found, "Piston is singular") || says(&found, "of Piston"), "{found:?}");
+    let of = Named::of("slider_crank_scenes", "Crank", "Turning");
     let massless = Turning { m2: 0.0, j2: 0.0, m3: 0.0, j3: 0.0, m4: 0.0, ..Turning::default() };
-    let found = same(&massless, q, 20.0, [0.0, 1.0]);
-    assert!(says(&found, "the mass matrix of Turning at run time is singular in phi at run time"), "{found:?}");
+    let set = [("m2", 0.0), ("j2", 0.0), ("m3", 0.0), ("j3", 0.0), ("m4", 0.0)];
+    let found = same(of, &massless, &set, q, 20.0, [0.0, 1.0]);
+    assert!(says(&found, "the mass matrix of Turning is singular in phi"), "{found:?}");
     let negative = Turning { m4: -1.0, ..Turning::default() };
-    assert!(says(&same(&negative, q, 20.0, [0.0, 1.0]), "Turning at run time"));
+    assert!(says(&same(of, &negative, &[("m4", -1.0)], q, 20.0, [0.0, 0.2]), "m4 of Turning is -1"));
     let infinite = Turning { c: f64::INFINITY, ..Turning::default() };
-    assert!(says(&same(&infinite, q, 20.0, [0.0, 1.0]), "Turning at run time"));
+    assert!(says(&same(of, &infinite, &[("c", f64::INFINITY)], q, 20.0, [0.0, 0.2]), "of Turning is not a finite"));
 }
 
 #[test]
 fn frictions_and_stops() {
     use four_bar_effects::{Everything, FourBarCoordinates};
+    let of = Named::of("four_bar_effects", "FourBar", "Everything");
     let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
-    let found = same(&Everything::default(), q, 12.0, [0.0, 1.5]);
-    assert!(says(&found, "(\"stop on theta4 at run time\", Impact)"));
-    assert!(says(
-        &found,
-        "Everything at run time has a friction on theta4 at run time and cannot be simulated backwards"
-    ));
+    let found = same(of, &Everything::default(), &[], q, 12.0, [0.0, 0.8]);
+    assert!(says(&found, "(\"stop on theta4\", Impact)"));
+    assert!(says(&found, "Everything has a friction on theta4 and cannot be simulated backwards"));
     let beyond = Everything { upper: -1.5, ..Everything::default() };
-    assert!(says(&same(&beyond, q, 12.0, [0.0, 1.5]), "stop on theta4 at run time"));
+    assert!(says(&same(of, &beyond, &[("upper", -1.5)], q, 12.0, [0.0, 1.5]), "stop on theta4"));
 
     use slider_crank_contacts::{Guided, Jointed, MachineCoordinates};
+    let of = |scene| Named::of("slider_crank_contacts", "Machine", scene);
     let q = MachineCoordinates { phi: 0.8, psi: 2.9, z: 0.4 };
-    assert!(says(&same(&Guided::default(), q, -4.0, [0.0, 1.5]), "(\"friction on z at run time\", Sticks)"));
-    same(&Jointed::default(), q, 2.0, [0.0, 3.0]);
-
-    use cart_pendulum::{CartPendulumCoordinates, CartPendulumInputs, Rubbing};
-    let q = CartPendulumCoordinates { x: 0.1, phi: 0.5 };
-    same(&Rubbing::default(), q, CartPendulumInputs { x: 0.9, phi: -1.0 }, [0.0, 3.0]);
+    let found = same(of("Guided"), &Guided::default(), &[], q, -4.0, [0.0, 1.5]);
+    assert!(says(&found, "(\"friction on z\", Sticks)"));
+    same(of("Jointed"), &Jointed::default(), &[], q, 2.0, [0.0, 1.0]);
 }
 
 #[test]
 fn frictions_by_reactions() {
     use slider_crank_scenes::{MachineCoordinates, Worn};
+    let of = Named::of("slider_crank_scenes", "Crank", "Worn");
     let q = MachineCoordinates { phi: 1.0, psi: -0.2, z: 0.2 };
-    same(&Worn::default(), q, 20.0, [0.0, 2.0]);
+    same(of, &Worn::default(), &[], q, 20.0, [0.0, 0.5]);
     // So much friction that there is no motion, or that there are several.
-    let found = same(&Worn { mu: 40.0, ..Worn::default() }, q, 20.0, [0.0, 2.0]);
-    assert!(says(&found, "of Worn at run time"), "{found:?}");
-    use four_bar_effects::{FourBarCoordinates, Worn as WornBars};
-    let q = FourBarCoordinates { theta2: 0.3, theta3: 1.2, theta4: -1.0 };
-    same(&WornBars::default(), q, 2.0, [0.0, 2.0]);
+    let found = same(of, &Worn { mu: 40.0, ..Worn::default() }, &[("mu", 40.0)], q, 20.0, [0.0, 0.5]);
+    assert!(says(&found, "of Worn"), "{found:?}");
 }
 
 #[test]
 fn kinks_of_laws() {
-    let found =
-        same(&Turned::default(), BentCoordinates { x: 1.0, y: 0.1 }, BentInputs { x: -1.0, y: 1.0 }, [0.0, 2.0]);
-    assert!(says(&found, "Some(\"drive x at run time\")"));
-    let q = BentCoordinates { x: 0.0, y: 0.1 };
-    let found = same(&Leaping::default(), q, BentInputs { x: 1.0, y: 0.0 }, [0.0, 4.0]);
-    assert!(says(&found, "the drive of x at run time in Leaping at run time jumps"), "{found:?}");
+    let of = |scene| Named::of("", "Bent", scene);
+    let q = BentCoordinates { x: 1.0, y: 0.1 };
+    let found = same(of("Turned"), &Turned::default(), &[], q, BentInputs { x: -1.0, y: 1.0 }, [0.0, 2.0]);
+    assert!(says(&found, "Some(\"drive x\")"));
+    let (q, rates) = (BentCoordinates { x: 0.0, y: 0.1 }, BentInputs { x: 1.0, y: 0.0 });
+    let found = same(of("Leaping"), &Leaping::default(), &[], q, rates, [0.0, 4.0]);
+    assert!(says(&found, "the drive of x in Leaping jumps"), "{found:?}");
     let q = BentCoordinates { x: 0.5, y: 0.1 };
-    let found = same(&Bouncing::default(), q, BentInputs { x: 1.0, y: 0.0 }, [0.0, 3.0]);
-    assert!(says(&found, "Some(\"potential k*abs(y) at run time\")"));
+    let found = same(of("Bouncing"), &Bouncing::default(), &[], q, rates, [0.0, 3.0]);
+    assert!(says(&found, "Some(\"potential k*abs(y) + x^2\")"), "{found:?}");
     let x = 0.25 * f64::sin(2.0).abs();
     let rate = |t: f64| 2.0 * t * f64::sin(1.0 / t) - f64::cos(1.0 / t);
-    let start = BentCoordinates { x, y: 0.0 };
-    let found = same(&Gathering::default(), start, BentInputs { x: rate(0.5), y: 0.0 }, [0.5, -0.5]);
+    let (start, rates) = (BentCoordinates { x, y: 0.0 }, BentInputs { x: rate(0.5), y: 0.0 });
+    let found = same(of("Gathering"), &Gathering::default(), &[], start, rates, [0.5, -0.5]);
     assert!(says(&found, "has kinks without end"), "{found:?}");
 }
 
 #[test]
 fn change_points() {
+    let of = |scene| Named::of("", "Cranks", scene);
     let q = |th: f64| CranksCoordinates { th, ph: 0.0, ps: th };
-    same(&Stopped::default(), q(0.3), 2.0, [0.0, 4.0]);
-    let found = same(&Stopped::default(), q(0.0), 2.0, [0.0, 4.0]);
-    assert!(says(&found, "motions of Stopped at run time cross here, where group ph, ps at run time"), "{found:?}");
-    let found = same(&Rubbed::default(), q(0.3), 2.0, [0.0, 4.0]);
-    assert!(says(&found, "forces in joints of Rubbed at run time are infinite or undetermined"), "{found:?}");
+    same(of("Stopped"), &Stopped::default(), &[], q(0.3), 2.0, [0.0, 2.0]);
+    let found = same(of("Stopped"), &Stopped::default(), &[], q(0.0), 2.0, [0.0, 2.0]);
+    assert!(says(&found, "motions of Stopped cross here, where group ph, ps"), "{found:?}");
+    let found = same(of("Rubbed"), &Rubbed::default(), &[], q(0.3), 2.0, [0.0, 2.0]);
+    assert!(says(&found, "forces in joints of Rubbed are infinite or undetermined"), "{found:?}");
 }
