@@ -92,7 +92,7 @@ pub use dopri5::Dopri5;
 pub use fixed::FixedStep;
 pub use integration::{Counts, Integration, Step};
 pub use outputs::Outputs;
-pub use system::{ErrorOf, Guard, IntoSystem, Rate, StateOf, StateVector, System, Watched, watched};
+pub use system::{ErrorOf, Guard, GuardsOf, IntoSystem, Rate, StateOf, StateVector, System, Watched, watched};
 pub use tableau::{Control, Method, Stage, Tableau, Weights};
 
 /// Starts an integration by the method of Dormand and Prince of order 8(5,3), for accuracy.

@@ -20,6 +20,8 @@ pub struct Guard<T> {
 
 /// The state of a system, or its rate.
 pub type StateOf<S> = Column<<S as System>::Scalar, <S as System>::N>;
+/// The guards of a system.
+pub type GuardsOf<S> = Column<Guard<<S as System>::Scalar>, <S as System>::Guards>;
 /// The error of an integration, with names of a system.
 pub type ErrorOf<S> = MotionError<<S as System>::Name>;
 
@@ -78,11 +80,7 @@ pub trait System {
     ///
     /// # Errors
     /// If they cannot be computed; the integration then ends.
-    fn guards(
-        &mut self,
-        t: Self::Scalar,
-        y: &StateOf<Self>,
-    ) -> Result<Column<Guard<Self::Scalar>, Self::Guards>, ErrorOf<Self>> {
+    fn guards(&mut self, t: Self::Scalar, y: &StateOf<Self>) -> Result<GuardsOf<Self>, ErrorOf<Self>> {
         let _ = (t, y);
         Ok(self.counts().1.repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
     }

@@ -11,6 +11,8 @@ use linkage_runtime::{Build, Column, Dim, Mechanism, PerInput};
 
 /// A number for each contact of a scene.
 type PerContact<S> = Column<<S as Scene>::Scalar, <S as Scene>::Contacts>;
+/// The event function of each contact of a scene.
+type PerGuard<S> = Column<Guard<<S as Scene>::Scalar>, <S as Scene>::Contacts>;
 /// y, and the change of each contact.
 type Changed<S> = (StateColumn<S>, Column<Option<Change>, <S as Scene>::Contacts>);
 
@@ -62,11 +64,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
     }
 
     /// The event functions of the contacts, at the projected state.
-    pub(super) fn margins(
-        &self,
-        t: S::Scalar,
-        y: &StateColumn<S>,
-    ) -> Result<Column<Guard<S::Scalar>, S::Contacts>, MotionErrorOf<S>> {
+    pub(super) fn margins(&self, t: S::Scalar, y: &StateColumn<S>) -> Result<PerGuard<S>, MotionErrorOf<S>> {
         // If the projection fails, y itself is used: a step in the inputs may have left the range in which the
         // mechanism can be assembled, and will be repeated.
         let y = self.projected(t, y).unwrap_or(*y);
