@@ -5,7 +5,7 @@ use crate::{Column, Dim, Mechanism, Name, Number, Ranged};
 /// The formulas of a mechanism without a comparison: over intervals, each result contains the results for all numbers of
 /// the intervals.
 ///
-/// `linkage!` implements it for the mechanism over every [`Number`] with `derive intervals;`.
+/// `linkage!` implements it for the mechanism over every [`Number`] with `derive intervals;`. [`Certifiable::over`] makes them.
 pub trait Formulas: Sized {
     /// The type of lengths and angles.
     type Number: Number;
@@ -48,7 +48,7 @@ pub trait Formulas: Sized {
         unknowns: &Column<Self::Number, Self::U>,
         inputs: &Column<Self::Number, Self::V>,
     ) -> Column<Self::Number, Self::Q>;
-    /// The value with a range at this place of [`RANGES`](Mechanism::RANGES), with its ends; none beyond the last. An angle
+    /// The value with a range at this place of [`range_name`](Mechanism::range_name), with its ends; none beyond the last. An angle
     /// modulo turns is as it is given.
     fn ranged(
         &self,

@@ -1,5 +1,8 @@
 //! Algorithms on mechanisms whose numbers of coordinates and names are known at run time: the bits of those of emitted code.
 
+mod certificates;
+mod compared;
+mod pictures;
 mod wrapped;
 
 use std::f64::consts::TAU;

@@ -1,6 +1,8 @@
 //! A mechanism whose numbers of coordinates, names and groups are known while the program runs only: one of the gallery, behind
 //! types that hold numbers.
 
+use std::fmt::Debug;
+
 use linkage::kinematic::{
     FullKinematics, FullKinematicsOf, Kinematics, KinematicsOf, Motion, MotionOf, Quantity, Ratios,
 };
@@ -16,7 +18,7 @@ pub type Most = UpTo<24>;
 type All = UpTo<25>;
 type Numbers = Column<f64, Most>;
 type Input = Column<f64, D<1>>;
-type List<X> = <Most as Dim>::Array<X>;
+pub type List<X> = <Most as Dim>::Array<X>;
 
 /// The names and the groups of a mechanism, as texts that belong to no type.
 pub struct Texts {
@@ -30,10 +32,15 @@ pub struct Texts {
 impl Texts {
     /// Those of a mechanism, marked.
     pub fn of<M: Mechanism>() -> Self {
-        let marked = |names: &[&str]| names.iter().map(|name| format!("{name} at run time")).collect();
+        Self::marked_by::<M>(" at run time")
+    }
+
+    /// Those of a mechanism, each with this mark.
+    pub fn marked_by<M: Mechanism>(mark: &str) -> Self {
+        let marked = |names: &[&str]| names.iter().map(|name| format!("{name}{mark}")).collect();
         let groups: Vec<&str> = M::GROUPS.iter().map(|group| group.name).collect();
         Self {
-            name: format!("{} at run time", M::NAME),
+            name: format!("{}{mark}", M::NAME),
             unknowns: marked(M::UNKNOWNS),
             inputs: marked(M::INPUTS),
             groups: marked(&groups),
@@ -84,7 +91,7 @@ impl From<Split> for Bounded<f64, 25> {
 }
 
 /// A column of the same numbers in another type.
-fn column<R: Dim, S: Dim>(of: &Column<f64, R>) -> Column<f64, S> {
+pub fn column<X: Copy + Debug, R: Dim, S: Dim>(of: &Column<X, R>) -> Column<X, S> {
     Column::from_slice(of.as_slice()).expect("a number that both types have")
 }
 
@@ -99,7 +106,7 @@ fn list<X: Quantity>(of: &[X]) -> List<X> {
 
 impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> AtRunTime<'n, M> {
     /// The name at run time of one of the type; names of the library stay.
-    fn own(&self, name: &'static str) -> &'n str {
+    pub fn own(&self, name: &'static str) -> &'n str {
         let texts = self.texts;
         let known = M::UNKNOWNS.iter().chain(M::INPUTS).chain(M::RANGES).copied();
         let known = known.chain(M::GROUPS.iter().map(|group| group.name)).chain([M::NAME]);
