@@ -1,8 +1,8 @@
 //! The joints and parts of a drawing of a mechanism.
 
-use crate::{Column, Dim, Mechanism};
+use crate::{Column, Dim, Mechanism, Name};
 
-/// A part of a drawing. Joints are given by their index in [`Skeleton::JOINTS`].
+/// A part of a drawing. Joints are given by their index: that of [`Skeleton::joint_name`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -46,11 +46,25 @@ pub trait Skeleton: Mechanism {
     /// The parts.
     const PARTS: &'static [Part<'static>];
 
+    /// The name of a joint; none beyond the last. The names and parts of emitted code are constants, those of a mechanism at run
+    /// time are of its value.
+    fn joint_name(&self, place: usize) -> Option<Self::Name> {
+        Self::JOINTS.get(place).copied().map(Name::from_static)
+    }
+    /// The parts, with joints by their index.
+    fn drawn_parts(&self) -> &[Part<'_>] {
+        Self::PARTS
+    }
+    /// The names of the joints.
+    fn joint_names(&self) -> impl Iterator<Item = Self::Name> {
+        (0..).map_while(|place| self.joint_name(place))
+    }
+
     /// x and y of each joint.
     fn joints(&self, pose: &Self::Pose) -> Column<Self::Scalar, Self::Parts>;
 
     /// x and y along the guide of a slider or the arm of a sleeve, as its vector is written, by its place among these of
-    /// [`PARTS`](Self::PARTS).
+    /// the parts.
     fn guide(&self, pose: &Self::Pose, place: usize) -> Option<[Self::Scalar; 2]> {
         let _ = (pose, place);
         None

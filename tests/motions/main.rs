@@ -10,3 +10,4 @@ mod joint_ranges;
 mod parameters;
 mod range_of_motion;
 mod reports;
+mod run_time_sizes;

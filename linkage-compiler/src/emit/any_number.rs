@@ -32,13 +32,9 @@ pub(super) fn of_driver(program: &Program<Code>, span: Span) -> Option<TokenStre
     Some(quote! {
         impl<T: __rt::Number> __rt::Formulas for #name<T> {
             type Number = T;
-            type P = __rt::D<#p>;
             type U = __rt::D<#u>;
             type V = __rt::D<#v>;
             type Q = __rt::D<#q>;
-            fn with_parameters(parameters: __rt::Column<T, __rt::D<#p>>) -> Self {
-                <[T; #p]>::from(parameters).into()
-            }
             #(#functions)*
         }
         impl __rt::Certifiable for #name<f64> {
@@ -50,6 +46,12 @@ pub(super) fn of_driver(program: &Program<Code>, span: Span) -> Option<TokenStre
             const USER_FUNCTIONS: &'static [__rt::Option<&'static str>] = &[#(#users),*];
             fn parameters(&self) -> __rt::Column<f64, __rt::D<#p>> {
                 [#(self.#fields),*].into()
+            }
+            fn with(&self, parameters: __rt::Column<f64, __rt::D<#p>>) -> Self {
+                <[f64; #p]>::from(parameters).into()
+            }
+            fn over<#other: __rt::Number>(&self, parameters: __rt::Column<#other, __rt::D<#p>>) -> #name<#other> {
+                <[#other; #p]>::from(parameters).into()
             }
         }
     })

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use linkage_runtime::{Certifiable, Column, Dim, Number};
+use linkage_runtime::{Certifiable, Column, Number};
 
 use super::motion::unknowns_of;
 use super::system::{Dimensions, System};
 use super::tube::Tube;
 use crate::Interval;
-use crate::enclose::{EncloseError, PoseBox, Sizes};
+use crate::enclose::{EncloseError, EncloseErrorOf, PoseBox, Sizes};
 
 /// The end of a certified motion over full turns of its input.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,7 +50,7 @@ pub struct Certificate<M: Certifiable> {
 impl<M: Certifiable> fmt::Display for Certificate<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { system, end, inputs, .. } = self;
-        write!(f, "{}: one motion without dead points, {} from ", M::NAME, system.input_name())?;
+        write!(f, "{}: one motion without dead points, {} from ", system.mechanism.name(), system.input_name())?;
         system.shown_input(inputs.least()).fmt(f)?;
         f.write_str(" to ")?;
         system.shown_input(inputs.most()).fmt(f)?;
@@ -97,12 +97,12 @@ impl<M: Certifiable> Certificate<M> {
     /// The start: the enclosure of the unknowns at the first input.
     #[must_use]
     pub fn start(&self) -> Column<Interval, M::U> {
-        unknowns_of::<M>(&self.start)
+        unknowns_of(&self.system, &self.start)
     }
 
     /// The tubes in the order of the motion: the inputs of each, and a box that contains the unknowns at all of them.
     pub fn tubes(&self) -> impl Iterator<Item = (Interval, Column<Interval, M::U>)> + '_ {
-        self.tubes.iter().map(|tube| (tube.range, unknowns_of::<M>(&tube.over(tube.range))))
+        self.tubes.iter().map(|tube| (tube.range, unknowns_of(&self.system, &tube.over(tube.range))))
     }
 
     /// Encloses the unknowns at an input, or at all inputs of an interval; `None` outside the range.
@@ -114,9 +114,9 @@ impl<M: Certifiable> Certificate<M> {
         let parts = self.tubes.iter().filter_map(|tube| {
             let c = input.intersection(tube.range)?;
             let part = tube.part(&self.system, Dimensions::All, c);
-            Some(unknowns_of::<M>(&part.map_or_else(|| tube.over(c), |part| part.q)))
+            Some(unknowns_of(&self.system, &part.map_or_else(|| tube.over(c), |part| part.q)))
         });
-        parts.reduce(|one, other| Column::from_fn(|place| one[place].hull(other[place])))
+        parts.reduce(|one, other| one.zip_map(&other, Interval::hull))
     }
 
     /// The box of the unknowns at an input, or at all inputs of an interval, with the parameters of the certificate: its
@@ -125,13 +125,13 @@ impl<M: Certifiable> Certificate<M> {
     /// # Errors
     /// [`EncloseError::Outside`] if an input is outside the range, and those of [`PoseBox::with_parameters`]: where the
     /// motion turns much, a box of positions is wider than the motion in it, and narrower inputs are needed.
-    pub fn pose_box(&self, input: Interval) -> Result<PoseBox<M>, EncloseError> {
-        let outside = EncloseError::Outside { mechanism: M::NAME, input, inputs: self.inputs };
+    pub fn pose_box(&self, input: Interval) -> Result<PoseBox<M>, EncloseErrorOf<M>> {
+        let outside = EncloseError::Outside { mechanism: self.system.mechanism.name(), input, inputs: self.inputs };
         let unknowns = self.unknowns_at(input).ok_or(outside)?;
         let q: Vec<Interval> = unknowns.iter().copied().chain([input]).collect();
-        let unknowns = self.system.scales.iter().copied().take(M::U::default().count()).collect();
+        let unknowns = self.system.scales.iter().copied().take(self.system.count()).collect();
         let sizes = Sizes { rows: self.system.rows.clone(), unknowns };
-        PoseBox::of_numbers(self.system.numbers(&q), &sizes)
+        PoseBox::of_numbers(&self.system.mechanism, self.system.numbers(&q), &sizes)
     }
 }
 

@@ -3,7 +3,7 @@
 use linkage_runtime::circuits::{CircuitMode, Circuits, MotionCurve};
 use linkage_runtime::{Certifiable, D};
 
-use super::error::CertifyError;
+use super::error::{CertifyError, CertifyErrorOf};
 use super::{Certify, Curve};
 
 /// The largest difference of a dead point of a path from the certified one, relative to the size of the input: a path
@@ -15,18 +15,21 @@ impl<M: Certifiable<V = D<1>>> Certify<'_, M> {
     /// found and no other one, and turns back at the dead points that the path found and nowhere else.
     ///
     /// A motion that crosses another one at a change point has no certificate, nor one that ends at limits.
-    pub fn circuits<B: Copy>(&self, circuits: &Circuits<M::Coordinates, B>) -> Vec<Result<Curve<M>, CertifyError>> {
+    pub fn circuits<B: Copy>(
+        &self,
+        circuits: &Circuits<M::Coordinates, B, f64, M::Name>,
+    ) -> Vec<Result<Curve<M>, CertifyErrorOf<M>>> {
         let certify = |(place, motion)| self.motion(circuits, place, motion);
         circuits.motions.iter().enumerate().map(certify).collect()
     }
 
     fn motion<B: Copy>(
         &self,
-        circuits: &Circuits<M::Coordinates, B>,
+        circuits: &Circuits<M::Coordinates, B, f64, M::Name>,
         place: usize,
-        motion: &MotionCurve<M::Coordinates>,
-    ) -> Result<Curve<M>, CertifyError> {
-        let differs = |what| CertifyError::OtherMotion { mechanism: M::NAME, what };
+        motion: &MotionCurve<M::Coordinates, f64, M::Name>,
+    ) -> Result<Curve<M>, CertifyErrorOf<M>> {
+        let differs = |what| CertifyError::OtherMotion { mechanism: self.mechanism.name(), what };
         let start = motion.points.first().ok_or_else(|| self.invalid("the motion"))?;
         let curve = self.curve(&start.position)?;
         let is_right = |mode: &CircuitMode<M::Coordinates, B>| curve.passes(&mode.position) == (mode.motion == place);

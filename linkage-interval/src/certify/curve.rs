@@ -6,12 +6,12 @@
 
 use std::fmt;
 
-use linkage_runtime::{Certifiable, Column};
+use linkage_runtime::{Build, Certifiable, Column};
 
 use super::Certify;
 use super::certificate::Moved;
 use super::dead_point::{DeadPoint, dead_points};
-use super::error::CertifyError;
+use super::error::{CertifyError, CertifyErrorOf};
 use super::extremes::{Enclosure, enclosure};
 use super::jet::Measure;
 use super::motion::{Motion, certified_position, unknowns_of};
@@ -51,7 +51,7 @@ impl<M: Certifiable> fmt::Display for Curve<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { system, dead_points, .. } = self;
         let name = system.input_name();
-        write!(f, "{}: one closed curve, on which {name} ", M::NAME)?;
+        write!(f, "{}: one closed curve, on which {name} ", system.mechanism.name())?;
         for (place, point) in dead_points.iter().enumerate() {
             f.write_str(if place == 0 { "turns back at " } else { ", " })?;
             system.shown_input(point.input.middle()).fmt(f)?;
@@ -96,7 +96,7 @@ impl<M: Certifiable> Curve<M> {
     pub fn tubes(&self) -> impl Iterator<Item = (Interval, Column<Interval, M::U>)> + '_ {
         self.tubes.iter().map(|tube| {
             let q = tube.over(tube.range);
-            (q.last().copied().unwrap_or(Interval::ENTIRE), unknowns_of::<M>(&q))
+            (q.last().copied().unwrap_or(Interval::ENTIRE), unknowns_of(&self.system, &q))
         })
     }
 
@@ -116,7 +116,10 @@ impl<M: Certifiable> Curve<M> {
     /// Encloses the smallest and the largest value of each coordinate of a point and each output over the curve.
     #[must_use]
     pub fn quantities(&self) -> Column<Enclosure, <M as Certifiable>::Q> {
-        Column::from_fn(|place| enclosure(&self.system, &self.tubes, Measure::Quantity(place)))
+        self.system
+            .mechanism
+            .quantity_count()
+            .column(|place| enclosure(&self.system, &self.tubes, Measure::Quantity(place)))
     }
 }
 
@@ -144,7 +147,7 @@ impl Heading {
 }
 
 /// Adds a tube in a direction, and returns the rates at its end.
-fn advance<M: Certifiable>(motion: &mut Motion<'_, M>, along: &[f64]) -> Result<Vec<f64>, CertifyError> {
+fn advance<M: Certifiable>(motion: &mut Motion<'_, M>, along: &[f64]) -> Result<Vec<f64>, CertifyErrorOf<M>> {
     let heading = Heading::of(motion, along).ok_or_else(|| motion.stopped(&motion.joint))?;
     motion.advance(heading.parameter, heading.direction, None, OVERLAP)?;
     Ok(Heading::of(motion, &heading.rates).ok_or_else(|| motion.stopped(&motion.joint))?.rates)
@@ -163,7 +166,7 @@ impl<M: Certifiable> Certify<'_, M> {
     ///
     /// # Errors
     /// Those of [`CertifyError`] but `DeadPoint`; [`CertifyError::Exhausted`] also for a curve that never closes.
-    pub fn curve(&self, start: &M::Coordinates) -> Result<Curve<M>, CertifyError> {
+    pub fn curve(&self, start: &M::Coordinates) -> Result<Curve<M>, CertifyErrorOf<M>> {
         let system = self.system(start)?;
         let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
         self.check_emitted(&system, &guess)?;
@@ -192,7 +195,7 @@ impl<M: Certifiable> Certify<'_, M> {
 }
 
 /// The error of a motion of which the input cannot go on: a dead point ahead, or tests spent before one is found.
-pub(super) fn dead_point_ahead<M: Certifiable>(motion: &Motion<'_, M>, direction: f64) -> Option<CertifyError> {
+pub(super) fn dead_point_ahead<M: Certifiable>(motion: &Motion<'_, M>, direction: f64) -> Option<CertifyErrorOf<M>> {
     // Where the motion stopped, the sign of the rate of the input is uncertain.
     let before = motion.tubes.iter().rev().nth(TUBES_BACK).or(motion.tubes.first());
     let begin = |tube: &Tube| Some(tube.part(motion.system, Dimensions::All, tube.range.middle().into())?.q);
@@ -210,7 +213,11 @@ pub(super) fn dead_point_ahead<M: Certifiable>(motion: &Motion<'_, M>, direction
         if let Some(DeadPoint { group, input, is_largest, .. }) = dead_points(motion.system, &ahead.tubes).ok()?.first()
         {
             let is_first = *is_largest == (direction > 0.0);
-            return is_first.then_some(CertifyError::DeadPoint { mechanism: M::NAME, group, limit: *input });
+            return is_first.then_some(CertifyError::DeadPoint {
+                mechanism: motion.system.mechanism.name(),
+                group: *group,
+                limit: *input,
+            });
         }
         // Only the last tube is searched again.
         ahead.tubes.clear();

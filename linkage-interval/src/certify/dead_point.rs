@@ -3,7 +3,7 @@
 use linkage_runtime::{Certifiable, Column};
 
 use super::certificate::Moved;
-use super::error::CertifyError;
+use super::error::CertifyErrorOf;
 use super::jet::Measure;
 use super::motion::unknowns_of;
 use super::reason::{nearest_group, reason};
@@ -26,7 +26,7 @@ pub struct DeadPoint<M: Certifiable> {
     /// True at a largest input, false at a smallest one.
     pub is_largest: bool,
     /// The unknowns of the group that is singular.
-    pub group: &'static str,
+    pub group: M::Name,
     q: Vec<Interval>,
 }
 
@@ -91,7 +91,7 @@ impl<M: Certifiable> InputRate<'_, M> {
         let input = q.last()?.intersection(*at.last()? + rate * (c - middle))?;
         let floats: Vec<f64> = q.iter().map(|x| x.middle()).collect();
         let group = nearest_group(self.system, &floats);
-        Some(DeadPoint { input, unknowns: unknowns_of::<M>(&q), is_largest: slope.most() < 0.0, group, q })
+        Some(DeadPoint { input, unknowns: unknowns_of(self.system, &q), is_largest: slope.most() < 0.0, group, q })
     }
 
     fn all(&self) -> Option<Vec<DeadPoint<M>>> {
@@ -105,7 +105,7 @@ impl<M: Certifiable> InputRate<'_, M> {
 pub(super) fn dead_points<M: Certifiable>(
     system: &System<M>,
     tubes: &[Tube],
-) -> Result<Vec<DeadPoint<M>>, CertifyError> {
+) -> Result<Vec<DeadPoint<M>>, CertifyErrorOf<M>> {
     let mut all: Vec<DeadPoint<M>> = Vec::new();
     for tube in tubes.iter().filter(|tube| tube.expansion.parameter != system.count()) {
         let undecided = || reason(system, &tube.expansion.q, &tube.over(tube.range));

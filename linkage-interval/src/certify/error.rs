@@ -2,47 +2,49 @@
 
 use std::fmt;
 
+use linkage_runtime::{Mechanism, Name};
+
 use crate::Interval;
 
 /// The reason why a motion has no certificate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum CertifyError {
+pub enum CertifyError<N: Name = &'static str> {
     /// A number or an index given is invalid: NaN, infinite, or outside its range.
     Invalid {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The name of the number.
         what: &'static str,
     },
     /// The input has no turn: no sine or cosine takes it, and no vector has it as its angle.
     NoTurn {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
     },
     /// Nothing is known of a user function over an interval.
     UserFunction {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group with the function in its equations.
-        group: &'static str,
+        group: N,
         /// The function.
-        function: &'static str,
+        function: N,
     },
     /// The start is near no position that can be certified: Newton's method does not converge, or the position is
     /// singular, or the tolerances are too wide.
     NoPosition {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group nearest to a singularity there.
-        group: &'static str,
+        group: N,
     },
     /// The input turns back at a dead point.
     DeadPoint {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group that is singular there.
-        group: &'static str,
+        group: N,
         /// It contains the limit of the input.
         limit: Interval,
     },
@@ -50,9 +52,9 @@ pub enum CertifyError {
     /// other motions or singularities are too near. With tolerances some mechanisms of the box may reach one.
     Singular {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group nearest to a singularity.
-        group: &'static str,
+        group: N,
         /// The inputs of the step.
         input: Interval,
     },
@@ -60,9 +62,9 @@ pub enum CertifyError {
     /// `atan2` at pi, have a kink, as a modulus at zero, or a pole, or are undefined.
     NoBounds {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group.
-        group: &'static str,
+        group: N,
         /// The inputs of the step.
         input: Interval,
     },
@@ -70,21 +72,21 @@ pub enum CertifyError {
     /// are too wide, as next to a pole, of sines of angles beyond 1e5 rad, or with wide tolerances.
     Undecided {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The inputs of the step.
         input: Interval,
     },
     /// Two enclosures of one derivative have no number in common: the emitted formula is not the derivative of Psi.
     Contradiction {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The derivative: J, A or gamma.
         what: &'static str,
     },
     /// The certified motion is not the one that a path has found.
     OtherMotion {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The difference: modes or dead points.
         what: &'static str,
     },
@@ -92,7 +94,7 @@ pub enum CertifyError {
     /// number of tests.
     Exhausted {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The number of boxes certified or tested.
         boxes: usize,
         /// The input up to which the motion is certified.
@@ -100,7 +102,41 @@ pub enum CertifyError {
     },
 }
 
-impl fmt::Display for CertifyError {
+/// The error of a certificate, with names of a mechanism.
+pub type CertifyErrorOf<M> = CertifyError<<M as Mechanism>::Name>;
+
+impl<N: Name> CertifyError<N> {
+    /// This error with other names: borrowed ones become owned.
+    pub fn map_names<M: Name>(self, mut f: impl FnMut(N) -> M) -> CertifyError<M> {
+        match self {
+            Self::Invalid { mechanism, what } => CertifyError::Invalid { mechanism: f(mechanism), what },
+            Self::NoTurn { mechanism } => CertifyError::NoTurn { mechanism: f(mechanism) },
+            Self::UserFunction { mechanism, group, function } => {
+                CertifyError::UserFunction { mechanism: f(mechanism), group: f(group), function: f(function) }
+            }
+            Self::NoPosition { mechanism, group } => {
+                CertifyError::NoPosition { mechanism: f(mechanism), group: f(group) }
+            }
+            Self::DeadPoint { mechanism, group, limit } => {
+                CertifyError::DeadPoint { mechanism: f(mechanism), group: f(group), limit }
+            }
+            Self::Singular { mechanism, group, input } => {
+                CertifyError::Singular { mechanism: f(mechanism), group: f(group), input }
+            }
+            Self::NoBounds { mechanism, group, input } => {
+                CertifyError::NoBounds { mechanism: f(mechanism), group: f(group), input }
+            }
+            Self::Undecided { mechanism, input } => CertifyError::Undecided { mechanism: f(mechanism), input },
+            Self::Contradiction { mechanism, what } => CertifyError::Contradiction { mechanism: f(mechanism), what },
+            Self::OtherMotion { mechanism, what } => CertifyError::OtherMotion { mechanism: f(mechanism), what },
+            Self::Exhausted { mechanism, boxes, input } => {
+                CertifyError::Exhausted { mechanism: f(mechanism), boxes, input }
+            }
+        }
+    }
+}
+
+impl<N: Name> fmt::Display for CertifyError<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Invalid { mechanism, what } => {
@@ -163,4 +199,4 @@ impl fmt::Display for CertifyError {
     }
 }
 
-impl std::error::Error for CertifyError {}
+impl<N: Name> std::error::Error for CertifyError<N> {}

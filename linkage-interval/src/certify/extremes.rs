@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::fmt;
 
-use linkage_runtime::{Certifiable, Column, Dim};
+use linkage_runtime::{Build, Certifiable, Column, Dim};
 
 use super::certificate::Certificate;
 use super::jet::{Jet, Measure};
@@ -197,26 +197,32 @@ impl<M: Certifiable> Certificate<M> {
     /// Encloses the smallest and the largest value of each coordinate of a point and each output over the motion.
     #[must_use]
     pub fn quantities(&self) -> Column<Enclosure, <M as Certifiable>::Q> {
-        Column::from_fn(|place| enclosure(&self.system, &self.tubes, Measure::Quantity(place)))
+        self.system
+            .mechanism
+            .quantity_count()
+            .column(|place| enclosure(&self.system, &self.tubes, Measure::Quantity(place)))
     }
 
     /// Encloses the smallest and the largest value of one quantity, by its index; `None` if there is none of this index.
     #[must_use]
     pub fn quantity(&self, index: usize) -> Option<Enclosure> {
         let measure = Measure::Quantity(index);
-        (index < <M as Certifiable>::Q::default().count()).then(|| enclosure(&self.system, &self.tubes, measure))
+        (index < self.system.mechanism.quantity_count().count()).then(|| enclosure(&self.system, &self.tubes, measure))
     }
 
     /// Encloses the smallest and the largest derivative of each unknown by the input over the motion: the velocity
     /// ratios W.
     #[must_use]
     pub fn velocity_ratios(&self) -> Column<Enclosure, M::U> {
-        Column::from_fn(|place| enclosure(&self.system, &self.tubes, Measure::Rate(place)))
+        self.system.mechanism.dims().0.column(|place| enclosure(&self.system, &self.tubes, Measure::Rate(place)))
     }
 
     /// Encloses the smallest and the largest derivative of each quantity by the input over the motion.
     #[must_use]
     pub fn quantity_ratios(&self) -> Column<Enclosure, <M as Certifiable>::Q> {
-        Column::from_fn(|place| enclosure(&self.system, &self.tubes, Measure::QuantityRate(place)))
+        self.system
+            .mechanism
+            .quantity_count()
+            .column(|place| enclosure(&self.system, &self.tubes, Measure::QuantityRate(place)))
     }
 }

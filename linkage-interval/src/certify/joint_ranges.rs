@@ -19,9 +19,9 @@ const MOST_PARTS: usize = 3000;
 
 /// A declared range, and whether a motion keeps it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CertifiedRange {
+pub struct CertifiedRange<N = &'static str> {
     /// The coordinate or the output.
-    pub of: &'static str,
+    pub of: N,
     /// The proof.
     pub proof: RangeProof,
 }
@@ -40,7 +40,7 @@ pub enum RangeProof {
 impl<M: Certifiable> Certificate<M> {
     /// Says of each declared range whether the motion keeps it.
     #[must_use]
-    pub fn joint_ranges(&self) -> Vec<CertifiedRange> {
+    pub fn joint_ranges(&self) -> Vec<CertifiedRange<M::Name>> {
         all(&self.system, &self.tubes)
     }
 }
@@ -48,13 +48,13 @@ impl<M: Certifiable> Certificate<M> {
 impl<M: Certifiable> Curve<M> {
     /// Says of each declared range whether the motion keeps it.
     #[must_use]
-    pub fn joint_ranges(&self) -> Vec<CertifiedRange> {
+    pub fn joint_ranges(&self) -> Vec<CertifiedRange<M::Name>> {
         all(&self.system, &self.tubes)
     }
 }
 
-fn all<M: Certifiable>(system: &System<M>, tubes: &[Tube]) -> Vec<CertifiedRange> {
-    let names = M::RANGES.iter().enumerate();
+fn all<M: Certifiable>(system: &System<M>, tubes: &[Tube]) -> Vec<CertifiedRange<M::Name>> {
+    let names = system.mechanism.range_names().enumerate();
     names.map(|(place, of)| CertifiedRange { of, proof: proof(system, tubes, place) }).collect()
 }
 

@@ -53,12 +53,12 @@ mod tube;
 mod turn;
 mod turned;
 
-use linkage_runtime::{Certifiable, Column, Group};
+use linkage_runtime::{Certifiable, Column};
 
 pub use certificate::{Certificate, End};
 pub use curve::Curve;
 pub use dead_point::DeadPoint;
-pub use error::CertifyError;
+pub use error::{CertifyError, CertifyErrorOf};
 pub use extremes::Enclosure;
 pub use joint_ranges::{CertifiedRange, RangeProof};
 
@@ -141,21 +141,22 @@ impl<'a, M: Certifiable> Certify<'a, M> {
     /// differ: an output may be the angle itself.
     #[must_use]
     pub fn repeats(&self, unknowns: &Column<i64, M::U>, inputs: &Column<i64, M::V>) -> bool {
-        turned::repeats::<M>(self.parameters.as_slice(), unknowns.as_slice(), inputs.as_slice())
+        turned::repeats(self.mechanism, &self.parameters, unknowns, inputs)
     }
 
-    fn invalid(&self, what: &'static str) -> CertifyError {
-        CertifyError::Invalid { mechanism: M::NAME, what }
+    fn invalid(&self, what: &'static str) -> CertifyErrorOf<M> {
+        CertifyError::Invalid { mechanism: self.mechanism.name(), what }
     }
 
-    fn system(&self, start: &M::Coordinates) -> Result<System<M>, CertifyError> {
-        let of_group = |(group, function): (&Group, &Option<&'static str>)| {
-            function.map(|function| CertifyError::UserFunction { mechanism: M::NAME, group: group.name, function })
-        };
-        if let Some(error) = M::GROUPS.iter().zip(M::USER_FUNCTIONS).find_map(of_group) {
+    fn system(&self, start: &M::Coordinates) -> Result<System<M>, CertifyErrorOf<M>> {
+        let mut users = self.mechanism.groups().enumerate().filter_map(|(place, group)| {
+            let function = self.mechanism.user_function(place)?;
+            Some(CertifyError::UserFunction { mechanism: self.mechanism.name(), group: group.name, function })
+        });
+        if let Some(error) = users.next() {
             return Err(error);
         }
-        System::new(self.mechanism, start, self.input, self.parameters.as_slice())
+        System::new(self.mechanism, start, self.input, self.parameters)
     }
 }
 
@@ -163,7 +164,7 @@ impl<'a, M: Certifiable> Certify<'a, M> {
 ///
 /// # Errors
 /// Those of [`Certify::turn`].
-pub fn turn<M: Certifiable>(mechanism: &M, start: &M::Coordinates) -> Result<Certificate<M>, CertifyError> {
+pub fn turn<M: Certifiable>(mechanism: &M, start: &M::Coordinates) -> Result<Certificate<M>, CertifyErrorOf<M>> {
     Certify::new(mechanism).turn(start)
 }
 
@@ -171,7 +172,11 @@ pub fn turn<M: Certifiable>(mechanism: &M, start: &M::Coordinates) -> Result<Cer
 ///
 /// # Errors
 /// Those of [`Certify::range`].
-pub fn range<M: Certifiable>(mechanism: &M, start: &M::Coordinates, to: f64) -> Result<Certificate<M>, CertifyError> {
+pub fn range<M: Certifiable>(
+    mechanism: &M,
+    start: &M::Coordinates,
+    to: f64,
+) -> Result<Certificate<M>, CertifyErrorOf<M>> {
     Certify::new(mechanism).range(start, to)
 }
 
@@ -179,6 +184,6 @@ pub fn range<M: Certifiable>(mechanism: &M, start: &M::Coordinates, to: f64) -> 
 ///
 /// # Errors
 /// Those of [`Certify::curve`].
-pub fn curve<M: Certifiable>(mechanism: &M, start: &M::Coordinates) -> Result<Curve<M>, CertifyError> {
+pub fn curve<M: Certifiable>(mechanism: &M, start: &M::Coordinates) -> Result<Curve<M>, CertifyErrorOf<M>> {
     Certify::new(mechanism).curve(start)
 }

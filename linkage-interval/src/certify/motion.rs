@@ -1,8 +1,8 @@
 //! Tubes one after another along a motion.
 
-use linkage_runtime::{Certifiable, Column, Number};
+use linkage_runtime::{Build, Certifiable, Column, Number};
 
-use super::error::CertifyError;
+use super::error::{CertifyError, CertifyErrorOf};
 use super::expansion::Expansion;
 use super::reason::reason;
 use super::system::{Dimensions, System};
@@ -76,7 +76,7 @@ impl<'a, M: Certifiable> Motion<'a, M> {
         direction: f64,
         end: Option<f64>,
         overlap: f64,
-    ) -> Result<(), CertifyError> {
+    ) -> Result<(), CertifyErrorOf<M>> {
         let expansion = self.expansion(parameter).ok_or_else(|| self.stopped(&self.joint))?;
         let scale = self.system.scales.get(parameter).copied().unwrap_or(1.0);
         let from = self.at(parameter);
@@ -128,12 +128,16 @@ impl<'a, M: Certifiable> Motion<'a, M> {
     }
 
     /// The error of a motion that has no tests left.
-    pub(super) fn exhausted(&self) -> CertifyError {
-        CertifyError::Exhausted { mechanism: M::NAME, boxes: self.tubes.len(), input: self.input().middle() }
+    pub(super) fn exhausted(&self) -> CertifyErrorOf<M> {
+        CertifyError::Exhausted {
+            mechanism: self.system.mechanism.name(),
+            boxes: self.tubes.len(),
+            input: self.input().middle(),
+        }
     }
 
     /// The error of a motion that cannot go on from its joint into a box.
-    pub(super) fn stopped(&self, within: &[Interval]) -> CertifyError {
+    pub(super) fn stopped(&self, within: &[Interval]) -> CertifyErrorOf<M> {
         let middle: Vec<f64> = self.joint.iter().map(|x| x.middle()).collect();
         reason(self.system, &middle, within)
     }
@@ -159,6 +163,6 @@ pub(super) fn certified_position<M: Certifiable>(
 }
 
 /// The unknowns of a box.
-pub(super) fn unknowns_of<M: Certifiable>(q: &[Interval]) -> Column<Interval, M::U> {
-    Column::from_fn(|place| q.get(place).copied().unwrap_or(Interval::unknown()))
+pub(super) fn unknowns_of<M: Certifiable>(system: &System<M>, q: &[Interval]) -> Column<Interval, M::U> {
+    system.mechanism.dims().0.column(|place| q.get(place).copied().unwrap_or(Interval::unknown()))
 }

@@ -1,8 +1,8 @@
 //! The reason why a part of a motion has no certificate.
 
-use linkage_runtime::{Certifiable, Group};
+use linkage_runtime::{Certifiable, Group, Name};
 
-use super::error::CertifyError;
+use super::error::{CertifyError, CertifyErrorOf};
 use super::system::{Dimensions, System};
 use crate::Interval;
 use crate::matrix::{defect, norm, symmetric};
@@ -16,15 +16,15 @@ const NEARLY_SINGULAR: f64 = 1e-3;
 const NEAR: f64 = 1.0 / (1_u64 << 24) as f64;
 
 /// The error of a part of a motion in a box that has no certificate; `q` is a position next to it.
-pub(super) fn reason<M: Certifiable>(system: &System<M>, q: &[f64], within: &[Interval]) -> CertifyError {
-    let (mechanism, input) = (M::NAME, within.last().copied().unwrap_or(Interval::ENTIRE));
+pub(super) fn reason<M: Certifiable>(system: &System<M>, q: &[f64], within: &[Interval]) -> CertifyErrorOf<M> {
+    let (mechanism, input) = (system.mechanism.name(), within.last().copied().unwrap_or(Interval::ENTIRE));
     let wider = |(&x, scale): (&Interval, &f64)| x + symmetric(NEAR * scale);
     let around: Vec<Interval> = within.iter().zip(&system.scales).map(wider).collect();
     if let Some(error) = no_bounds(system, within).or_else(|| no_bounds(system, &around)) {
         return error;
     }
     match nearest(system, q) {
-        Some((group, regularity)) if regularity < NEARLY_SINGULAR || may_be_singular(system, group, q, within) => {
+        Some((group, regularity)) if regularity < NEARLY_SINGULAR || may_be_singular(system, &group, q, within) => {
             CertifyError::Singular { mechanism, group: group.name, input }
         }
         _ => CertifyError::Undecided { mechanism, input },
@@ -32,7 +32,12 @@ pub(super) fn reason<M: Certifiable>(system: &System<M>, q: &[f64], within: &[In
 }
 
 /// True if the tolerances may make a group singular in a box: |I - Y J| < 1 with the inverse Y at a point excludes it.
-fn may_be_singular<M: Certifiable>(system: &System<M>, group: &Group, q: &[f64], within: &[Interval]) -> bool {
+fn may_be_singular<M: Certifiable>(
+    system: &System<M>,
+    group: &Group<'_, M::Name>,
+    q: &[f64],
+    within: &[Interval],
+) -> bool {
     if !system.has_tolerances() {
         return false;
     }
@@ -48,32 +53,33 @@ fn may_be_singular<M: Certifiable>(system: &System<M>, group: &Group, q: &[f64],
 }
 
 /// The error of a start that has no certificate.
-pub(super) fn no_position<M: Certifiable>(system: &System<M>, guess: &[f64]) -> CertifyError {
+pub(super) fn no_position<M: Certifiable>(system: &System<M>, guess: &[f64]) -> CertifyErrorOf<M> {
     let point: Vec<Interval> = guess.iter().map(|&x| x.into()).collect();
-    let otherwise = || CertifyError::NoPosition { mechanism: M::NAME, group: nearest_group(system, guess) };
+    let otherwise =
+        || CertifyError::NoPosition { mechanism: system.mechanism.name(), group: nearest_group(system, guess) };
     no_bounds(system, &point).unwrap_or_else(otherwise)
 }
 
 /// The error of a group whose equations have no bounded derivative in a box.
-fn no_bounds<M: Certifiable>(system: &System<M>, within: &[Interval]) -> Option<CertifyError> {
+fn no_bounds<M: Certifiable>(system: &System<M>, within: &[Interval]) -> Option<CertifyErrorOf<M>> {
     let columns = system.jacobian(Dimensions::All, within);
     let has_bounds =
         |row: usize| columns.iter().filter_map(|column| column.get(row)).all(|x| x.magnitude().is_finite());
-    let group = M::GROUPS.iter().find(|group| !group.equations.iter().all(|&row| has_bounds(row)))?;
+    let group = system.mechanism.groups().find(|group| !group.equations.iter().all(|&row| has_bounds(row)))?;
     let input = within.last().copied().unwrap_or(Interval::ENTIRE);
-    Some(CertifyError::NoBounds { mechanism: M::NAME, group: group.name, input })
+    Some(CertifyError::NoBounds { mechanism: system.mechanism.name(), group: group.name, input })
 }
 
 /// The name of the group whose block of J is nearest to a singularity at a point.
-pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> &'static str {
-    nearest(system, q).map(|(group, _)| group.name).unwrap_or_default()
+pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> M::Name {
+    nearest(system, q).map_or_else(|| Name::from_static(""), |(group, _)| group.name)
 }
 
 /// The group whose block of J is nearest to a singularity at a point, and the regularity of it: 1 divided by the largest
 /// entry of the inverse, relative to the scales of rows and columns.
-fn nearest<M: Certifiable>(system: &System<M>, q: &[f64]) -> Option<(&'static Group<'static>, f64)> {
+fn nearest<'a, M: Certifiable>(system: &'a System<M>, q: &[f64]) -> Option<(Group<'a, M::Name>, f64)> {
     let columns = system.float_jacobian(q);
-    let regularity = |group: &Group| {
+    let regularity = |group: &Group<'_, M::Name>| {
         let (inverse, rows) = inverse_of(system, group, &columns);
         let largest = inverse.map(|inverse| {
             let entries = inverse.iter().flat_map(|row| row.iter().zip(&rows).map(|(entry, row)| (entry * row).abs()));
@@ -81,14 +87,14 @@ fn nearest<M: Certifiable>(system: &System<M>, q: &[f64]) -> Option<(&'static Gr
         });
         largest.map_or(0.0, |largest| 1.0 / largest)
     };
-    M::GROUPS.iter().map(|group| (group, regularity(group))).min_by(|one, other| one.1.total_cmp(&other.1))
+    system.mechanism.groups().map(|group| (group, regularity(&group))).min_by(|one, other| one.1.total_cmp(&other.1))
 }
 
 /// The inverse of the block of a group, with the columns relative to the scales of its unknowns, and the scales of its
 /// rows.
 fn inverse_of<M: Certifiable>(
     system: &System<M>,
-    group: &Group,
+    group: &Group<'_, M::Name>,
     columns: &[Vec<f64>],
 ) -> (Option<Vec<Vec<f64>>>, Vec<f64>) {
     let entry = |column: usize, row: usize| Some(columns.get(column)?.get(row)? * scale_of(system, column));

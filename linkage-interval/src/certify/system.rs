@@ -5,9 +5,9 @@
 
 use linkage_runtime::__shared::Shown;
 use linkage_runtime::jacobian::ScalesOf;
-use linkage_runtime::{Certifiable, Column, Dim, Formulas, Number, Ranged};
+use linkage_runtime::{Build, Certifiable, Column, Dim, Formulas, Number, Ranged};
 
-use super::error::CertifyError;
+use super::error::{CertifyError, CertifyErrorOf};
 use super::turned::repeats;
 use crate::Interval;
 use crate::series::{Series, lines, unit_line};
@@ -29,11 +29,12 @@ pub(super) enum Dimensions {
 
 /// The formulas of a mechanism, its fixed inputs and its scales.
 pub(super) struct System<M: Certifiable> {
+    pub(super) mechanism: M,
     floats: M::Over<Series<f64>>,
     nominal: M::Over<Series<Interval>>,
     all: M::Over<Series<Interval>>,
     emitted: M::Over<Interval>,
-    parameters: Vec<Interval>,
+    parameters: Column<Interval, <M as Certifiable>::P>,
     tolerances: Vec<Tolerance<M::Over<Series<Interval>>>>,
     inputs: Vec<f64>,
     moving: usize,
@@ -49,9 +50,9 @@ impl<M: Certifiable> System<M> {
         mechanism: &M,
         start: &M::Coordinates,
         moving: usize,
-        parameters: &[Interval],
-    ) -> Result<Self, CertifyError> {
-        let invalid = |what| CertifyError::Invalid { mechanism: M::NAME, what };
+        parameters: Column<Interval, <M as Certifiable>::P>,
+    ) -> Result<Self, CertifyErrorOf<M>> {
+        let invalid = |what| CertifyError::Invalid { mechanism: mechanism.name(), what };
         let (unknowns, inputs) = M::parts(start);
         if moving >= inputs.iter().count() {
             return Err(invalid("the index of the input"));
@@ -60,44 +61,40 @@ impl<M: Certifiable> System<M> {
             return Err(invalid("the start"));
         }
         let middles = mechanism.parameters();
-        if middles.iter().any(|value| !value.is_finite()) || parameters.len() != middles.iter().count() {
+        if middles.iter().any(|value| !value.is_finite()) || parameters.dim() != middles.dim() {
             return Err(invalid("the parameters"));
         }
-        if middles.iter().zip(parameters).any(|(&middle, all)| !all.contains(middle) || !all.width().is_finite()) {
+        if middles.iter().zip(&parameters).any(|(&middle, all)| !all.contains(middle) || !all.width().is_finite()) {
             return Err(invalid("a tolerance"));
         }
-        let lift = |values: &dyn Fn(usize) -> Series<Interval>| {
-            M::Over::<Series<Interval>>::with_parameters(Column::from_fn(values))
-        };
-        let own = |place: usize| parameters.get(place).copied().unwrap_or(Interval::ENTIRE);
         let tolerances = parameters.iter().zip(middles.iter()).enumerate().filter(|(_, (all, _))| all.width() > 0.0);
-        let tolerances = tolerances.map(|(place, (&all, &middle))| Tolerance {
-            by: lift(&|other| {
-                if other == place { Series::line(own(other), Interval::one()) } else { Series::constant(own(other)) }
-            }),
-            difference: all - Interval::from(middle),
+        let tolerances = tolerances.map(|(place, (&all, &middle))| {
+            let mut by = parameters.map(Series::constant);
+            by[place] = Series::line(all, Interval::one());
+            Tolerance { by: mechanism.over(by), difference: all - Interval::from(middle) }
         });
         let scales = ScalesOf::<M>::of(mechanism, &mechanism.pose_at(start));
         let scale_or_one = |scale: f64| if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
         let coordinates =
             scales.coordinates.unknowns.iter().chain(scales.coordinates.inputs.iter().skip(moving).take(1));
         Ok(Self {
-            parameters: parameters.to_vec(),
             tolerances: tolerances.collect(),
-            floats: M::Over::with_parameters(middles.map(Series::constant)),
-            nominal: M::Over::with_parameters(middles.map(|value| Series::constant(value.into()))),
-            all: lift(&|place| Series::constant(own(place))),
-            emitted: M::Over::with_parameters(Column::from_fn(own)),
+            floats: mechanism.over(middles.map(Series::constant)),
+            nominal: mechanism.over(middles.map(|value| Series::constant(value.into()))),
+            all: mechanism.over(parameters.map(Series::constant)),
+            emitted: mechanism.over(parameters),
+            parameters,
             inputs: inputs.iter().copied().collect(),
             moving,
             rows: scales.residuals.iter().map(|&scale| scale_or_one(scale)).collect(),
             scales: coordinates.map(|&scale| scale_or_one(scale)).collect(),
+            mechanism: mechanism.with(middles),
         })
     }
 
     /// The number of unknowns.
     pub(super) fn count(&self) -> usize {
-        M::U::default().count()
+        self.mechanism.dims().0.count()
     }
 
     /// The unknowns and the moving input of a position; `None` if its other inputs are not those of the system.
@@ -110,19 +107,19 @@ impl<M: Certifiable> System<M> {
 
     /// True if an unknown, or the moving input after them, is an angle.
     pub(super) fn is_angle(&self, coordinate: usize) -> bool {
-        let input = M::INPUT_ANGLES.get(self.moving);
-        let own = M::UNKNOWN_ANGLES.get(coordinate);
-        own.or(if coordinate == M::U::default().count() { input } else { None }).copied().unwrap_or_default()
+        let input = self.mechanism.input_angles().get(self.moving);
+        let own = self.mechanism.unknown_angles().get(coordinate);
+        own.or(if coordinate == self.count() { input } else { None }).copied().unwrap_or_default()
     }
 
     /// The name of the moving input.
-    pub(super) fn input_name(&self) -> &'static str {
-        M::INPUTS.get(self.moving).copied().unwrap_or_default()
+    pub(super) fn input_name(&self) -> M::Name {
+        self.mechanism.input_name(self.moving)
     }
 
     /// A value of the moving input for readers.
     pub(super) fn shown_input(&self, value: f64) -> Shown {
-        Shown { value, is_angle: self.is_angle(M::U::default().count()) }
+        Shown { value, is_angle: self.is_angle(self.count()) }
     }
 
     /// The words about parameters that have tolerances.
@@ -132,11 +129,11 @@ impl<M: Certifiable> System<M> {
 
     /// True if Psi is the same after these full turns of the unknowns and of the moving input.
     pub(super) fn repeats(&self, turns: &[i64]) -> bool {
-        let (unknowns, moving) = turns.split_at(M::U::default().count().min(turns.len()));
-        let inputs: Vec<i64> = (0..self.inputs.len())
-            .map(|place| moving.first().copied().filter(|_| place == self.moving).unwrap_or_default())
-            .collect();
-        repeats::<M>(&self.parameters, unknowns, &inputs)
+        let (u, v, _) = self.mechanism.dims();
+        let at = |place: usize| turns.get(place).copied().unwrap_or_default();
+        let moving = at(u.count());
+        let inputs = v.column(|place| if place == self.moving { moving } else { 0 });
+        repeats(&self.mechanism, &self.parameters, &u.column(at), &inputs)
     }
 
     /// True if a parameter has a tolerance.
@@ -148,8 +145,9 @@ impl<M: Certifiable> System<M> {
     fn split<N: Number>(&self, q: &[N]) -> (Column<N, M::U>, Column<N, M::V>) {
         let at = |place: usize| q.get(place).copied().unwrap_or_else(N::unknown);
         let fixed = |place: usize| self.inputs.get(place).map_or_else(N::unknown, |&value| N::exactly(value));
-        let input = |place| if place == self.moving { at(M::U::default().count()) } else { fixed(place) };
-        (Column::from_fn(at), Column::from_fn(input))
+        let input = |place| if place == self.moving { at(self.count()) } else { fixed(place) };
+        let (u, v, _) = self.mechanism.dims();
+        (u.column(at), v.column(input))
     }
 
     fn formulas(&self, dimensions: Dimensions) -> &M::Over<Series<Interval>> {
@@ -226,16 +224,16 @@ impl<M: Certifiable> System<M> {
     ///
     /// The rates of gamma are the scales of the coordinates, each times another factor, so that terms of opposite sign
     /// do not cancel.
-    pub(super) fn check_emitted(&self, q: &[Interval]) -> Result<(), CertifyError> {
+    pub(super) fn check_emitted(&self, q: &[Interval]) -> Result<(), CertifyErrorOf<M>> {
         let factors = (0_u32..).map(|place| 1.0 + f64::from(place) / 3.0);
         let rates: Vec<Interval> =
             self.scales.iter().zip(factors).map(|(scale, factor)| (scale * factor).into()).collect();
-        let contradiction = |what| CertifyError::Contradiction { mechanism: M::NAME, what };
+        let contradiction = |what| CertifyError::Contradiction { mechanism: self.mechanism.name(), what };
         let (unknowns, inputs) = self.split(q);
         let own = self.jacobian(Dimensions::All, q);
         let j = self.emitted.jacobian_unknowns(&unknowns, &inputs);
         let a = self.emitted.jacobian_inputs(&unknowns, &inputs);
-        let (of_unknowns, of_input) = own.split_at(M::U::default().count());
+        let (of_unknowns, of_input) = own.split_at(self.count());
         if !of_unknowns.iter().zip(j.iter()).all(|(own, emitted)| intersect(own, emitted.as_slice())) {
             return Err(contradiction("J"));
         }
@@ -245,7 +243,7 @@ impl<M: Certifiable> System<M> {
         let own: Vec<_> = self.psi(Dimensions::All, &lines(q, &rates)).iter().map(|psi| psi.second).collect();
         let (unknown_rates, _) = self.split(&rates);
         let input_rate = rates.last().copied().unwrap_or(Interval::zero());
-        let input_rates = Column::from_fn(|place| if place == self.moving { input_rate } else { Interval::zero() });
+        let input_rates = inputs.dim().column(|place| if place == self.moving { input_rate } else { Interval::zero() });
         let gamma = self.emitted.gamma(&unknowns, &inputs, &unknown_rates, &input_rates);
         if intersect(&own, gamma.as_slice()) { Ok(()) } else { Err(contradiction("gamma")) }
     }

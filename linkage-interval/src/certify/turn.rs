@@ -3,7 +3,7 @@
 use linkage_runtime::{Certifiable, Number};
 
 use super::certificate::{Certificate, End, Moved};
-use super::error::CertifyError;
+use super::error::{CertifyError, CertifyErrorOf};
 use super::motion::{Motion, certified_position};
 use super::reason::no_position;
 use super::system::System;
@@ -15,12 +15,12 @@ impl<M: Certifiable> Certify<'_, M> {
     ///
     /// # Errors
     /// [`CertifyError::DeadPoint`] if the input turns back, and the others of [`CertifyError`].
-    pub fn turn(&self, start: &M::Coordinates) -> Result<Certificate<M>, CertifyError> {
+    pub fn turn(&self, start: &M::Coordinates) -> Result<Certificate<M>, CertifyErrorOf<M>> {
         if self.turns == 0 {
             return Err(self.invalid("the number of turns"));
         }
-        if M::INPUT_ANGLES.get(self.input) == Some(&false) {
-            return Err(CertifyError::NoTurn { mechanism: M::NAME });
+        if self.mechanism.input_angles().get(self.input) == Some(&false) {
+            return Err(CertifyError::NoTurn { mechanism: self.mechanism.name() });
         }
         let from = self.start_input(start)?;
         let turns = i64::from(self.turns);
@@ -34,7 +34,7 @@ impl<M: Certifiable> Certify<'_, M> {
     ///
     /// # Errors
     /// [`CertifyError::DeadPoint`] if the input turns back before, and the others of [`CertifyError`].
-    pub fn range(&self, start: &M::Coordinates, to: f64) -> Result<Certificate<M>, CertifyError> {
+    pub fn range(&self, start: &M::Coordinates, to: f64) -> Result<Certificate<M>, CertifyErrorOf<M>> {
         let from = self.start_input(start)?;
         if !to.is_finite() || to == from {
             return Err(self.invalid("the range of the input"));
@@ -42,11 +42,16 @@ impl<M: Certifiable> Certify<'_, M> {
         self.over_inputs(start, from, to.into())
     }
 
-    fn start_input(&self, start: &M::Coordinates) -> Result<f64, CertifyError> {
+    fn start_input(&self, start: &M::Coordinates) -> Result<f64, CertifyErrorOf<M>> {
         M::parts(start).1.iter().nth(self.input).copied().ok_or_else(|| self.invalid("the index of the input"))
     }
 
-    fn over_inputs(&self, start: &M::Coordinates, from: f64, to: Interval) -> Result<Certificate<M>, CertifyError> {
+    fn over_inputs(
+        &self,
+        start: &M::Coordinates,
+        from: f64,
+        to: Interval,
+    ) -> Result<Certificate<M>, CertifyErrorOf<M>> {
         let system = self.system(start)?;
         let input = system.count();
         let guess = system.position(start).ok_or_else(|| self.invalid("the start"))?;
@@ -92,11 +97,11 @@ impl<M: Certifiable> Certify<'_, M> {
 
 impl<M: Certifiable> Certify<'_, M> {
     /// Compares the emitted derivatives with those of Psi at the end of a motion.
-    pub(super) fn check_emitted_at(&self, motion: &Motion<'_, M>) -> Result<(), CertifyError> {
+    pub(super) fn check_emitted_at(&self, motion: &Motion<'_, M>) -> Result<(), CertifyErrorOf<M>> {
         motion.system.check_emitted(&motion.joint)
     }
 
-    pub(super) fn check_emitted(&self, system: &System<M>, guess: &[f64]) -> Result<(), CertifyError> {
+    pub(super) fn check_emitted(&self, system: &System<M>, guess: &[f64]) -> Result<(), CertifyErrorOf<M>> {
         let point: Vec<Interval> = guess.iter().map(|&x| x.into()).collect();
         system.check_emitted(&point)
     }

@@ -212,20 +212,21 @@ impl Number for Turned {
 }
 
 /// True if Psi is the same for all values of the coordinates after these full turns of the unknowns and the inputs.
-pub(super) fn repeats<M: Certifiable>(parameters: &[Interval], unknowns: &[i64], inputs: &[i64]) -> bool {
+pub(super) fn repeats<M: Certifiable>(
+    mechanism: &M,
+    parameters: &Column<Interval, <M as Certifiable>::P>,
+    unknowns: &Column<i64, M::U>,
+    inputs: &Column<i64, M::V>,
+) -> bool {
     let mut tolerances = 0;
-    let own = parameters.iter().map(|parameter| {
+    let parameters = parameters.map(|parameter| {
         if parameter.width() == 0.0 {
             return Turned::exactly(parameter.middle());
         }
         tolerances += 1;
         Turned::constant(Factor::parameter(tolerances - 1))
     });
-    let own: Vec<Turned> = own.collect();
-    let at = |turns: &[i64], place: usize| Turned::coordinate(turns.get(place).copied().unwrap_or_default());
-    let parameters = Column::from_fn(|place| own.get(place).copied().unwrap_or_else(Turned::unknown));
-    let formulas = M::Over::<Turned>::with_parameters(parameters);
-    let psi =
-        formulas.residual(&Column::from_fn(|place| at(unknowns, place)), &Column::from_fn(|place| at(inputs, place)));
+    let formulas = mechanism.over::<Turned>(parameters);
+    let psi = formulas.residual(&unknowns.map(Turned::coordinate), &inputs.map(Turned::coordinate));
     psi.iter().all(|psi| psi.is_unchanged())
 }

@@ -2,37 +2,39 @@
 
 use std::fmt;
 
+use linkage_runtime::{Mechanism, Name};
+
 use crate::Interval;
 
 /// The reason why a velocity, an acceleration or a sensitivity has no enclosure over a box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum EncloseError {
+pub enum EncloseError<N: Name = &'static str> {
     /// An interval given has an infinite bound.
     Invalid {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The kind of the number, such as `parameter`.
         kind: &'static str,
         /// Its name.
-        name: &'static str,
+        name: N,
     },
     /// Nothing is known of a user function over an interval.
     UserFunction {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group with the function in its equations.
-        group: &'static str,
+        group: N,
         /// The function.
-        function: &'static str,
+        function: N,
     },
     /// A derivative of Psi has no bounds over the box: a divisor may be zero, or the argument of a function outside its
     /// domain; or the numbers are so large that they overflow.
     NoBounds {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group with the equation.
-        group: &'static str,
+        group: N,
         /// The derivative: J, or the right-hand side by its name.
         derivative: &'static str,
     },
@@ -40,16 +42,16 @@ pub enum EncloseError {
     /// I - Y J is below 1 for all J of the box; the norm is relative to the best scales.
     NotRegular {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The unknowns of the group whose block of J may be singular.
-        group: &'static str,
+        group: N,
         /// An upper bound of the norm of I - Y J for the block, infinite if its middle is singular.
         norm: f64,
     },
     /// A certificate does not cover these inputs.
     Outside {
         /// The mechanism, or the driver of one.
-        mechanism: &'static str,
+        mechanism: N,
         /// The inputs asked for.
         input: Interval,
         /// Those of the certificate.
@@ -57,7 +59,33 @@ pub enum EncloseError {
     },
 }
 
-impl fmt::Display for EncloseError {
+/// The error of an enclosure, with names of a mechanism.
+pub type EncloseErrorOf<M> = EncloseError<<M as Mechanism>::Name>;
+
+impl<N: Name> EncloseError<N> {
+    /// This error with other names: borrowed ones become owned.
+    pub fn map_names<M: Name>(self, mut f: impl FnMut(N) -> M) -> EncloseError<M> {
+        match self {
+            Self::Invalid { mechanism, kind, name } => {
+                EncloseError::Invalid { mechanism: f(mechanism), kind, name: f(name) }
+            }
+            Self::UserFunction { mechanism, group, function } => {
+                EncloseError::UserFunction { mechanism: f(mechanism), group: f(group), function: f(function) }
+            }
+            Self::NoBounds { mechanism, group, derivative } => {
+                EncloseError::NoBounds { mechanism: f(mechanism), group: f(group), derivative }
+            }
+            Self::NotRegular { mechanism, group, norm } => {
+                EncloseError::NotRegular { mechanism: f(mechanism), group: f(group), norm }
+            }
+            Self::Outside { mechanism, input, inputs } => {
+                EncloseError::Outside { mechanism: f(mechanism), input, inputs }
+            }
+        }
+    }
+}
+
+impl<N: Name> fmt::Display for EncloseError<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Invalid { mechanism, kind, name } => {
@@ -89,4 +117,4 @@ impl fmt::Display for EncloseError {
     }
 }
 
-impl std::error::Error for EncloseError {}
+impl<N: Name> std::error::Error for EncloseError<N> {}

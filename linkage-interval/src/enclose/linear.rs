@@ -1,8 +1,8 @@
 //! J over a box, proved regular group by group.
 
-use linkage_runtime::{Certifiable, Column, Dim, Formulas, Group, Number};
+use linkage_runtime::{Build, Certifiable, Column, Dim, Formulas, Group, Name, Number};
 
-use super::EncloseError;
+use super::{EncloseError, EncloseErrorOf};
 use crate::Interval;
 use crate::matrix::{Floats, contracting, defect, inverse, norm, solution};
 use crate::series::unit_line;
@@ -49,20 +49,25 @@ impl Preconditioned {
 
 impl Linear {
     /// J over the box of these numbers.
-    pub(super) fn of<M: Certifiable>(numbers: &[Interval], sizes: &Sizes) -> Result<Self, EncloseError> {
-        let column = |place| psi::<M, _>(&unit_line(numbers, place)).iter().map(|psi| psi.first).collect();
-        let columns: Vec<Vec<Interval>> = (0..M::U::default().count()).map(column).collect();
-        let users = M::USER_FUNCTIONS.iter().copied().chain(std::iter::repeat(None));
-        let norm_of = |(group, user): (&Group, Option<&'static str>)| norm_of_group::<M>(group, user, &columns, sizes);
-        let norms: Vec<f64> = M::GROUPS.iter().zip(users).map(norm_of).collect::<Result<_, _>>()?;
+    pub(super) fn of<M: Certifiable>(
+        mechanism: &M,
+        numbers: &[Interval],
+        sizes: &Sizes,
+    ) -> Result<Self, EncloseErrorOf<M>> {
+        let column = |place| psi(mechanism, &unit_line(numbers, place)).iter().map(|psi| psi.first).collect();
+        let columns: Vec<Vec<Interval>> = (0..mechanism.dims().0.count()).map(column).collect();
+        let norm_of =
+            |(place, group)| norm_of_group(mechanism, &group, mechanism.user_function(place), &columns, sizes);
+        let norms: Vec<f64> = mechanism.groups().enumerate().map(norm_of).collect::<Result<_, _>>()?;
         match Preconditioned::of(&columns, &sizes.rows, &sizes.unknowns) {
             Some(Preconditioned { y, defect, scales, norm }) if norm < 1.0 => Ok(Self { y, defect, scales, norms }),
             // J is block triangular, so that it fails only where the norm of a group is about 1.
             whole => {
                 let largest = (0..norms.len()).max_by(|&one, &other| norms[one].total_cmp(&norms[other]));
-                let group = largest.and_then(|place| M::GROUPS.get(place)).map_or("", |group| group.name);
+                let group = largest.and_then(|place| mechanism.group(place));
+                let group = group.map_or_else(|| Name::from_static(""), |group| group.name);
                 let norm = whole.map_or(f64::INFINITY, |whole| whole.norm);
-                Err(EncloseError::NotRegular { mechanism: M::NAME, group, norm })
+                Err(EncloseError::NotRegular { mechanism: mechanism.name(), group, norm })
             }
         }
     }
@@ -70,13 +75,14 @@ impl Linear {
     /// The solutions x of J x = c for all J and c; `derivative` is the name of c.
     pub(super) fn solve<M: Certifiable>(
         &self,
+        mechanism: &M,
         c: &[Interval],
         derivative: &'static str,
-    ) -> Result<Vec<Interval>, EncloseError> {
+    ) -> Result<Vec<Interval>, EncloseErrorOf<M>> {
         let infinite = c.iter().position(|c| !c.magnitude().is_finite());
-        let overflow = || no_bounds::<M>(0, derivative);
+        let overflow = || no_bounds(mechanism, 0, derivative);
         match infinite {
-            Some(row) => Err(no_bounds::<M>(row, derivative)),
+            Some(row) => Err(no_bounds(mechanism, row, derivative)),
             None => solution(&self.y, &self.defect, c, &self.scales).ok_or_else(overflow),
         }
     }
@@ -84,12 +90,13 @@ impl Linear {
 
 /// The norm of I - Y J for the block of a group, where it is below 1.
 fn norm_of_group<M: Certifiable>(
-    group: &Group,
-    user: Option<&'static str>,
+    mechanism: &M,
+    group: &Group<'_, M::Name>,
+    user: Option<M::Name>,
     columns: &[Vec<Interval>],
     sizes: &Sizes,
-) -> Result<f64, EncloseError> {
-    let (mechanism, name) = (M::NAME, group.name);
+) -> Result<f64, EncloseErrorOf<M>> {
+    let (mechanism, name) = (mechanism.name(), group.name);
     if let Some(function) = user {
         return Err(EncloseError::UserFunction { mechanism, group: name, function });
     }
@@ -110,19 +117,20 @@ fn norm_of_group<M: Certifiable>(
 }
 
 /// The error of a derivative that has no bounds in this row of Psi.
-fn no_bounds<M: Certifiable>(row: usize, derivative: &'static str) -> EncloseError {
-    let group = M::GROUPS.iter().find(|group| group.equations.contains(&row)).map_or("", |group| group.name);
-    EncloseError::NoBounds { mechanism: M::NAME, group, derivative }
+fn no_bounds<M: Certifiable>(mechanism: &M, row: usize, derivative: &'static str) -> EncloseErrorOf<M> {
+    let group = mechanism.groups().find(|group| group.equations.contains(&row));
+    let group = group.map_or_else(|| Name::from_static(""), |group| group.name);
+    EncloseError::NoBounds { mechanism: mechanism.name(), group, derivative }
 }
 
 /// Psi along a curve of its numbers: the unknowns, then the inputs, then the parameters.
-pub(super) fn psi<M: Certifiable, N: Number>(numbers: &[N]) -> Vec<N> {
-    let (unknowns, inputs) = (M::U::default().count(), M::V::default().count());
-    let formulas = M::Over::<N>::with_parameters(column(numbers, unknowns + inputs));
-    formulas.residual(&column(numbers, 0), &column(numbers, unknowns)).iter().copied().collect()
+pub(super) fn psi<M: Certifiable, N: Number>(mechanism: &M, numbers: &[N]) -> Vec<N> {
+    let (u, v, _) = mechanism.dims();
+    let formulas = mechanism.over(column(mechanism.parameters().dim(), numbers, u.count() + v.count()));
+    formulas.residual(&column(u, numbers, 0), &column(v, numbers, u.count())).iter().copied().collect()
 }
 
 /// The column of the numbers from this index on.
-pub(super) fn column<N: Number, R: Dim + Default>(numbers: &[N], from: usize) -> Column<N, R> {
-    Column::from_fn(|place| numbers.get(from + place).copied().unwrap_or_else(N::unknown))
+pub(super) fn column<N: Number, R: Dim>(rows: R, numbers: &[N], from: usize) -> Column<N, R> {
+    rows.column(|place| numbers.get(from + place).copied().unwrap_or_else(N::unknown))
 }

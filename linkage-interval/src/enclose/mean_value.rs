@@ -2,7 +2,7 @@
 
 use linkage_runtime::{Certifiable, Number};
 
-use super::EncloseError;
+use super::EncloseErrorOf;
 use super::linear::{Linear, psi};
 use crate::Interval;
 use crate::series::Series;
@@ -28,7 +28,8 @@ impl Order {
 }
 
 /// J over the box of a curve, and in the middle of it.
-pub(super) struct Solver<'a> {
+pub(super) struct Solver<'a, M> {
+    pub(super) mechanism: &'a M,
     pub(super) linear: &'a Linear,
     pub(super) middle: &'a Linear,
     pub(super) order: Order,
@@ -36,32 +37,28 @@ pub(super) struct Solver<'a> {
     pub(super) derivative: &'static str,
 }
 
-impl Solver<'_> {
+impl<M: Certifiable> Solver<'_, M> {
     /// The derivatives x of this order of the unknowns along a curve of all numbers, in which they are zero: J x = -Psi'
     /// or `J x = -Psi''`. They are intersected with their mean-value form.
-    pub(super) fn solve<M: Certifiable>(&self, curve: &[Series<Interval>]) -> Result<Vec<Interval>, EncloseError> {
-        let x = self.natural::<M>(self.linear, curve)?;
-        let narrower = self.centered::<M>(curve, &x);
+    pub(super) fn solve(&self, curve: &[Series<Interval>]) -> Result<Vec<Interval>, EncloseErrorOf<M>> {
+        let x = self.natural(self.linear, curve)?;
+        let narrower = self.centered(curve, &x);
         let both = |centered: Vec<Interval>| {
             x.iter().zip(centered).map(|(x, centered)| x.intersection(centered)).collect::<Option<Vec<_>>>()
         };
         Ok(narrower.and_then(both).unwrap_or(x))
     }
 
-    fn natural<M: Certifiable>(
-        &self,
-        linear: &Linear,
-        curve: &[Series<Interval>],
-    ) -> Result<Vec<Interval>, EncloseError> {
-        let right: Vec<Interval> = psi::<M, _>(curve).iter().map(|&psi| -self.order.of(psi)).collect();
-        linear.solve::<M>(&right, self.derivative)
+    fn natural(&self, linear: &Linear, curve: &[Series<Interval>]) -> Result<Vec<Interval>, EncloseErrorOf<M>> {
+        let right: Vec<Interval> = psi(self.mechanism, curve).iter().map(|&psi| -self.order.of(psi)).collect();
+        linear.solve(self.mechanism, &right, self.derivative)
     }
 
     /// The mean-value form x(m) + sum of dx/dz (z - m) over all intervals z of the curve: numbers, rates, accelerations.
     ///
     /// F(z, x) = 0, the derivative of Psi along the curve with x, gives J dx/dz = -F_z: a series of series in which z
     /// grows. `None` if the curve has no interval, or the form no bounds.
-    fn centered<M: Certifiable>(&self, curve: &[Series<Interval>], x: &[Interval]) -> Option<Vec<Interval>> {
+    fn centered(&self, curve: &[Series<Interval>], x: &[Interval]) -> Option<Vec<Interval>> {
         let middle = |x: Interval| Interval::from(x.middle());
         let middles: Vec<Series<Interval>> = curve
             .iter()
@@ -70,7 +67,7 @@ impl Solver<'_> {
         if middles == curve {
             return None;
         }
-        let mut sum = self.natural::<M>(self.middle, &middles).ok()?;
+        let mut sum = self.natural(self.middle, &middles).ok()?;
         let mut solved = curve.to_vec();
         for (own, &x) in solved.iter_mut().zip(x) {
             match self.order {
@@ -88,9 +85,10 @@ impl Solver<'_> {
                     continue;
                 }
                 *part(&mut along[place].first) = Interval::one();
-                let right: Vec<Interval> = psi::<M, _>(&along).iter().map(|psi| -self.order.of(psi.first)).collect();
+                let right: Vec<Interval> =
+                    psi(self.mechanism, &along).iter().map(|psi| -self.order.of(psi.first)).collect();
                 along[place].first = still;
-                let by = self.linear.solve::<M>(&right, self.derivative).ok()?;
+                let by = self.linear.solve(self.mechanism, &right, self.derivative).ok()?;
                 sum.iter_mut().zip(by).for_each(|(sum, by)| *sum = *sum + by * (z - m));
             }
         }

@@ -31,6 +31,6 @@ mod linear;
 mod mean_value;
 mod pose_box;
 
-pub use error::EncloseError;
+pub use error::{EncloseError, EncloseErrorOf};
 pub(crate) use linear::Sizes;
 pub use pose_box::{IntervalColumns, PoseBox};

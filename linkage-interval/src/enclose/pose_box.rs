@@ -1,14 +1,13 @@
 //! A box of positions and parameters, and what is enclosed over it.
 
 use std::fmt;
-use std::marker::PhantomData;
 
 use linkage_runtime::jacobian::ScalesOf;
-use linkage_runtime::{Certifiable, Column, Dim, Mechanism, Number};
+use linkage_runtime::{Build, Certifiable, Column, Dim, Mechanism, Number};
 
-use super::EncloseError;
 use super::linear::{Linear, Sizes, column};
 use super::mean_value::{Order, Solver};
+use super::{EncloseError, EncloseErrorOf};
 use crate::Interval;
 use crate::series::{Series, lines};
 
@@ -19,10 +18,10 @@ pub type IntervalColumns<M, C> = Column<Column<Interval, <M as Mechanism>::U>, C
 ///
 /// ```
 /// # use linkage_interval::Interval;
-/// # use linkage_interval::enclose::{EncloseError, PoseBox};
+/// # use linkage_interval::enclose::{EncloseErrorOf, PoseBox};
 /// # use linkage_runtime::{Certifiable, Column, D};
 /// /// The angular velocity of a rocker, for all angles of a box.
-/// fn rocker<M: Certifiable<U = D<2>, V = D<1>>>(bar: &M, angles: [Interval; 3]) -> Result<Interval, EncloseError> {
+/// fn rocker<M: Certifiable<U = D<2>, V = D<1>>>(bar: &M, angles: [Interval; 3]) -> Result<Interval, EncloseErrorOf<M>> {
 ///     let [crank, coupler, rocker] = angles;
 ///     let all = PoseBox::new(bar, [coupler, rocker].into(), [crank].into())?;
 ///     Ok(all.velocity(&[Interval::from(1.0)].into())?[1])
@@ -34,7 +33,7 @@ pub struct PoseBox<M: Certifiable> {
     linear: Linear,
     /// J in the middle, unless the box is a point.
     middle: Option<Linear>,
-    mechanism: PhantomData<fn() -> M>,
+    mechanism: M,
 }
 
 impl<M: Certifiable> PoseBox<M> {
@@ -46,7 +45,7 @@ impl<M: Certifiable> PoseBox<M> {
         mechanism: &M,
         unknowns: Column<Interval, M::U>,
         inputs: Column<Interval, M::V>,
-    ) -> Result<Self, EncloseError> {
+    ) -> Result<Self, EncloseErrorOf<M>> {
         Self::with_parameters(mechanism, mechanism.parameters().map(Interval::from), unknowns, inputs)
     }
 
@@ -54,7 +53,7 @@ impl<M: Certifiable> PoseBox<M> {
     ///
     /// # Errors
     /// Those of [`with_parameters`](Self::with_parameters).
-    pub fn at(mechanism: &M, q: &M::Coordinates) -> Result<Self, EncloseError> {
+    pub fn at(mechanism: &M, q: &M::Coordinates) -> Result<Self, EncloseErrorOf<M>> {
         let (unknowns, inputs) = M::parts(q);
         Self::new(mechanism, unknowns.map(Interval::from), inputs.map(Interval::from))
     }
@@ -71,69 +70,69 @@ impl<M: Certifiable> PoseBox<M> {
         parameters: Column<Interval, <M as Certifiable>::P>,
         unknowns: Column<Interval, M::U>,
         inputs: Column<Interval, M::V>,
-    ) -> Result<Self, EncloseError> {
-        all_finite::<M>("unknown", M::UNKNOWNS, unknowns.as_slice())?;
-        all_finite::<M>("input", M::INPUTS, inputs.as_slice())?;
-        all_finite::<M>("parameter", M::PARAMETERS, parameters.as_slice())?;
+    ) -> Result<Self, EncloseErrorOf<M>> {
+        all_finite(mechanism, "unknown", M::unknown_name, unknowns.as_slice())?;
+        all_finite(mechanism, "input", M::input_name, inputs.as_slice())?;
+        all_finite(mechanism, "parameter", M::parameter_name, parameters.as_slice())?;
         let middle = M::coordinates(unknowns.map(Interval::middle), inputs.map(Interval::middle));
         let scales = ScalesOf::<M>::of(mechanism, &mechanism.pose_at(&middle));
         let sizes = Sizes {
             rows: scales.residuals.iter().map(|&scale| scale_or_one(scale)).collect(),
             unknowns: scales.coordinates.unknowns.iter().map(|&scale| scale_or_one(scale)).collect(),
         };
-        Self::of_numbers(unknowns.iter().chain(&inputs).chain(&parameters).copied().collect(), &sizes)
+        Self::of_numbers(mechanism, unknowns.iter().chain(&inputs).chain(&parameters).copied().collect(), &sizes)
     }
 
     /// The box of finite numbers.
-    pub(crate) fn of_numbers(numbers: Vec<Interval>, sizes: &Sizes) -> Result<Self, EncloseError> {
-        let linear = Linear::of::<M>(&numbers, sizes)?;
+    pub(crate) fn of_numbers(mechanism: &M, numbers: Vec<Interval>, sizes: &Sizes) -> Result<Self, EncloseErrorOf<M>> {
+        let linear = Linear::of(mechanism, &numbers, sizes)?;
         let middles: Vec<Interval> = numbers.iter().map(|x| x.middle().into()).collect();
         let is_point = middles == numbers;
-        let middle = if is_point { None } else { Some(Linear::of::<M>(&middles, sizes)?) };
-        Ok(Self { numbers, linear, middle, mechanism: PhantomData })
+        let middle = if is_point { None } else { Some(Linear::of(mechanism, &middles, sizes)?) };
+        Ok(Self { numbers, linear, middle, mechanism: mechanism.with(mechanism.parameters()) })
     }
 
     /// The unknowns.
     #[must_use]
     pub fn unknowns(&self) -> Column<Interval, M::U> {
-        column(&self.numbers, 0)
+        column(self.mechanism.dims().0, &self.numbers, 0)
     }
 
     /// The inputs.
     #[must_use]
     pub fn inputs(&self) -> Column<Interval, M::V> {
-        column(&self.numbers, M::U::default().count())
+        column(self.mechanism.dims().1, &self.numbers, self.unknown_count())
     }
 
     /// The parameters.
     #[must_use]
     pub fn parameters(&self) -> Column<Interval, <M as Certifiable>::P> {
-        column(&self.numbers, M::U::default().count() + M::V::default().count())
+        column(self.mechanism.parameters().dim(), &self.numbers, self.parameters_from())
     }
 
     /// For each group an upper bound of the norm of I - Y J over the box, below 1, where Y is about the inverse of its
     /// block of J in the middle: the proof that the block is regular, and how near it is to failing.
     #[must_use]
     pub fn norms(&self) -> Column<f64, M::G> {
-        Column::from_fn(|place| self.linear.norms.get(place).copied().unwrap_or_default())
+        self.mechanism.dims().2.column(|place| self.linear.norms.get(place).copied().unwrap_or_default())
     }
 
     /// W = -J^-1 A: for each input the column of the rates of the unknowns while it has the rate 1 and the others 0.
     ///
     /// # Errors
     /// [`EncloseError::NoBounds`] if A has none.
-    pub fn velocity_ratios(&self) -> Result<IntervalColumns<M, M::V>, EncloseError> {
-        self.by_each(M::U::default().count(), "A")
+    pub fn velocity_ratios(&self) -> Result<IntervalColumns<M, M::V>, EncloseErrorOf<M>> {
+        self.by_each(self.mechanism.dims().1, self.unknown_count(), "A")
     }
 
     /// u' = W v': the rates of the unknowns for all rates of the inputs in these intervals.
     ///
     /// # Errors
     /// [`EncloseError::Invalid`] if a rate is infinite, [`EncloseError::NoBounds`] if A has no bounds.
-    pub fn velocity(&self, input_rates: &Column<Interval, M::V>) -> Result<Column<Interval, M::U>, EncloseError> {
-        all_finite::<M>("rate", M::INPUTS, input_rates.as_slice())?;
-        let curve = lines(&self.numbers, &self.direction(M::U::default().count(), input_rates.as_slice()));
-        Ok(column(&self.solver(Order::First, "A v'").solve::<M>(&curve)?, 0))
+    pub fn velocity(&self, input_rates: &Column<Interval, M::V>) -> Result<Column<Interval, M::U>, EncloseErrorOf<M>> {
+        all_finite(&self.mechanism, "rate", M::input_name, input_rates.as_slice())?;
+        let curve = lines(&self.numbers, &self.direction(self.unknown_count(), input_rates.as_slice()));
+        Ok(column(self.mechanism.dims().0, &self.solver(Order::First, "A v'").solve(&curve)?, 0))
     }
 
     /// `u''` from `J u'' = -(A v'' + gamma)`: the accelerations of the unknowns for all rates and all accelerations of the
@@ -148,16 +147,16 @@ impl<M: Certifiable> PoseBox<M> {
         unknown_rates: &Column<Interval, M::U>,
         input_rates: &Column<Interval, M::V>,
         input_accelerations: &Column<Interval, M::V>,
-    ) -> Result<Column<Interval, M::U>, EncloseError> {
-        all_finite::<M>("rate", M::UNKNOWNS, unknown_rates.as_slice())?;
-        all_finite::<M>("rate", M::INPUTS, input_rates.as_slice())?;
-        all_finite::<M>("acceleration", M::INPUTS, input_accelerations.as_slice())?;
-        let mut first = self.direction(M::U::default().count(), input_rates.as_slice());
+    ) -> Result<Column<Interval, M::U>, EncloseErrorOf<M>> {
+        all_finite(&self.mechanism, "rate", M::unknown_name, unknown_rates.as_slice())?;
+        all_finite(&self.mechanism, "rate", M::input_name, input_rates.as_slice())?;
+        all_finite(&self.mechanism, "acceleration", M::input_name, input_accelerations.as_slice())?;
+        let mut first = self.direction(self.unknown_count(), input_rates.as_slice());
         first.iter_mut().zip(unknown_rates).for_each(|(own, &rate)| *own = rate);
-        let second = self.direction(M::U::default().count(), input_accelerations.as_slice());
+        let second = self.direction(self.unknown_count(), input_accelerations.as_slice());
         let parts = self.numbers.iter().zip(first).zip(second);
         let curve: Vec<_> = parts.map(|((&value, first), second)| Series { value, first, second }).collect();
-        Ok(column(&self.solver(Order::Second, "A v'' + gamma").solve::<M>(&curve)?, 0))
+        Ok(column(self.mechanism.dims().0, &self.solver(Order::Second, "A v'' + gamma").solve(&curve)?, 0))
     }
 
     /// du/dp = -J^-1 Psi_p: for each parameter the column of the rates of the unknowns while it grows with rate 1, at
@@ -165,20 +164,32 @@ impl<M: Certifiable> PoseBox<M> {
     ///
     /// # Errors
     /// [`EncloseError::NoBounds`] if Psi_p has none.
-    pub fn sensitivity(&self) -> Result<IntervalColumns<M, <M as Certifiable>::P>, EncloseError> {
-        self.by_each(M::U::default().count() + M::V::default().count(), "Psi_p")
+    pub fn sensitivity(&self) -> Result<IntervalColumns<M, <M as Certifiable>::P>, EncloseErrorOf<M>> {
+        self.by_each(self.mechanism.parameters().dim(), self.parameters_from(), "Psi_p")
     }
 
     /// The rates of the unknowns while one number grows with rate 1, for each of those from this index on.
-    fn by_each<C: Dim + Default>(
+    fn by_each<C: Dim>(
         &self,
+        columns: C,
         from: usize,
         derivative: &'static str,
-    ) -> Result<IntervalColumns<M, C>, EncloseError> {
+    ) -> Result<IntervalColumns<M, C>, EncloseErrorOf<M>> {
         let solver = self.solver(Order::First, derivative);
-        let by = |place| solver.solve::<M>(&lines(&self.numbers, &self.direction(from + place, &[Interval::one()])));
-        let all: Vec<Vec<Interval>> = (0..C::default().count()).map(by).collect::<Result<_, _>>()?;
-        Ok(Column::from_fn(|place| column(all.get(place).map_or(&[], Vec::as_slice), 0)))
+        let by = |place| solver.solve(&lines(&self.numbers, &self.direction(from + place, &[Interval::one()])));
+        let all: Vec<Vec<Interval>> = (0..columns.count()).map(by).collect::<Result<_, _>>()?;
+        let u = self.mechanism.dims().0;
+        Ok(columns.column(|place| column(u, all.get(place).map_or(&[], Vec::as_slice), 0)))
+    }
+
+    fn unknown_count(&self) -> usize {
+        self.mechanism.dims().0.count()
+    }
+
+    /// The place of the first parameter among the numbers.
+    fn parameters_from(&self) -> usize {
+        let (u, v, _) = self.mechanism.dims();
+        u.count() + v.count()
     }
 
     /// The rates of all numbers that are zero but for these from an index on.
@@ -188,9 +199,9 @@ impl<M: Certifiable> PoseBox<M> {
         all
     }
 
-    fn solver(&self, order: Order, derivative: &'static str) -> Solver<'_> {
+    fn solver(&self, order: Order, derivative: &'static str) -> Solver<'_, M> {
         let middle = self.middle.as_ref().unwrap_or(&self.linear);
-        Solver { linear: &self.linear, middle, order, derivative }
+        Solver { mechanism: &self.mechanism, linear: &self.linear, middle, order, derivative }
     }
 }
 
@@ -207,15 +218,13 @@ impl<M: Certifiable> fmt::Debug for PoseBox<M> {
 
 /// An error if an interval is infinite.
 fn all_finite<M: Certifiable>(
+    mechanism: &M,
     kind: &'static str,
-    names: &'static [&'static str],
+    name: impl Fn(&M, usize) -> M::Name,
     intervals: &[Interval],
-) -> Result<(), EncloseError> {
+) -> Result<(), EncloseErrorOf<M>> {
     match intervals.iter().position(|x| !x.magnitude().is_finite()) {
-        Some(place) => {
-            let name = names.get(place).copied().unwrap_or_default();
-            Err(EncloseError::Invalid { mechanism: M::NAME, kind, name })
-        }
+        Some(place) => Err(EncloseError::Invalid { mechanism: mechanism.name(), kind, name: name(mechanism, place) }),
         None => Ok(()),
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use linkage_runtime::continuation::Options;
 use linkage_runtime::range_of_motion::{Driven, MotionByLength, MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::skeleton::Skeleton;
-use linkage_runtime::{Assembly, Mechanism, PathError};
+use linkage_runtime::{Assembly, Mechanism, Name, PathError, PathErrorOf};
 
 use super::figure::Figure;
 use super::parts::Parts;
@@ -17,17 +17,16 @@ const SECONDS: f64 = 4.0;
 
 impl Figure {
     /// The joints of a mechanism at these poses, and its parts.
-    fn of<'a, M: Skeleton<Scalar = f64, Name = &'static str>>(
-        mechanism: &M,
-        poses: impl IntoIterator<Item = &'a M::Pose>,
-    ) -> Self
+    fn of<'a, M: Skeleton<Scalar = f64>>(mechanism: &M, poses: impl IntoIterator<Item = &'a M::Pose>) -> Self
     where
         M::Pose: 'a,
     {
         let mut poses = poses.into_iter().peekable();
         let guides: Vec<[f64; 2]> =
             poses.peek().iter().flat_map(|pose| (0..).map_while(|guide| mechanism.guide(pose, guide))).collect();
-        let parts = Parts { joints: M::JOINTS, parts: M::PARTS, guides: &guides };
+        let names: Vec<String> = mechanism.joint_names().map(|name| name.to_string()).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let parts = Parts { joints: &names, parts: mechanism.drawn_parts(), guides: &guides };
         let places = |pose| mechanism.joints(pose).as_slice().chunks_exact(2).map(|at| [at[0], at[1]]).collect();
         Self::at(&parts, poses.map(places).collect::<Vec<Vec<[f64; 2]>>>())
     }
@@ -35,14 +34,14 @@ impl Figure {
 
 impl Drawing {
     /// Draws a mechanism with `derive drawing;` at a pose: its joints, links, pivots and points. More can be added.
-    pub fn of<M: Skeleton<Scalar = f64, Name = &'static str>>(mechanism: &M, pose: &M::Pose) -> Self {
-        Self { figure: Figure::of(mechanism, [pose]), ..Self::new(M::NAME) }
+    pub fn of<M: Skeleton<Scalar = f64>>(mechanism: &M, pose: &M::Pose) -> Self {
+        Self { figure: Figure::of(mechanism, [pose]), ..Self::new(mechanism.name().to_string()) }
     }
 }
 
 impl Animation {
     /// Animates a mechanism with `derive drawing;` through poses, which take this number of seconds.
-    pub fn of<'a, M: Skeleton<Scalar = f64, Name = &'static str>>(
+    pub fn of<'a, M: Skeleton<Scalar = f64>>(
         mechanism: &M,
         poses: impl IntoIterator<Item = &'a M::Pose>,
         seconds: f64,
@@ -50,7 +49,7 @@ impl Animation {
     where
         M::Pose: 'a,
     {
-        Self { figure: Figure::of(mechanism, poses), ..Self::new(M::NAME, seconds) }
+        Self { figure: Figure::of(mechanism, poses), ..Self::new(mechanism.name().to_string(), seconds) }
     }
 
     /// Animates a turn of the input of a mechanism with `derive drawing;`: one motion that begins on this branch and passes
@@ -60,11 +59,11 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if no motion can be followed from 120 steps of a turn.
     pub fn turn<M>(mechanism: &M, branch: M::Branch) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton + Assembly>,
+        M: Driven<Scalar = f64, Of: Skeleton + Assembly>,
     {
         let mut longest: Option<RangeOfMotion<'_, M>> = None;
         let mut reached: Vec<[f64; 2]> = Vec::new();
-        let mut last = PathError::NoDirection { mechanism: M::NAME };
+        let mut last = PathError::NoDirection { mechanism: mechanism.name() };
         for step in 0..FRAMES {
             let input = TAU * f64::from(step) / f64::from(FRAMES);
             if reached.iter().any(|[least, most]| (least..=most).contains(&&input)) {
@@ -93,7 +92,7 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if a position of the motion is not found.
     pub fn over<M>(range: &RangeOfMotion<'_, M>) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
+        M: Driven<Scalar = f64, Of: Skeleton>,
     {
         let [from, to] = range.inputs();
         match range.ends()[1] {
@@ -113,7 +112,7 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if a position of the motion is not found.
     pub fn along<M>(motion: &MotionByLength<'_, M>) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
+        M: Driven<Scalar = f64, Of: Skeleton>,
     {
         let length = motion.length();
         // A turn takes as long as one of `turn`: a frame has no more than its share of the arc length.
@@ -124,7 +123,7 @@ impl Animation {
             let part = if motion.is_closed() { share(step) } else { 1.0 - (2.0 * share(step) - 1.0).abs() };
             motion.at(length * part).map(|q| motion.driven().pose_at(&q))
         });
-        let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathError> = poses.collect();
+        let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathErrorOf<M>> = poses.collect();
         Ok(Self::of(motion.driven(), &poses.map_err(|error| no_position(&error))?, SECONDS * f64::from(rounds)))
     }
 
@@ -135,7 +134,7 @@ impl Animation {
     /// [`DrawingError::NoPosition`] if the motion ends before one of these, or if they are equal.
     pub fn between<M>(mechanism: &M, branch: M::Branch, [from, to]: [f64; 2]) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton + Assembly>,
+        M: Driven<Scalar = f64, Of: Skeleton + Assembly>,
     {
         let of = RangeOptions::through_change_points();
         let path = Options { range: Some([from.min(to), from.max(to)]), ..of.path };
@@ -146,7 +145,7 @@ impl Animation {
 
     fn forth_and_back<M>(range: &RangeOfMotion<'_, M>, [from, to]: [f64; 2]) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
+        M: Driven<Scalar = f64, Of: Skeleton>,
     {
         let middle = f64::midpoint(from, to);
         // Exactly `from` and `to` at the ends: the sum below may differ from them in the last digit.
@@ -164,14 +163,14 @@ impl Animation {
         seconds: f64,
     ) -> Result<Self, DrawingError>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Skeleton>,
+        M: Driven<Scalar = f64, Of: Skeleton>,
     {
         let pose = |input: f64| range.at(input).map(|q| range.driven().pose_at(&q));
-        let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathError> = inputs.map(pose).collect();
+        let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathErrorOf<M>> = inputs.map(pose).collect();
         Ok(Self::of(range.driven(), &poses.map_err(|error| no_position(&error))?, seconds))
     }
 }
 
-fn no_position(error: &PathError) -> DrawingError {
+fn no_position<N: Name>(error: &PathError<N>) -> DrawingError {
     DrawingError::NoPosition(error.to_string())
 }

@@ -200,34 +200,30 @@ impl Drawing {
 
     /// Adds the velocities of all points that move, from the motion of a mechanism: `drawing.velocities(&m, &motion.points)`.
     /// The longest arrow is about a quarter of the linkage, unless the scale is set.
-    pub fn velocities<M: Kinematic<Scalar = f64, Name = &'static str>>(
-        &mut self,
-        _: &M,
-        points: &MotionOfPoints<M>,
-    ) -> &mut Self {
-        self.of_points::<M>(points, Quantity::Velocity, |point| point.velocity)
+    pub fn velocities<M: Kinematic<Scalar = f64>>(&mut self, mechanism: &M, points: &MotionOfPoints<M>) -> &mut Self {
+        self.of_points(mechanism, points, Quantity::Velocity, |point| point.velocity)
     }
 
     /// Adds the accelerations of all points that have one, from the motion of a mechanism, as
     /// [`velocities`](Self::velocities) does.
-    pub fn accelerations<M: Kinematic<Scalar = f64, Name = &'static str>>(
+    pub fn accelerations<M: Kinematic<Scalar = f64>>(
         &mut self,
-        _: &M,
+        mechanism: &M,
         points: &MotionOfPoints<M>,
     ) -> &mut Self {
-        self.of_points::<M>(points, Quantity::Acceleration, |point| point.acceleration)
+        self.of_points(mechanism, points, Quantity::Acceleration, |point| point.acceleration)
     }
 
-    fn of_points<M: Kinematic<Scalar = f64, Name = &'static str>>(
+    fn of_points<M: Kinematic<Scalar = f64>>(
         &mut self,
+        mechanism: &M,
         points: &MotionOfPoints<M>,
         quantity: Quantity,
         vector: fn(&PointMotion<f64>) -> Vector2<f64>,
     ) -> &mut Self {
         self.fit(quantity);
-        let points: Vec<PointMotion<f64>> = M::each_point(*points).as_slice().to_vec();
-        for (name, motion) in M::POINTS.iter().zip(&points) {
-            let (name, vector) = (self.figure.current(name), vector(motion));
+        for (place, motion) in M::each_point(*points).iter().enumerate() {
+            let (name, vector) = (self.figure.current(&mechanism.point_name(place).to_string()), vector(motion));
             if vector == Vector2::zeros() {
                 continue;
             }
@@ -261,7 +257,7 @@ impl Drawing {
     /// The longest arrow is about a quarter of the linkage, unless the scale is set.
     pub fn forces<M, F>(&mut self, mechanism: &M, pose: &M::Pose, forces: &F) -> &mut Self
     where
-        M: Skeleton<Scalar = f64, Name = &'static str>,
+        M: Skeleton<Scalar = f64>,
         F: JointForces<f64, Mechanism = M>,
     {
         self.fit(Quantity::Force);

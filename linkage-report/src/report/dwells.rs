@@ -1,6 +1,5 @@
 //! Dwells of a quantity: parts of the motion in which it hardly moves.
 
-use linkage_runtime::PathError;
 use linkage_runtime::extremes::Course;
 use linkage_runtime::jacobian::root;
 
@@ -21,12 +20,12 @@ pub struct Dwell {
 }
 
 /// The dwells of a course. `rate_at` is the derivative by the input.
-pub(super) fn dwells(
+pub(super) fn dwells<E>(
     course: &Course,
     is_closed: bool,
     options: DwellOptions,
-    mut rate_at: impl FnMut(f64) -> Result<f64, PathError>,
-) -> Result<Vec<Dwell>, PathError> {
+    mut rate_at: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Vec<Dwell>, E> {
     let [first, last] = course.ends.map(|end| end.input);
     let length = last - first;
     let travel = course.extremes.largest.value - course.extremes.least.value;

@@ -47,11 +47,11 @@ impl<'a> Local<'a> {
     ) -> Self {
         let pose = mechanism.pose_at(q);
         let of_unknowns = mechanism.jacobian_unknowns(&pose);
-        let count = M::UNKNOWNS.len();
+        let count = of_unknowns.dims().0.count();
         let all = (0..count).flat_map(|row| (0..count).map(move |column| (row, column)));
         let jacobian = all.map(|(row, column)| of_unknowns.part(row, column)).collect();
         let gamma = move |rates: &[f64]| mechanism.gamma(&pose, &rates_of(mechanism, rates)).iter().copied().collect();
-        Self::new(derivation, M::UNKNOWN_ANGLES.to_vec(), jacobian, gamma)
+        Self::new(derivation, mechanism.unknown_angles().to_vec(), jacobian, gamma)
     }
 
     pub(super) fn form(&self, group: usize) -> Option<GroupForm> {

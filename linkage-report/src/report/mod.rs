@@ -42,7 +42,7 @@ mod transmission;
 use linkage_runtime::circuits::CircuitError;
 use linkage_runtime::derivation::{Derivation, Symbol};
 use linkage_runtime::range_of_motion::RangeOfMotion;
-use linkage_runtime::{Assembly, Branches, D, Kinematic, Mechanism, PathError};
+use linkage_runtime::{Assembly, BorrowedName, Branches, D, Kinematic, Mechanism, PathError};
 
 pub use dwells::Dwell;
 use dyad::Dyad;
@@ -59,7 +59,7 @@ pub use transmission::{NoTransmission, Transmission};
 /// A report of a mechanism.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Report {
+pub struct Report<N: BorrowedName = &'static str> {
     /// The mechanism, or the driver of one.
     pub mechanism: String,
     /// The inputs.
@@ -69,12 +69,12 @@ pub struct Report {
     /// The links, joints and degrees of freedom.
     pub mobility: Mobility,
     /// The modes and circuits at the input of the start.
-    pub modes: ReportedModes,
+    pub modes: ReportedModes<N>,
     /// The loops of four turning joints, of a report of data; those of a motion are with it.
     pub four_bars: Vec<FourBarLoop>,
     /// One motion from end to end; none for a mechanism with several inputs, which has as many motions as paths of its
     /// inputs.
-    pub motion: Option<MotionReport>,
+    pub motion: Option<MotionReport<N>>,
 }
 
 /// A coordinate by name.
@@ -90,11 +90,11 @@ pub struct ReportedCoordinate {
 /// The modes of a report, or the reason why it has none.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub enum ReportedModes {
+pub enum ReportedModes<N: BorrowedName = &'static str> {
     /// The modes.
     Listed(Modes),
     /// The positions at the start, or the motions through them, cannot be computed.
-    Failed(CircuitError),
+    Failed(CircuitError<N>),
     /// The mechanism does not implement [`Branches`], or the report was made without.
     NotListed,
     /// There are none, for this reason.
@@ -102,77 +102,6 @@ pub enum ReportedModes {
 }
 
 impl Report {
-    /// The report of a mechanism with one input, of the motion through a position near `start`. `derivation` is the
-    /// constant `DERIVATION` of the mechanism.
-    ///
-    /// # Errors
-    /// The reason why the motion cannot be followed from there, as from a dead point.
-    pub fn of<M>(
-        mechanism: &M,
-        derivation: &Derivation<'_>,
-        start: &M::Coordinates,
-        options: &ReportOptions,
-    ) -> Result<Self, PathError>
-    where
-        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Branches,
-    {
-        let range = RangeOfMotion::of(mechanism, start, options.range)?;
-        Self::with_modes(&range, derivation, start, options)
-    }
-
-    /// The report of the motion that begins on a branch, at the first of these inputs from which it can be followed.
-    ///
-    /// # Errors
-    /// If there is none, why the motion cannot be followed from the last of them; see [`RangeOfMotion::on_branch`].
-    pub fn on_branch<M>(
-        mechanism: &M,
-        derivation: &Derivation<'_>,
-        branch: M::Branch,
-        inputs: impl IntoIterator<Item = f64>,
-        options: &ReportOptions,
-    ) -> Result<Self, PathError>
-    where
-        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Branches + Assembly,
-    {
-        let mut last = PathError::NoDirection { mechanism: M::NAME };
-        for input in inputs {
-            let found = RangeOfMotion::on_branch(mechanism, branch, [input], options.range);
-            match found.and_then(|range| Ok((range.at(input)?, range))) {
-                Ok((start, range)) => return Self::with_modes(&range, derivation, &start, options),
-                Err(error) => last = error,
-            }
-        }
-        Err(last)
-    }
-
-    /// The report of a motion that is known, without modes: for mechanisms whose positions cannot be listed.
-    ///
-    /// # Errors
-    /// The reason why a position or a velocity along the motion cannot be computed.
-    pub fn of_motion<M>(
-        range: &RangeOfMotion<'_, M>,
-        derivation: &Derivation<'_>,
-        options: &ReportOptions,
-    ) -> Result<Self, PathError>
-    where
-        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
-    {
-        let [first, last] = range.inputs();
-        let report = Self::without_motion::<M>(derivation, ReportedModes::NotListed);
-        let motion = MotionReport::of(range, derivation, inside(first, last), options)?;
-        Ok(Self { motion: Some(motion), ..report })
-    }
-
-    /// The report of a mechanism with any number of inputs, without a motion: its mobility, and its modes at the inputs of
-    /// a position.
-    pub fn at<M>(mechanism: &M, derivation: &Derivation<'_>, start: &M::Coordinates) -> Self
-    where
-        M: Branches<Scalar = f64, Name = &'static str>,
-    {
-        let modes = Modes::at(mechanism, start).map_or_else(ReportedModes::Failed, ReportedModes::Listed);
-        Self::without_motion::<M>(derivation, modes)
-    }
-
     /// The report of a mechanism that is known as data, as one that is compiled at run time, without a motion: its mobility, and
     /// modes that are known. With the numbers at each mode it has the classes of four-bar loops and transmission angles.
     pub fn of_data(
@@ -207,29 +136,106 @@ impl Report {
             motion: None,
         }
     }
+}
+
+impl<N: BorrowedName> Report<N> {
+    /// The report of a mechanism with one input, of the motion through a position near `start`. `derivation` is the
+    /// constant `DERIVATION` of the mechanism.
+    ///
+    /// # Errors
+    /// The reason why the motion cannot be followed from there, as from a dead point.
+    pub fn of<M>(
+        mechanism: &M,
+        derivation: &Derivation<'_>,
+        start: &M::Coordinates,
+        options: &ReportOptions,
+    ) -> Result<Self, PathError<N>>
+    where
+        M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
+    {
+        let range = RangeOfMotion::of(mechanism, start, options.range)?;
+        Self::with_modes(&range, derivation, start, options)
+    }
+
+    /// The report of the motion that begins on a branch, at the first of these inputs from which it can be followed.
+    ///
+    /// # Errors
+    /// If there is none, why the motion cannot be followed from the last of them; see [`RangeOfMotion::on_branch`].
+    pub fn on_branch<M>(
+        mechanism: &M,
+        derivation: &Derivation<'_>,
+        branch: M::Branch,
+        inputs: impl IntoIterator<Item = f64>,
+        options: &ReportOptions,
+    ) -> Result<Self, PathError<N>>
+    where
+        M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches + Assembly,
+    {
+        let mut last = PathError::NoDirection { mechanism: mechanism.name() };
+        for input in inputs {
+            let found = RangeOfMotion::on_branch(mechanism, branch, [input], options.range);
+            match found.and_then(|range| Ok((range.at(input)?, range))) {
+                Ok((start, range)) => return Self::with_modes(&range, derivation, &start, options),
+                Err(error) => last = error,
+            }
+        }
+        Err(last)
+    }
+
+    /// The report of a motion that is known, without modes: for mechanisms whose positions cannot be listed.
+    ///
+    /// # Errors
+    /// The reason why a position or a velocity along the motion cannot be computed.
+    pub fn of_motion<M>(
+        range: &RangeOfMotion<'_, M>,
+        derivation: &Derivation<'_>,
+        options: &ReportOptions,
+    ) -> Result<Self, PathError<N>>
+    where
+        M: Kinematic<Scalar = f64, Name = N, V = D<1>>,
+    {
+        let [first, last] = range.inputs();
+        let report = Self::without_motion(range.mechanism(), derivation, ReportedModes::NotListed);
+        let motion = MotionReport::of(range, derivation, inside(first, last), options)?;
+        Ok(Self { motion: Some(motion), ..report })
+    }
+
+    /// The report of a mechanism with any number of inputs, without a motion: its mobility, and its modes at the inputs of
+    /// a position.
+    pub fn at<M>(mechanism: &M, derivation: &Derivation<'_>, start: &M::Coordinates) -> Self
+    where
+        M: Branches<Scalar = f64, Name = N>,
+    {
+        let modes = Modes::at(mechanism, start).map_or_else(ReportedModes::Failed, ReportedModes::Listed);
+        Self::without_motion(mechanism, derivation, modes)
+    }
 
     fn with_modes<M>(
         range: &RangeOfMotion<'_, M>,
         derivation: &Derivation<'_>,
         start: &M::Coordinates,
         options: &ReportOptions,
-    ) -> Result<Self, PathError>
+    ) -> Result<Self, PathError<N>>
     where
-        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Branches,
+        M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
     {
         let modes = Modes::of(range.mechanism(), start, options.circuits);
         let modes = modes.map_or_else(ReportedModes::Failed, ReportedModes::Listed);
         let motion = MotionReport::of(range, derivation, M::inputs(start)[0], options)?;
-        Ok(Self { motion: Some(motion), ..Self::without_motion::<M>(derivation, modes) })
+        Ok(Self { motion: Some(motion), ..Self::without_motion(range.mechanism(), derivation, modes) })
     }
 
-    fn without_motion<M: Mechanism>(derivation: &Derivation<'_>, modes: ReportedModes) -> Self {
-        let named =
-            |(name, is_angle): (&&str, &bool)| ReportedCoordinate { name: (*name).to_owned(), is_angle: *is_angle };
+    fn without_motion<M>(mechanism: &M, derivation: &Derivation<'_>, modes: ReportedModes<N>) -> Self
+    where
+        M: Mechanism<Name = N>,
+    {
+        let named = |(name, is_angle): (N, &bool)| ReportedCoordinate { name: name.to_string(), is_angle: *is_angle };
+        let inputs = (0..).map(|place| mechanism.input_name(place)).zip(mechanism.input_angles());
+        let unknowns = (0..).map(|place| mechanism.unknown_name(place)).zip(mechanism.unknown_angles());
         Self {
-            mechanism: M::NAME.to_owned(),
-            inputs: M::INPUTS.iter().zip(M::INPUT_ANGLES).map(named).collect(),
-            unknowns: M::UNKNOWNS.iter().zip(M::UNKNOWN_ANGLES).map(named).collect(),
+            mechanism: mechanism.name().to_string(),
+            inputs: inputs.map(named).collect(),
+            unknowns: unknowns.map(named).collect(),
             mobility: Mobility::of(derivation),
             modes,
             four_bars: Vec::new(),

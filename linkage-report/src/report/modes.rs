@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use linkage_runtime::circuits::{CircuitError, CircuitOptions, Circuits, CurveEnd, CurveEvent, MotionCurve};
-use linkage_runtime::{Branches, D, Mechanism};
+use linkage_runtime::{BorrowedName, Branches, D, Mechanism};
 
 /// The modes of a mechanism at an input, and how they are connected.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,14 +66,18 @@ impl Modes {
     ///
     /// # Errors
     /// Those of [`Circuits::of`].
-    pub(super) fn of<M>(mechanism: &M, start: &M::Coordinates, options: CircuitOptions) -> Result<Self, CircuitError>
+    pub(super) fn of<M>(
+        mechanism: &M,
+        start: &M::Coordinates,
+        options: CircuitOptions,
+    ) -> Result<Self, CircuitError<M::Name>>
     where
-        M: Branches<Scalar = f64, Name = &'static str, V = D<1>>,
+        M: Branches<Scalar = f64, V = D<1>>,
     {
         let input = M::inputs(start)[0];
         let circuits = Circuits::of(mechanism, input, options)?;
         let positions = circuits.modes.iter().map(|mode| mode.position);
-        let followed = nearest::<M>(positions, start);
+        let followed = nearest(mechanism, positions, start);
         let modes = circuits.modes.iter().map(|mode| ListedMode {
             branch: format!("{:?}", mode.branch),
             unknowns: M::unknowns(&mode.position).as_slice().to_vec(),
@@ -81,7 +85,7 @@ impl Modes {
             transmission: Vec::new(),
         });
         let modes = modes.collect();
-        let motions = circuits.motions.iter().map(listed::<M>).collect();
+        let motions = circuits.motions.iter().map(listed).collect();
         Ok(Self { inputs: vec![input], modes, motions, circuits: circuits.circuits, followed })
     }
 
@@ -89,13 +93,13 @@ impl Modes {
     ///
     /// # Errors
     /// Those of [`Branches::all_positions`].
-    pub(super) fn at<M>(mechanism: &M, start: &M::Coordinates) -> Result<Self, CircuitError>
+    pub(super) fn at<M>(mechanism: &M, start: &M::Coordinates) -> Result<Self, CircuitError<M::Name>>
     where
-        M: Branches<Scalar = f64, Name = &'static str>,
+        M: Branches<Scalar = f64>,
     {
         let inputs = M::inputs(start);
         let all: Vec<_> = mechanism.all_positions(inputs.into())?.collect();
-        let followed = nearest::<M>(all.iter().map(|(_, position)| *position), start);
+        let followed = nearest(mechanism, all.iter().map(|(_, position)| *position), start);
         let modes = all.iter().map(|(branch, position)| ListedMode {
             branch: format!("{branch:?}"),
             unknowns: M::unknowns(position).as_slice().to_vec(),
@@ -114,10 +118,10 @@ impl Modes {
     }
 }
 
-fn listed<M: Mechanism<Scalar = f64, Name = &'static str>>(motion: &MotionCurve<M::Coordinates>) -> ListedMotion {
-    let singular = |input: f64, event: Option<CurveEvent>| {
+fn listed<Q: Copy, N: BorrowedName>(motion: &MotionCurve<Q, f64, N>) -> ListedMotion {
+    let singular = |input: f64, event: Option<CurveEvent<N>>| {
         let group = match event {
-            Some(CurveEvent::DeadPoint { group } | CurveEvent::ChangePoint { group }) => vec![group.to_owned()],
+            Some(CurveEvent::DeadPoint { group } | CurveEvent::ChangePoint { group }) => vec![group.to_string()],
             _ => Vec::new(),
         };
         SingularInput { input, groups: group }
@@ -132,13 +136,14 @@ fn listed<M: Mechanism<Scalar = f64, Name = &'static str>>(motion: &MotionCurve<
 }
 
 /// The position nearest to another, by index, whole turns of angles aside.
-fn nearest<M: Mechanism<Scalar = f64, Name = &'static str>>(
+fn nearest<M: Mechanism<Scalar = f64>>(
+    mechanism: &M,
     positions: impl Iterator<Item = M::Coordinates>,
     to: &M::Coordinates,
 ) -> Option<usize> {
     let distance = |position: M::Coordinates| {
         let off = M::unknowns(&position) - M::unknowns(to);
-        let pairs = off.iter().zip(M::UNKNOWN_ANGLES);
+        let pairs = off.iter().zip(mechanism.unknown_angles());
         pairs.fold(0.0_f64, |most, (&off, &is_angle)| {
             let off = if is_angle { off - TAU * (off / TAU).round() } else { off };
             most.max(off.abs())

@@ -6,7 +6,7 @@ use linkage_runtime::derivation::{Derivation, Formula, FormulaView, notation::Na
 use linkage_runtime::extremes::{Course, Extremes, courses};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion};
-use linkage_runtime::{D, Kinematic, OutputMotion, PathError};
+use linkage_runtime::{BorrowedName, D, Dim, Kinematic, Mechanism, OutputMotion, PathError, PathErrorOf};
 
 use super::dwells::{Dwell, dwells};
 use super::dyad::Dyad;
@@ -20,13 +20,13 @@ use super::transmission::{NoTransmission, Transmission};
 /// One motion from end to end.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct MotionReport {
+pub struct MotionReport<N: BorrowedName = &'static str> {
     /// The input at which it was found.
     pub start: f64,
     /// The least and the largest input; a closed motion goes on beyond.
     pub range: [f64; 2],
     /// The reasons why it ends there; of a closed motion twice the same.
-    pub ends: [MotionEnd; 2],
+    pub ends: [MotionEnd<N>; 2],
     /// The change points that it passes, where others cross it.
     pub change_points: Vec<SingularInput>,
     /// The places at which it passes nearest to others that it does not meet.
@@ -85,15 +85,15 @@ impl QuantityReport {
     }
 }
 
-impl MotionReport {
+impl<N: BorrowedName> MotionReport<N> {
     pub(super) fn of<M>(
         range: &RangeOfMotion<'_, M>,
         derivation: &Derivation<'_>,
         start: f64,
         options: &ReportOptions,
-    ) -> Result<Self, PathError>
+    ) -> Result<Self, PathError<N>>
     where
-        M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
+        M: Kinematic<Scalar = f64, Name = N, V = D<1>>,
     {
         let (m, q) = (range.mechanism(), range.at(start)?);
         let local = Local::of(m, derivation, &q);
@@ -107,19 +107,20 @@ impl MotionReport {
         let all = courses(range, quantities)?;
         let (named, of_dyads) = all.split_at(all.len() - dyads.len());
         let mut reports = Vec::new();
+        let outputs = named.len() - m.dims().0.count();
         for (place, course) in named.iter().enumerate() {
-            reports.push(quantity(range, derivation, place, course, options)?);
+            reports.push(quantity(range, derivation, (place, outputs), course, options)?);
         }
-        let name = |group: usize| M::GROUPS.get(group).map(|group| group.name).unwrap_or_default();
+        let name = |place: usize| m.group(place).map(|group| group.name.to_string()).unwrap_or_default();
         let transmission = dyads.iter().zip(of_dyads);
         let is_dyad = |group: &usize| dyads.iter().any(|(groups, _)| groups.contains(group));
         let kind = |group: usize| derivation.groups.get(group).map(|group| group.kind).unwrap_or_default();
-        let without = (0..M::GROUPS.len())
+        let without = (0..m.groups().count())
             .filter(|group| !is_dyad(group))
-            .map(|group| NoTransmission { group: name(group).to_owned(), kind: kind(group).to_owned() });
+            .map(|group| NoTransmission { group: name(group), kind: kind(group).to_owned() });
         let singular = range.crossings().map(|crossing| SingularInput {
             input: crossing.input,
-            groups: crossing.groups.iter().map(str::to_owned).collect(),
+            groups: crossing.groups.iter().map(|group| group.to_string()).collect(),
         });
         let ends = range.inputs();
         Ok(Self {
@@ -151,7 +152,7 @@ impl MotionReport {
 }
 
 /// The outputs, then the unknowns, with their derivatives.
-fn quantities<M: Kinematic<Scalar = f64, Name = &'static str>>(motion: &MotionOf<M>) -> Vec<OutputMotion> {
+fn quantities<M: Kinematic<Scalar = f64>>(motion: &MotionOf<M>) -> Vec<OutputMotion> {
     let unknowns = M::unknowns(&motion.position);
     let rates = M::rate_parts(&motion.rates).0;
     let accelerations = M::acceleration_parts(&motion.accelerations).0;
@@ -164,26 +165,26 @@ fn quantities<M: Kinematic<Scalar = f64, Name = &'static str>>(motion: &MotionOf
     M::each_output(motion.outputs).iter().copied().chain(unknowns).collect()
 }
 
-/// The report of the output or unknown at a place among [`quantities`].
+/// The report of the output or unknown at a place among [`quantities`], of which so many are outputs.
 fn quantity<M>(
     range: &RangeOfMotion<'_, M>,
     derivation: &Derivation<'_>,
-    place: usize,
+    (place, outputs): (usize, usize),
     course: &Course,
     options: &ReportOptions,
-) -> Result<QuantityReport, PathError>
+) -> Result<QuantityReport, PathErrorOf<M>>
 where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>,
+    M: Kinematic<Scalar = f64, V = D<1>>,
 {
-    let is_output = place < M::OUTPUTS.len();
-    let (name, is_angle) = match place.checked_sub(M::OUTPUTS.len()) {
-        None => (M::OUTPUTS[place], derivation.outputs.get(place).is_some_and(|output| is_angle::<M>(output.value))),
-        Some(unknown) => (M::UNKNOWNS[unknown], M::UNKNOWN_ANGLES[unknown]),
+    let m = range.mechanism();
+    let (name, is_angle) = match place.checked_sub(outputs) {
+        None => (m.output_name(place), derivation.outputs.get(place).is_some_and(|output| is_angle(m, output.value))),
+        Some(unknown) => (m.unknown_name(unknown), m.unknown_angles().get(unknown) == Some(&true)),
     };
     let is_closed = range.is_closed();
     let rate = |input| {
         let all = quantities::<M>(&range.motion(input, 1.0, 0.0)?);
-        Ok(all.get(place).map_or(f64::NAN, |quantity| quantity.rate))
+        Ok::<_, PathErrorOf<M>>(all.get(place).map_or(f64::NAN, |quantity| quantity.rate))
     };
     let dwells = dwells(course, is_closed, options.dwell, rate)?;
     let strokes = strokes(course, is_closed);
@@ -192,8 +193,8 @@ where
     let mut curve: Vec<[f64; 2]> = sampled.chain(turned).collect();
     curve.sort_by(|one, other| one[0].total_cmp(&other[0]));
     Ok(QuantityReport {
-        name: name.to_owned(),
-        is_output,
+        name: name.to_string(),
+        is_output: place < outputs,
         is_angle,
         is_constant: course.is_constant,
         extremes: course.extremes,
@@ -205,12 +206,11 @@ where
 }
 
 /// True if a formula is an angle of the mechanism, or a sum with one.
-fn is_angle<M: Kinematic>(value: &[linkage_runtime::derivation::Equation<'_>]) -> bool {
+fn is_angle<M: Mechanism>(mechanism: &M, value: &[linkage_runtime::derivation::Equation<'_>]) -> bool {
     let is_coordinate = |formula: Formula<'_>| match formula.view() {
         FormulaView::Name(Name::Plain(name)) => {
-            let unknowns = M::UNKNOWNS.iter().zip(M::UNKNOWN_ANGLES);
-            let mut angles = unknowns.chain(M::INPUTS.iter().zip(M::INPUT_ANGLES));
-            angles.any(|(other, is_angle)| *is_angle && *other == name)
+            let mut are_angles = mechanism.unknown_angles().iter().chain(mechanism.input_angles()).enumerate();
+            are_angles.any(|(column, is_angle)| *is_angle && mechanism.coordinate_name(column).to_string() == name)
         }
         _ => false,
     };

@@ -1,5 +1,7 @@
 //! A report as an HTML page.
 
+use linkage_runtime::BorrowedName;
+
 use super::Report;
 use super::prose::{MODES, OUTPUTS, Section, sections, written};
 use super::{MotionReport, QuantityReport};
@@ -8,7 +10,7 @@ use crate::sheet::{document, escape, svg_address};
 /// The width and the height of a curve, in its own unit.
 const SIZE: [f64; 2] = [480.0, 120.0];
 
-impl Report {
+impl<N: BorrowedName> Report<N> {
     /// The report as one HTML file, which loads nothing and runs no script; the outputs have curves.
     #[must_use]
     pub fn to_html(&self) -> String {
@@ -54,7 +56,7 @@ impl Report {
     }
 
     /// The curve of a quantity over the input, with its dwells shaded.
-    fn curve(&self, quantity: &QuantityReport, motion: &MotionReport) -> String {
+    fn curve(&self, quantity: &QuantityReport, motion: &MotionReport<N>) -> String {
         let ([low, high], extremes) = (motion.range, quantity.extremes);
         let (least, largest) = (extremes.least.value, extremes.largest.value);
         let [width, height] = SIZE;

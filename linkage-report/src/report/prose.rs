@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use linkage_runtime::RangeEnd;
 use linkage_runtime::circuits::CurveEnd;
 use linkage_runtime::extremes::Extremes;
 use linkage_runtime::range_of_motion::MotionEnd;
+use linkage_runtime::{BorrowedName, RangeEnd};
 
 use super::{
     DyadKind, FourBarLoop, GrashofClass, ListedMode, ListedMotion, Mobility, Modes, MotionReport, QuantityReport,
@@ -25,8 +25,8 @@ const CLASS: &str = "Grashof's class";
 pub(super) const MODES: &str = "Modes and circuits";
 
 /// Writes inputs and values of one mechanism.
-struct Writer<'a> {
-    report: &'a Report,
+struct Writer<'a, N: BorrowedName> {
+    report: &'a Report<N>,
     /// The name of the input, of a mechanism with one.
     input: &'a str,
     is_angle: bool,
@@ -35,7 +35,7 @@ struct Writer<'a> {
 }
 
 /// The sections of a report.
-pub(super) fn sections(report: &Report) -> Vec<Section> {
+pub(super) fn sections<N: BorrowedName>(report: &Report<N>) -> Vec<Section> {
     let first = report.inputs.first();
     let writer = Writer {
         report,
@@ -78,7 +78,7 @@ pub(super) fn sections(report: &Report) -> Vec<Section> {
     sections
 }
 
-impl Writer<'_> {
+impl<N: BorrowedName> Writer<'_, N> {
     fn mobility(&self, mobility: &Mobility) -> Vec<String> {
         let drivers = list(self.report.inputs.iter().map(|input| input.name.as_str()));
         let mut paragraphs = Vec::new();
@@ -230,7 +230,7 @@ impl Writer<'_> {
         format!("{} at {} = {}", counted(all.len(), one, several), self.input, list_of(places))
     }
 
-    fn motion(&self, motion: &MotionReport) -> Vec<String> {
+    fn motion(&self, motion: &MotionReport<N>) -> Vec<String> {
         let [low, high] = motion.range.map(|input| self.at(input));
         let Self { input, .. } = self;
         let mut paragraphs = vec![match motion.ends {
@@ -289,7 +289,7 @@ impl Writer<'_> {
         four_bars.iter().map(class).collect()
     }
 
-    fn transmission(&self, motion: &MotionReport) -> Vec<String> {
+    fn transmission(&self, motion: &MotionReport<N>) -> Vec<String> {
         let mut paragraphs: Vec<String> = motion.transmission.iter().map(|dyad| self.of_dyad(dyad)).collect();
         paragraphs.extend(
             motion
@@ -330,7 +330,7 @@ impl Writer<'_> {
         }
     }
 
-    fn quantity(&self, quantity: &QuantityReport, motion: &MotionReport) -> String {
+    fn quantity(&self, quantity: &QuantityReport, motion: &MotionReport<N>) -> String {
         let QuantityReport { strokes, dwells, .. } = quantity;
         let written = |value| valued(value, quantity);
         let mut text = self.extremes(quantity, motion);
@@ -373,7 +373,7 @@ impl Writer<'_> {
     }
 
     /// "psi goes from 3° (at theta = 0°) to 7° (at theta = 30°)"; of an angle that turns by how much.
-    fn extremes(&self, quantity: &QuantityReport, motion: &MotionReport) -> String {
+    fn extremes(&self, quantity: &QuantityReport, motion: &MotionReport<N>) -> String {
         let QuantityReport { name, extremes: Extremes { least, largest }, .. } = quantity;
         if quantity.is_constant {
             return format!("{name} is {} all the time", valued(least.value, quantity));
@@ -405,7 +405,7 @@ impl Writer<'_> {
     }
 }
 
-pub(crate) fn end(end: MotionEnd) -> String {
+pub(crate) fn end<N: BorrowedName>(end: MotionEnd<N>) -> String {
     match end {
         MotionEnd::Range => "that of the range that was asked for".to_owned(),
         MotionEnd::JointRange { of, end } => {
@@ -416,7 +416,10 @@ pub(crate) fn end(end: MotionEnd) -> String {
         }
         MotionEnd::DeadPoint { group } => format!("a dead point of {group}"),
         MotionEnd::ChangePoint { groups } => {
-            format!("a change point of {}, where other motions cross", groups.iter().collect::<Vec<_>>().join("; "))
+            format!(
+                "a change point of {}, where other motions cross",
+                groups.iter().map(|group| group.to_string()).collect::<Vec<_>>().join("; ")
+            )
         }
         MotionEnd::Closed { .. } => "its start".to_owned(),
         MotionEnd::Open => "no limit: the motion goes on, and was left there".to_owned(),
@@ -481,7 +484,7 @@ fn capital(text: &str) -> String {
 }
 
 /// The report as prose.
-impl fmt::Display for Report {
+impl<N: BorrowedName> fmt::Display for Report<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}", self.mechanism)?;
         for Section { heading, paragraphs } in sections(self) {

@@ -4,7 +4,7 @@ use std::fmt;
 
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::jacobian::Scales;
-use linkage_runtime::{Build, Kinematic, PerInput, PerUnknown, PositionError, position};
+use linkage_runtime::{Build, Kinematic, PerInput, PerUnknown, PositionErrorOf, position};
 
 use super::number;
 
@@ -42,21 +42,21 @@ const STEP: f64 = 1.0 / 1024.0;
 /// 6. with one input they are transmission ratios, the quotients of two rates. It has no numbers for several inputs.
 ///
 /// # Errors
-/// [`PositionError`] if J is singular here, or a position next to this one does not exist.
-pub fn ratio_properties<M: Kinematic<Scalar = f64, Name = &'static str>>(
+/// [`PositionError`](linkage_runtime::PositionError) if J is singular here, or a position next to this one does not exist.
+pub fn ratio_properties<M: Kinematic<Scalar = f64>>(
     mechanism: &M,
     derivation: &Derivation<'_>,
     q: &M::Coordinates,
     input_rates: impl Into<M::Inputs>,
-) -> Result<[RatioProperty; 6], PositionError> {
+) -> Result<[RatioProperty; 6], PositionErrorOf<M>> {
     let input_rates: PerInput<M> = input_rates.into().into();
     let pose = mechanism.pose_at(q);
     let ratios = mechanism.velocity_ratios(&pose)?;
     let velocity = |rates: PerInput<M>| mechanism.velocity(&pose, rates.into());
-    let unknown_rates = |rates: PerInput<M>| Ok::<_, PositionError>(M::rate_parts(&velocity(rates)?).0);
+    let unknown_rates = |rates: PerInput<M>| Ok::<_, PositionErrorOf<M>>(M::rate_parts(&velocity(rates)?).0);
     let steps = Scales::of(mechanism, &pose).coordinates.inputs * STEP;
     let (unknowns, inputs) = M::parts(q);
-    let moved = |by: PerInput<M>| -> Result<PerUnknown<M>, PositionError> {
+    let moved = |by: PerInput<M>| -> Result<PerUnknown<M>, PositionErrorOf<M>> {
         let guess = M::coordinates(unknowns + ratios * by, inputs + by);
         let found = position::newton(mechanism, &guess)?.coordinates;
         Ok(M::unknowns(&found) - unknowns)
@@ -77,7 +77,7 @@ pub fn ratio_properties<M: Kinematic<Scalar = f64, Name = &'static str>>(
         let step = steps.part(input);
         let quotient = |step: f64| {
             let [after, before] = [moved(unit * step)?, moved(unit * -step)?];
-            Ok::<_, PositionError>((after - before) / (2.0 * step))
+            Ok::<_, PositionErrorOf<M>>((after - before) / (2.0 * step))
         };
         let [far, near] = [quotient(2.0 * step)?, quotient(step)?];
         derivatives.extend(numbers(of_input, column, near + (near - far) / 3.0));

@@ -22,7 +22,7 @@ pub struct Values {
 impl Values {
     /// The numbers of a position with its [`Analysis`](linkage_runtime::analysis::Analysis).
     #[must_use]
-    pub fn of<'n, M: Mechanism<Scalar = f64, Name = &'static str>>(
+    pub fn of<'n, M: Mechanism<Scalar = f64>>(
         derivation: &Derivation<'_>,
         parameters: impl IntoIterator<Item = (&'n str, f64)>,
         q: &M::Coordinates,

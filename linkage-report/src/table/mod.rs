@@ -89,7 +89,7 @@ pub struct Missing {
 #[non_exhaustive]
 pub enum Cause {
     /// The motion has no position or no rate there.
-    Path(PathError),
+    Path(PathError<String>),
     /// The loads cannot be computed there, or the simulation has ended with this error.
     #[cfg(feature = "dynamics")]
     Motion(MotionError),

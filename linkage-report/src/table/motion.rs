@@ -1,10 +1,11 @@
 //! Tables of motions.
 
 use std::f64::consts::TAU;
+use std::fmt::Display;
 
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, MotionEnd, RangeOfMotion, RangeOptions};
-use linkage_runtime::{Assembly, Dim, Kinematic, Mechanism, PathError};
+use linkage_runtime::{Assembly, BorrowedName, Dim, Kinematic, Mechanism, PathError, PathErrorOf};
 
 use super::{Cause, Mark, Quantity, Table};
 
@@ -16,9 +17,9 @@ impl Table {
     /// # Errors
     /// [`PathError::Position`] if no input has a position on the branch, and those of [`RangeOfMotion::of`];
     /// [`PathError::NoDirection`] without steps.
-    pub fn turn<M>(mechanism: &M, branch: M::Branch, steps: u32, rate: f64) -> Result<Self, PathError>
+    pub fn turn<M>(mechanism: &M, branch: M::Branch, steps: u32, rate: f64) -> Result<Self, PathErrorOf<M>>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Assembly>,
+        M: Driven<Scalar = f64, Of: Assembly>,
     {
         Self::at(mechanism, branch, &turn(steps), rate)
     }
@@ -27,9 +28,9 @@ impl Table {
     ///
     /// # Errors
     /// Those of [`Table::turn`].
-    pub fn at<M>(mechanism: &M, branch: M::Branch, inputs: &[f64], rate: f64) -> Result<Self, PathError>
+    pub fn at<M>(mechanism: &M, branch: M::Branch, inputs: &[f64], rate: f64) -> Result<Self, PathErrorOf<M>>
     where
-        M: Driven<Scalar = f64, Name = &'static str, Of: Assembly>,
+        M: Driven<Scalar = f64, Of: Assembly>,
     {
         Ok(Self::over(&on_branch(mechanism, branch, inputs)?, inputs.iter().copied(), rate))
     }
@@ -42,7 +43,7 @@ impl Table {
     #[must_use]
     pub fn over<M>(range: &RangeOfMotion<'_, M>, inputs: impl IntoIterator<Item = f64>, rate: f64) -> Self
     where
-        M: Driven<Scalar = f64, Name = &'static str>,
+        M: Driven<Scalar = f64>,
     {
         let mut table = Self::of_columns(columns(range.mechanism(), rate));
         let mut clock = Clock::new(rate);
@@ -55,7 +56,7 @@ impl Table {
     }
 
     /// Marks the change points and the ends of a motion between the inputs of the table.
-    pub(super) fn mark_motion<M: Driven<Scalar = f64, Name = &'static str>>(&mut self, range: &RangeOfMotion<'_, M>) {
+    pub(super) fn mark_motion<M: Driven<Scalar = f64>>(&mut self, range: &RangeOfMotion<'_, M>) {
         let Some(inputs) = self.columns.first() else { return };
         let wide = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
         let [least, most] = inputs.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], wide);
@@ -84,9 +85,9 @@ pub(super) fn on_branch<'a, M>(
     mechanism: &'a M,
     branch: M::Branch,
     inputs: &[f64],
-) -> Result<RangeOfMotion<'a, M>, PathError>
+) -> Result<RangeOfMotion<'a, M>, PathErrorOf<M>>
 where
-    M: Driven<Scalar = f64, Name = &'static str, Of: Assembly>,
+    M: Driven<Scalar = f64, Of: Assembly>,
 {
     RangeOfMotion::on_branch(mechanism, branch, inputs.iter().copied(), RangeOptions::through_change_points())
 }
@@ -109,14 +110,15 @@ impl Clock {
     }
 }
 
-/// The cells of a row as far as they exist, and the motion.
-pub(super) fn row<M: Driven<Scalar = f64, Name = &'static str>>(
+/// The cells of a row as far as they exist, and the motion. The error owns its names, since a table does.
+pub(super) fn row<M: Driven<Scalar = f64>>(
     range: &RangeOfMotion<'_, M>,
     input: f64,
     clock: &mut Clock,
-) -> (Vec<f64>, Result<MotionOf<M::Of>, PathError>) {
+) -> (Vec<f64>, Result<MotionOf<M::Of>, PathError<String>>) {
     let mut row: Vec<f64> = [input].into_iter().chain(clock.at(input)).collect();
     let motion = range.motion(input, clock.rate, 0.0);
+    let motion = motion.map_err(|error| error.map_names(|name| name.to_string()));
     if let Ok(motion) = &motion {
         row.extend(numbers(range.mechanism(), motion));
     }
@@ -124,7 +126,7 @@ pub(super) fn row<M: Driven<Scalar = f64, Name = &'static str>>(
 }
 
 /// The reason of an end as the name of a mark.
-fn name_of(end: MotionEnd) -> Option<String> {
+fn name_of<N: BorrowedName>(end: MotionEnd<N>) -> Option<String> {
     match end {
         MotionEnd::DeadPoint { .. } => Some("dead point".to_owned()),
         MotionEnd::ChangePoint { .. } => Some("change point".to_owned()),
@@ -142,18 +144,28 @@ pub(super) fn columns<M: Driven>(mechanism: &M, rate: f64) -> Vec<(String, Quant
     };
     let parameter = [(mechanism.input_name(0).to_string(), parameter)].into_iter();
     let time = (rate != 0.0).then(|| ("time".to_owned(), Quantity::Time));
-    let inputs = if is_own { Vec::new() } else { coordinates(M::Of::INPUTS, M::Of::INPUT_ANGLES) };
-    let unknowns = coordinates(M::UNKNOWNS, M::UNKNOWN_ANGLES);
-    parameter.chain(time).chain(inputs).chain(unknowns).chain(points_and_outputs::<M::Of>()).collect()
+    let of = mechanism.driven();
+    let inputs = if is_own { Vec::new() } else { inputs(of) };
+    parameter.chain(time).chain(inputs).chain(unknowns(of)).chain(points_and_outputs(of)).collect()
 }
 
 fn of_coordinate(is_angle: bool, order: u8) -> Quantity {
     if is_angle { Quantity::Angle(order) } else { Quantity::Length(order) }
 }
 
+/// The columns of the inputs.
+pub(super) fn inputs<M: Mechanism>(mechanism: &M) -> Vec<(String, Quantity)> {
+    coordinates((0..).map(|place| mechanism.input_name(place)), mechanism.input_angles())
+}
+
+/// The columns of the unknowns.
+pub(super) fn unknowns<M: Mechanism>(mechanism: &M) -> Vec<(String, Quantity)> {
+    coordinates((0..).map(|place| mechanism.unknown_name(place)), mechanism.unknown_angles())
+}
+
 /// The columns of coordinates: value, rate and acceleration of each.
-pub(super) fn coordinates(names: &[&str], are_angles: &[bool]) -> Vec<(String, Quantity)> {
-    let each = names.iter().zip(are_angles).flat_map(|(name, &is_angle)| {
+fn coordinates(names: impl Iterator<Item: Display>, are_angles: &[bool]) -> Vec<(String, Quantity)> {
+    let each = names.zip(are_angles).flat_map(|(name, &is_angle)| {
         let ends = [(0, ""), (1, "_rate"), (2, "_acceleration")];
         ends.map(|(order, end)| (format!("{name}{end}"), of_coordinate(is_angle, order)))
     });
@@ -161,8 +173,8 @@ pub(super) fn coordinates(names: &[&str], are_angles: &[bool]) -> Vec<(String, Q
 }
 
 /// The columns of points and outputs.
-pub(super) fn points_and_outputs<M: Kinematic>() -> impl Iterator<Item = (String, Quantity)> {
-    let points = M::POINTS.iter().flat_map(|point| {
+pub(super) fn points_and_outputs<M: Kinematic>(mechanism: &M) -> impl Iterator<Item = (String, Quantity)> {
+    let points = names(|place| mechanism.point_name(place)).flat_map(|point| {
         let columns = [
             (0, "x"),
             (0, "y"),
@@ -174,10 +186,14 @@ pub(super) fn points_and_outputs<M: Kinematic>() -> impl Iterator<Item = (String
         ];
         columns.map(|(order, of)| (format!("{point}_{of}"), Quantity::Length(order)))
     });
-    let outputs = M::OUTPUTS
-        .iter()
+    let outputs = names(|place| mechanism.output_name(place))
         .flat_map(|output| ["", "_rate", "_acceleration"].map(|end| (format!("{output}{end}"), Quantity::Plain)));
     points.chain(outputs)
+}
+
+/// The names by place, up to the first empty one, which is that beyond the last.
+fn names<N: Display>(name: impl Fn(usize) -> N) -> impl Iterator<Item = String> {
+    (0..).map(move |place| name(place).to_string()).take_while(|name| !name.is_empty())
 }
 
 /// True if the parameter is the input of the mechanism itself.
@@ -187,7 +203,7 @@ fn is_the_input<M: Driven>(mechanism: &M) -> bool {
 }
 
 /// The numbers of a motion in the order of their columns.
-fn numbers<M: Driven<Scalar = f64, Name = &'static str>>(mechanism: &M, motion: &MotionOf<M::Of>) -> Vec<f64> {
+fn numbers<M: Driven<Scalar = f64>>(mechanism: &M, motion: &MotionOf<M::Of>) -> Vec<f64> {
     let (of_unknowns, of_inputs) = M::Of::parts(&motion.position);
     let (unknown_rates, input_rates) = M::Of::rate_parts(&motion.rates);
     let (unknown_accelerations, input_accelerations) = M::Of::acceleration_parts(&motion.accelerations);

@@ -6,7 +6,7 @@ use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
 use linkage_dynamics::{Accelerations, Energy, Inputs, MotionError, Scene};
 use linkage_runtime::{Build, Column, Kinematic, Mechanism, PositionError};
 
-use super::motion::{coordinates, points_and_outputs};
+use super::motion::{inputs, points_and_outputs, unknowns};
 use super::scene::{contact_names, load_columns, numbers, of_energy};
 use super::{Cause, Mark, Missing, Quantity, Table};
 
@@ -124,11 +124,10 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>> Rows<S> 
         let is_driven = scene.prescribed(state.t).map(|law| law.is_some());
         let contacts = contact_names(scene, state.t, &state.q, &state.rates);
         let time = [("time".to_owned(), Quantity::Time)].into_iter();
-        let inputs = coordinates(S::Mechanism::INPUTS, S::Mechanism::INPUT_ANGLES);
-        let unknowns = coordinates(S::Mechanism::UNKNOWNS, S::Mechanism::UNKNOWN_ANGLES);
         let has_energy = matches!(energy(scene, state), Ok(Some(_)));
         let loads = load_columns(scene, contacts.as_deref(), has_energy, |input| is_driven[input]);
-        let motion = time.chain(inputs).chain(unknowns).chain(points_and_outputs::<S::Mechanism>());
+        let m = scene.mechanism();
+        let motion = time.chain(inputs(m)).chain(unknowns(m)).chain(points_and_outputs(m));
         Self { table: Table::of_columns(motion.chain(loads)), is_driven, error: None }
     }
 

@@ -105,7 +105,7 @@ linkage! {
 
 #[test]
 fn constants_are_not_rounded() {
-    let over = <Constants as Certifiable>::Over::<Interval>::with_parameters(Column::from([Interval::from(1.0)]));
+    let over = Constants::default().over::<Interval>(Column::from([Interval::from(1.0)]));
     let inputs = Column::from([Interval::from(1.0)]);
     let [third, root, half_turn, large, turned] = over.quantities(&Column::from([]), &inputs).into();
     for (value, what) in [(third, "third"), (root, "root"), (half_turn, "half turn"), (large, "large")] {

@@ -79,8 +79,8 @@ impl<M: Fixture<Scalar = f64> + Certifiable + Default> Enclosable for Of<M> {
     }
     fn repeats(&self, turns: &[i64]) -> bool {
         let (unknowns, inputs) = turns.split_at(M::U::CAPACITY);
-        let turns_of_inputs = Column::from_fn(|place: usize| inputs[place]);
-        Certify::new(&M::default()).repeats(&Column::from_fn(|place: usize| unknowns[place]), &turns_of_inputs)
+        let (unknowns, inputs) = (Column::from_slice(unknowns).unwrap(), Column::from_slice(inputs).unwrap());
+        Certify::new(&M::default()).repeats(&unknowns, &inputs)
     }
     fn enclosed(&self, parameters: &[f64], wide: &At<Interval>, given: &[Interval]) -> Result<Enclosed, EncloseError> {
         let mechanism = <M as Fixture>::with_parameters(parameters);
@@ -136,14 +136,14 @@ impl At<f64> {
 }
 
 /// Psi.
-fn residual<M: Certifiable, T: Number>(at: &At<T>) -> Vec<T> {
-    let over = <M::Over<T> as Formulas>::with_parameters(column(&at.parameters));
+fn residual<M: Certifiable + Default, T: Number>(at: &At<T>) -> Vec<T> {
+    let over = M::default().over::<T>(column(&at.parameters));
     over.residual(&column(&at.unknowns), &column(&at.inputs)).into_iter().collect()
 }
 
 /// Psi, the columns of J, the columns of A, gamma, the quantities.
-pub fn values<M: Certifiable, T: Number>(at: &At<T>) -> Vec<T> {
-    let over = <M::Over<T> as Formulas>::with_parameters(column(&at.parameters));
+pub fn values<M: Certifiable + Default, T: Number>(at: &At<T>) -> Vec<T> {
+    let over = M::default().over::<T>(column(&at.parameters));
     let (unknowns, inputs) = (column(&at.unknowns), column(&at.inputs));
     let mut all: Vec<T> = over.residual(&unknowns, &inputs).into_iter().collect();
     all.extend(over.jacobian_unknowns(&unknowns, &inputs).iter().flatten());

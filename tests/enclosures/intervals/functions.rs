@@ -168,7 +168,7 @@ const OF_SLOPES: f64 = 1e-10;
 
 fn range<M, const P: usize>(line: &Line, unknown: f64, from: f64, to: f64) -> Result<[Enclosure; 2], CertifyError>
 where
-    M: Certifiable<U = D<1>, V = D<1>> + From<[f64; P]>,
+    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
 {
     let m = M::from(line.parameters());
     let start = M::coordinates(Column::from([unknown]), Column::from([from]));
@@ -182,7 +182,7 @@ where
 /// The certified extremes of an output along the whole line.
 fn certificate<M, const P: usize>(line: &Line) -> Enclosure
 where
-    M: Certifiable<U = D<1>, V = D<1>> + From<[f64; P]>,
+    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
 {
     range::<M, P>(line, -BEFORE, -BEFORE, BEHIND).unwrap()[0]
 }
@@ -190,7 +190,7 @@ where
 /// An output over the place: all values on both sides are in the extremes, which are not sharp; nothing bounds the rate.
 fn output<M, const P: usize>(line: &Line, exception: Exception)
 where
-    M: Certifiable<U = D<1>, V = D<1>> + From<[f64; P]>,
+    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
 {
     let [value, rate] = range::<M, P>(line, -BEFORE, -BEFORE, BEHIND).unwrap();
     for s in Line::samples() {
@@ -206,9 +206,8 @@ where
     let is_infinite = matches!(exception, Exception::Pole | Exception::Edge) || line.name == "sign";
     assert_eq!(value.values().width().is_infinite(), is_infinite, "{} {value:?}", line.name);
     // The formulas themselves, over boxes with the place inside, at each end of them, and outside of them.
-    let m = <M::Over<Series<Interval>>>::with_parameters(Column::from_fn(|place| {
-        Series::constant(line.parameters::<P>()[place].into())
-    }));
+    let m = M::from(line.parameters());
+    let m = m.over(m.parameters().map(|value| Series::constant(value.into())));
     for (from, to) in [(-BEFORE, BEHIND), (-BEFORE, 0.0), (0.0, BEHIND), (-BEFORE, -0.01), (0.01, BEHIND)] {
         let s = Series::line(Interval::new(from, to).unwrap(), Interval::from(1.0));
         let found = m.quantities(&Column::from([s]), &Column::from([s]));
@@ -233,7 +232,7 @@ where
 /// The right side of an equation over the place: the motion up to it is certified, and none over it.
 fn equation<M, const P: usize>(line: &Line, exception: Exception)
 where
-    M: Certifiable<U = D<1>, V = D<1>> + From<[f64; P]>,
+    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
 {
     let start = line.value(-BEFORE);
     let up_to = range::<M, P>(line, start, -BEFORE, -0.01);
@@ -260,7 +259,7 @@ where
 /// the input nor as a curve.
 fn inverse<M, const P: usize>(line: &Line, _: Exception)
 where
-    M: Certifiable<U = D<1>, V = D<1>> + From<[f64; P]>,
+    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
 {
     let m = M::from(line.parameters());
     let [start, near, limit] = [-BEFORE, -1e-3, -1e-9].map(|s| line.value(s) + s / 100.0);

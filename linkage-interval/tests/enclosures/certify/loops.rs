@@ -4,7 +4,9 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 
 use linkage_interval::Interval;
-use linkage_runtime::{Certifiable, Column, D, Dim, Formulas, Group, Matrix, Mechanism, Number, PositionError};
+use linkage_runtime::{
+    Build, Certifiable, Column, D, Dim, Formulas, Group, Matrix, Mechanism, Number, PositionError, UpTo,
+};
 
 /// The angle of a vector.
 #[derive(Debug, Clone, Copy)]
@@ -132,14 +134,10 @@ impl<S: Shape, N: Number> Loops<S, N> {
 
 impl<S: Shape, N: Number> Formulas for Loops<S, N> {
     type Number = N;
-    type P = S::P;
     type U = S::U;
     type V = D<1>;
     type Q = S::Q;
 
-    fn with_parameters(parameters: Column<N, S::P>) -> Self {
-        Self::new(parameters)
-    }
     fn residual(&self, u: &Column<N, S::U>, v: &Column<N, D<1>>) -> Column<N, S::U> {
         let loops: Vec<[N; 2]> = S::LOOPS.iter().map(|terms| self.sum(terms, u, v[0])).collect();
         Column::from_fn(|row| loops[row / 2][row % 2])
@@ -213,7 +211,7 @@ impl<S: Shape> Mechanism for Loops<S, f64> {
     type Name = &'static str;
     type U = S::U;
     type V = D<1>;
-    type G = D<1>;
+    type G = UpTo<8>;
     type Coordinates = (Column<f64, S::U>, Column<f64, D<1>>);
     type Rates = (Column<f64, S::U>, Column<f64, D<1>>);
     type Inputs = Column<f64, D<1>>;
@@ -227,6 +225,9 @@ impl<S: Shape> Mechanism for Loops<S, f64> {
     const INPUT_ANGLES: &'static [bool] = &[true];
     const GROUPS: &'static [Group<'static>] = S::GROUPS;
 
+    fn dims(&self) -> (S::U, D<1>, UpTo<8>) {
+        (Dim::least(), D, Dim::new(S::GROUPS.len()).expect("few groups"))
+    }
     fn coordinates(u: Column<f64, S::U>, v: Column<f64, D<1>>) -> Self::Coordinates {
         (u, v)
     }
@@ -267,8 +268,8 @@ impl<S: Shape> Mechanism for Loops<S, f64> {
     fn determinant(&self, _: &Self::Pose) -> f64 {
         f64::NAN
     }
-    fn block_determinants(&self, _: &Self::Pose) -> Column<f64, D<1>> {
-        Column::repeat(f64::NAN)
+    fn block_determinants(&self, _: &Self::Pose) -> Column<f64, UpTo<8>> {
+        self.dims().2.repeat(f64::NAN)
     }
     fn gamma(&self, q: &Self::Pose, rates: &Self::Rates) -> Column<f64, S::U> {
         Formulas::gamma(self, &q.0, &q.1, &rates.0, &rates.1)
@@ -289,6 +290,12 @@ impl<S: Shape> Certifiable for Loops<S, f64> {
 
     fn parameters(&self) -> Column<f64, S::P> {
         self.parameters
+    }
+    fn with(&self, parameters: Column<f64, S::P>) -> Self {
+        Loops::new(parameters)
+    }
+    fn over<N: Number>(&self, parameters: Column<N, S::P>) -> Loops<S, N> {
+        Loops::new(parameters)
     }
 }
 

@@ -16,23 +16,44 @@ const MARGIN: f64 = 9.0;
 #[derive(Debug, Clone)]
 pub(super) struct Miniature {
     joints: Vec<Vector2<f64>>,
-    parts: &'static [Part<'static>],
+    parts: Vec<Drawn>,
+}
+
+/// A part that is drawn, with joints by their index.
+#[derive(Debug, Clone)]
+enum Drawn {
+    Ground(usize),
+    Bar { joints: Vec<usize>, is_driven: bool },
+    Slider(usize),
+    Sleeve { pin: usize, on: usize, towards: Option<usize> },
+}
+
+impl Drawn {
+    /// None for a part that a small drawing does not have, as a path.
+    fn of(part: &Part<'_>) -> Option<Self> {
+        Some(match *part {
+            Part::Ground(joint) => Self::Ground(joint),
+            Part::Bar { joints, is_driven } => Self::Bar { joints: joints.to_vec(), is_driven },
+            Part::Slider(joint) => Self::Slider(joint),
+            Part::Sleeve { pin, on, towards } => Self::Sleeve { pin, on, towards },
+            _ => return None,
+        })
+    }
 }
 
 impl Miniature {
-    pub fn of<M: Skeleton<Scalar = f64, Name = &'static str>>(mechanism: &M, pose: &M::Pose) -> Self {
+    pub fn of<M: Skeleton<Scalar = f64>>(mechanism: &M, pose: &M::Pose) -> Self {
         let joints = mechanism.joints(pose);
         let joints = joints.as_slice().chunks_exact(2).map(|at| Vector2::new(at[0], at[1])).collect();
-        Self { joints, parts: M::PARTS }
+        Self { joints, parts: mechanism.drawn_parts().iter().filter_map(Drawn::of).collect() }
     }
 
     /// The joints that are drawn.
     fn drawn(&self) -> impl Iterator<Item = Vector2<f64>> + '_ {
         let joints = self.parts.iter().flat_map(|part| match part {
-            Part::Ground(joint) | Part::Slider(joint) => vec![*joint],
-            Part::Bar { joints, .. } => joints.to_vec(),
-            Part::Sleeve { pin, on, towards } => [*pin, *on].into_iter().chain(*towards).collect(),
-            _ => Vec::new(),
+            Drawn::Ground(joint) | Drawn::Slider(joint) => vec![*joint],
+            Drawn::Bar { joints, .. } => joints.clone(),
+            Drawn::Sleeve { pin, on, towards } => [*pin, *on].into_iter().chain(*towards).collect(),
         });
         joints.filter_map(|joint| self.joints.get(joint).copied())
     }
@@ -51,35 +72,35 @@ impl Miniature {
         };
         let mut group = Group::new();
         // Driven links are drawn last, so that no other hides them.
-        let (driven, others): (Vec<&Part>, _) =
-            self.parts.iter().partition(|part| matches!(part, Part::Bar { is_driven: true, .. }));
+        let (driven, others): (Vec<&Drawn>, _) =
+            self.parts.iter().partition(|part| matches!(part, Drawn::Bar { is_driven: true, .. }));
         for part in others.into_iter().chain(driven) {
             match part {
-                Part::Bar { joints, is_driven } => {
+                Drawn::Bar { joints, is_driven } => {
                     let mut points: Vec<Vector2<f64>> = joints.iter().map(|&joint| at(joint)).collect();
                     if points.len() > 2 {
                         points.push(points[0]);
                     }
                     group = group.add(path(if *is_driven { "bar driven" } else { "bar" }, &points));
                 }
-                Part::Sleeve { pin, on, towards } => {
+                Drawn::Sleeve { pin, on, towards } => {
                     group = group.add(path("bar", &[at(*on), at(towards.unwrap_or(*pin))])).add(block(at(*pin)));
                 }
-                Part::Slider(joint) => group = group.add(block(at(*joint))),
-                _ => {}
+                Drawn::Slider(joint) => group = group.add(block(at(*joint))),
+                Drawn::Ground(_) => {}
             }
         }
-        for part in self.parts {
+        for part in &self.parts {
             match part {
-                Part::Ground(joint) => {
+                Drawn::Ground(joint) => {
                     let pivot = at(*joint);
                     let foot = [pivot, pivot + Vector2::new(5.0, 8.0), pivot + Vector2::new(-5.0, 8.0), pivot];
                     group = group.add(path("foot", &foot)).add(dot(pivot));
                 }
-                Part::Bar { joints, .. } => {
+                Drawn::Bar { joints, .. } => {
                     group = joints.iter().fold(group, |group, &joint| group.add(dot(at(joint))))
                 }
-                _ => {}
+                Drawn::Slider(_) | Drawn::Sleeve { .. } => {}
             }
         }
         group

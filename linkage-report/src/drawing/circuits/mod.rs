@@ -5,9 +5,9 @@ mod miniature;
 mod render;
 mod runs;
 
-use linkage_runtime::D;
 use linkage_runtime::circuits::{Circuits, CurveEnd, CurveEvent, CurveMeeting, MotionCurve};
 use linkage_runtime::skeleton::Skeleton;
+use linkage_runtime::{BorrowedName, D, Dim};
 use nalgebra::Vector2;
 
 use super::DrawingError;
@@ -79,15 +79,20 @@ impl CircuitChart {
     /// # Errors
     /// [`DrawingError::Empty`] if there is no motion, [`DrawingError::UnknownCoordinate`] if the mechanism has no such
     /// unknown, [`DrawingError::NotFinite`] if a coordinate is infinite or NaN.
-    pub fn of<M, B>(mechanism: &M, circuits: &Circuits<M::Coordinates, B>, unknown: &str) -> Result<Self, DrawingError>
+    pub fn of<M, B>(
+        mechanism: &M,
+        circuits: &Circuits<M::Coordinates, B, f64, M::Name>,
+        unknown: &str,
+    ) -> Result<Self, DrawingError>
     where
-        M: Skeleton<Scalar = f64, Name = &'static str, V = D<1>>,
+        M: Skeleton<Scalar = f64, V = D<1>>,
         B: Copy,
     {
-        let row = M::UNKNOWNS.iter().position(|&name| name == unknown);
+        let (u, ..) = mechanism.dims();
+        let row = (0..u.count()).find(|&place| mechanism.unknown_name(place).to_string() == unknown);
         let row = row.ok_or_else(|| DrawingError::UnknownCoordinate(unknown.to_owned()))?;
         let at = |q: &M::Coordinates| Vector2::new(M::inputs(q)[0], M::unknowns(q)[row]);
-        let points = |motion: &MotionCurve<M::Coordinates>| -> Vec<Vector2<f64>> {
+        let points = |motion: &MotionCurve<M::Coordinates, f64, M::Name>| -> Vec<Vector2<f64>> {
             motion.points.iter().map(|point| at(&point.position)).collect()
         };
         let curves: Vec<Vec<Vector2<f64>>> = circuits.motions.iter().map(points).collect();
@@ -98,9 +103,18 @@ impl CircuitChart {
         if !all.iter().flatten().all(|number| number.is_finite()) {
             return Err(DrawingError::NotFinite("a coordinate of a motion".to_owned()));
         }
-        let input = Axis::new(M::INPUTS[0], M::INPUT_ANGLES[0], 0.0, all.iter().map(|at| at.x));
+        let is_angle = |all: &[bool], place: usize| all.get(place) == Some(&true);
+        let input = Axis::new(
+            &mechanism.input_name(0).to_string(),
+            is_angle(mechanism.input_angles(), 0),
+            0.0,
+            all.iter().map(|at| at.x),
+        );
         let turn_from = -std::f64::consts::PI;
-        let axes = [input, Axis::new(unknown, M::UNKNOWN_ANGLES[row], turn_from, all.iter().map(|at| at.y))];
+        let axes = [
+            input,
+            Axis::new(unknown, is_angle(mechanism.unknown_angles(), row), turn_from, all.iter().map(|at| at.y)),
+        ];
         let circuit_of = |motion: usize| circuits.circuit_of(motion).unwrap_or_default();
         let lines = curves
             .iter()
@@ -120,7 +134,7 @@ impl CircuitChart {
             }
         }
         let words = circuits.circuits.iter().map(|motions| words(circuits, motions)).collect();
-        let (title, lines) = (M::NAME.to_owned(), lines.collect());
+        let (title, lines) = (mechanism.name().to_string(), lines.collect());
         let modes = circuits.modes.iter().map(|mode| at(&mode.position)).collect();
         let mode_circuits = circuits.modes.iter().map(|mode| circuit_of(mode.motion)).collect();
         Ok(Self { title, axes, lines, modes, mode_circuits, places, words })
@@ -154,7 +168,7 @@ fn letter(place: usize) -> String {
 }
 
 /// The modes, turns and dead points of a circuit.
-fn words<Q: Copy, B>(circuits: &Circuits<Q, B>, motions: &[usize]) -> String {
+fn words<Q: Copy, B, N: BorrowedName>(circuits: &Circuits<Q, B, f64, N>, motions: &[usize]) -> String {
     let curves = || motions.iter().filter_map(|&motion| circuits.motions.get(motion));
     let mut modes: Vec<usize> = curves().flat_map(MotionCurve::modes).collect();
     modes.sort_unstable();
@@ -167,7 +181,7 @@ fn words<Q: Copy, B>(circuits: &Circuits<Q, B>, motions: &[usize]) -> String {
         1 => words += &format!(", {one}"),
         count => words += &format!(", {count} {many}"),
     };
-    let count = |is_counted: fn(&MotionCurve<Q>) -> bool| curves().filter(|curve| is_counted(curve)).count();
+    let count = |is_counted: fn(&MotionCurve<Q, f64, N>) -> bool| curves().filter(|curve| is_counted(curve)).count();
     add(curves().map(|curve| curve.dead_points().count()).sum(), "1 dead point", "dead points");
     add(count(|curve| curve.change_points().next().is_some()), "change points", "motions that cross");
     add(count(|curve| curve.full_turns().abs() == 1), "a full turn", "full turns");

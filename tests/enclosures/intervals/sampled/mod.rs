@@ -7,7 +7,7 @@ mod mechanisms;
 use std::f64::consts::TAU;
 
 use linkage::certify::{Certificate, Certify, CertifyError, Enclosure, End};
-use linkage::{Branches, Certifiable, Column, D, Formulas};
+use linkage::{Branches, Build, Certifiable, Column, D, Formulas};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -88,8 +88,8 @@ where
         let nearest = all.iter().map(turned).min_by(|one, other| distance(one).total_cmp(&distance(other)));
         let Some(unknowns) = nearest else { panic!("{:?} has no position at {input:?}", self.m) };
         assert!(distance(&unknowns) < OF_POSITION, "{:?} {input:?}: {unknowns:?} {tube:?}", self.m);
-        let formulas = <M::Over<f64> as Formulas>::with_parameters(Certifiable::parameters(self.m));
-        let at = Column::from_fn(|place: usize| unknowns[place]);
+        let formulas = self.m.over::<f64>(Certifiable::parameters(self.m));
+        let at = self.m.dims().0.column(|place| unknowns[place]);
         let values: Vec<f64> = formulas.quantities(&at, &Column::from([input])).iter().copied().collect();
         for (value, found) in values.iter().zip(&self.quantities) {
             let slack = OF_POSITION * (1.0 + value.abs());
@@ -216,7 +216,7 @@ where
     assert!(curve.passes(start) && curve.dead_points().len() % 2 == 0, "{m:?} {start:?}");
     let bounds: Vec<Enclosure> = curve.quantities().iter().copied().collect();
     let inputs = curve.tubes().map(|(inputs, _)| inputs).reduce(|one, other| one.hull(other)).unwrap();
-    let formulas = <M::Over<f64> as Formulas>::with_parameters(Certifiable::parameters(m));
+    let formulas = m.over::<f64>(Certifiable::parameters(m));
     for _ in 0..SAMPLES / 4 {
         let input = random.random_range(inputs.least()..inputs.most());
         for position in positions(m, input).into_iter().filter(|position| curve.passes(position)) {
