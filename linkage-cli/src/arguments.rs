@@ -46,6 +46,10 @@ pub enum Command {
     Sheet(Sheet),
     /// Print a motion as a table: coordinates, points and outputs with their velocities and accelerations
     #[command(after_help = "\
+The first row with a position, by --branch or --guess, chooses the motion. It passes change points
+smoothly, though links change their sides there; a message says at which inputs. Rows beyond its
+ends have no position, and a message says where it ends and why.
+
 Examples:
   linkage table wiper.linkage --degrees --columns theta2,C_x,C_y > wiper.csv
   linkage table wiper.linkage --set l2=25 --branch theta3_theta4=right --rate 45rpm --format json")]

@@ -49,12 +49,12 @@ impl Reason {
 /// The reason why a motion is not followed from a position.
 pub fn why(error: &PathError<&str>) -> String {
     match error {
-        PathError::NoDirection { mechanism } => format!("{mechanism} is at a dead point there"),
+        PathError::NoDirection { mechanism } => format!("{mechanism} is at a dead point"),
         PathError::Position(PositionError::Singular { mechanism, group, .. }) => {
-            format!("{mechanism} is at a dead point or a change point there: group {group} is singular")
+            format!("{mechanism} is at a dead point or a change point of {group}")
         }
         PathError::ChangePoint { mechanism, group } => {
-            format!("motions of {mechanism} cross there, at a change point of {group}")
+            format!("motions of {mechanism} cross at a change point of {group}")
         }
         PathError::TooManySteps { mechanism, steps } => {
             format!("the motion of {mechanism} is not followed to its end in {steps} steps")

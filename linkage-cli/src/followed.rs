@@ -26,7 +26,7 @@ const NAMED: usize = 5;
 const EQUAL: f64 = 1e-12;
 
 /// The range of a motion.
-type Range<'p> = RangeOfMotion<'p, OneInput<'p>>;
+pub type Range<'p> = RangeOfMotion<'p, OneInput<'p>>;
 
 /// A motion that is followed.
 pub struct Followed<'p> {
@@ -34,7 +34,6 @@ pub struct Followed<'p> {
     path: &'p Path,
     /// None if it has nothing to follow or is too large to be followed: positions are those of the branch.
     range: Option<Range<'p>>,
-    are_directions: Vec<bool>,
 }
 
 impl<'p> Followed<'p> {
@@ -45,16 +44,13 @@ impl<'p> Followed<'p> {
         path: &'p Path,
         values: impl IntoIterator<Item = f64>,
     ) -> Result<Self, Failure> {
-        let with = |range, are_directions| Self { machine, path, range, are_directions };
+        let with = |range| Self { machine, path, range };
         let prepared = match prepared {
-            Ok(prepared) if machine.about.unknowns.is_empty() => {
-                _ = prepared;
-                return Ok(with(None, Vec::new()));
-            }
+            Ok(_) if machine.about.unknowns.is_empty() => return Ok(with(None)),
             Ok(prepared) => prepared,
             Err(error) if machine.is_closed() => {
                 anstream::eprintln!("the motion is not followed, positions keep the branch: {error}");
-                return Ok(with(None, Vec::new()));
+                return Ok(with(None));
             }
             Err(error) => return Err(Failure::Outside(error.to_string())),
         };
@@ -62,17 +58,16 @@ impl<'p> Followed<'p> {
         let mechanism = one_input(prepared, &path.at(path.ends[0]), path.moving)?;
         let (mut first, mut trials) = (None, 0);
         for value in values {
-            let start = match machine.place(&path.at(value), &still) {
-                Ok(start) => start,
+            let unknowns = match machine.place(&path.at(value), &still) {
+                Ok(unknowns) => unknowns,
                 Err(error) => {
                     first.get_or_insert(error);
                     continue;
                 }
             };
-            let (unknowns, are_directions) = start;
             let Some(at) = coordinates(&mechanism, &unknowns, value) else { continue };
             match followed(mechanism, &at, path.ends) {
-                Ok(range) => return Ok(with(Some(range), are_directions)),
+                Ok(range) => return Ok(with(Some(range))),
                 Err(error) => first.get_or_insert(why(&error)),
             };
             trials += 1;
@@ -102,7 +97,6 @@ impl<'p> Followed<'p> {
         let outputs = Followable::each_output(found.outputs);
         self.machine.solver.moved(
             [inputs, list(found.position), list(found.rates), list(found.accelerations)],
-            self.are_directions.clone(),
             points.as_slice(),
             outputs.as_slice(),
         )
@@ -126,11 +120,13 @@ impl<'p> Followed<'p> {
         self.range.is_none() || self.period().is_some_and(|period| (period / TAU).fract().abs() < EQUAL)
     }
 
-    /// Says on standard error how many of these rows or positions are missing, where the motion passes change points, and where it
-    /// does not get across.
-    pub fn say(&self, missing: usize, of: &str, first: Option<&str>) {
-        if let Some(first) = first {
-            let why = self.ends().unwrap_or_else(|| format!("the first: {first}"));
+    /// Says on standard error how many of these rows or positions are missing, with the value and the reason of the first, where the
+    /// motion passes change points, and where it does not get across.
+    pub fn say(&self, missing: usize, of: &str, first: Option<(f64, &str)>) {
+        if let Some((value, first)) = first {
+            let is_beyond = self.range.as_ref().is_some_and(|range| range.at(value).is_err());
+            let ends = self.ends().filter(|_| is_beyond);
+            let why = ends.unwrap_or_else(|| format!("the first: {first}"));
             anstream::eprintln!("{missing} of {of} have no position; {why}");
         }
         self.say_change_points();
@@ -146,12 +142,15 @@ impl<'p> Followed<'p> {
         let ends = range.inputs().into_iter().zip(range.ends());
         let ends = ends.filter_map(|(at, end)| match Reason::of(end)? {
             Reason::GoesOn => None,
-            reason => Some(format!("{} ({})", shown(at, input.is_angle), reason.in_words())),
+            reason => Some((shown(at, input.is_angle), reason.in_words())),
         });
-        let ends: Vec<String> = ends.collect();
-        (!ends.is_empty()).then(|| {
-            format!("the motion of {} ends at {} = {}", self.machine.about.name, input.name.text, ends.join(" and "))
-        })
+        let ends: Vec<(String, String)> = ends.collect();
+        let at = match ends.as_slice() {
+            [] => return None,
+            [(one, why), (other, same)] if why == same => format!("{one} and {other} ({why})"),
+            all => all.iter().map(|(at, why)| format!("{at} ({why})")).collect::<Vec<_>>().join(" and "),
+        };
+        Some(format!("the motion of {} ends at {} = {at}", self.machine.about.name, input.name.text))
     }
 
     /// The least and the largest value of the moving input.
@@ -183,7 +182,8 @@ impl<'p> Followed<'p> {
 
     fn say_change_points(&self) {
         let Some(range) = &self.range else { return };
-        let all = range.crossings().flat_map(|crossing| self.repeated(crossing.input)).collect();
+        let passed = passed(range).into_iter();
+        let all = passed.flat_map(|input| self.repeated(input)).collect();
         let all = self.ordered(all);
         let input = &self.machine.about.inputs[self.path.moving];
         let places: Vec<String> = all.iter().take(NAMED).map(|at| shown(*at, input.is_angle)).collect();
@@ -210,10 +210,12 @@ impl<'p> Followed<'p> {
             return;
         }
         let input = &self.machine.about.inputs[self.path.moving];
-        let gaps = self.repeated(last).into_iter().filter(|end| *end > least && end + (first + period - last) < largest);
+        let gaps =
+            self.repeated(last).into_iter().filter(|end| *end > least && end + (first + period - last) < largest);
         for end in gaps.take(NAMED) {
             let gap = [end, end + (first + period - last)].map(|end| shown(end, input.is_angle));
-            let [near, far] = if self.path.ends[0] < self.path.ends[1] { gap } else { [gap[1].clone(), gap[0].clone()] };
+            let [near, far] =
+                if self.path.ends[0] < self.path.ends[1] { gap } else { [gap[1].clone(), gap[0].clone()] };
             let unit = if input.is_angle { "deg" } else { "" };
             anstream::eprintln!(
                 "between {} = {near} and {far} there is no position: the motion does not get across; end with `--to {}{unit}`",
@@ -222,6 +224,12 @@ impl<'p> Followed<'p> {
             );
         }
     }
+}
+
+/// The inputs of the change points that a motion passes: at those at its ends it goes back.
+pub fn passed(range: &Range<'_>) -> Vec<f64> {
+    let is_end = |input: f64| !range.is_closed() && range.inputs().contains(&input);
+    range.crossings().map(|crossing| crossing.input).filter(|input| !is_end(*input)).collect()
 }
 
 /// The motion through a position, to its ends or over the range that is asked for.
@@ -245,7 +253,9 @@ fn followed<'p>(
             if is_within { Ok(range) } else { asked() }
         }
         Ok(range) => Ok(range),
-        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => Err(error),
+        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => {
+            Err(error)
+        }
         Err(error) => asked().map_err(|_| error),
     }
 }

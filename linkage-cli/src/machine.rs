@@ -36,11 +36,7 @@ impl Machine {
     }
 
     /// The mechanism of all whose positions there is something to say: none of them is chosen.
-    pub fn of_all<R>(
-        numbers: &Numbers,
-        result: &str,
-        f: impl FnMut(&Lowered<'_>) -> R,
-    ) -> Result<(Self, R), Failure> {
+    pub fn of_all<R>(numbers: &Numbers, result: &str, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
         let given = [("--branch", numbers.branch.is_empty()), ("--guess", numbers.guess.is_empty())];
         if let Some((option, _)) = given.iter().find(|(_, is_empty)| !is_empty) {
             return Err(Failure::Argument(format!("{result} all positions: leave out {option}")));
@@ -117,7 +113,7 @@ impl Machine {
         match &self.start {
             Start::Closed => self.solver.motion(inputs, rates),
             Start::Guess(guess) => self.solver.motion_near(inputs, guess, rates),
-            Start::Listed => self.solver.motion_near(inputs, &self.solver.listed(inputs)?, rates),
+            Start::Listed => self.solver.motion_near(inputs, &self.solver.on_branch(inputs)?, rates),
         }
     }
 
@@ -126,11 +122,11 @@ impl Machine {
         self.start == Start::Closed
     }
 
-    /// The unknowns at the position that the branch or the guess chooses, though it has no rates, and which are directions.
-    pub fn place(&self, inputs: &[f64], rates: &[f64]) -> Result<(Vec<f64>, Vec<bool>), String> {
+    /// The unknowns at the position that the branch or the guess chooses, which need not have rates.
+    pub fn place(&self, inputs: &[f64], rates: &[f64]) -> Result<Vec<f64>, String> {
         match &self.start {
             Start::Closed => self.solver.on_branch(inputs),
-            _ => self.motion(inputs, rates).map(|motion| (motion.unknowns, motion.are_directions)),
+            _ => self.motion(inputs, rates).map(|motion| motion.unknowns),
         }
     }
 

@@ -46,11 +46,8 @@ pub struct Motion {
     pub inputs: Vec<f64>,
     /// The values of the unknowns.
     pub unknowns: Vec<f64>,
-    /// True for each unknown that is found as a direction: its angle is from -pi to pi.
+    /// True for each unknown that is found as a direction: its angle is from -pi to pi and counts no turns.
     pub are_directions: Vec<bool>,
-    /// Their rates and accelerations.
-    pub rates: Vec<f64>,
-    pub accelerations: Vec<f64>,
     data: Data,
 }
 
@@ -93,11 +90,10 @@ impl Solver {
         self.called("full_kinematics", Self::given(inputs), inputs, rates)
     }
 
-    /// The motion with these inputs, unknowns, rates and accelerations. It has no pose.
+    /// The motion with these inputs, unknowns, rates and accelerations. It has no pose, and its angles count turns.
     pub fn moved(
         &self,
         [inputs, unknowns, rates, accelerations]: [Vec<f64>; 4],
-        are_directions: Vec<bool>,
         points: &[PointMotion<f64>],
         outputs: &[OutputMotion<f64>],
     ) -> Motion {
@@ -123,19 +119,15 @@ impl Solver {
             ("points", each(&self.points, points.iter().map(point).collect())),
             ("outputs", each(&self.outputs, outputs.iter().map(output).collect())),
         ]);
-        Motion { inputs, unknowns, are_directions, rates, accelerations, data }
+        let are_directions = vec![false; unknowns.len()];
+        Motion { inputs, unknowns, are_directions, data }
     }
 
-    /// The unknowns at the position with the number in the branch.
-    pub fn listed(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
-        self.on_branch(inputs).map(|(unknowns, _)| unknowns)
-    }
-
-    /// The unknowns at the position on the branch, and which of them are directions.
-    pub fn on_branch(&self, inputs: &[f64]) -> Result<(Vec<f64>, Vec<bool>), String> {
+    /// The unknowns at the position on the branch, which may have a number.
+    pub fn on_branch(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
         let pose = self.design.call("assemble", &[Self::given(inputs), self.branch.clone()]);
         let pose = pose.map_err(|error| error.to_string())?;
-        Ok(self.of_pose(&pose))
+        Ok(self.of_pose(&pose).0)
     }
 
     /// All positions at these inputs, each with its branch in words; or why they are not listed.
@@ -148,9 +140,7 @@ impl Solver {
         let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| error.to_string())?;
         let position = |data: &Data| {
             let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
-            let [rates, accelerations] = [(); 2].map(|()| vec![f64::NAN; unknowns.len()]);
-            let inputs = inputs.to_vec();
-            let motion = Motion { inputs, unknowns, are_directions, rates, accelerations, data: data.clone() };
+            let motion = Motion { inputs: inputs.to_vec(), unknowns, are_directions, data: data.clone() };
             (data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion)
         };
         Ok(all.list().iter().map(position).collect())
@@ -172,13 +162,7 @@ impl Solver {
         let function = if has_quantities { function } else { function.trim_start_matches("full_") };
         let data = self.design.call(function, &arguments).map_err(|error| error.to_string())?;
         let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
-        let of = |what: &str| -> Vec<f64> {
-            let number =
-                |unknown: &Coordinate| data.get(&format!("{what}.{}", unknown.name.field)).and_then(Data::number);
-            self.unknowns.iter().map(|unknown| number(unknown).unwrap_or(f64::NAN)).collect()
-        };
-        let [rates, accelerations] = ["rates", "accelerations"].map(of);
-        Ok(Motion { inputs: inputs.to_vec(), unknowns, are_directions, rates, accelerations, data })
+        Ok(Motion { inputs: inputs.to_vec(), unknowns, are_directions, data })
     }
 
     /// The unknowns of a pose, and which of them are directions.

@@ -34,8 +34,7 @@ impl Start {
             guess[place] = Some(about.unknowns[place].value(*value)?);
         }
         let missing = about.guessed.iter().filter(|place| guess[**place].is_none());
-        let missing: Vec<String> =
-            missing.map(|place| format!("{}=VALUE", about.unknowns[*place].name.text)).collect();
+        let missing: Vec<String> = missing.map(|place| format!("{}=VALUE", about.unknowns[*place].name.text)).collect();
         if needed.is_empty() {
             return Ok(Self::Closed);
         }

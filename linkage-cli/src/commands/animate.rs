@@ -148,7 +148,9 @@ fn course(
     let missing = errors.iter().flatten().count();
     let first_error = errors.iter().flatten().next();
     if missing <= steps as usize {
-        followed.say(missing, &format!("{} positions of the film", steps + 1), first_error.map(String::as_str));
+        let place =
+            (0..=steps).zip(&errors).find_map(|(step, error)| Some((path.step(step, steps), error.as_deref()?)));
+        followed.say(missing, &format!("{} frames", steps + 1), place);
     }
     // A film with missing positions may pass the beginning of a turn where these are the same a turn later.
     let is_turn = path.is_turn(machine) && (missing == 0 || followed.repeats());

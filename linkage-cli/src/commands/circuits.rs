@@ -2,20 +2,20 @@
 
 use std::f64::consts::TAU;
 
-use linkage_runtime::circuits::{self, CircuitError, CircuitOptions};
-use linkage_runtime::Mechanism;
 use linkage_interpreter::BranchAtRunTime;
+use linkage_runtime::Mechanism;
+use linkage_runtime::circuits::{self, CircuitError, CircuitOptions};
 use serde::Serialize;
 
 use super::list::moving;
 use crate::arguments;
+use crate::curve::{Event, Motion};
 use crate::ends::{shown, why};
 use crate::failure::Failure;
 use crate::machine::Machine;
 use crate::motion::held;
 use crate::one_input::{At, OneInput, one_input, prepared};
 use crate::progress;
-use crate::curve::{Event, Motion};
 
 /// The place of a start within its part of the range, the golden section: mechanisms are rarely singular there.
 const WITHIN: f64 = 0.381_966_011_250_105;
@@ -42,7 +42,7 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     let found = found.map_err(|error| match error {
         CircuitError::Path { mode, error } => {
             let other = if given { "--at" } else { "--starts" };
-            Failure::Outside(format!("position {} is not followed: {}; write another {other}", mode + 1, why(&error)))
+            Failure::Outside(format!("from position {}, {}: write another {other}", mode + 1, why(&error)))
         }
         other => Failure::Outside(other.to_string()),
     })?;
@@ -115,12 +115,7 @@ struct Position {
 }
 
 impl Circuits {
-    fn of(
-        machine: &Machine,
-        inputs: &[f64],
-        moving: usize,
-        found: &Found<'_>,
-    ) -> Result<Self, Failure> {
+    fn of(machine: &Machine, inputs: &[f64], moving: usize, found: &Found<'_>) -> Result<Self, Failure> {
         let position = |mode: &circuits::CircuitMode<At, BranchAtRunTime>| {
             let input = mode.position.parameter;
             let unknowns: Vec<f64> = OneInput::unknowns(&mode.position).iter().copied().collect();
@@ -140,11 +135,7 @@ impl Circuits {
             inputs: inputs.to_vec(),
             positions: found.modes.iter().map(position).collect::<Result<_, Failure>>()?,
             motions: found.motions.iter().map(|motion| Motion::of(motion)).collect(),
-            circuits: found
-                .circuits
-                .iter()
-                .map(|motions| motions.iter().map(|motion| motion + 1).collect())
-                .collect(),
+            circuits: found.circuits.iter().map(|motions| motions.iter().map(|motion| motion + 1).collect()).collect(),
         })
     }
 

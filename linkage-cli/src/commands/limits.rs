@@ -1,12 +1,13 @@
 //! `linkage limits`: the ends of the motion through each position at one choice of inputs.
 
-use linkage_runtime::range_of_motion::{RangeOfMotion, RangeOptions};
+use linkage_runtime::range_of_motion::{MotionEnd, RangeOptions};
 use serde::Serialize;
 
 use super::list::moving;
 use crate::arguments;
 use crate::ends::{Reason, shown, why};
 use crate::failure::Failure;
+use crate::followed::{Range, passed};
 use crate::machine::Machine;
 use crate::motion::held;
 use crate::one_input::{coordinates, one_input, prepared};
@@ -23,13 +24,16 @@ pub fn run(arguments: &arguments::Limits) -> Result<(), Failure> {
     let inputs = held(&machine, &place.at, None)?;
     let all = match is_chosen {
         true => {
-            let motion = machine.motion(&inputs, &vec![0.0; inputs.len()]).map_err(Failure::Outside)?;
-            vec![(String::new(), motion.unknowns)]
+            let unknowns = machine.place(&inputs, &vec![0.0; inputs.len()]).map_err(Failure::Outside)?;
+            vec![(String::new(), unknowns)]
         }
         false => listed(&machine, &inputs)?,
     };
     let limits = Limits::of(&machine, &inputs, moving, &all)?;
-    if let [Position { fails: Some(why), .. }] = limits.positions.as_slice() {
+    let mut fails = limits.positions.iter().map(|position| position.fails.as_ref());
+    if let Some(Some(why)) = fails.next()
+        && fails.all(|why| why.is_some())
+    {
         return Err(Failure::Outside(format!("at {}, {why}: write another --at", machine.at(&inputs))));
     }
     form.write(format, &limits, Limits::to_text, &numbers.source.file)
@@ -41,9 +45,7 @@ pub fn listed(machine: &Machine, inputs: &[f64]) -> Result<Vec<(String, Vec<f64>
     if all.is_empty() {
         // The reason is that of the position on the first branch.
         let why = machine.motion(inputs, &vec![0.0; inputs.len()]).err();
-        return Err(Failure::Outside(
-            why.unwrap_or_else(|| format!("there is no position at {}", machine.at(inputs))),
-        ));
+        return Err(Failure::Outside(why.unwrap_or_else(|| format!("there is no position at {}", machine.at(inputs)))));
     }
     Ok(all.into_iter().map(|(branch, motion)| (branch, motion.unknowns)).collect())
 }
@@ -88,12 +90,7 @@ struct End {
 }
 
 impl Limits {
-    fn of(
-        machine: &Machine,
-        inputs: &[f64],
-        moving: usize,
-        all: &[(String, Vec<f64>)],
-    ) -> Result<Self, Failure> {
+    fn of(machine: &Machine, inputs: &[f64], moving: usize, all: &[(String, Vec<f64>)]) -> Result<Self, Failure> {
         let prepared = prepared(machine)?;
         let mechanism = one_input(&prepared, inputs, moving)?;
         let position = |(branch, unknowns): &(String, Vec<f64>)| {
@@ -107,17 +104,17 @@ impl Limits {
                 fails: None,
             };
             let start = coordinates(&mechanism, unknowns, inputs[moving])?;
-            match RangeOfMotion::of(&mechanism, &start, RangeOptions::through_change_points()) {
+            match Range::of(mechanism, &start, RangeOptions::through_change_points()) {
                 Ok(range) => {
                     let [from, to] = range.inputs();
                     let [lower, upper] = range.ends();
                     let end = |input: f64, reason: Option<Reason>| reason.map(|reason| End { input, reason });
                     position.from = end(from, Reason::of(lower));
                     position.to = end(to, Reason::of(upper));
-                    if let linkage_runtime::range_of_motion::MotionEnd::Closed { turns } = upper {
+                    if let MotionEnd::Closed { turns } = upper {
                         position.closes_after_turns = Some(turns);
                     }
-                    position.change_points = range.crossings().map(|crossing| crossing.input).collect();
+                    position.change_points = passed(&range);
                 }
                 Err(error) => position.fails = Some(why(&error)),
             }

@@ -48,15 +48,18 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
             Ok(motion) => row.extend(numbers(&machine, &unwound.next(&machine, &motion), &motion)),
             Err(error) => {
                 missing += 1;
-                first.get_or_insert(error);
+                first.get_or_insert((value, error));
                 row.resize(table.names().len(), f64::NAN);
             }
         }
         table.push(&row);
     }
     match first {
-        Some(error) if missing == steps as usize + 1 => return Err(Failure::Outside(error)),
-        first => followed.say(missing, &format!("{} rows", steps + 1), first.as_deref()),
+        Some((_, error)) if missing == steps as usize + 1 => return Err(Failure::Outside(error)),
+        first => {
+            let first = first.as_ref().map(|(value, error)| (*value, error.as_str()));
+            followed.say(missing, &format!("{} rows", steps + 1), first);
+        }
     }
     let digits = arguments.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.degrees)?;

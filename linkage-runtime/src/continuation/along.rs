@@ -2,8 +2,8 @@
 
 use super::input_path::InputPath;
 use crate::{
-    BorrowedName, Branches, Build, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf, Ranged,
-    Real,
+    BorrowedName, Branches, Build, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf,
+    Ranged, Real,
 };
 
 /// A mechanism whose inputs are functions v(s) of one parameter, its only input.
