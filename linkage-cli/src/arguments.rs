@@ -46,6 +46,10 @@ pub enum Command {
     Sheet(Sheet),
     /// Print a motion as a table: coordinates, points and outputs with their velocities and accelerations
     #[command(after_help = "\
+The first row with a position, by --branch or --guess, chooses the motion. It passes change points
+smoothly, though links change their sides there; a message says at which inputs. Rows beyond its
+ends have no position, and a message says where it ends and why.
+
 Examples:
   linkage table wiper.linkage --degrees --columns theta2,C_x,C_y > wiper.csv
   linkage table wiper.linkage --set l2=25 --branch theta3_theta4=right --rate 45rpm --format json")]
@@ -56,6 +60,18 @@ Examples:
     /// Draw a motion of the mechanism, as SVG that moves or as GIF
     #[command(after_help = "Example:\n  linkage animate wiper.linkage --set l2=25 --rate 45rpm -o wiper.gif")]
     Animate(Animate),
+    /// Find the limits of an input: the motion through each position, its ends and why it ends there
+    #[command(after_help = "\
+Examples:
+  linkage limits wiper.linkage
+  linkage limits wiper.linkage --set l2=45 --at theta2=20deg --branch theta3_theta4=left")]
+    Limits(Limits),
+    /// Find the circuits: which positions are connected by motion, through dead points and change points
+    #[command(after_help = "\
+Examples:
+  linkage circuits wiper.linkage
+  linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json")]
+    Circuits(Circuits),
     /// Report mobility, and all positions at one choice of inputs
     #[command(after_help = "\
 Examples:
@@ -146,6 +162,62 @@ pub enum SheetFormat {
 }
 
 #[derive(Args)]
+pub struct Limits {
+    #[command(flatten)]
+    pub numbers: Numbers,
+    #[command(flatten)]
+    pub place: Place,
+    /// The input that moves [default: the first]
+    #[arg(long, value_name = "INPUT")]
+    pub along: Option<String>,
+    #[command(flatten)]
+    pub form: ListForm,
+}
+
+#[derive(Args)]
+pub struct Circuits {
+    #[command(flatten)]
+    pub numbers: Numbers,
+    /// The value of an input that is held, or of the one that moves: its positions there are listed [default: 60deg; positions
+    /// are listed over the range]
+    #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
+    pub at: Vec<Assignment>,
+    /// The input that moves [default: the first]
+    #[arg(long, value_name = "INPUT")]
+    pub along: Option<String>,
+    /// The least value at which positions are listed [default of an angle: 0]
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub from: Option<Value>,
+    /// The largest value at which positions are listed [default of an angle: 360deg]
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub to: Option<Value>,
+    /// The number of values between them at which positions are listed
+    #[arg(long, value_name = "NUMBER", default_value = "12", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=MOST_STARTS))]
+    pub starts: u32,
+    #[command(flatten)]
+    pub form: ListForm,
+}
+
+/// The form of a list, and its place.
+#[derive(Args)]
+pub struct ListForm {
+    /// The form of the list [default: by the ending of OUT; else text]
+    #[arg(long, value_enum)]
+    pub format: Option<ListFormat>,
+    /// The file to write, .txt or .json; `-` for standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ListFormat {
+    /// For readers, angles in degrees
+    Text,
+    /// Objects, angles in radians
+    Json,
+}
+
+#[derive(Args)]
 pub struct Report {
     #[command(flatten)]
     pub numbers: Numbers,
@@ -210,6 +282,9 @@ pub struct Size {
 
 /// A table of so many rows has a gigabyte.
 const MOST_STEPS: i64 = 1_000_000;
+
+/// At each of so many values all positions are listed and followed.
+const MOST_STARTS: i64 = 1000;
 
 /// One input moves, others are held.
 #[derive(Args)]

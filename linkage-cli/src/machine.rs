@@ -8,11 +8,11 @@ use linkage_interpreter::{Data, Mechanism};
 use crate::about::{About, chosen};
 use crate::arguments::Numbers;
 use crate::failure::Failure;
-use crate::following::{Following, Start};
 use crate::names::{once, place};
 use crate::solver::Solver;
 pub use crate::solver::{Coordinate, Motion, Named};
 use crate::source::read;
+use crate::start::Start;
 use crate::values::{Assignment, Choice};
 
 /// A mechanism with values for all but its inputs.
@@ -21,8 +21,7 @@ pub struct Machine {
     parameters: Vec<(String, f64)>,
     /// Its positions without regard to a motion.
     pub solver: Solver,
-    /// The finder of positions without a closed form.
-    following: Option<Following>,
+    start: Start,
 }
 
 impl Machine {
@@ -33,6 +32,23 @@ impl Machine {
 
     /// The mechanism that the arguments mean, with their numbers, and what a function makes of its formulas.
     pub fn with<R>(numbers: &Numbers, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
+        Self::begun(numbers, Start::of, f)
+    }
+
+    /// The mechanism of all whose positions there is something to say: none of them is chosen.
+    pub fn of_all<R>(numbers: &Numbers, result: &str, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
+        let given = [("--branch", numbers.branch.is_empty()), ("--guess", numbers.guess.is_empty())];
+        if let Some((option, _)) = given.iter().find(|(_, is_empty)| !is_empty) {
+            return Err(Failure::Argument(format!("{result} all positions: leave out {option}")));
+        }
+        Self::begun(numbers, |_, _, _| Ok(Start::Listed), f)
+    }
+
+    fn begun<R>(
+        numbers: &Numbers,
+        start: impl FnOnce(&About, &Mechanism, &Numbers) -> Result<Start, Failure>,
+        f: impl FnMut(&Lowered<'_>) -> R,
+    ) -> Result<(Self, R), Failure> {
         let file = &numbers.source.file;
         let (about, mechanism, result) = chosen(&read(file)?, numbers.source.mechanism.as_deref(), f)?;
         if let Some(function) = about.functions.first() {
@@ -43,15 +59,13 @@ impl Machine {
         }
         let parameters = parameters(&about, &mechanism, &numbers.set)?;
         let branch = branch(&about, &mechanism, &numbers.branch)?;
-        let following = start(&about, &mechanism, numbers)?.map(Following::new);
+        let start = start(&about, &mechanism, numbers)?;
         let values: Vec<f64> = parameters.iter().map(|(_, value)| *value).collect();
         let design = mechanism.design().with_parameters(&values);
-        let of_kinds = about.defaults.iter().zip(&values).filter(|((_, kind), _)| *kind == Kind::Length);
-        let length = of_kinds.fold(0.0, |largest: f64, (_, value)| largest.max(value.abs()));
-        let has_quantities = !about.points.is_empty() || !about.outputs.is_empty();
         let (inputs, unknowns) = (about.inputs.clone(), about.unknowns.clone());
-        let solver = Solver { name: about.name.clone(), inputs, unknowns, has_quantities, length, design, branch };
-        Ok((Self { about, parameters, solver, following }, result))
+        let (points, outputs) = (about.points.clone(), about.outputs.clone());
+        let solver = Solver { inputs, unknowns, points, outputs, design, branch };
+        Ok((Self { about, parameters, solver, start }, result))
     }
 
     /// The parameters with their values.
@@ -94,18 +108,43 @@ impl Machine {
         place(&self.about.name, "input", name, &names)
     }
 
-    /// Position, velocity and acceleration; rates are constant. Without a closed form it is a position of the motion through those
-    /// that were asked for before.
+    /// Position, velocity and acceleration at the position that the branch or the guess chooses; rates are constant.
     pub fn motion(&self, inputs: &[f64], rates: &[f64]) -> Result<Motion, String> {
-        match &self.following {
-            Some(following) => following.motion(&self.solver, inputs, rates),
-            None => self.solver.motion(inputs, rates),
+        match &self.start {
+            Start::Closed => self.solver.motion(inputs, rates),
+            Start::Guess(guess) => self.solver.motion_near(inputs, guess, rates),
+            Start::Listed => self.solver.motion_near(inputs, &self.solver.on_branch(inputs)?, rates),
+        }
+    }
+
+    /// True if all positions have a closed form.
+    pub fn is_closed(&self) -> bool {
+        self.start == Start::Closed
+    }
+
+    /// The unknowns at the position that the branch or the guess chooses, which need not have rates.
+    pub fn place(&self, inputs: &[f64], rates: &[f64]) -> Result<Vec<f64>, String> {
+        match &self.start {
+            Start::Closed => self.solver.on_branch(inputs),
+            _ => self.motion(inputs, rates).map(|motion| motion.unknowns),
         }
     }
 
     /// All positions at these inputs, each with its branch in words; or why they are not listed.
     pub fn positions(&self, inputs: &[f64]) -> Result<Vec<(String, Motion)>, String> {
         self.solver.positions(inputs)
+    }
+
+    /// The branch in words of a position that is listed.
+    pub fn branch_at(&self, inputs: &[f64], unknowns: &[f64]) -> Result<String, String> {
+        let off = |listed: &[f64]| -> f64 {
+            let each = listed.iter().zip(unknowns).zip(&self.about.unknowns);
+            each.map(|((one, other), of)| if of.is_angle { ((one - other) / 2.0).sin() } else { one - other })
+                .fold(0.0, |most, off| most.max(off.abs()))
+        };
+        let all = self.positions(inputs)?.into_iter();
+        let nearest = all.min_by(|(_, one), (_, other)| off(&one.unknowns).total_cmp(&off(&other.unknowns)));
+        Ok(nearest.map(|(branch, _)| branch).unwrap_or_default())
     }
 
     /// The outputs by their formulas at these values of the unknowns, whose angles may be on other turns.
@@ -152,38 +191,6 @@ fn parameters(about: &About, mechanism: &Mechanism, set: &[Assignment]) -> Resul
         }
         None => Ok(parameters),
     }
-}
-
-/// The beginning of a motion without closed forms: the guess that is given, or a position that is listed.
-fn start(about: &About, mechanism: &Mechanism, numbers: &Numbers) -> Result<Option<Start>, Failure> {
-    let (name, wrong) = (&about.name, |message: String| Err(Failure::Argument(message)));
-    let [_, listed, _] = mechanism.branch_fields();
-    let needed: Vec<&str> = about.guessed.iter().map(|place| about.unknowns[*place].name.text.as_str()).collect();
-    let mut guess = vec![None; about.unknowns.len()];
-    once("--guess", numbers.guess.iter().map(|guess| guess.name.as_str()))?;
-    for Assignment { name: of, value } in &numbers.guess {
-        if needed.is_empty() {
-            return wrong(format!("positions of `{name}` need no guess: choose one by --branch"));
-        }
-        let place = about.guessed[place(name, "unknown without a closed form", of, &needed)?];
-        guess[place] = Some(about.unknowns[place].value(*value)?);
-    }
-    let missing = about.guessed.iter().filter(|place| guess[**place].is_none());
-    let missing: Vec<String> = missing.map(|place| format!("{}=VALUE", about.unknowns[*place].name.text)).collect();
-    if needed.is_empty() {
-        return Ok(None);
-    }
-    if numbers.guess.is_empty() && !listed.is_empty() {
-        return Ok(Some(Start::Listed));
-    }
-    if let Some(choice) = numbers.branch.iter().find(|choice| listed.iter().any(|(group, _)| *group == choice.name)) {
-        return wrong(format!("--guess and --branch {} choose the same position: leave out one", choice.name));
-    }
-    if !missing.is_empty() {
-        return wrong(format!("positions of `{name}` are found from a guess: write --guess {}", missing.join(",")));
-    }
-    // The others follow from these.
-    Ok(Some(Start::Guess(guess.into_iter().map(Option::unwrap_or_default).collect())))
 }
 
 /// The branch: the first position of each group where none is chosen, and no additional turns.

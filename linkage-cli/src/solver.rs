@@ -2,6 +2,7 @@
 
 use linkage_interpreter::{Data, Design};
 use linkage_runtime::lane::arctangent2;
+use linkage_runtime::{OutputMotion, PointMotion};
 
 use crate::failure::Failure;
 use crate::values::Value;
@@ -45,11 +46,8 @@ pub struct Motion {
     pub inputs: Vec<f64>,
     /// The values of the unknowns.
     pub unknowns: Vec<f64>,
-    /// True for each unknown that is found as a direction: its angle is from -pi to pi.
+    /// True for each unknown that is found as a direction: its angle is from -pi to pi and counts no turns.
     pub are_directions: Vec<bool>,
-    /// Their rates and accelerations.
-    pub rates: Vec<f64>,
-    pub accelerations: Vec<f64>,
     data: Data,
 }
 
@@ -67,13 +65,10 @@ impl Motion {
 
 /// A mechanism with values of its parameters, and a branch.
 pub struct Solver {
-    pub name: String,
     pub inputs: Vec<Coordinate>,
     pub unknowns: Vec<Coordinate>,
-    /// True if it has points or outputs.
-    pub has_quantities: bool,
-    /// The largest parameter that is a length: the scale of lengths that are 0.
-    pub length: f64,
+    pub points: Vec<Named>,
+    pub outputs: Vec<Named>,
     pub design: Design,
     pub branch: Data,
 }
@@ -95,8 +90,41 @@ impl Solver {
         self.called("full_kinematics", Self::given(inputs), inputs, rates)
     }
 
-    /// The unknowns at the position with the number in the branch.
-    pub fn listed(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
+    /// The motion with these inputs, unknowns, rates and accelerations. It has no pose, and its angles count turns.
+    pub fn moved(
+        &self,
+        [inputs, unknowns, rates, accelerations]: [Vec<f64>; 4],
+        points: &[PointMotion<f64>],
+        outputs: &[OutputMotion<f64>],
+    ) -> Motion {
+        let named = |numbers: &[f64]| {
+            let fields = self.unknowns.iter().map(|unknown| unknown.name.field.as_str());
+            Data::fields(fields.zip(numbers.iter().copied().map(Data::from)))
+        };
+        let point = |of: &PointMotion<f64>| {
+            let vectors = [of.position.coords, of.velocity, of.acceleration];
+            let vectors = vectors.map(|vector| Data::from(vector.as_slice()));
+            Data::fields(["position", "velocity", "acceleration"].into_iter().zip(vectors))
+        };
+        let output = |of: &OutputMotion<f64>| {
+            let numbers = [of.value, of.rate, of.acceleration].map(Data::from);
+            Data::fields(["value", "rate", "acceleration"].into_iter().zip(numbers))
+        };
+        let each = |of: &'_ [Named], all: Vec<Data>| {
+            Data::fields(of.iter().map(|name| name.field.as_str()).zip(all).collect::<Vec<_>>())
+        };
+        let data = Data::fields([
+            ("rates", named(&rates)),
+            ("accelerations", named(&accelerations)),
+            ("points", each(&self.points, points.iter().map(point).collect())),
+            ("outputs", each(&self.outputs, outputs.iter().map(output).collect())),
+        ]);
+        let are_directions = vec![false; unknowns.len()];
+        Motion { inputs, unknowns, are_directions, data }
+    }
+
+    /// The unknowns at the position on the branch, which may have a number.
+    pub fn on_branch(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
         let pose = self.design.call("assemble", &[Self::given(inputs), self.branch.clone()]);
         let pose = pose.map_err(|error| error.to_string())?;
         Ok(self.of_pose(&pose).0)
@@ -112,9 +140,7 @@ impl Solver {
         let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| error.to_string())?;
         let position = |data: &Data| {
             let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
-            let [rates, accelerations] = [(); 2].map(|()| vec![f64::NAN; unknowns.len()]);
-            let inputs = inputs.to_vec();
-            let motion = Motion { inputs, unknowns, are_directions, rates, accelerations, data: data.clone() };
+            let motion = Motion { inputs: inputs.to_vec(), unknowns, are_directions, data: data.clone() };
             (data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion)
         };
         Ok(all.list().iter().map(position).collect())
@@ -132,16 +158,11 @@ impl Solver {
     fn called(&self, function: &str, from: Data, inputs: &[f64], rates: &[f64]) -> Result<Motion, String> {
         let still = vec![0.0; inputs.len()];
         let arguments = [from, self.branch.clone(), Self::given(rates), Self::given(&still)];
-        let function = if self.has_quantities { function } else { function.trim_start_matches("full_") };
+        let has_quantities = !self.points.is_empty() || !self.outputs.is_empty();
+        let function = if has_quantities { function } else { function.trim_start_matches("full_") };
         let data = self.design.call(function, &arguments).map_err(|error| error.to_string())?;
         let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
-        let of = |what: &str| -> Vec<f64> {
-            let number =
-                |unknown: &Coordinate| data.get(&format!("{what}.{}", unknown.name.field)).and_then(Data::number);
-            self.unknowns.iter().map(|unknown| number(unknown).unwrap_or(f64::NAN)).collect()
-        };
-        let [rates, accelerations] = ["rates", "accelerations"].map(of);
-        Ok(Motion { inputs: inputs.to_vec(), unknowns, are_directions, rates, accelerations, data })
+        Ok(Motion { inputs: inputs.to_vec(), unknowns, are_directions, data })
     }
 
     /// The unknowns of a pose, and which of them are directions.
@@ -153,21 +174,6 @@ impl Solver {
                 _ => (f64::NAN, false),
             });
         unknowns.unzip()
-    }
-
-    /// The values of inputs in a sentence.
-    pub fn at(&self, inputs: &[f64]) -> String {
-        let each = self.inputs.iter().zip(inputs).map(|(input, value)| match input.is_angle {
-            true => format!("{} = {:.4}°", input.name.text, value.to_degrees()),
-            false => format!("{} = {value:.6}", input.name.text),
-        });
-        each.collect::<Vec<_>>().join(", ")
-    }
-
-    /// The largest length among parameters and these values of inputs and unknowns.
-    pub fn largest_length(&self, inputs: &[f64], unknowns: &[f64]) -> f64 {
-        let all = self.inputs.iter().zip(inputs).chain(self.unknowns.iter().zip(unknowns));
-        all.filter(|(of, _)| !of.is_angle).fold(self.length, |largest, (_, value)| largest.max(value.abs()))
     }
 }
 

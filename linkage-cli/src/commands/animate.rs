@@ -6,7 +6,7 @@ use super::draw::{painter, undrawn};
 use crate::arguments::Animate;
 use crate::failure::Failure;
 use crate::figure::Figure;
-use crate::kinks;
+use crate::followed::Followed;
 use crate::machine::{Machine, Motion};
 use crate::motion::Path;
 use crate::output::{self, Form, form, next_to};
@@ -42,13 +42,14 @@ pub fn run(arguments: &Animate) -> Result<(), Failure> {
     let machine = Machine::of(&arguments.numbers)?;
     let figure = Figure::of(&machine)?;
     let path = Path::of(&machine, &arguments.along)?;
-    let course = course(&machine, &path, steps, arguments.back_and_forth)?;
+    let prepared = machine.solver.design.prepared();
+    let followed = Followed::of(&machine, &prepared, &path, (0..=steps).map(|step| path.step(step, steps)))?;
+    let course = course(&machine, &followed, &path, steps, arguments.back_and_forth)?;
     let seconds = seconds(arguments, course.length())?;
     // At least two, so that something moves.
     let steps = if is_gif { steps.min((MOST_FRAMES * seconds) as u32).max(2) } else { steps };
-    let frames = frames(&machine, &path, course, steps)?;
+    let frames = frames(&followed, course, steps)?;
     let [Some(first), Some(last)] = [frames.first(), frames.last()] else { return Ok(()) };
-    kinks::warn(&machine, &path, frames.iter().map(|motion| motion.inputs[path.moving]));
     if is_far(&figure.joints(first), &figure.joints(last)) {
         anstream::eprintln!(
             "the film jumps back to its start, which is another position: \
@@ -135,26 +136,35 @@ impl Course {
 
 /// Once over whole turns that have all positions; else back and forth over the longest part that has, which may pass the
 /// beginning of a turn. Messages say so.
-fn course(machine: &Machine, path: &Path, steps: u32, is_back_and_forth: bool) -> Result<Course, Failure> {
-    let rates = vec![0.0; machine.about.inputs.len()];
-    let at = |step: u32| machine.motion(&path.at(path.step(step, steps)), &rates);
+fn course(
+    machine: &Machine,
+    followed: &Followed<'_>,
+    path: &Path,
+    steps: u32,
+    is_back_and_forth: bool,
+) -> Result<Course, Failure> {
+    let at = |step: u32| followed.motion(path.step(step, steps), 0.0);
     let errors: Vec<Option<String>> = progress::over("computing", 0..steps + 1).map(|step| at(step).err()).collect();
-    let is_turn = path.is_turn(machine);
     let missing = errors.iter().flatten().count();
+    let first_error = errors.iter().flatten().next();
+    if missing <= steps as usize {
+        let place =
+            (0..=steps).zip(&errors).find_map(|(step, error)| Some((path.step(step, steps), error.as_deref()?)));
+        followed.say(missing, &format!("{} frames", steps + 1), place);
+    }
+    // A film with missing positions may pass the beginning of a turn where these are the same a turn later.
+    let is_turn = path.is_turn(machine) && (missing == 0 || followed.repeats());
     if is_turn && missing == 0 && !is_back_and_forth {
         return Ok(Course::Once(path.ends));
     }
     let last = if is_turn && missing > 0 { 2 * steps } else { steps };
     let has_position = |step: u32| errors[(step % (steps + u32::from(!is_turn || missing == 0))) as usize].is_none();
-    let first_error = || errors.iter().flatten().next().cloned().unwrap_or_default();
-    let part = longest(last, has_position).ok_or_else(|| Failure::Outside(first_error()))?;
+    let first_error = first_error.cloned().unwrap_or_default();
+    let part = longest(last, has_position).ok_or(Failure::Outside(first_error))?;
     let ends = part.map(|step| path.step(step, steps));
     // The turn with its middle nearest to 0.
-    let turns = if is_turn { (f64::midpoint(ends[0], ends[1]) / TAU).round() * TAU } else { 0.0 };
+    let turns = if is_turn && followed.repeats() { (f64::midpoint(ends[0], ends[1]) / TAU).round() * TAU } else { 0.0 };
     let ends = ends.map(|end| end - turns);
-    if missing > 0 {
-        anstream::eprintln!("{missing} of {} positions do not exist; the first: {}", steps + 1, first_error());
-    }
     if !is_back_and_forth {
         let input = &machine.about.inputs[path.moving];
         let [from, to] = ends.map(|value| input.shown(value));
@@ -164,9 +174,8 @@ fn course(machine: &Machine, path: &Path, steps: u32, is_back_and_forth: bool) -
 }
 
 /// The positions of a film, the first one again at its end.
-fn frames(machine: &Machine, path: &Path, course: Course, steps: u32) -> Result<Vec<Motion>, Failure> {
-    let rates = vec![0.0; machine.about.inputs.len()];
-    let at = |step: u32| machine.motion(&path.at(course.at(step, steps)), &rates);
+fn frames(followed: &Followed<'_>, course: Course, steps: u32) -> Result<Vec<Motion>, Failure> {
+    let at = |step: u32| followed.motion(course.at(step, steps), 0.0);
     (0..=steps).map(at).collect::<Result<_, _>>().map_err(Failure::Outside)
 }
 

@@ -2,11 +2,14 @@
 
 mod animate;
 mod check;
+mod circuits;
 mod compiled;
 mod completions;
 mod documents;
 mod draw;
 mod fpcore;
+mod limits;
+mod list;
 mod names;
 mod new;
 mod report;
@@ -30,6 +33,8 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Table(arguments) => table::run(&arguments),
         Command::Draw(arguments) => draw::run(&arguments),
         Command::Animate(arguments) => animate::run(&arguments),
+        Command::Limits(arguments) => limits::run(&arguments),
+        Command::Circuits(arguments) => circuits::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),

@@ -17,10 +17,7 @@ const FORMS: [Form; 2] = [("text", &["txt", "text", "md"]), ("HTML", &["html", "
 pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
     let arguments::Report { numbers, place, output } = arguments;
     let is_page = form(output, "a report", &FORMS)? == Some(1);
-    if !numbers.branch.is_empty() {
-        return Err(Failure::Argument("a report has all positions: leave out --branch".to_owned()));
-    }
-    let (machine, documents) = &Machine::with(numbers, Documents::of)?;
+    let (machine, documents) = &Machine::of_all(numbers, "a report has", Documents::of)?;
     let inputs = held(machine, &place.at, None)?;
     let positions = machine.positions(&inputs);
     let of_unknown =

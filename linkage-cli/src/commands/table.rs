@@ -8,7 +8,7 @@ use crate::aligned::aligned;
 use crate::arguments::{self, TableFormat};
 use crate::columns;
 use crate::failure::Failure;
-use crate::kinks;
+use crate::followed::Followed;
 use crate::machine::{Machine, Motion};
 use crate::motion::Path;
 use crate::names::listed;
@@ -33,34 +33,34 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         rate != 0.0,
     );
     let asked = asked(&all, &arguments.columns)?;
-    let mut rates = vec![0.0; machine.about.inputs.len()];
-    rates[path.moving] = rate;
     let mut table = Table::new(all);
     let mut unwound = Unwound::default();
     let (mut missing, mut first) = (0, None);
     let steps = arguments.along.steps;
+    let prepared = machine.solver.design.prepared();
+    let followed = Followed::of(&machine, &prepared, &path, (0..=steps).map(|step| path.step(step, steps)))?;
     for step in progress::over("computing", 0..steps + 1) {
         let value = path.step(step, steps);
         let inputs = path.at(value);
         let mut row = inputs.clone();
         row.extend((rate != 0.0).then(|| ((value - path.ends[0]) / rate).abs()));
-        match machine.motion(&inputs, &rates) {
+        match followed.motion(value, rate) {
             Ok(motion) => row.extend(numbers(&machine, &unwound.next(&machine, &motion), &motion)),
             Err(error) => {
                 missing += 1;
-                first.get_or_insert(error);
+                first.get_or_insert((value, error));
                 row.resize(table.names().len(), f64::NAN);
             }
         }
         table.push(&row);
     }
-    if let Some(error) = first {
-        if missing == steps + 1 {
-            return Err(Failure::Outside(error));
+    match first {
+        Some((_, error)) if missing == steps as usize + 1 => return Err(Failure::Outside(error)),
+        first => {
+            let first = first.as_ref().map(|(value, error)| (*value, error.as_str()));
+            followed.say(missing, &format!("{} rows", steps + 1), first);
         }
-        anstream::eprintln!("{missing} of {} rows have no position; the first: {error}", steps + 1);
     }
-    kinks::warn(&machine, &path, (0..=steps).map(|step| path.step(step, steps)));
     let digits = arguments.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.degrees)?;
     let text = match arguments.summary {

@@ -4,6 +4,7 @@ mod bad_input;
 mod commands;
 mod folder;
 mod interrupts;
+mod motions;
 mod numbers;
 mod pictures;
 mod tables;

@@ -66,33 +66,39 @@ const PARALLEL: &str = "mechanism Parallel {
     point C = (ground, 0) + rocker@psi;
 }";
 
-/// A parallelogram becomes the crossed linkage where its links are on one line, and says so.
+/// A parallelogram stays one where its links are on one line, and says where other motions cross it.
 #[test]
 fn change_points_are_named() {
     let folder = Folder::new();
     folder.write("parallel.linkage", PARALLEL);
-    let corner = |at: &str| {
+    let passed = |at: &str| {
+        let kind = if at.contains(',') { "change points" } else { "a change point" };
         format!(
-            "at theta = {at}° the motion can go on in two ways (a change point): the positions keep the branch, and the motion \
-             has a corner there; for the smooth motion end with `--to {at}deg`, and go on from there with another `--branch`\n"
+            "at theta = {at} the motion passes {kind}: it goes on smoothly, and other motions cross it; `linkage circuits` lists \
+             them\n"
         )
     };
     for steps in [1, 7, 36, 120] {
         let run = |of: &str, range: &str| folder.run(&format!("{of} parallel.linkage {range} --steps {steps}"));
-        // The change point is within a step, or in one of the rows, which has no rates.
-        let ran = run("table", "--from 1deg --to 357deg");
-        assert_eq!(ran.code, Some(0));
-        assert!(ran.messages.ends_with(&corner("180")), "{steps}: {}", ran.messages);
-        assert_eq!(ran.messages.matches("change point").count(), 1, "{}", ran.messages);
-        // A film of one step stays where it is.
-        let ran = run("animate", "--from 1deg --to 357deg");
-        assert!(steps == 1 || ran.messages.contains("at theta = 180° the motion can go on"), "{}", ran.messages);
+        // The change point is within a step, or in one of the rows.
+        let csv = run("table", "--from 1deg --to 357deg").works(&passed("180°"));
+        let [theta, psi] = ["theta", "psi"].map(|name| column(&csv, name));
+        assert!(theta.iter().zip(&psi).all(|(theta, psi)| (theta - psi).abs() <= 1e-13), "{csv}");
+        let film = run("animate", "--from 1deg --to 357deg");
+        assert!(steps == 1 || film.messages.starts_with(&passed("180°")), "{}", film.messages);
         // On one side there is none, in both directions.
         run("table", "--from 1deg --to 179deg").works("");
         run("table", "--from 359deg --to 180.5deg").works("");
     }
-    let down = folder.run("table parallel.linkage --from 300deg --to 20deg --steps 30");
-    assert!(down.messages.ends_with(&corner("180")), "{}", down.messages);
+    folder.run("table parallel.linkage --from 300deg --to 20deg --steps 30").works(&passed("180°"));
+    // A change point at an end is the place where the other motion could begin. There the rates are those of the motion.
+    let turn = folder.run("table parallel.linkage --steps 4 --rate 3").works(&passed("0°, 180°, 360°"));
+    assert!(column(&turn, "psi_rate").iter().all(|rate| (rate - 3.0).abs() <= 1e-9), "{turn}");
+    // The crossed linkage stays crossed: psi turns the other way.
+    let crossed = folder.run("table parallel.linkage --branch phi_psi=right --from 1deg --to 357deg --steps 60");
+    let csv = crossed.works(&passed("180°"));
+    let psi = column(&csv, "psi");
+    assert!(psi.windows(2).all(|pair| pair[1] < pair[0]) && largest_step(&psi) < 0.4, "{psi:?}");
     // Nearly the same links have no change point: they turn quickly, or do not get across.
     folder.run("table parallel.linkage --set rocker=20.001 --from 1deg --to 357deg --steps 36").works("");
 }
@@ -108,7 +114,7 @@ fn a_length_can_stay_at_zero() {
     for steps in [7, 12, 120] {
         let ran = folder.run(&format!("table kite.linkage --from 1deg --to 179deg --steps {steps}"));
         assert_eq!(ran.messages.matches("change point").count(), 1, "{}", ran.messages);
-        assert!(ran.messages.contains("at phi = 90° the motion can go on in two ways"), "{}", ran.messages);
+        assert!(ran.messages.contains("at phi = 90° the motion passes a change point"), "{}", ran.messages);
         folder.run(&format!("table kite.linkage --from 91deg --to 179deg --steps {steps}")).works("");
     }
 }
@@ -124,8 +130,8 @@ fn gaps_between_rows_are_named() {
     let cosine: f64 = (100.01_f64.powi(2) + 900.0 - 130.0_f64.powi(2)) / (2.0 * 100.01 * 30.0);
     let end = cosine.acos().to_degrees();
     let message = format!(
-        "between theta = {end:.3}° and {:.3}° there is no position: the motion does not get across; end with \
-         `--to {end:.3}deg`\n",
+        "between theta = {end:.4}° and {:.4}° there is no position: the motion does not get across; end with \
+         `--to {end:.4}deg`\n",
         360.0 - end
     );
     assert_eq!(ran.messages, message);
@@ -203,8 +209,9 @@ fn positions_without_closed_form_follow_a_motion() {
     // A motion ends where it ends, and never jumps to another one.
     let ran = folder.run("table six.linkage --steps 36");
     assert_eq!(ran.code, Some(0));
-    let message = "23 of 37 rows have no position; the first: the motion of SixBar ends near theta = 130.8629°, at a dead \
-                   point or a change point\n";
+    // From 320 degrees on it is at the positions of -40 degrees on.
+    let message = "18 of 37 rows have no position; the motion of SixBar ends at theta = -41.2795° and 130.8629° (dead point of \
+                   alpha, beta, tau, rho)\n";
     assert_eq!(ran.messages, message);
     for picture in ["draw", "animate"] {
         folder

@@ -2,7 +2,8 @@
 
 use super::input_path::InputPath;
 use crate::{
-    BorrowedName, Build, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf, Ranged, Real,
+    BorrowedName, Branches, Build, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf,
+    Ranged, Real,
 };
 
 /// A mechanism whose inputs are functions v(s) of one parameter, its only input.
@@ -202,5 +203,21 @@ where
 
     fn check_implied(&self, at: &Self::Coordinates) -> Result<(), PositionErrorOf<M>> {
         self.mechanism.check_implied(&self.position(at))
+    }
+}
+
+/// All positions at a parameter.
+impl<M, F> Branches for Along<M, F>
+where
+    M: Branches,
+    F: InputPath<M>,
+{
+    fn all_positions(
+        &self,
+        parameter: Self::Inputs,
+    ) -> Result<impl Iterator<Item = (M::Branch, Self::Coordinates)>, PositionErrorOf<M>> {
+        let [inputs, ..] = self.inputs.at(parameter[0]);
+        let at = move |(branch, q)| (branch, AlongCoordinates { q, parameter: parameter[0] });
+        Ok(self.mechanism.all_positions(inputs.into())?.map(at))
     }
 }

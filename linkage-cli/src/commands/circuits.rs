@@ -1,0 +1,181 @@
+//! `linkage circuits`: the positions that are connected by motion.
+
+use std::f64::consts::TAU;
+
+use linkage_interpreter::BranchAtRunTime;
+use linkage_runtime::Mechanism;
+use linkage_runtime::circuits::{self, CircuitError, CircuitOptions};
+use serde::Serialize;
+
+use super::list::moving;
+use crate::arguments;
+use crate::curve::{Event, Motion};
+use crate::ends::{shown, why};
+use crate::failure::Failure;
+use crate::machine::Machine;
+use crate::motion::held;
+use crate::one_input::{At, OneInput, one_input, prepared};
+use crate::progress;
+
+/// The place of a start within its part of the range, the golden section: mechanisms are rarely singular there.
+const WITHIN: f64 = 0.381_966_011_250_105;
+
+type Found<'p> = circuits::Circuits<At, BranchAtRunTime, f64, &'p str>;
+
+pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
+    let arguments::Circuits { numbers, at, along, form, .. } = arguments;
+    let format = form.format("a list of circuits")?;
+    let (machine, ()) = &Machine::of_all(numbers, "circuits have", |_| ())?;
+    let moving = moving(machine, along.as_deref())?;
+    let starts = starts(machine, moving, arguments)?;
+    let first = starts.first().copied().unwrap_or_default();
+    let given = at.iter().any(|at| at.name == machine.about.inputs[moving].name.text);
+    let inputs = held(machine, at, (!given).then_some((moving, first)))?;
+    let prepared = prepared(machine)?;
+    let mechanism = one_input(&prepared, &inputs, moving)?;
+    let found = progress::during("following".to_owned(), || {
+        Found::over(&mechanism, starts.iter().copied(), CircuitOptions::default())
+    });
+    if let Some(failure) = prepared.failure() {
+        return Err(Failure::Outside(failure.to_string()));
+    }
+    let found = found.map_err(|error| match error {
+        CircuitError::Path { mode, error } => {
+            let other = if given { "--at" } else { "--starts" };
+            Failure::Outside(format!("from position {}, {}: write another {other}", mode + 1, why(&error)))
+        }
+        other => Failure::Outside(other.to_string()),
+    })?;
+    if found.modes.is_empty() {
+        return Err(Failure::Outside(none(machine, &inputs, starts.len())));
+    }
+    let list = Circuits::of(machine, &inputs, moving, &found)?;
+    form.write(format, &list, Circuits::to_text, &numbers.source.file)
+}
+
+/// The reason why there is no position.
+fn none(machine: &Machine, inputs: &[f64], starts: usize) -> String {
+    match machine.motion(inputs, &vec![0.0; inputs.len()]).err() {
+        Some(why) if starts == 1 => why,
+        _ => format!("`{}` has no position at any of {starts} values of its input", machine.about.name),
+    }
+}
+
+/// The values of the moving input at which positions are listed.
+fn starts(machine: &Machine, moving: usize, arguments: &arguments::Circuits) -> Result<Vec<f64>, Failure> {
+    let arguments::Circuits { at, from, to, starts, .. } = arguments;
+    let input = &machine.about.inputs[moving];
+    let name = &input.name.text;
+    let wrong = |message: String| Err(Failure::Argument(message));
+    if let Some(at) = at.iter().find(|at| at.name == *name) {
+        return match from.or(*to) {
+            Some(_) => wrong(format!("--at {name} is one value, and --from and --to a range: leave out one")),
+            None => Ok(vec![input.value(at.value)?]),
+        };
+    }
+    let turn = if input.is_angle { [Some(0.0), Some(TAU)] } else { [None, None] };
+    let given = [from, to].map(|end| end.map(|value| input.value(value)).transpose());
+    let [given_from, given_to] = given;
+    let ends = [given_from?.or(turn[0]), given_to?.or(turn[1])];
+    let [Some(from), Some(to)] = ends else {
+        return wrong(format!("`{name}` is a length: write --at {name}=VALUE, or --from and --to"));
+    };
+    if from >= to {
+        return wrong("--from is less than --to".to_owned());
+    }
+    let part = (to - from) / f64::from(*starts);
+    Ok((0..*starts).map(|start| from + (f64::from(start) + WITHIN) * part).collect())
+}
+
+/// The circuits of a mechanism.
+#[derive(Serialize)]
+struct Circuits {
+    mechanism: String,
+    input: String,
+    is_angle: bool,
+    /// The inputs that are held, in words.
+    #[serde(skip)]
+    held: String,
+    /// The values of all inputs; that of the moving one is the first at which positions were listed.
+    inputs: Vec<f64>,
+    positions: Vec<Position>,
+    motions: Vec<Motion>,
+    /// The motions of each circuit, by number from 1.
+    circuits: Vec<Vec<usize>>,
+}
+
+/// A position that was listed.
+#[derive(Serialize)]
+struct Position {
+    input: f64,
+    branch: String,
+    unknowns: Vec<f64>,
+    /// Its motion, by number from 1.
+    motion: usize,
+}
+
+impl Circuits {
+    fn of(machine: &Machine, inputs: &[f64], moving: usize, found: &Found<'_>) -> Result<Self, Failure> {
+        let position = |mode: &circuits::CircuitMode<At, BranchAtRunTime>| {
+            let input = mode.position.parameter;
+            let unknowns: Vec<f64> = OneInput::unknowns(&mode.position).iter().copied().collect();
+            let mut here = inputs.to_vec();
+            here[moving] = input;
+            let branch = machine.branch_at(&here, &unknowns).map_err(Failure::Outside)?;
+            Ok(Position { input, branch, unknowns, motion: mode.motion + 1 })
+        };
+        let input = &machine.about.inputs[moving];
+        let others = machine.about.inputs.iter().zip(inputs).enumerate().filter(|(place, _)| *place != moving);
+        let held = others.map(|(_, (of, value))| format!("{} = {}", of.name.text, shown(*value, of.is_angle)));
+        Ok(Self {
+            mechanism: machine.about.name.clone(),
+            input: input.name.text.clone(),
+            is_angle: input.is_angle,
+            held: held.collect::<Vec<_>>().join(", "),
+            inputs: inputs.to_vec(),
+            positions: found.modes.iter().map(position).collect::<Result<_, Failure>>()?,
+            motions: found.motions.iter().map(|motion| Motion::of(motion)).collect(),
+            circuits: found.circuits.iter().map(|motions| motions.iter().map(|motion| motion + 1).collect()).collect(),
+        })
+    }
+
+    fn to_text(&self) -> String {
+        let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
+        let held = if self.held.is_empty() { String::new() } else { format!(" with {}", self.held) };
+        let mut text = format!(
+            "{}{held}: {}, {}, {}\n",
+            self.mechanism,
+            count(self.positions.len(), "position"),
+            count(self.motions.len(), "motion"),
+            count(self.circuits.len(), "circuit")
+        );
+        text += "\npositions\n";
+        let number = self.positions.len().to_string().len();
+        for (place, position) in self.positions.iter().enumerate() {
+            let at = format!("{} = {}", self.input, shown(position.input, self.is_angle));
+            let branch = if position.branch.is_empty() { String::new() } else { format!(", {}", position.branch) };
+            text += &format!("  {:number$}  motion {}: {at}{branch}\n", place + 1, position.motion);
+        }
+        for (place, motion) in self.motions.iter().enumerate() {
+            text += &format!("\nmotion {}: {}\n", place + 1, motion.in_words(&self.input, self.is_angle));
+            let all = numbers(&motion.positions);
+            if !all.is_empty() {
+                text += &format!("  passes position{} {all}\n", if motion.positions.len() == 1 { "" } else { "s" });
+            }
+            motion.events.iter().for_each(|event: &Event| {
+                text += &format!("  {}\n", event.in_words(&self.input, self.is_angle));
+            });
+        }
+        text += "\n";
+        for (place, motions) in self.circuits.iter().enumerate() {
+            let ending = if motions.len() == 1 { "" } else { "s" };
+            text += &format!("circuit {}: motion{ending} {}\n", place + 1, numbers(motions));
+        }
+        text
+    }
+}
+
+/// Numbers with commas.
+fn numbers(all: &[usize]) -> String {
+    all.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,261 @@
+//! The motion of a table or a film: it is followed from the first position, through change points, to both of its ends.
+
+use std::f64::consts::TAU;
+
+use linkage_interpreter::{CoordinatesAtRunTime, NotPrepared, Prepared};
+use linkage_runtime::kinematic::MotionOf;
+use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
+use linkage_runtime::{Kinematic, PathError};
+
+use crate::ends::{Reason, shown, why};
+use crate::failure::Failure;
+use crate::machine::{Machine, Motion};
+use crate::motion::Path;
+use crate::one_input::{Followable, OneInput, coordinates, one_input};
+
+/// The most positions from which a motion is tried to be followed: each may take thousands of steps.
+const MOST_TRIALS: usize = 8;
+
+/// The most steps of a motion without end, which is followed over the range that is asked for.
+const MOST_STEPS: usize = 1_000_000;
+
+/// The most places that are named.
+const NAMED: usize = 5;
+
+/// The share of an input up to which it counts as an end of the range.
+const EQUAL: f64 = 1e-12;
+
+/// The range of a motion.
+pub type Range<'p> = RangeOfMotion<'p, OneInput<'p>>;
+
+/// A motion that is followed.
+pub struct Followed<'p> {
+    machine: &'p Machine,
+    path: &'p Path,
+    /// None if it has nothing to follow or is too large to be followed: positions are those of the branch.
+    range: Option<Range<'p>>,
+}
+
+impl<'p> Followed<'p> {
+    /// The motion through the first position at these values of the moving input.
+    pub fn of(
+        machine: &'p Machine,
+        prepared: &'p Result<Prepared<'p>, NotPrepared>,
+        path: &'p Path,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Result<Self, Failure> {
+        let with = |range| Self { machine, path, range };
+        let prepared = match prepared {
+            Ok(_) if machine.about.unknowns.is_empty() => return Ok(with(None)),
+            Ok(prepared) => prepared,
+            Err(error) if machine.is_closed() => {
+                anstream::eprintln!("the motion is not followed, positions keep the branch: {error}");
+                return Ok(with(None));
+            }
+            Err(error) => return Err(Failure::Outside(error.to_string())),
+        };
+        let still = vec![0.0; machine.about.inputs.len()];
+        let mechanism = one_input(prepared, &path.at(path.ends[0]), path.moving)?;
+        let (mut first, mut trials) = (None, 0);
+        for value in values {
+            let unknowns = match machine.place(&path.at(value), &still) {
+                Ok(unknowns) => unknowns,
+                Err(error) => {
+                    first.get_or_insert(error);
+                    continue;
+                }
+            };
+            let Some(at) = coordinates(&mechanism, &unknowns, value) else { continue };
+            match followed(mechanism, &at, path.ends) {
+                Ok(range) => return Ok(with(Some(range))),
+                Err(error) => first.get_or_insert(why(&error)),
+            };
+            trials += 1;
+            if trials == MOST_TRIALS {
+                break;
+            }
+        }
+        let why = prepared.failure().map(|failure| failure.to_string()).or(first);
+        Err(Failure::Outside(why.unwrap_or_else(|| format!("`{}` has no position", machine.about.name))))
+    }
+
+    /// The motion at a value of the moving input.
+    pub fn motion(&self, value: f64, rate: f64) -> Result<Motion, String> {
+        let inputs = self.path.at(value);
+        let Some(range) = &self.range else {
+            let mut rates = vec![0.0; inputs.len()];
+            rates[self.path.moving] = rate;
+            return self.machine.motion(&inputs, &rates);
+        };
+        let found = range.motion(value, rate, 0.0).map_err(|error| why(&error))?;
+        Ok(self.numbers(inputs, found))
+    }
+
+    fn numbers(&self, inputs: Vec<f64>, found: MotionOf<Followable<'p>>) -> Motion {
+        let list = |of: CoordinatesAtRunTime<_>| of.unknowns.iter().copied().collect::<Vec<f64>>();
+        let points = Followable::each_point(found.points);
+        let outputs = Followable::each_output(found.outputs);
+        self.machine.solver.moved(
+            [inputs, list(found.position), list(found.rates), list(found.accelerations)],
+            points.as_slice(),
+            outputs.as_slice(),
+        )
+    }
+
+    /// The difference of two inputs of the same position, if the motion is at the start again after it.
+    fn period(&self) -> Option<f64> {
+        let range = self.range.as_ref()?;
+        let [least, largest] = range.inputs();
+        // Within a gap of less than a turn there are the same positions a turn later.
+        let middle = f64::midpoint(least, largest);
+        match range.ends()[1] {
+            MotionEnd::Closed { .. } => Some(largest - least),
+            _ if largest - least < TAU && range.at(middle + TAU).is_ok() => Some(TAU),
+            _ => None,
+        }
+    }
+
+    /// True if whole turns of the input change no position.
+    pub fn repeats(&self) -> bool {
+        self.range.is_none() || self.period().is_some_and(|period| (period / TAU).fract().abs() < EQUAL)
+    }
+
+    /// Says on standard error how many of these rows or positions are missing, with the value and the reason of the first, where the
+    /// motion passes change points, and where it does not get across.
+    pub fn say(&self, missing: usize, of: &str, first: Option<(f64, &str)>) {
+        if let Some((value, first)) = first {
+            let is_beyond = self.range.as_ref().is_some_and(|range| range.at(value).is_err());
+            let ends = self.ends().filter(|_| is_beyond);
+            let why = ends.unwrap_or_else(|| format!("the first: {first}"));
+            anstream::eprintln!("{missing} of {of} have no position; {why}");
+        }
+        self.say_change_points();
+        if missing == 0 {
+            self.say_gaps();
+        }
+    }
+
+    /// The ends of the motion in words; none of a motion without ends.
+    fn ends(&self) -> Option<String> {
+        let range = self.range.as_ref()?;
+        let input = &self.machine.about.inputs[self.path.moving];
+        let ends = range.inputs().into_iter().zip(range.ends());
+        let ends = ends.filter_map(|(at, end)| match Reason::of(end)? {
+            Reason::GoesOn => None,
+            reason => Some((shown(at, input.is_angle), reason.in_words())),
+        });
+        let ends: Vec<(String, String)> = ends.collect();
+        let at = match ends.as_slice() {
+            [] => return None,
+            [(one, why), (other, same)] if why == same => format!("{one} and {other} ({why})"),
+            all => all.iter().map(|(at, why)| format!("{at} ({why})")).collect::<Vec<_>>().join(" and "),
+        };
+        Some(format!("the motion of {} ends at {} = {at}", self.machine.about.name, input.name.text))
+    }
+
+    /// The least and the largest value of the moving input.
+    fn sorted(&self) -> [f64; 2] {
+        let [from, to] = self.path.ends;
+        [from.min(to), from.max(to)]
+    }
+
+    /// A value and those a number of periods away, within the values of the moving input and in the order of the way.
+    fn repeated(&self, value: f64) -> Vec<f64> {
+        let [least, largest] = self.sorted();
+        let error = EQUAL * least.abs().max(largest.abs()).max(value.abs());
+        let is_within = |value: &f64| *value >= least - error && *value <= largest + error;
+        let Some(period) = self.period() else { return Some(value).filter(is_within).into_iter().collect() };
+        let first = ((least - value) / period).floor();
+        let count = ((largest - least) / period).ceil() as u32 + 2;
+        (0..count).map(|cycle| value + (first + f64::from(cycle)) * period).filter(is_within).collect()
+    }
+
+    /// In the order of the way, without those that are the same.
+    fn ordered(&self, mut values: Vec<f64>) -> Vec<f64> {
+        values.sort_by(f64::total_cmp);
+        values.dedup_by(|one, other| (*one - *other).abs() <= EQUAL * TAU);
+        if self.path.ends[0] > self.path.ends[1] {
+            values.reverse();
+        }
+        values
+    }
+
+    fn say_change_points(&self) {
+        let Some(range) = &self.range else { return };
+        let passed = passed(range).into_iter();
+        let all = passed.flat_map(|input| self.repeated(input)).collect();
+        let all = self.ordered(all);
+        let input = &self.machine.about.inputs[self.path.moving];
+        let places: Vec<String> = all.iter().take(NAMED).map(|at| shown(*at, input.is_angle)).collect();
+        let more = all.len().saturating_sub(NAMED);
+        let more = if more > 0 { format!(" and at {more} more") } else { String::new() };
+        let kind = match all.len() {
+            0 => return,
+            1 => "a change point",
+            _ => "change points",
+        };
+        anstream::eprintln!(
+            "at {} = {}{more} the motion passes {kind}: it goes on smoothly, and other motions cross it; `linkage circuits` \
+             lists them",
+            input.name.text,
+            places.join(", ")
+        );
+    }
+
+    /// A gap that no row falls into: the motion is met again a turn later.
+    fn say_gaps(&self) {
+        let (Some(range), Some(period)) = (&self.range, self.period()) else { return };
+        let ([first, last], [least, largest]) = (range.inputs(), self.sorted());
+        if range.is_closed() {
+            return;
+        }
+        let input = &self.machine.about.inputs[self.path.moving];
+        let gaps =
+            self.repeated(last).into_iter().filter(|end| *end > least && end + (first + period - last) < largest);
+        for end in gaps.take(NAMED) {
+            let gap = [end, end + (first + period - last)].map(|end| shown(end, input.is_angle));
+            let [near, far] =
+                if self.path.ends[0] < self.path.ends[1] { gap } else { [gap[1].clone(), gap[0].clone()] };
+            let unit = if input.is_angle { "deg" } else { "" };
+            anstream::eprintln!(
+                "between {} = {near} and {far} there is no position: the motion does not get across; end with `--to {}{unit}`",
+                input.name.text,
+                near.trim_end_matches('°'),
+            );
+        }
+    }
+}
+
+/// The inputs of the change points that a motion passes: at those at its ends it goes back.
+pub fn passed(range: &Range<'_>) -> Vec<f64> {
+    let is_end = |input: f64| !range.is_closed() && range.inputs().contains(&input);
+    range.crossings().map(|crossing| crossing.input).filter(|input| !is_end(*input)).collect()
+}
+
+/// The motion through a position, to its ends or over the range that is asked for.
+fn followed<'p>(
+    mechanism: OneInput<'p>,
+    start: &crate::one_input::At,
+    [from, to]: [f64; 2],
+) -> Result<Range<'p>, PathError<&'p str>> {
+    let whole = RangeOptions::through_change_points();
+    let asked = || {
+        let mut options = RangeOptions { most_turns: u32::MAX, ..whole };
+        options.path.range = Some([from.min(to), from.max(to)]);
+        options.path.most_steps = MOST_STEPS;
+        RangeOfMotion::of(mechanism, start, options)
+    };
+    match RangeOfMotion::of(mechanism, start, whole) {
+        // A motion that goes on, as of a rack, or with a place outside of the range from which it is not followed.
+        Ok(range) if range.ends().contains(&MotionEnd::Open) => {
+            let [least, largest] = range.inputs();
+            let is_within = least <= from.min(to) && from.max(to) <= largest;
+            if is_within { Ok(range) } else { asked() }
+        }
+        Ok(range) => Ok(range),
+        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => {
+            Err(error)
+        }
+        Err(error) => asked().map_err(|_| error),
+    }
+}
