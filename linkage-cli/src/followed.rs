@@ -7,7 +7,7 @@ use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::{Kinematic, PathError};
 
-use crate::ends::{Reason, shown, why};
+use crate::ends::why;
 use crate::failure::Failure;
 use crate::machine::{Machine, Motion};
 use crate::motion::Path;
@@ -19,21 +19,18 @@ const MOST_TRIALS: usize = 8;
 /// The most steps of a motion without end, which is followed over the range that is asked for.
 const MOST_STEPS: usize = 1_000_000;
 
-/// The most places that are named.
-const NAMED: usize = 5;
-
 /// The share of an input up to which it counts as an end of the range.
-const EQUAL: f64 = 1e-12;
+pub const EQUAL: f64 = 1e-12;
 
 /// The range of a motion.
 pub type Range<'p> = RangeOfMotion<'p, OneInput<'p>>;
 
 /// A motion that is followed.
 pub struct Followed<'p> {
-    machine: &'p Machine,
-    path: &'p Path,
+    pub machine: &'p Machine,
+    pub path: &'p Path,
     /// None if it has nothing to follow or is too large to be followed: positions are those of the branch.
-    range: Option<Range<'p>>,
+    pub range: Option<Range<'p>>,
 }
 
 impl<'p> Followed<'p> {
@@ -103,7 +100,7 @@ impl<'p> Followed<'p> {
     }
 
     /// The difference of two inputs of the same position, if the motion is at the start again after it.
-    fn period(&self) -> Option<f64> {
+    pub fn period(&self) -> Option<f64> {
         let range = self.range.as_ref()?;
         let [least, largest] = range.inputs();
         // Within a gap of less than a turn there are the same positions a turn later.
@@ -118,111 +115,6 @@ impl<'p> Followed<'p> {
     /// True if whole turns of the input change no position.
     pub fn repeats(&self) -> bool {
         self.range.is_none() || self.period().is_some_and(|period| (period / TAU).fract().abs() < EQUAL)
-    }
-
-    /// Says on standard error how many of these rows or positions are missing, with the value and the reason of the first, where the
-    /// motion passes change points, and where it does not get across.
-    pub fn say(&self, missing: usize, of: &str, first: Option<(f64, &str)>) {
-        if let Some((value, first)) = first {
-            let is_beyond = self.range.as_ref().is_some_and(|range| range.at(value).is_err());
-            let ends = self.ends().filter(|_| is_beyond);
-            let why = ends.unwrap_or_else(|| format!("the first: {first}"));
-            anstream::eprintln!("{missing} of {of} have no position; {why}");
-        }
-        self.say_change_points();
-        if missing == 0 {
-            self.say_gaps();
-        }
-    }
-
-    /// The ends of the motion in words; none of a motion without ends.
-    fn ends(&self) -> Option<String> {
-        let range = self.range.as_ref()?;
-        let input = &self.machine.about.inputs[self.path.moving];
-        let ends = range.inputs().into_iter().zip(range.ends());
-        let ends = ends.filter_map(|(at, end)| match Reason::of(end)? {
-            Reason::GoesOn => None,
-            reason => Some((shown(at, input.is_angle), reason.in_words())),
-        });
-        let ends: Vec<(String, String)> = ends.collect();
-        let at = match ends.as_slice() {
-            [] => return None,
-            [(one, why), (other, same)] if why == same => format!("{one} and {other} ({why})"),
-            all => all.iter().map(|(at, why)| format!("{at} ({why})")).collect::<Vec<_>>().join(" and "),
-        };
-        Some(format!("the motion of {} ends at {} = {at}", self.machine.about.name, input.name.text))
-    }
-
-    /// The least and the largest value of the moving input.
-    fn sorted(&self) -> [f64; 2] {
-        let [from, to] = self.path.ends;
-        [from.min(to), from.max(to)]
-    }
-
-    /// A value and those a number of periods away, within the values of the moving input and in the order of the way.
-    fn repeated(&self, value: f64) -> Vec<f64> {
-        let [least, largest] = self.sorted();
-        let error = EQUAL * least.abs().max(largest.abs()).max(value.abs());
-        let is_within = |value: &f64| *value >= least - error && *value <= largest + error;
-        let Some(period) = self.period() else { return Some(value).filter(is_within).into_iter().collect() };
-        let first = ((least - value) / period).floor();
-        let count = ((largest - least) / period).ceil() as u32 + 2;
-        (0..count).map(|cycle| value + (first + f64::from(cycle)) * period).filter(is_within).collect()
-    }
-
-    /// In the order of the way, without those that are the same.
-    fn ordered(&self, mut values: Vec<f64>) -> Vec<f64> {
-        values.sort_by(f64::total_cmp);
-        values.dedup_by(|one, other| (*one - *other).abs() <= EQUAL * TAU);
-        if self.path.ends[0] > self.path.ends[1] {
-            values.reverse();
-        }
-        values
-    }
-
-    fn say_change_points(&self) {
-        let Some(range) = &self.range else { return };
-        let passed = passed(range).into_iter();
-        let all = passed.flat_map(|input| self.repeated(input)).collect();
-        let all = self.ordered(all);
-        let input = &self.machine.about.inputs[self.path.moving];
-        let places: Vec<String> = all.iter().take(NAMED).map(|at| shown(*at, input.is_angle)).collect();
-        let more = all.len().saturating_sub(NAMED);
-        let more = if more > 0 { format!(" and at {more} more") } else { String::new() };
-        let kind = match all.len() {
-            0 => return,
-            1 => "a change point",
-            _ => "change points",
-        };
-        anstream::eprintln!(
-            "at {} = {}{more} the motion passes {kind}: it goes on smoothly, and other motions cross it; `linkage circuits` \
-             lists them",
-            input.name.text,
-            places.join(", ")
-        );
-    }
-
-    /// A gap that no row falls into: the motion is met again a turn later.
-    fn say_gaps(&self) {
-        let (Some(range), Some(period)) = (&self.range, self.period()) else { return };
-        let ([first, last], [least, largest]) = (range.inputs(), self.sorted());
-        if range.is_closed() {
-            return;
-        }
-        let input = &self.machine.about.inputs[self.path.moving];
-        let gaps =
-            self.repeated(last).into_iter().filter(|end| *end > least && end + (first + period - last) < largest);
-        for end in gaps.take(NAMED) {
-            let gap = [end, end + (first + period - last)].map(|end| shown(end, input.is_angle));
-            let [near, far] =
-                if self.path.ends[0] < self.path.ends[1] { gap } else { [gap[1].clone(), gap[0].clone()] };
-            let unit = if input.is_angle { "deg" } else { "" };
-            anstream::eprintln!(
-                "between {} = {near} and {far} there is no position: the motion does not get across; end with `--to {}{unit}`",
-                input.name.text,
-                near.trim_end_matches('°'),
-            );
-        }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Angles that go on from row to row, instead of back by a turn at pi.
 //!
 //! The unknowns of a motion that is followed count turns; one that is found as a direction has the turn nearest to the last row.
-//! An output is its formula at these unknowns, as in
-//! the library, whose motions count turns. `atan2` in an output that is an angle goes on as an unknown does.
+//! An output is its formula at these unknowns, as in the library, whose motions count turns. `atan2` in an output that is an
+//! angle goes on as an unknown does.
 
 use std::f64::consts::TAU;
 

@@ -210,7 +210,7 @@ fn positions_without_closed_form_follow_a_motion() {
     let ran = folder.run("table six.linkage --steps 36");
     assert_eq!(ran.code, Some(0));
     // From 320 degrees on it is at the positions of -40 degrees on.
-    let message = "18 of 37 rows have no position; the motion of SixBar ends at theta = -41.2795° and 130.8629° (dead point of \
+    let message = "18 of 37 rows have no position; the motion of SixBar ends at theta = 130.8629° and 318.7205° (dead point of \
                    alpha, beta, tau, rho)\n";
     assert_eq!(ran.messages, message);
     for picture in ["draw", "animate"] {
