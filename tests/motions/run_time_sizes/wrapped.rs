@@ -288,6 +288,13 @@ impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Kinematic fo
     const POINTS: &'static [&'static str] = panic!("names of a value");
     const OUTPUTS: &'static [&'static str] = panic!("names of a value");
 
+    fn point_name(&self, place: usize) -> &'n str {
+        self.of.point_name(place)
+    }
+    fn output_name(&self, place: usize) -> &'n str {
+        self.of.output_name(place)
+    }
+
     fn coordinates_of(pose: &M::Pose) -> Split {
         Self::split(&M::coordinates_of(pose))
     }
