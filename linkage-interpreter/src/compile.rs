@@ -11,7 +11,8 @@ use linkage_compiler::program::{self, ConstantValue, Implemented, MULTIPLIERS, P
 
 use crate::code::{Function, Name, Names};
 use crate::program::{
-    Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Scene, SceneTypes, Side, Types, UserFunction, Written,
+    Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Scene, SceneTypes, Side, Types,
+    UserFunction, Written,
 };
 use crate::translate::{Context, Untranslated};
 
@@ -210,7 +211,8 @@ fn scene(of: &SceneProgram<Code>, driver: &Context, names: &mut Names) -> Result
     let parameters: Vec<&model::Parameter> = parameters.collect();
     let loads = signatures.scene.loads.iter().map(|&place| (place, &signatures.mechanism.opened.loads[place]));
     let constants = implementation.iter().flat_map(|one| &one.constants);
-    let kinks = constants.clone().find_map(|(_, value)| if let ConstantValue::Kinks(all) = value { Some(all) } else { None });
+    let kinks =
+        constants.clone().find_map(|(_, value)| if let ConstantValue::Kinks(all) = value { Some(all) } else { None });
     let kink = |of: &program::Kink| Kink { effect: of.effect.clone(), is_timed: of.is_timed };
     let mut forces: Vec<(Name, Option<usize>)> = Vec::new();
     for (_, load) in loads.clone() {

@@ -368,8 +368,8 @@ impl SceneDesign {
         let (driver, scene) = (&self.of.of.driver, self.scene());
         let function = named(&scene.functions, function)?;
         self.of.of.complete()?;
-        let mut machine = Machine::new(driver, Some(scene), &self.of.of.users, Kind::Double)
-            .with_algorithms(&OfTheRuntime);
+        let mut machine =
+            Machine::new(driver, Some(scene), &self.of.of.users, Kind::Double).with_algorithms(&OfTheRuntime);
         let arguments = given(driver, function, arguments)?;
         let own = if function.is_method { self.own() } else { Value::Absent };
         let value = machine.call(Of::Scene, function, own, arguments)?;

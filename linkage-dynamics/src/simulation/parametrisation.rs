@@ -111,12 +111,8 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let independent =
             Independent::choose(mechanism, &mechanism.pose_at(&q), &motion.scales, &motion.prescribed_inputs(t));
         let rates = independent.of(&velocity);
-        let ahead = motion.change_point_ahead(
-            &independent,
-            &motion.pack(&q, &rates),
-            self.direction(),
-            real(self.relative),
-        );
+        let ahead =
+            motion.change_point_ahead(&independent, &motion.pack(&q, &rates), self.direction(), real(self.relative));
         match ahead {
             Ahead::Sheet(sheet) => self.exchange(Parametrisation::Over(sheet), &rates),
             Ahead::Near(length) => self.integration.limit_next(to_f64(length)),

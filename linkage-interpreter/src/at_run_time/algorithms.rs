@@ -8,9 +8,7 @@ use linkage_runtime::limits::{Bound, Limit, Limits, Search, limits};
 use linkage_runtime::{PositionError, RangeEnd, UpTo, newton, newton_any_branch};
 
 use super::read::{number, numbers};
-use super::{
-    AtRunTime, MOST_INPUTS, NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime,
-};
+use super::{AtRunTime, MOST_INPUTS, NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime};
 use crate::call_error::CallError;
 use crate::code::Name;
 use crate::error::Error;

@@ -49,11 +49,7 @@ impl BranchAtRunTime {
     /// The branch of a mechanism whose code gave none.
     pub(crate) fn none() -> Self {
         let least = Count::least();
-        Self {
-            sides: least.array(|_| true),
-            modes: least.array(|_| AssemblyMode::OfGuess),
-            turns: least.array(|_| 0),
-        }
+        Self { sides: least.array(|_| true), modes: least.array(|_| AssemblyMode::OfGuess), turns: least.array(|_| 0) }
     }
 
     /// The value of this branch.

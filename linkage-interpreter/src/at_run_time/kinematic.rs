@@ -42,7 +42,13 @@ impl<'p, V: Dim> AtRunTime<'p, V> {
     }
 
     /// A matrix for each point or output.
-    fn matrices<R: Dim>(&self, function: &str, names: &[Name], pose: &PoseAtRunTime<V>, rows: R) -> Found<'p, List<Ratios<Self, R>>> {
+    fn matrices<R: Dim>(
+        &self,
+        function: &str,
+        names: &[Name],
+        pose: &PoseAtRunTime<V>,
+        rows: R,
+    ) -> Found<'p, List<Ratios<Self, R>>> {
         let found = match names.is_empty() {
             true => Value::Absent,
             false => self.prepared.result(function, [self.pose_value(pose)])?,

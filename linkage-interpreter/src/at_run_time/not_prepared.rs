@@ -40,7 +40,9 @@ impl Display for NotPrepared {
                 f,
                 "there are {count} {of}, more than the {most} that a mechanism at run time can have: use `linkage!`"
             ),
-            Self::Inputs { count } => write!(f, "the mechanism has {count} inputs, which this computation does not take"),
+            Self::Inputs { count } => {
+                write!(f, "the mechanism has {count} inputs, which this computation does not take")
+            }
             Self::NoInertia { scene } => write!(f, "`{scene}` has no `inertia`: nothing of it moves by itself"),
             Self::Defect(error) => error.fmt(f),
         }

@@ -81,7 +81,11 @@ impl<'d> Prepared<'d> {
             texts: Texts::of(driver),
             inputs: driver.input_texts.iter().map(|name| &**name).collect(),
             groups: groups
-                .map(|group| Group { name: group.name.as_str(), equations: &group.equations, unknowns: &group.unknowns })
+                .map(|group| Group {
+                    name: group.name.as_str(),
+                    equations: &group.equations,
+                    unknowns: &group.unknowns,
+                })
                 .collect(),
             pose: Value::Absent,
             fields: Fields::of(driver),
@@ -123,11 +127,7 @@ impl<'d> Prepared<'d> {
         self.functions.contains_key(function)
     }
 
-    fn called(
-        &self,
-        function: &str,
-        arguments: impl IntoIterator<Item = Value>,
-    ) -> Result<Value, Box<Failure>> {
+    fn called(&self, function: &str, arguments: impl IntoIterator<Item = Value>) -> Result<Value, Box<Failure>> {
         let called = self.functions.get(function);
         let called = called.ok_or_else(|| Defect::new(format!("no function `{function}`")))?;
         let mut machine = Machine::new(self.driver, None, self.users, Kind::Double);

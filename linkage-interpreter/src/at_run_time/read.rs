@@ -6,9 +6,7 @@ use linkage_runtime::{Bounded, Build as _, Column, Dim, Matrix, OutputMotion, Po
 use smallvec::SmallVec;
 
 use super::coordinates::column;
-use super::{
-    AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, MOST, MOST_OF_POSE, PoseAtRunTime, Prepared,
-};
+use super::{AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, MOST, MOST_OF_POSE, PoseAtRunTime, Prepared};
 use crate::code::Name;
 use crate::machine::{Defect, Value};
 

@@ -223,7 +223,7 @@ impl Drawing {
     ) -> &mut Self {
         self.fit(quantity);
         for (place, motion) in M::each_point(*points).iter().enumerate() {
-            let (name, vector) = (self.figure.current(&mechanism.point_name(place).to_string()), vector(motion));
+            let (name, vector) = (self.figure.current(mechanism.point_name(place).as_ref()), vector(motion));
             if vector == Vector2::zeros() {
                 continue;
             }

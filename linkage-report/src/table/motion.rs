@@ -110,12 +110,15 @@ impl Clock {
     }
 }
 
-/// The cells of a row as far as they exist, and the motion. The error owns its names, since a table does.
+/// The motion at a row. The error owns its names, since a table does.
+type AtRow<M> = Result<MotionOf<M>, PathError<String>>;
+
+/// The cells of a row as far as they exist, and the motion.
 pub(super) fn row<M: Driven<Scalar = f64>>(
     range: &RangeOfMotion<'_, M>,
     input: f64,
     clock: &mut Clock,
-) -> (Vec<f64>, Result<MotionOf<M::Of>, PathError<String>>) {
+) -> (Vec<f64>, AtRow<M::Of>) {
     let mut row: Vec<f64> = [input].into_iter().chain(clock.at(input)).collect();
     let motion = range.motion(input, clock.rate, 0.0);
     let motion = motion.map_err(|error| error.map_names(|name| name.to_string()));

@@ -133,7 +133,10 @@ impl<N: Name> PositionError<N> {
 
     /// This error with other names, and with the inputs of this list: owned names become borrowed.
     pub fn with_names<M: Name>(self, inputs: M::List, mut f: impl FnMut(N) -> M) -> PositionError<M> {
-        self.renamed(&mut f, |values, _| if values.is_empty() { InputValues::default() } else { values.with_names(inputs) })
+        self.renamed(
+            &mut f,
+            |values, _| if values.is_empty() { InputValues::default() } else { values.with_names(inputs) },
+        )
     }
 
     fn renamed<M: Name>(

@@ -61,7 +61,8 @@ fn functions<M: Kinematic<Scalar = f64>>(m: &M, at: &Numbers) -> Vec<String> {
         found(m.point_ratios(&pose), |all| M::each_point(all).iter().map(matrix).collect()),
         found(m.output_ratios(&pose), |all| M::each_output(all).iter().map(matrix).collect()),
         found(m.motion(&q, given(0.7).into(), given(-0.3).into()), |motion| {
-            let of = [position::<M>(&motion.position), rates::<M>(&motion.rates), accelerations::<M>(&motion.accelerations)];
+            let of =
+                [position::<M>(&motion.position), rates::<M>(&motion.rates), accelerations::<M>(&motion.accelerations)];
             format!("{of:?} {} {}", list(M::each_point(motion.points)), list(M::each_output(motion.outputs)))
         }),
     ];
@@ -79,8 +80,12 @@ fn functions<M: Kinematic<Scalar = f64>>(m: &M, at: &Numbers) -> Vec<String> {
     }
     let branch = m.branch_of(&pose);
     all.push(found(m.kinematics(&q, branch, given(0.7).into(), given(0.2).into()), |found| {
-        [position::<M>(&M::coordinates_of(&found.pose)), rates::<M>(&found.rates), accelerations::<M>(&found.accelerations)]
-            .join(" ")
+        [
+            position::<M>(&M::coordinates_of(&found.pose)),
+            rates::<M>(&found.rates),
+            accelerations::<M>(&found.accelerations),
+        ]
+        .join(" ")
     }));
     all.push(found(m.full_kinematics(&q, branch, given(0.7).into(), given(0.2).into()), |found| {
         let (points, outputs) = (M::each_point(found.points), M::each_output(found.outputs));
@@ -139,7 +144,9 @@ fn listed<M: Kinematic<Scalar = f64> + Assembly + Branches>(m: &M, at: &[Numbers
         all.push(found(m.assemble(M::inputs(&q).into(), branch), of));
         all.push(found(m.assemble_near(&q, branch), of));
         all.push(found(m.all_positions(M::inputs(&q).into()), |found| {
-            found.map(|(branch, q)| format!("{} {}", position::<M>(&q), m.branch_of(&m.pose_at(&q)) == branch)).collect()
+            found
+                .map(|(branch, q)| format!("{} {}", position::<M>(&q), m.branch_of(&m.pose_at(&q)) == branch))
+                .collect()
         }));
     }
     all

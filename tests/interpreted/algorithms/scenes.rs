@@ -215,7 +215,12 @@ where
     let (unknowns, inputs) = S::Mechanism::parts(&q);
     let numbers: Numbers = [unknowns.as_slice().to_vec(), inputs.as_slice().to_vec()];
     let of_rates: PerInput<S::Mechanism> = rates.into();
-    let run_here = Run { q: coordinates::<linkage_interpreter::AtRunTime<'_, D<V>>>(&numbers), rates: of_rates, times, tolerance: 1e-8 };
+    let run_here = Run {
+        q: coordinates::<linkage_interpreter::AtRunTime<'_, D<V>>>(&numbers),
+        rates: of_rates,
+        times,
+        tolerance: 1e-8,
+    };
     let (emitted, found) = (all(scene, Run { q, rates, times, tolerance: 1e-8 }), all(&here, run_here));
     for (emitted, found) in emitted.iter().zip(&found) {
         assert_eq!(emitted, found, "{}", of.scene);

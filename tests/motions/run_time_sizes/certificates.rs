@@ -65,7 +65,7 @@ fn boxes<M: Certifiable<V = D<1>>>(m: &M, q: &M::Coordinates) -> Vec<String> {
         Ok(pose) => {
             let one = PerInput::<M>::from([1.0]).map(Interval::from);
             let rates = pose.velocity(&one);
-            let accelerations = rates.clone().and_then(|rates| pose.acceleration(&rates, &one, &one));
+            let accelerations = rates.and_then(|rates| pose.acceleration(&rates, &one, &one));
             let infinite = pose.velocity(&one.map(|_| Interval::ENTIRE)).err().map(|error| error.to_string());
             format!("{pose:?} {} {} {} {infinite:?}", shown(&rates), shown(&accelerations), shown(&pose.sensitivity()))
         }

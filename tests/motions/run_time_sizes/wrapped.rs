@@ -30,11 +30,6 @@ pub struct Texts {
 }
 
 impl Texts {
-    /// Those of a mechanism, marked.
-    pub fn of<M: Mechanism>() -> Self {
-        Self::marked_by::<M>(" at run time")
-    }
-
     /// Those of a mechanism, each with this mark.
     pub fn marked_by<M: Mechanism>(mark: &str) -> Self {
         let marked = |names: &[&str]| names.iter().map(|name| format!("{name}{mark}")).collect();

@@ -87,7 +87,8 @@ impl<'d> PreparedScene<'d> {
         scene: &'d Scene,
         own: Value,
     ) -> Result<Self, NotPrepared> {
-        let counts = [("frictions and stops", scene.contacts, MOST_CONTACTS), ("joints", scene.joints.len(), MOST_JOINTS)];
+        let counts =
+            [("frictions and stops", scene.contacts, MOST_CONTACTS), ("joints", scene.joints.len(), MOST_JOINTS)];
         if let Some((of, count, most)) = counts.into_iter().find(|(_, count, most)| count > most) {
             return Err(NotPrepared::TooLarge { of, count, most });
         }

@@ -1,6 +1,8 @@
 //! Between values of the machine and the equations of a scene.
 
-use linkage_dynamics::{Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Prescribed, ReactionRow, Unreduced};
+use linkage_dynamics::{
+    Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Prescribed, ReactionRow, Unreduced,
+};
 use linkage_runtime::{Build as _, Column, Dim};
 
 use super::{ContactCount, SceneAtRunTime};
@@ -82,7 +84,8 @@ impl<'p, V: Dim> SceneAtRunTime<'p, V> {
     /// The reaction that limits a friction, if one does.
     pub(super) fn read_bearing(&self, value: &Value) -> Option<Bearing<f64, Count, V, ContactCount>> {
         let rows = value.field(self.prepared.fields.components).ok()?.as_list().ok()?;
-        let row = |place: usize| rows.get(place).map_or_else(|| ReactionRow::zero(self.counts()), |row| self.read_row(row));
+        let row =
+            |place: usize| rows.get(place).map_or_else(|| ReactionRow::zero(self.counts()), |row| self.read_row(row));
         Some(Bearing { components: [row(0), row(1)] })
     }
 

@@ -105,7 +105,7 @@ impl CircuitChart {
         }
         let is_angle = |all: &[bool], place: usize| all.get(place) == Some(&true);
         let input = Axis::new(
-            &mechanism.input_name(0).to_string(),
+            mechanism.input_name(0).as_ref(),
             is_angle(mechanism.input_angles(), 0),
             0.0,
             all.iter().map(|at| at.x),
