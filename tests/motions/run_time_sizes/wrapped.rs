@@ -372,6 +372,14 @@ impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Kinematic fo
         let found = self.of.point_accelerations(pose, &Self::rates_in(rates), &accelerations);
         self.named(found).map(|points| list(M::each_point(points).as_slice()))
     }
+    fn point_ratios(&self, pose: &M::Pose) -> Result<List<Ratios<Self, D<2>>>, PositionError<&'n str>> {
+        let found = self.named(self.of.point_ratios(pose))?;
+        Ok(list(M::each_point(found).map(|ratios| matrix(&ratios, D, D)).as_slice()))
+    }
+    fn output_ratios(&self, pose: &M::Pose) -> Result<List<Ratios<Self, D<1>>>, PositionError<&'n str>> {
+        let found = self.named(self.of.output_ratios(pose))?;
+        Ok(list(M::each_output(found).map(|ratios| matrix(&ratios, D, D)).as_slice()))
+    }
     fn outputs(&self, pose: &M::Pose) -> Result<List<f64>, PositionError<&'n str>> {
         self.named(self.of.outputs(pose)).map(|outputs| list(M::each_output(outputs).as_slice()))
     }

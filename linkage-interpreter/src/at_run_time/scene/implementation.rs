@@ -18,6 +18,12 @@ use crate::machine::Value;
 /// The result of a call, or the error of the scene.
 type Found<'p, X> = Result<X, MotionError<&'p str>>;
 
+/// Does not compile where an algorithm asks a type for the order of its coordinates.
+fn of_the_value<V: Dim, X>() -> X {
+    const { assert!(V::CAPACITY == usize::MAX, "the order of the coordinates is that of the value") };
+    unreachable!("no number of inputs is as large")
+}
+
 fn list(numbers: &[f64]) -> Value {
     Value::list(numbers.iter().copied().map(Value::Number))
 }
@@ -71,10 +77,10 @@ impl<'p, V: Dim> Scene for SceneAtRunTime<'p, V> {
     }
 
     fn state(_: &CoordinatesAtRunTime<V>, _: &Column<f64, V>) -> Column<f64, StateCount> {
-        const { panic!("the order of the coordinates is that of the value") }
+        of_the_value::<V, _>()
     }
     fn parts(_: &Column<f64, StateCount>) -> StateParts<CoordinatesAtRunTime<V>, Column<f64, V>> {
-        const { panic!("the order of the coordinates is that of the value") }
+        of_the_value::<V, _>()
     }
     fn state_of(&self, q: &CoordinatesAtRunTime<V>, input_rates: &Column<f64, V>) -> Column<f64, StateCount> {
         let number = |place| match place {
