@@ -281,7 +281,7 @@ fn dead_points() {
     let found = same(of, &massless, &set, q, 20.0, [0.0, 1.0]);
     assert!(says(&found, "the mass matrix of Turning is singular in phi"), "{found:?}");
     let negative = Turning { m4: -1.0, ..Turning::default() };
-    assert!(says(&same(of, &negative, &[("m4", -1.0)], q, 20.0, [0.0, 0.2]), "m4 of Turning is -1"));
+    assert!(says(&same(of, &negative, &[("m4", -1.0)], q, 20.0, [0.0, 0.2]), "of Turning is -1"));
     let infinite = Turning { c: f64::INFINITY, ..Turning::default() };
     assert!(says(&same(of, &infinite, &[("c", f64::INFINITY)], q, 20.0, [0.0, 0.2]), "of Turning is not a finite"));
 }
