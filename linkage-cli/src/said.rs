@@ -1,4 +1,4 @@
-//! What a table or a film says of its motion on standard error: positions that are missing, change points, gaps.
+//! The words about the motion of a table or a film on standard error: positions that are missing, change points, gaps.
 
 use std::f64::consts::TAU;
 

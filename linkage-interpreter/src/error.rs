@@ -15,17 +15,12 @@ pub enum Error {
     Motion(MotionError<Arc<str>>),
     /// More of something than a mechanism at run time can have.
     TooLarge {
-        /// What there is too much of, in the plural.
+        /// The name of the quantity, in the plural.
         of: &'static str,
         /// The number.
         count: usize,
         /// The most.
         most: usize,
-    },
-    /// A function of the runtime that is not there for mechanisms at run time.
-    NotAvailable {
-        /// The function.
-        function: Arc<str>,
     },
 }
 
@@ -48,9 +43,6 @@ impl Display for Error {
                 f,
                 "there are {count} {of}, more than the {most} that a mechanism at run time can have: use `linkage!`"
             ),
-            Self::NotAvailable { function } => {
-                write!(f, "`{function}` is not there for mechanisms at run time: use `linkage!`")
-            }
         }
     }
 }

@@ -35,10 +35,8 @@
 //! A [`Program`] is written and read by serde, so that a mechanism runs without its text; without the feature `compiler` it
 //! runs without the compiler.
 //!
-//! # Not there
-//!
-//! Algorithms over a mechanism as a whole have its sizes in their types, and are there for emitted mechanisms only:
-//! [`WITHOUT`] names the functions that call one.
+//! [`Design::prepared`] makes a design ready for the algorithms of `linkage-runtime`, [`SceneDesign::prepared`] a scene for those of
+//! `linkage-dynamics`: paths, limits, circuits and simulations take them as they take emitted ones.
 
 mod at_run_time;
 mod call_error;
@@ -68,7 +66,7 @@ pub use data::Data;
 pub use error::{Error, Mistake};
 #[cfg(feature = "compiler")]
 pub use linkage_compiler::text::Message;
-pub use machine::{Defect, WITHOUT};
+pub use machine::Defect;
 pub use mechanism::{Design, Mechanism, SceneDesign};
 
 /// The mechanisms of a text. One with several choices of inputs is several.

@@ -30,7 +30,7 @@ impl From<NotPrepared> for Box<Failure> {
     }
 }
 
-/// What an algorithm finds on a mechanism. A failure of a call that is no error of the mechanism comes first.
+/// Runs an algorithm on a mechanism. A failure of a call that is no error of the mechanism comes first.
 fn run(
     of: Whole<'_>,
     algorithm: impl for<'a> FnOnce(&AtRunTime<'a, Inputs>) -> Result<Value, PositionError<&'a str>>,
@@ -40,7 +40,7 @@ fn run(
     unless(prepared.failure(), found.map_err(Error::from))
 }
 
-/// What an algorithm finds on a scene, likewise.
+/// Runs an algorithm on a scene, likewise.
 fn run_scene(
     of: Whole<'_>,
     moving: &Moving<'_>,

@@ -15,7 +15,7 @@ pub struct BranchAtRunTime {
     turns: Bounded<i32, MOST>,
 }
 
-/// As many entries as there are values.
+/// An entry for each value.
 fn entries<X: Copy + std::fmt::Debug>(
     values: &[&Value],
     nothing: X,

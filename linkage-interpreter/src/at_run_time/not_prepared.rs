@@ -11,7 +11,7 @@ pub enum NotPrepared {
     Mistake(Mistake),
     /// The mechanism has more of something than a mechanism at run time can have.
     TooLarge {
-        /// What there is too much of, in the plural.
+        /// The name of the quantity, in the plural.
         of: &'static str,
         /// The number.
         count: usize,

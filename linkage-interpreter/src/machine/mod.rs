@@ -22,10 +22,6 @@ use crate::code::{Function, Type};
 use crate::program::{Driver, Scene};
 use crate::tape::Flag;
 
-/// The functions of the runtime that are not there for mechanisms at run time, with the functions of mechanisms and scenes
-/// that call them: algorithms over a mechanism or a scene as a whole.
-pub const WITHOUT: &[(&str, &str)] = &[("Equations::at", "equations")];
-
 /// The scalar of the function that runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {

@@ -24,17 +24,6 @@ use crate::error::Error;
 use arguments::{Arguments, number as number_of, side, triangle};
 use lanes::in_lanes;
 
-impl Operation {
-    /// The error of a function that is not there for mechanisms at run time, as [`WITHOUT`](super::WITHOUT) says.
-    fn unavailable(self) -> Error {
-        let function = match self {
-            Self::EquationsAt => "Equations::at",
-            _ => "",
-        };
-        Error::NotAvailable { function: function.into() }
-    }
-}
-
 /// A chord and whether its triangle is well conditioned.
 fn flagged<S: Single>((chord, is_well_conditioned): (S, bool)) -> Value {
     Value::list([chord.into_value(), Value::Flag(is_well_conditioned)])
@@ -227,7 +216,8 @@ impl<'c> Machine<'c> {
             Operation::Ranged => ranged(&arguments, rt::ranged)?,
             Operation::RangedDirection => ranged(&arguments, rt::ranged_direction)?,
             Operation::RangedModuloTurns => ranged(&arguments, rt::ranged_modulo_turns)?,
-            other => return Err(other.unavailable().into()),
+            // `Equations::at` is called by scenes of the runtime only, and others have cases above.
+            other => return Err(Defect::new(format!("{other:?} in a function")).into()),
         })
     }
 
