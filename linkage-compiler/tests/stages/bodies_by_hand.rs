@@ -11,7 +11,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 /// fills in.
 const BY_HAND: [(&str, &[&str], &str); 14] = [
     ("conversions", &["#function", "mechanism", "state", "parts"], "columns of numbers from and to structs"),
-    ("any_number", &["with_parameters", "parameters"], "a column of parameters from and to a mechanism"),
+    ("any_number", &["parameters", "with", "over"], "a column of parameters from and to a mechanism"),
     ("lanes", &["write_parameters", "design"], "given columns from and to the parameters of a mechanism"),
     ("lanes", &["batch", "list"], "structs of columns to lists of columns"),
     ("external", &["#name"], "a call of a user function, at the place where its path resolves"),
