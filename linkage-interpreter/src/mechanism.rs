@@ -218,7 +218,7 @@ impl Design {
     /// let (_, start) = four_bar.all_positions([1.0].into()).map_err(|error| error.to_string())?.next().unwrap();
     /// let mut path = Path::new(&four_bar, &start, Direction::Increasing).map_err(|error| error.to_string())?;
     /// let end = path.advance_to(7.0).map_err(|error| error.to_string())?;
-    /// assert_eq!(end.inputs[0], 7.0);
+    /// assert_eq!(end.position.inputs[0], 7.0);
     /// # Ok(())
     /// # }
     /// ```
