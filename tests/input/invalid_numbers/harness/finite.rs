@@ -37,7 +37,13 @@ macro_rules! always {
         }
     )*};
 }
-always! { () bool usize i32 &'static str AssemblyMode Elbow Slider Slope Touch }
+always! { () bool usize i32 &'static str AssemblyMode Elbow Slider Slope }
+
+impl<N> Finite for Touch<N> {
+    fn all_finite(&self) -> bool {
+        true
+    }
+}
 
 impl<T> Finite for PhantomData<T> {
     fn all_finite(&self) -> bool {
