@@ -30,6 +30,8 @@ use std::fmt;
 
 #[cfg(feature = "dynamics")]
 use linkage_dynamics::MotionError;
+#[cfg(feature = "dynamics")]
+use linkage_runtime::BorrowedName;
 use linkage_runtime::PathError;
 
 /// Columns of numbers with names.
@@ -92,13 +94,21 @@ pub enum Cause {
     Path(PathError<String>),
     /// The loads cannot be computed there, or the simulation has ended with this error.
     #[cfg(feature = "dynamics")]
-    Motion(MotionError),
+    Motion(MotionError<String>),
     /// An event has ended the simulation before.
     #[cfg(feature = "dynamics")]
     Ended,
     /// The rates may jump there: points and outputs have no acceleration.
     #[cfg(feature = "dynamics")]
     Jump,
+}
+
+#[cfg(feature = "dynamics")]
+impl Cause {
+    /// The error of a motion. It owns its names, since a table does.
+    fn of_motion<N: BorrowedName>(error: MotionError<N>) -> Self {
+        Self::Motion(error.map_names(|name| name.to_string()))
+    }
 }
 
 /// A place on an axis: an event of a simulation, a change point or an end of a motion.

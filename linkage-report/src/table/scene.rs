@@ -1,10 +1,10 @@
 //! Tables of the loads of scenes: what drives must apply, frictions and stops, forces in joints.
 
 use linkage_dynamics::simulation::Loads;
-use linkage_dynamics::{Energy, Inputs, MotionError, Scene};
+use linkage_dynamics::{Energy, Inputs, MotionErrorOf, NameOf, Scene};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, RangeOfMotion};
-use linkage_runtime::{Assembly, Joint, JointForces, Kinematic, Mechanism, PathError, PerInput};
+use linkage_runtime::{Assembly, Dim as _, Joint, JointForces, Kinematic, Mechanism, PathErrorOf, PerInput};
 
 use super::motion::{Clock, columns, on_branch, row, turn};
 use super::{Cause, Quantity, Table};
@@ -80,12 +80,9 @@ impl Table {
         branch: <S::Mechanism as Mechanism>::Branch,
         steps: u32,
         rate: f64,
-    ) -> Result<Self, PathError>
+    ) -> Result<Self, PathErrorOf<S::Mechanism>>
     where
-        S: Scene<
-                Scalar = f64,
-                Mechanism: Kinematic<Name = &'static str> + Driven<Of = <S as Scene>::Mechanism> + Assembly,
-            >,
+        S: Scene<Scalar = f64, Mechanism: Kinematic + Driven<Of = <S as Scene>::Mechanism> + Assembly>,
     {
         let inputs = turn(steps);
         let range = on_branch(scene.mechanism(), branch, &inputs)?;
@@ -115,8 +112,8 @@ impl Table {
         rate: f64,
     ) -> Self
     where
-        S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
-        M: Driven<Scalar = f64, Name = &'static str, Of = S::Mechanism>,
+        S: Scene<Scalar = f64, Mechanism: Kinematic>,
+        M: Driven<Scalar = f64, Of = S::Mechanism>,
     {
         let mut clock = Clock::new(rate);
         let mut rows = Vec::new();
@@ -126,11 +123,11 @@ impl Table {
             let loads = motion.map_err(Cause::Path).and_then(|motion| {
                 let t = clock.at(input).unwrap_or_default();
                 names = names.take().or_else(|| contact_names(scene, t, &motion.position, &motion.rates));
-                loads_and_energy(scene, t, &motion).map_err(Cause::Motion)
+                loads_and_energy(scene, t, &motion).map_err(Cause::of_motion)
             });
             let cause = loads.map(|(loads, energy)| {
                 has_energy |= energy.is_some();
-                row.extend(numbers(&loads, |_| true).into_iter().chain(of_energy(energy)));
+                row.extend(numbers(scene, &loads, |_| true).into_iter().chain(of_energy(energy)));
             });
             let cause = cause.err();
             rows.push((row, cause));
@@ -150,9 +147,9 @@ fn loads_and_energy<S>(
     scene: &S,
     t: f64,
     motion: &MotionOf<S::Mechanism>,
-) -> Result<(Loads<S>, Option<Energy<f64>>), MotionError>
+) -> Result<(Loads<S>, Option<Energy<f64>>), MotionErrorOf<S>>
 where
-    S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
+    S: Scene<Scalar = f64, Mechanism: Kinematic>,
 {
     let (_, rates) = S::Mechanism::rate_parts(&motion.rates);
     let (_, accelerations) = S::Mechanism::acceleration_parts(&motion.accelerations);
@@ -167,27 +164,26 @@ pub(super) fn of_energy(energy: Option<Energy<f64>>) -> impl Iterator<Item = f64
 }
 
 /// The names of frictions and stops; none where they cannot be evaluated.
-pub(super) fn contact_names<S: Scene<Mechanism: Mechanism<Name = &'static str>>>(
+pub(super) fn contact_names<S: Scene>(
     scene: &S,
     t: S::Scalar,
     q: &linkage_dynamics::Coordinates<S>,
     rates: &linkage_dynamics::Rates<S>,
-) -> Option<Vec<&'static str>> {
+) -> Option<Vec<NameOf<S>>> {
     Some(scene.contacts(t, q, rates).ok()?.iter().map(|contact| contact.name).collect())
 }
 
 /// The columns of the loads and the energy, with the forces of these drives.
 pub(super) fn load_columns<S: Scene>(
     scene: &S,
-    contacts: Option<&[&str]>,
+    contacts: Option<&[NameOf<S>]>,
     has_energy: bool,
     is_driven: impl Fn(usize) -> bool,
 ) -> Vec<(String, Quantity)> {
-    use linkage_runtime::Dim;
-
-    let mut all = Vec::new();
-    for (input, (name, &is_angle)) in S::Mechanism::INPUTS.iter().zip(S::Mechanism::INPUT_ANGLES).enumerate() {
+    let (mut all, mechanism) = (Vec::new(), scene.mechanism());
+    for (input, &is_angle) in mechanism.input_angles().iter().enumerate() {
         if is_driven(input) {
+            let name = mechanism.input_name(input);
             let (end, quantity) = if is_angle { ("torque", Quantity::Torque) } else { ("force", Quantity::Force) };
             all.push((format!("{name}_{end}"), quantity));
         }
@@ -197,9 +193,9 @@ pub(super) fn load_columns<S: Scene>(
     }
     for place in 0..scene.contact_count().count() {
         let name = contacts.and_then(|names| names.get(place));
-        all.push((name.map_or_else(|| format!("contact {}", place + 1), |&name| name.to_owned()), Quantity::Plain));
+        all.push((name.map_or_else(|| format!("contact {}", place + 1), |name| name.to_string()), Quantity::Plain));
     }
-    for joint in S::Reactions::JOINTS {
+    for joint in scene.joints() {
         match joint {
             Joint::Pin { name, .. } => {
                 all.extend(["_x", "_y", ""].map(|end| (format!("{name}{end}"), Quantity::Force)));
@@ -217,7 +213,11 @@ pub(super) fn load_columns<S: Scene>(
 }
 
 /// The numbers of the loads in the order of their columns.
-pub(super) fn numbers<S: Scene<Scalar = f64>>(loads: &Loads<S>, is_driven: impl Fn(usize) -> bool) -> Vec<f64> {
+pub(super) fn numbers<S: Scene<Scalar = f64>>(
+    scene: &S,
+    loads: &Loads<S>,
+    is_driven: impl Fn(usize) -> bool,
+) -> Vec<f64> {
     let drives: PerInput<S::Mechanism> = loads.drives.into();
     let mut all: Vec<f64> =
         drives.iter().enumerate().filter(|(input, _)| is_driven(*input)).map(|(_, force)| *force).collect();
@@ -225,7 +225,7 @@ pub(super) fn numbers<S: Scene<Scalar = f64>>(loads: &Loads<S>, is_driven: impl 
         all.push(loads.drive_power);
     }
     all.extend(loads.contacts.iter());
-    for (joint, [first, second]) in S::Reactions::JOINTS.iter().zip(loads.joints.each()) {
+    for (joint, [first, second]) in scene.joints().zip(loads.joints.each()) {
         all.extend([first, second]);
         all.extend(matches!(joint, Joint::Pin { .. }).then(|| first.hypot(second)));
     }

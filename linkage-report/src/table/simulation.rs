@@ -3,8 +3,8 @@
 use linkage_dynamics::contact::Change;
 use linkage_dynamics::integrate::Method;
 use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
-use linkage_dynamics::{Accelerations, Energy, Inputs, MotionError, Scene};
-use linkage_runtime::{Build, Column, Kinematic, Mechanism, PositionError};
+use linkage_dynamics::{Accelerations, Energy, Inputs, MotionErrorOf, NameOf, Scene};
+use linkage_runtime::{Build, Column, Dim as _, Kinematic, Mechanism, PositionErrorOf};
 
 use super::motion::{inputs, points_and_outputs, unknowns};
 use super::scene::{contact_names, load_columns, numbers, of_energy};
@@ -52,7 +52,7 @@ impl Table {
     /// ```
     pub fn simulated<S, M, W>(simulation: &mut Simulation<'_, S, M, W>) -> Self
     where
-        S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
+        S: Scene<Scalar = f64, Mechanism: Kinematic>,
         M: Method,
         W: Watch<S>,
     {
@@ -66,7 +66,7 @@ impl Table {
                 }
                 Ok(None) => break,
                 Err(error) => {
-                    let (row, cause) = (rows.table.len(), Cause::Motion(error));
+                    let (row, cause) = (rows.table.len(), Cause::of_motion(error));
                     rows.table.missing.push(Missing { row, cause });
                     break;
                 }
@@ -79,7 +79,7 @@ impl Table {
     /// that it does not reach have a row without numbers.
     pub fn simulated_at<S, M, W>(simulation: &mut Simulation<'_, S, M, W>, times: impl IntoIterator<Item = f64>) -> Self
     where
-        S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
+        S: Scene<Scalar = f64, Mechanism: Kinematic>,
         M: Method,
         W: Watch<S>,
     {
@@ -94,15 +94,18 @@ impl Table {
                     Ok(None) => is_over = true,
                     Err(error) => {
                         is_over = true;
-                        rows.error = Some(error);
+                        rows.error = Some(Cause::of_motion(error));
                     }
                 }
             }
             let state = simulation.at([t]).next();
             match state {
                 Some(Ok(state)) => rows.push(simulation.scene(), &state, simulation.loads()),
-                Some(Err(error)) => rows.push_missing(t, Cause::Motion(rows.error.unwrap_or(error))),
-                None => rows.push_missing(t, rows.error.map_or(Cause::Ended, Cause::Motion)),
+                Some(Err(error)) => {
+                    let cause = rows.error.clone().unwrap_or_else(|| Cause::of_motion(error));
+                    rows.push_missing(t, cause);
+                }
+                None => rows.push_missing(t, rows.error.clone().unwrap_or(Cause::Ended)),
             }
         }
         rows.table
@@ -115,10 +118,10 @@ struct Rows<S: Scene> {
     /// True for each input that the scene drives.
     is_driven: Column<bool, S::V>,
     /// The error with which the simulation has ended.
-    error: Option<MotionError>,
+    error: Option<Cause>,
 }
 
-impl<S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>> Rows<S> {
+impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
     fn of<M: Method, W: Watch<S>>(simulation: &Simulation<'_, S, M, W>) -> Self {
         let (scene, state) = (simulation.scene(), simulation.state());
         let is_driven = scene.prescribed(state.t).map(|law| law.is_some());
@@ -131,15 +134,15 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>> Rows<S> 
         Self { table: Table::of_columns(motion.chain(loads)), is_driven, error: None }
     }
 
-    fn push(&mut self, scene: &S, state: &State<S>, loads: Result<Loads<S>, MotionError>) {
+    fn push(&mut self, scene: &S, state: &State<S>, loads: Result<Loads<S>, MotionErrorOf<S>>) {
         let accelerations = loads.as_ref().ok().map(|loads| loads.accelerations);
         let (mut row, error) = moving(scene, state, accelerations);
         let cause = match loads.and_then(|loads| Ok((loads, energy(scene, state)?))) {
             Ok((loads, energy)) => {
-                row.extend(numbers(&loads, |input| self.is_driven[input]).into_iter().chain(of_energy(energy)));
+                row.extend(numbers(scene, &loads, |input| self.is_driven[input]).into_iter().chain(of_energy(energy)));
                 error
             }
-            Err(error) => Some(Cause::Motion(error)),
+            Err(error) => Some(Cause::of_motion(error)),
         };
         self.table.push_partial(&row, cause);
     }
@@ -169,10 +172,10 @@ fn in_words(change: Change) -> &'static str {
 }
 
 /// The energy at a state.
-fn energy<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>>(
+fn energy<S: Scene<Scalar = f64>>(
     scene: &S,
     state: &State<S>,
-) -> Result<Option<Energy<f64>>, MotionError> {
+) -> Result<Option<Energy<f64>>, MotionErrorOf<S>> {
     let (_, rates) = S::Mechanism::rate_parts(&state.rates);
     scene.kinetic_and_potential(&state.q, &Inputs::<S>::from(rates))
 }
@@ -180,7 +183,7 @@ fn energy<S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>>(
 /// The numbers of a state before its loads, NaN for those that do not exist, and why.
 fn moving<S>(scene: &S, state: &State<S>, accelerations: Option<Accelerations<S>>) -> (Vec<f64>, Option<Cause>)
 where
-    S: Scene<Scalar = f64, Mechanism: Kinematic<Name = &'static str>>,
+    S: Scene<Scalar = f64, Mechanism: Kinematic>,
 {
     let (unknowns, inputs) = S::Mechanism::parts(&state.q);
     let nothing =
@@ -195,26 +198,26 @@ where
 
     let jumps = jumps(state);
     let smooth = accelerations.filter(|_| !jumps).map(|all| S::Mechanism::accelerations(all.unknowns, all.inputs));
-    let (p, o) = (S::Mechanism::POINTS.len(), S::Mechanism::OUTPUTS.len());
+    let count = || points_and_outputs(scene.mechanism()).count();
     match quantities(scene.mechanism(), &state.q, &state.rates, smooth) {
         Ok(numbers) => {
             row.extend(numbers);
-            (row, (jumps && p + o > 0).then_some(Cause::Jump))
+            (row, (jumps && count() > 0).then_some(Cause::Jump))
         }
         Err(error) => {
-            row.extend(std::iter::repeat_n(f64::NAN, 7 * p + 3 * o));
-            (row, Some(Cause::Motion(error.into())))
+            row.extend(std::iter::repeat_n(f64::NAN, count()));
+            (row, Some(Cause::of_motion::<NameOf<S>>(error.into())))
         }
     }
 }
 
 /// The numbers of points and outputs, with NaN where there are no accelerations.
-fn quantities<M: Kinematic<Scalar = f64, Name = &'static str>>(
+fn quantities<M: Kinematic<Scalar = f64>>(
     mechanism: &M,
     q: &M::Coordinates,
     rates: &M::Rates,
     accelerations: Option<M::Accelerations>,
-) -> Result<Vec<f64>, PositionError> {
+) -> Result<Vec<f64>, PositionErrorOf<M>> {
     let pose = mechanism.pose_at(q);
     let mut row = Vec::new();
     let second = accelerations.map(|second| mechanism.point_accelerations(&pose, rates, &second)).transpose()?;
