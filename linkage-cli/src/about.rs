@@ -12,6 +12,7 @@ use crate::failure::Failure;
 use crate::mistakes::{Mistakes, Source};
 use crate::names::{listed, place};
 use crate::progress;
+use crate::scene::AboutScene;
 use crate::solver::{Coordinate, Named};
 
 /// The names of a driver, and its derivation.
@@ -31,6 +32,8 @@ pub struct About {
     pub functions: Vec<String>,
     /// The places of the unknowns that are found from a guess or a list; none if all positions have a closed form.
     pub guessed: Vec<usize>,
+    /// The scenes, in the order of the text.
+    pub scenes: Vec<AboutScene>,
     pub derivation: Derivation,
 }
 
@@ -95,6 +98,7 @@ impl About {
             parameters: mechanism.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
             defaults: mechanism.parameters.iter().map(|of| (of.default_text.clone(), of.kind)).collect(),
             functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),
+            scenes: AboutScene::all(&lowered),
             derivation: lowered.derivation,
         }
     }

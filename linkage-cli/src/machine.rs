@@ -2,13 +2,14 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::graph::NodeId;
-use linkage_compiler::model::Kind;
-use linkage_interpreter::{Data, Mechanism};
+use linkage_interpreter::{Data, Design, Mechanism, SceneDesign};
 
 use crate::about::{About, chosen};
 use crate::arguments::Numbers;
 use crate::failure::Failure;
 use crate::names::{once, place};
+use crate::parameters::Parameters;
+use crate::scene::AboutScene;
 use crate::solver::Solver;
 pub use crate::solver::{Coordinate, Motion, Named};
 use crate::source::read;
@@ -32,7 +33,18 @@ impl Machine {
 
     /// The mechanism that the arguments mean, with their numbers, and what a function makes of its formulas.
     pub fn with<R>(numbers: &Numbers, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
-        Self::begun(numbers, Start::of, f)
+        let (machine, _, result) = Self::begun(numbers, |_| Ok(None), Start::of, f)?;
+        Ok((machine, result))
+    }
+
+    /// The mechanism that the arguments mean with one of its scenes, with their numbers.
+    pub fn with_scene(
+        numbers: &Numbers,
+        scene: impl FnOnce(&About) -> Result<usize, Failure>,
+    ) -> Result<(Self, SceneDesign), Failure> {
+        let (machine, scene, ()) = Self::begun(numbers, |about| scene(about).map(Some), Start::of, |_| ())?;
+        let scene = scene.ok_or_else(|| Failure::Argument(format!("`{}` has no scene", machine.about.name)))?;
+        Ok((machine, scene))
     }
 
     /// The mechanism of all whose positions there is something to say: none of them is chosen.
@@ -41,14 +53,16 @@ impl Machine {
         if let Some((option, _)) = given.iter().find(|(_, is_empty)| !is_empty) {
             return Err(Failure::Argument(format!("{result} all positions: leave out {option}")));
         }
-        Self::begun(numbers, |_, _, _| Ok(Start::Listed), f)
+        let (machine, _, result) = Self::begun(numbers, |_| Ok(None), |_, _, _| Ok(Start::Listed), f)?;
+        Ok((machine, result))
     }
 
     fn begun<R>(
         numbers: &Numbers,
+        scene: impl FnOnce(&About) -> Result<Option<usize>, Failure>,
         start: impl FnOnce(&About, &Mechanism, &Numbers) -> Result<Start, Failure>,
         f: impl FnMut(&Lowered<'_>) -> R,
-    ) -> Result<(Self, R), Failure> {
+    ) -> Result<(Self, Option<SceneDesign>, R), Failure> {
         let file = &numbers.source.file;
         let (about, mechanism, result) = chosen(&read(file)?, numbers.source.mechanism.as_deref(), f)?;
         if let Some(function) = about.functions.first() {
@@ -57,15 +71,15 @@ impl Machine {
                 "`{name}` calls `{function}`, which a program in Rust has to give it"
             )));
         }
-        let parameters = parameters(&about, &mechanism, &numbers.set)?;
+        let scene = scene(&about)?.map(|place| &about.scenes[place]);
+        let (design, scene) = valued(&about, &mechanism, scene, &numbers.set)?;
+        let parameters = about.parameters.iter().cloned().zip(design.parameters().iter().copied()).collect();
         let branch = branch(&about, &mechanism, &numbers.branch)?;
         let start = start(&about, &mechanism, numbers)?;
-        let values: Vec<f64> = parameters.iter().map(|(_, value)| *value).collect();
-        let design = mechanism.design().with_parameters(&values);
         let (inputs, unknowns) = (about.inputs.clone(), about.unknowns.clone());
         let (points, outputs) = (about.points.clone(), about.outputs.clone());
         let solver = Solver { inputs, unknowns, points, outputs, design, branch };
-        Ok((Self { about, parameters, solver, start }, result))
+        Ok((Self { about, parameters, solver, start }, scene, result))
     }
 
     /// The parameters with their values.
@@ -170,27 +184,26 @@ impl Machine {
     }
 }
 
-/// The parameters with their values.
-fn parameters(about: &About, mechanism: &Mechanism, set: &[Assignment]) -> Result<Vec<(String, f64)>, Failure> {
-    let mut values = mechanism.design().parameters().to_vec();
-    let names: Vec<&str> = about.parameters.iter().map(String::as_str).collect();
-    once("--set", set.iter().map(|set| set.name.as_str()))?;
-    for Assignment { name, value } in set {
-        let place = place(&about.name, "parameter", name, &names)?;
-        values[place] = match about.defaults[place].1 {
-            Kind::Angle => value.angle(name),
-            Kind::Length => value.length(name),
-            Kind::Number => Ok(value.number),
-        }
-        .map_err(Failure::Argument)?;
-    }
-    let parameters: Vec<(String, f64)> = about.parameters.iter().cloned().zip(values).collect();
-    match parameters.iter().find(|(_, value)| value.is_nan()) {
-        Some((name, _)) => {
-            Err(Failure::Argument(format!("the parameter `{name}` has no value: write --set {name}=VALUE")))
-        }
-        None => Ok(parameters),
-    }
+/// The mechanism, and its scene, with values of their parameters.
+fn valued(
+    about: &About,
+    mechanism: &Mechanism,
+    scene: Option<&AboutScene>,
+    set: &[Assignment],
+) -> Result<(Design, Option<SceneDesign>), Failure> {
+    let design = mechanism.design();
+    let begun = scene.map(|scene| design.scene(&scene.name)).transpose();
+    let begun = begun.map_err(|error| Failure::Outside(error.to_string()))?;
+    let own = about.parameters.iter().zip(&about.defaults).zip(design.parameters());
+    let own = own.map(|((name, (_, kind)), value)| (name.as_str(), *kind, *value));
+    let of_scene = scene.iter().flat_map(|scene| &scene.parameters).zip(begun.iter().flat_map(SceneDesign::parameters));
+    let of_scene = of_scene.map(|((name, kind), value)| (name.as_str(), *kind, *value));
+    let values = Parameters::of(&about.name, own.chain(of_scene)).with(set)?;
+    let (own, of_scene) = values.split_at(about.parameters.len());
+    let design = mechanism.design().with_parameters(own);
+    let scene = scene.map(|scene| design.scene(&scene.name)).transpose();
+    let scene = scene.map_err(|error| Failure::Outside(error.to_string()))?;
+    Ok((design, scene.map(|scene| scene.with_parameters(of_scene))))
 }
 
 /// The branch: the first position of each group where none is chosen, and no additional turns.

@@ -9,7 +9,7 @@ use crate::names::once;
 use crate::values::{Assignment, Value};
 
 /// The angle at which an input is held without a value: every crank can be there.
-const HELD: f64 = TAU / 6.0;
+pub const HELD: f64 = TAU / 6.0;
 
 /// The values of all inputs at each step.
 pub struct Path {

@@ -317,7 +317,13 @@ impl SceneDesign {
         &self.of.of.driver.scenes[self.place]
     }
 
-    /// The values of the parameters, in the order of declaration.
+    /// The values of the parameters that its mechanism does not have, in the order of declaration; NaN for one without a default.
+    #[must_use]
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    /// The scene with these values of its own parameters, in the order of declaration.
     #[must_use]
     pub fn with_parameters(mut self, parameters: &[f64]) -> Self {
         self.parameters.iter_mut().zip(parameters).for_each(|(to, value)| *to = *value);

@@ -1,6 +1,7 @@
 //! The arguments of the program, with its help.
 
 mod motions;
+mod scenes;
 
 use std::path::PathBuf;
 
@@ -9,6 +10,7 @@ use clap_complete::Shell;
 
 use crate::values::{Assignment, Choice, Value};
 pub use motions::{Circuits, Limits, ListForm, ListFormat};
+pub use scenes::{Equilibrium, Simulate, SimulationFormat};
 
 /// Planar linkages from their loop equations: formulas, checks and code of a mechanism in a file.
 ///
@@ -75,6 +77,18 @@ Examples:
   linkage circuits wiper.linkage
   linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json")]
     Circuits(Circuits),
+    /// Simulate a scene: its motion in time, with loads and events, as a table or as a page of charts
+    #[command(after_help = "\
+Driven inputs have the value and the rate of their laws. Messages say when frictions stick, stops are hit
+and the motion ends.
+
+Examples:
+  linkage simulate pendulum.linkage --at phi=30deg --to 10
+  linkage simulate pendulum.linkage --at phi=30deg --rate phi=2 --to 10 --set c=0.1 -o swing.html")]
+    Simulate(Simulate),
+    /// Find the position at which the forces of a scene are in equilibrium, near the values of its inputs
+    #[command(after_help = "Example:\n  linkage equilibrium lamp.linkage --at phi=30deg --set m=2")]
+    Equilibrium(Equilibrium),
     /// Report mobility, and all positions at one choice of inputs
     #[command(after_help = "\
 Examples:

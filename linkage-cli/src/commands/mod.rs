@@ -7,6 +7,7 @@ mod compiled;
 mod completions;
 mod documents;
 mod draw;
+mod equilibrium;
 mod fpcore;
 mod limits;
 mod list;
@@ -15,6 +16,7 @@ mod new;
 mod report;
 mod rust;
 mod sheet;
+mod simulate;
 mod summary;
 mod table;
 
@@ -35,6 +37,8 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Animate(arguments) => animate::run(&arguments),
         Command::Limits(arguments) => limits::run(&arguments),
         Command::Circuits(arguments) => circuits::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Equilibrium(arguments) => equilibrium::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),

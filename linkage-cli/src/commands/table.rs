@@ -17,7 +17,7 @@ use crate::progress;
 use crate::unwound::{Turned, Unwound};
 
 /// The digits of a table for readers.
-const FOR_READERS: usize = 6;
+pub const FOR_READERS: usize = 6;
 
 /// The most near names of a column that does not exist.
 const MOST_NEAR: usize = 6;
@@ -69,20 +69,23 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
             let input = &machine.about.inputs[path.moving].name.text;
             Summary::of(&table, &units, input, &summed(&machine, &table, &asked))?.to_text(format, digits)?
         }
-        false => {
-            let table = if asked.is_empty() { table } else { table.select(&asked).map_err(wrong)? };
-            let table = digits.map_or(table.clone(), |digits| table.digits(digits));
-            match format {
-                TableFormat::Csv => table.to_csv(),
-                TableFormat::Json => table.to_json() + "\n",
-                // No name has a comma.
-                TableFormat::Text => {
-                    aligned(table.to_csv().lines().map(|line| line.split(',').map(str::to_owned).collect()).collect())
-                }
-            }
-        }
+        false => written(table, &asked, digits, format)?,
     };
     output::write(&arguments.output, text.as_bytes(), &arguments.numbers.source.file)
+}
+
+/// The table in a form: these columns of it, or all.
+pub fn written(table: Table, asked: &[String], digits: Option<usize>, format: TableFormat) -> Result<String, Failure> {
+    let table = if asked.is_empty() { table } else { table.select(asked).map_err(wrong)? };
+    let table = digits.map_or(table.clone(), |digits| table.digits(digits));
+    Ok(match format {
+        TableFormat::Csv => table.to_csv(),
+        TableFormat::Json => table.to_json() + "\n",
+        // No name has a comma.
+        TableFormat::Text => {
+            aligned(table.to_csv().lines().map(|line| line.split(',').map(str::to_owned).collect()).collect())
+        }
+    })
 }
 
 fn wrong(error: linkage_report::table::TableError) -> Failure {
@@ -120,7 +123,7 @@ fn rate(machine: &Machine, path: &Path, arguments: &arguments::Table) -> Result<
 }
 
 /// The columns that are asked for.
-fn asked(all: &[String], columns: &[String]) -> Result<Vec<String>, Failure> {
+pub fn asked(all: &[String], columns: &[String]) -> Result<Vec<String>, Failure> {
     let asked: Vec<String> =
         columns.iter().map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect();
     match asked.iter().find(|name| !all.contains(name)) {
@@ -155,7 +158,7 @@ fn summed(machine: &Machine, table: &Table, asked: &[String]) -> Vec<String> {
 }
 
 /// The table with the unit of time, and with angles in degrees if these are asked for.
-fn with_units(machine: &Machine, mut table: Table, is_in_degrees: bool) -> Result<Table, Failure> {
+pub fn with_units(machine: &Machine, mut table: Table, is_in_degrees: bool) -> Result<Table, Failure> {
     if table.column("time").is_some() {
         table = table.unit("time", "s").map_err(wrong)?;
     }

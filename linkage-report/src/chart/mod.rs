@@ -12,10 +12,12 @@
 
 mod axis;
 mod of_table;
+mod page;
 mod polar;
 mod render;
 
 pub use axis::{Axis, Scale, Unit};
+pub use page::{Page, Section};
 pub use polar::Polar;
 
 /// The style of charts, for pages that hold fragments of them.

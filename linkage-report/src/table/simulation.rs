@@ -4,7 +4,7 @@ use linkage_dynamics::contact::Change;
 use linkage_dynamics::integrate::Method;
 use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
 use linkage_dynamics::{Accelerations, Energy, Inputs, MotionErrorOf, NameOf, Scene};
-use linkage_runtime::{Build, Column, Dim as _, Kinematic, Mechanism, PositionErrorOf};
+use linkage_runtime::{Build, Column, Kinematic, Mechanism, PositionErrorOf};
 
 use super::motion::{inputs, points_and_outputs, unknowns};
 use super::scene::{contact_names, load_columns, numbers, of_energy};
@@ -172,10 +172,7 @@ fn in_words(change: Change) -> &'static str {
 }
 
 /// The energy at a state.
-fn energy<S: Scene<Scalar = f64>>(
-    scene: &S,
-    state: &State<S>,
-) -> Result<Option<Energy<f64>>, MotionErrorOf<S>> {
+fn energy<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<Energy<f64>>, MotionErrorOf<S>> {
     let (_, rates) = S::Mechanism::rate_parts(&state.rates);
     scene.kinetic_and_potential(&state.q, &Inputs::<S>::from(rates))
 }

@@ -1,0 +1,72 @@
+//! `linkage equilibrium`: the position at which the forces of a scene are in equilibrium.
+
+use linkage_interpreter::Data;
+use serde::Serialize;
+
+use crate::arguments;
+use crate::ends::shown;
+use crate::failure::Failure;
+use crate::machine::{Coordinate, Machine};
+use crate::motion::held;
+use crate::scene::{Need, chosen};
+
+const NEED: Need = Need { is_met: |scene| scene.has_equilibrium, statement: "equilibrium;" };
+
+pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
+    let arguments::Equilibrium { numbers, scene, at, time, form } = arguments;
+    let format = form.format("a position of equilibrium")?;
+    if let Some(what) = time.measures {
+        return Err(Failure::Argument(format!("--time is a plain number of seconds, and this is a unit of {what}")));
+    }
+    let (machine, design) = Machine::with_scene(numbers, |about| chosen(about, scene.as_deref(), &NEED))?;
+    let inputs = held(&machine, at, None)?;
+    let unknowns = machine.place(&inputs, &vec![0.0; inputs.len()]).map_err(Failure::Outside)?;
+    let all = || machine.about.inputs.iter().chain(&machine.about.unknowns);
+    let guess = all().zip(inputs.iter().chain(&unknowns));
+    let guess = Data::fields(guess.map(|(of, value)| (of.name.field.as_str(), Data::from(*value))));
+    let function = "equilibrium";
+    let given = design.arguments(function).map_err(|error| Failure::Outside(error.to_string()))?;
+    // A scene without drives and laws of time takes the guess only.
+    let of_time = given.len().saturating_sub(1);
+    let given: Vec<Data> = std::iter::repeat_n(Data::from(time.number), of_time).chain([guess]).collect();
+    let found = design.call(function, &given).map_err(|error| Failure::Outside(error.to_string()))?;
+    let value = |of: &Coordinate| found.get(&of.name.field).and_then(Data::number).unwrap_or(f64::NAN);
+    let [inputs, unknowns]: [Vec<f64>; 2] =
+        [&machine.about.inputs, &machine.about.unknowns].map(|all| all.iter().map(value).collect());
+    let outputs = machine.about.outputs.iter().zip(machine.outputs_at(&inputs, &unknowns));
+    let coordinates = all().zip(inputs.iter().chain(&unknowns));
+    let coordinates =
+        coordinates.map(|(of, value)| Number { name: of.name.text.clone(), value: *value, is_angle: of.is_angle });
+    let outputs = outputs.zip(&machine.about.output_angles).map(|((of, value), angle)| Number {
+        name: of.text.clone(),
+        value,
+        is_angle: angle.is_some(),
+    });
+    let rest = Rest { scene: design.name().to_owned(), coordinates: coordinates.collect(), outputs: outputs.collect() };
+    form.write(format, &rest, Rest::to_text, &numbers.source.file)
+}
+
+/// A position of equilibrium.
+#[derive(Serialize)]
+struct Rest {
+    scene: String,
+    /// The inputs, then the unknowns.
+    coordinates: Vec<Number>,
+    outputs: Vec<Number>,
+}
+
+#[derive(Serialize)]
+struct Number {
+    name: String,
+    value: f64,
+    is_angle: bool,
+}
+
+impl Rest {
+    fn to_text(&self) -> String {
+        let all = || self.coordinates.iter().chain(&self.outputs);
+        let width = all().map(|one| one.name.chars().count()).max().unwrap_or_default();
+        let lines = all().map(|one| format!("  {:width$}  {}\n", one.name, shown(one.value, one.is_angle)));
+        format!("{}: the forces are in equilibrium, stable or not, at\n{}", self.scene, lines.collect::<String>())
+    }
+}
