@@ -14,6 +14,8 @@ pub struct AboutScene {
     pub name: String,
     /// Its parameters that the mechanism does not have, with their kinds.
     pub parameters: Vec<(String, Kind)>,
+    /// The default of each as written.
+    pub defaults: Vec<Option<String>>,
     pub has_inertia: bool,
     pub has_equilibrium: bool,
 }
@@ -23,10 +25,11 @@ impl AboutScene {
     pub fn all(lowered: &Lowered<'_>) -> Vec<Self> {
         let of = |scene: &SceneProgram<Code>| {
             let (mechanism, scene) = (scene.signatures.mechanism, scene.signatures.scene);
-            let parameters = scene.parameters.iter().map(|id| &mechanism.scene_parameters[*id]);
+            let parameters = || scene.parameters.iter().map(|id| &mechanism.scene_parameters[*id]);
             Self {
                 name: scene.name.to_string(),
-                parameters: parameters.map(|one| (one.name.text.clone(), one.kind)).collect(),
+                parameters: parameters().map(|one| (one.name.text.clone(), one.kind)).collect(),
+                defaults: parameters().map(|one| one.default_text.clone()).collect(),
                 has_inertia: scene.inertia.is_some(),
                 has_equilibrium: scene.requests.contains(&SceneRequest::Equilibrium),
             }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use linkage_compiler::model::Kind;
 use serde::Serialize;
 
 use crate::about::{About, all};
@@ -10,6 +11,7 @@ use crate::columns::{self, OF_POINT, ORDERS};
 use crate::failure::Failure;
 use crate::machine::Named;
 use crate::output;
+use crate::scene::AboutScene;
 use crate::source::read;
 
 pub fn run(arguments: &Names) -> Result<(), Failure> {
@@ -36,6 +38,7 @@ struct List {
     points: Vec<String>,
     outputs: Vec<String>,
     columns: Vec<String>,
+    scenes: Vec<Scene>,
 }
 
 #[derive(Serialize)]
@@ -58,15 +61,44 @@ struct Choice {
     meaning: String,
 }
 
+#[derive(Serialize)]
+struct Scene {
+    name: String,
+    /// The commands that take it.
+    commands: Vec<&'static str>,
+    /// Its parameters that the mechanism does not have.
+    parameters: Vec<Parameter>,
+}
+
+impl Scene {
+    fn of(about: &AboutScene) -> Self {
+        let commands = [("simulate", about.has_inertia), ("equilibrium", about.has_equilibrium)];
+        let parameters = about.parameters.iter().zip(&about.defaults);
+        Self {
+            name: about.name.clone(),
+            commands: commands.into_iter().filter(|(_, takes)| *takes).map(|(command, _)| command).collect(),
+            parameters: parameters.map(|((name, kind), default)| Parameter::of(name, default, *kind)).collect(),
+        }
+    }
+}
+
+impl Parameter {
+    fn of(name: &str, default: &Option<String>, kind: Kind) -> Self {
+        Self { name: name.to_owned(), default: default.clone(), kind: kind.to_string() }
+    }
+
+    fn line(&self) -> [String; 3] {
+        let default = self.default.as_deref().unwrap_or("no default");
+        [self.name.clone(), default.to_owned(), self.kind.clone()]
+    }
+}
+
 impl List {
     fn of(about: &About) -> Self {
         let texts = |names: &[Named]| names.iter().map(|name| name.text.clone()).collect::<Vec<_>>();
         let unknowns: Vec<String> = about.unknowns.iter().map(|unknown| unknown.name.text.clone()).collect();
-        let parameters = about.parameters.iter().zip(&about.defaults).map(|(name, (default, kind))| Parameter {
-            name: name.clone(),
-            default: default.clone(),
-            kind: kind.to_string(),
-        });
+        let parameters = about.parameters.iter().zip(&about.defaults);
+        let parameters = parameters.map(|(name, (default, kind))| Parameter::of(name, default, *kind));
         let inputs = about.inputs.iter().map(|input| Input {
             name: input.name.text.clone(),
             kind: if input.is_angle { "angle in radians" } else { "length or number" },
@@ -87,16 +119,13 @@ impl List {
             outputs: texts(&about.outputs),
             unknowns,
             columns,
+            scenes: about.scenes.iter().map(Scene::of).collect(),
         }
     }
 
     fn to_text(&self) -> String {
         let mut text = format!("{}\n", self.mechanism);
-        let of_parameters = self.parameters.iter().map(|parameter| {
-            let default = parameter.default.as_deref().unwrap_or("no default");
-            [parameter.name.clone(), default.to_owned(), parameter.kind.clone()]
-        });
-        section(&mut text, "parameters (--set)", of_parameters);
+        section(&mut text, "parameters (--set)", self.parameters.iter().map(Parameter::line));
         section(
             &mut text,
             "inputs (--at, --along)",
@@ -118,6 +147,16 @@ impl List {
         let outputs = [as_they_are(&self.outputs), each(&self.outputs, &ORDERS)];
         let columns = [as_they_are(&inputs), of_time].into_iter().chain(unknowns).chain(points).chain(outputs);
         section(&mut text, "columns (table --columns)", columns.filter(|[names, _]| !names.is_empty()));
+        let of_scenes = self.scenes.iter().map(|scene| {
+            let commands =
+                if scene.commands.is_empty() { "by a program in Rust".to_owned() } else { scene.commands.join(", ") };
+            [scene.name.clone(), commands]
+        });
+        section(&mut text, "scenes (--scene)", of_scenes);
+        for scene in &self.scenes {
+            let head = format!("parameters of the scene {} (--set)", scene.name);
+            section(&mut text, &head, scene.parameters.iter().map(Parameter::line));
+        }
         text
     }
 }

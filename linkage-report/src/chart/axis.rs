@@ -49,6 +49,9 @@ const MANY_DECADES: [(f64, i32); 3] = [(16.0, 8), (9.0, 4), (5.0, 2)];
 /// A smaller part of an axis than this is no distance of grid lines.
 const LEAST_STEP: f64 = 1e-3;
 
+/// The most letters of a number next to an axis.
+const MOST_LETTERS: usize = 6;
+
 impl Axis {
     /// A linear axis of numbers.
     #[must_use]
@@ -146,7 +149,13 @@ impl Axis {
         let step = self.step(ends);
         let [first, last] = [(low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64];
         let at = |count: i64| count as f64 * step;
-        (first..=last).map(|count| Tick { at: at(count), label: self.label(at(count), step) }).collect()
+        let ticks = (first..=last).map(|count| Tick { at: at(count), label: self.label(at(count), step) });
+        let ticks: Vec<Tick> = ticks.collect();
+        let is_wide = |tick: &Tick| tick.label.trim_start_matches('−').chars().count() > MOST_LETTERS;
+        match self.unit {
+            Unit::Number if ticks.iter().any(is_wide) => by_power(ticks, step),
+            _ => ticks,
+        }
     }
 
     /// The text of a number, with the digits of the step.
@@ -168,6 +177,19 @@ impl Axis {
             None => format!("1e{decade}").replace('-', "−"),
         }
     }
+}
+
+/// Labels with one power of ten: 0, 1e6, 2e6.
+fn by_power(ticks: Vec<Tick>, step: f64) -> Vec<Tick> {
+    let largest = ticks.iter().fold(0.0_f64, |most, tick| most.max(tick.at.abs()));
+    let power = (largest * (1.0 + 1e-9)).log10().floor();
+    let unit = 10_f64.powf(power);
+    let digits = (-(step / unit * (1.0 + 1e-9)).log10().floor()).clamp(0.0, 9.0) as usize;
+    let label = |at: f64| match at == 0.0 {
+        true => "0".to_owned(),
+        false => format!("{:.digits$}e{power}", at / unit).replace('-', "−"),
+    };
+    ticks.into_iter().map(|Tick { at, .. }| Tick { at, label: label(at) }).collect()
 }
 
 /// The first of 1, 2, 5 times a power of ten that is not smaller.
@@ -196,6 +218,17 @@ mod tests {
         assert_eq!(labels(&seconds, [2e-8, 3e-6]), ["10 ns", "100 ns", "1 µs", "10 µs"]);
         let names = Axis::linear("").unit(Unit::Names(vec!["a".to_owned(), "b".to_owned()]));
         assert_eq!(labels(&names, [0.0, 1.0]), ["a", "b"]);
+    }
+
+    #[test]
+    fn wide_numbers_have_a_power_of_ten() {
+        assert_eq!(labels(&Axis::linear(""), [0.0, 3.6e6]), ["0", "1e6", "2e6", "3e6", "4e6"]);
+        assert_eq!(
+            labels(&Axis::linear(""), [-1.2e6, 1.2e6]),
+            ["−1.5e6", "−1.0e6", "−0.5e6", "0", "0.5e6", "1.0e6", "1.5e6"]
+        );
+        assert_eq!(labels(&Axis::linear(""), [0.0, 3e-7]), ["0", "1e−7", "2e−7", "3e−7"]);
+        assert_eq!(labels(&Axis::linear(""), [0.0, 4e5]), ["0", "100000", "200000", "300000", "400000"]);
     }
 
     /// A number that is not positive has no place on a logarithmic axis, and one that is not finite on none.

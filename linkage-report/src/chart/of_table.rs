@@ -4,6 +4,9 @@ use super::{Axis, Chart, Curve, Line, Look, Polar, Unit};
 use crate::Table;
 use crate::table::{Column, Quantity, TableError};
 
+/// The most letters of a title: more do not fit above a chart.
+const LONGEST_TITLE: usize = 50;
+
 impl Chart {
     /// Columns of a table over one of its columns, a curve for each: `Chart::of(&table, "theta2", ["phi_torque"])`.
     ///
@@ -105,9 +108,10 @@ fn numbers(column: &Column, is_in_radians: bool) -> impl Iterator<Item = f64> {
 
 /// The curves, if they are few, and the axis.
 fn title(names: &[&str], x: &str) -> String {
+    let whole = format!("{} over {x}", names.join(", "));
     match names {
-        [_, _, _, _, ..] => format!("{}, … over {x}", names[0]),
-        few => format!("{} over {x}", few.join(", ")),
+        [first, _, ..] if names.len() > 3 || whole.chars().count() > LONGEST_TITLE => format!("{first}, … over {x}"),
+        _ => whole,
     }
 }
 

@@ -13,8 +13,11 @@ use crate::machine::{Coordinate, Machine};
 /// The most curves of a chart.
 const MOST_CURVES: usize = 5;
 
-/// The most events that are listed.
-const MOST_EVENTS: usize = 30;
+/// The most times of an event that are listed.
+const MOST_TIMES: usize = 12;
+
+/// The most dashed lines of a chart: many hide the curves.
+const MOST_LINES: usize = 30;
 
 /// The page of a simulation, with the reason why it ended before its end.
 pub fn page(machine: &Machine, scene: &Running<'_>, table: &Table, ended: Option<&str>) -> Result<String, Failure> {
@@ -28,6 +31,17 @@ pub fn page(machine: &Machine, scene: &Running<'_>, table: &Table, ended: Option
     let energies = ["kinetic_energy", "potential_energy"].map(str::to_owned).to_vec();
     charted.section("Energy", [energies])?;
     Ok(charted.page.to_html())
+}
+
+/// An event with its times.
+fn event(name: &str, marks: &[&Mark]) -> String {
+    let all: Vec<String> =
+        marks.iter().filter(|mark| mark.name == name).map(|mark| format!("{:.6}", mark.at)).collect();
+    let more = match all.len().saturating_sub(MOST_TIMES) {
+        0 => String::new(),
+        more => format!(", and {more} more until {}", all[all.len() - 1]),
+    };
+    format!("{name} at {} s{more}.", all[..all.len().min(MOST_TIMES)].join(", "))
 }
 
 struct Charted<'t> {
@@ -44,10 +58,13 @@ impl Charted<'_> {
         let section = self.page.section("Events");
         section.lines.push(format!("From {first} s to {last} s."));
         section.lines.extend(ended.map(str::to_owned));
-        section.lines.extend(marks.iter().take(MOST_EVENTS).map(|mark| format!("At {:.6} s: {}.", mark.at, mark.name)));
-        if marks.len() > MOST_EVENTS {
-            section.lines.push(format!("{} more events.", marks.len() - MOST_EVENTS));
+        let mut names: Vec<&str> = Vec::new();
+        for mark in &marks {
+            if !names.contains(&mark.name.as_str()) {
+                names.push(&mark.name);
+            }
         }
+        section.lines.extend(names.into_iter().map(|name| event(name, &marks)));
     }
 
     fn motion(&mut self, machine: &Machine) -> Result<(), Failure> {
@@ -97,8 +114,11 @@ impl Charted<'_> {
                 }
             }
         }
-        self.section("Forces in joints", [forces, moments])?;
-        for pin in pins {
+        // Forces and moments that are zero have nothing to draw.
+        let acts = |name: &String| self.moves(std::slice::from_ref(name));
+        let acting = [forces, moments].map(|names| names.into_iter().filter(acts).collect::<Vec<_>>());
+        self.section("Forces in joints", acting)?;
+        for pin in pins.into_iter().filter(|pin| self.moves(&[(*pin).to_owned()])).collect::<Vec<_>>() {
             match Polar::of(self.table, &format!("{pin}_x"), &format!("{pin}_y")) {
                 Ok(chart) => self.last().polar(&chart),
                 Err(TableError::NoNumbers { .. }) => {}
@@ -129,8 +149,7 @@ impl Charted<'_> {
         for part in parts {
             match Chart::of(self.table, "time", part) {
                 Ok(mut chart) => {
-                    // Many lines hide the curves.
-                    if chart.lines.len() > MOST_EVENTS {
+                    if chart.lines.len() > MOST_LINES {
                         chart.lines.clear();
                     }
                     drawn.push(chart);
