@@ -2,7 +2,7 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::lower::Code;
-use linkage_compiler::model::{Kind, SceneRequest};
+use linkage_compiler::model::{Kind, Parameter, SceneRequest};
 use linkage_compiler::program::SceneProgram;
 
 use crate::about::About;
@@ -28,7 +28,7 @@ impl AboutScene {
             let parameters = || scene.parameters.iter().map(|id| &mechanism.scene_parameters[*id]);
             Self {
                 name: scene.name.to_string(),
-                parameters: parameters().map(|one| (one.name.text.clone(), one.kind)).collect(),
+                parameters: parameters().map(|one| (one.name.text.clone(), kind(one))).collect(),
                 defaults: parameters().map(|one| one.default_text.clone()).collect(),
                 has_inertia: scene.inertia.is_some(),
                 has_equilibrium: scene.requests.contains(&SceneRequest::Equilibrium),
@@ -36,6 +36,12 @@ impl AboutScene {
         };
         lowered.program.scenes.iter().map(of).collect()
     }
+}
+
+/// The kind of a parameter: one whose default has the unit of an angle is an angle.
+fn kind(of: &Parameter) -> Kind {
+    let is_in_degrees = of.default_text.as_deref().is_some_and(|text| text.ends_with("deg"));
+    if is_in_degrees { Kind::Angle } else { of.kind }
 }
 
 /// The use of a scene: that it has what is needed, and the statement that gives it.

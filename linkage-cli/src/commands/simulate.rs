@@ -137,13 +137,13 @@ fn ended(simulation: &Simulation<'_, Running<'_>>, table: &Table, to: f64) -> Op
 }
 
 /// True for a mark that is more than a kink of a law.
-fn is_event(mark: &Mark) -> bool {
-    !mark.name.starts_with("kink of ")
+fn is_event(mark: &str) -> bool {
+    !mark.starts_with("kink of ")
 }
 
 /// Says on standard error which events there were; kinks of laws are none.
 fn say(marks: &[Mark]) {
-    let marks: Vec<&Mark> = marks.iter().filter(|mark| is_event(mark)).collect();
+    let marks: Vec<&Mark> = marks.iter().filter(|mark| is_event(&mark.name)).collect();
     for mark in marks.iter().take(NAMED) {
         anstream::eprintln!("at {:.6} s: {}", mark.at, mark.name);
     }

@@ -7,4 +7,5 @@ mod interrupts;
 mod motions;
 mod numbers;
 mod pictures;
+mod simulations;
 mod tables;

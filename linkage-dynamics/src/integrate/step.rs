@@ -11,6 +11,9 @@ use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Name, real};
 
+/// A step goes to the end of the interval if it is so much longer at most: no short step is left.
+const STRETCH: f64 = 1.01;
+
 impl<S: System, M: Method> Integration<S, M> {
     /// Takes a step.
     pub(super) fn step(&mut self) -> Result<(), ErrorOf<S>> {
@@ -41,12 +44,14 @@ impl<S: System, M: Method> Integration<S, M> {
         let mut failure = None;
         // The length of the step before it was shortened to end at a change of the law; the next step has it.
         let mut whole = None;
+        // A step that is to end at a change is not stretched over it.
+        let mut stretch = STRETCH;
         loop {
             let length = self.length();
             if self.counts.accepted + self.counts.rejected >= self.most_steps {
                 return Err(MotionError::TooManySteps { t: to_f64(t), steps: self.most_steps });
             }
-            let last = 1.01 * length > span.abs();
+            let last = stretch * length > span.abs();
             let end = if last { self.end } else { t + real::<S::Scalar>(direction * length) };
             // At t = 0 any normal length is allowed, however short relative to the interval.
             if 0.1 * length <= epsilon * to_f64(t).abs() || length < f64::MIN_POSITIVE || end == t {
@@ -72,6 +77,7 @@ impl<S: System, M: Method> Integration<S, M> {
                         if let Some(part) = self.system.change_of_law(&self.cubic())? {
                             whole.get_or_insert(length);
                             self.controller.length = Some(part * taken);
+                            stretch = 1.0;
                             self.has_rate = false;
                             self.counts.rejected += 1;
                             continue;

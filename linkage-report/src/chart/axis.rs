@@ -50,7 +50,7 @@ const MANY_DECADES: [(f64, i32); 3] = [(16.0, 8), (9.0, 4), (5.0, 2)];
 const LEAST_STEP: f64 = 1e-3;
 
 /// The most letters of a number next to an axis.
-const MOST_LETTERS: usize = 6;
+const MOST_LETTERS: usize = 5;
 
 impl Axis {
     /// A linear axis of numbers.
@@ -228,7 +228,7 @@ mod tests {
             ["−1.5e6", "−1.0e6", "−0.5e6", "0", "0.5e6", "1.0e6", "1.5e6"]
         );
         assert_eq!(labels(&Axis::linear(""), [0.0, 3e-7]), ["0", "1e−7", "2e−7", "3e−7"]);
-        assert_eq!(labels(&Axis::linear(""), [0.0, 4e5]), ["0", "100000", "200000", "300000", "400000"]);
+        assert_eq!(labels(&Axis::linear(""), [0.0, 8e4]), ["0", "20000", "40000", "60000", "80000"]);
     }
 
     /// A number that is not positive has no place on a logarithmic axis, and one that is not finite on none.

@@ -392,3 +392,19 @@ fn a_start_on_a_kink_of_the_state() {
         assert!((last.q.y - sign * (0.25 - 0.0625)).abs() < 1e-14 && (last.rates.y - 0.5 * sign).abs() < 1e-14);
     }
 }
+
+/// A kink just before the end, to which the last step would be stretched: the step ends at the kink.
+#[test]
+fn a_kink_just_before_the_end() {
+    let scene = Early::default();
+    // y'' = -2: at zero after a second, with the rate -2, then y'' = 2.
+    for beyond in [8e-3, 1e-3, 1e-5, 1e-8, 1e-11, 1e-13] {
+        let motion = simulate(&scene, ball([1.0, 0.0], [0.0, 0.0]), 1.0 + beyond, 1e-9).unwrap();
+        let (states, error) = run(motion.most_steps(100));
+        assert_eq!(error, None, "{beyond}");
+        let (last, end) = (states.last().unwrap(), states.last().unwrap().t - 1.0);
+        assert!(last.t == 1.0 + beyond && states.iter().any(|state| (state.t - 1.0).abs() < 1e-14), "{beyond}");
+        let errors = [last.q.y - (-2.0 * end + end * end), last.rates.y - (-2.0 + 2.0 * end)];
+        assert!(errors.iter().all(|error| error.abs() < 1e-14), "{beyond} {errors:?}");
+    }
+}

@@ -54,7 +54,7 @@ impl Charted<'_> {
     fn about(&mut self, ended: Option<&str>) {
         let times = self.table.column("time").unwrap_or_default();
         let (first, last) = (times.first().copied().unwrap_or_default(), times.last().copied().unwrap_or_default());
-        let marks: Vec<&Mark> = self.table.marks().iter().filter(|mark| is_event(mark)).collect();
+        let marks: Vec<&Mark> = self.table.marks().iter().filter(|mark| is_event(&mark.name)).collect();
         let section = self.page.section("Events");
         section.lines.push(format!("From {first} s to {last} s."));
         section.lines.extend(ended.map(str::to_owned));

@@ -1,0 +1,290 @@
+//! Simulations and positions of equilibrium of scenes in files: the figures of the examples in Rust, and a lamp by its torques.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::folder::Folder;
+
+/// A lamp on a spring-balanced arm.
+const LAMP: &str = "mechanism Lamp {
+    param l = 0.4, a = 0.1, h = 0.15, m = 1, g = 9.81, k = 400, free = 0.05, c = 0.5, slack;
+    input phi;
+    point Tip = l@phi;
+    let length = sqrt((a*cos(phi))^2 + (a*sin(phi) - h)^2);
+    output spring_length = length;
+    body lamp { mass m; inertia 1e-3; center Tip; angle phi; }
+    scene Rest { gravity (0, -g); spring k, free on length; equilibrium; }
+    scene Swing { inertia; gravity (0, -g); spring k, free on length; damper c on phi; }
+    scene Loose { gravity (0, -g); spring k, slack on length; equilibrium; }
+}";
+
+const TWO: &str = "mechanism Two {
+    param k = 3;
+    input x, y;
+    body ball { mass 1; center (x, y); }
+    scene Driven { inertia; spring k on y; drive x = 2 * t + abs(t - 1); }
+    scene Held { gravity (0, -1); spring k on y; drive x = t; equilibrium; }
+}";
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    for name in ["door_closer", "compressor", "engine", "four_bar"] {
+        let path = format!("{}/../examples/linkages/{name}.linkage", env!("CARGO_MANIFEST_DIR"));
+        folder.write(&format!("{name}.linkage"), fs::read(path).unwrap());
+    }
+    folder.write("lamp.linkage", LAMP);
+    folder.write("two.linkage", TWO);
+    folder
+}
+
+/// A table in JSON.
+struct Table(Value);
+
+impl Table {
+    fn of(folder: &Folder, arguments: &str) -> Self {
+        let ran = folder.run(&format!("{arguments} --format json"));
+        assert_eq!(ran.code, Some(0), "{}", ran.messages);
+        Self(serde_json::from_str(&ran.output).unwrap())
+    }
+
+    fn column(&self, name: &str) -> Vec<f64> {
+        let columns = self.0["columns"].as_array().unwrap();
+        let column = columns.iter().find(|column| column["name"] == name).unwrap_or_else(|| panic!("{name}"));
+        column["values"].as_array().unwrap().iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect()
+    }
+
+    fn largest(&self, name: &str) -> f64 {
+        self.column(name).iter().fold(0.0, |most: f64, number| most.max(number.abs()))
+    }
+
+    /// The times of an event.
+    fn times(&self, name: &str) -> Vec<f64> {
+        let marks = self.0["marks"].as_array().unwrap();
+        marks.iter().filter(|mark| mark["name"] == name).map(|mark| mark["at"].as_f64().unwrap()).collect()
+    }
+}
+
+#[track_caller]
+fn close(found: f64, expected: f64, error: f64) {
+    assert!((found - expected).abs() <= error, "{found} is not {expected}");
+}
+
+/// The times and speeds that the example `door_closer` prints.
+#[test]
+fn a_door_that_closes() {
+    let folder = folder();
+    let run = "simulate door_closer.linkage --at door=100deg --to 6 --tolerance 1e-12";
+    let table = Table::of(&folder, &format!("{run} --own-steps"));
+    let hits = table.times("stop on door is hit");
+    let speeds = [0.478729, 0.141645, 0.047016, 0.016163, 0.005622];
+    for ((hit, at), speed) in hits.iter().zip([4.213621, 4.437298, 4.508044, 4.531964, 4.540236]).zip(speeds) {
+        close(*hit, at, 5e-7);
+        // The rates at an event are those before it.
+        let row = table.column("time").iter().position(|time| time == hit).unwrap();
+        close(table.column("door_rate")[row], -speed, 5e-7);
+    }
+    assert_eq!(hits.len(), 15);
+    close(table.times("stop on door holds")[0], 4.544670, 5e-7);
+    let energy: Vec<f64> = table
+        .column("kinetic_energy")
+        .iter()
+        .zip(table.column("potential_energy"))
+        .map(|(one, other)| one + other)
+        .collect();
+    close(energy[0] - energy[energy.len() - 1], 32.997186239, 5e-10);
+    // Equal steps of time end at rest too.
+    let table = Table::of(&folder, &format!("{run} --steps 12 --columns time,door,door_rate"));
+    let [time, door, rate] = ["time", "door", "door_rate"].map(|name| table.column(name));
+    assert_eq!((time.len(), time[12], rate[12]), (13, 6.0, 0.0));
+    assert!(door[12].abs() < 1e-20);
+}
+
+/// The loads that the example `compressor` prints.
+#[test]
+fn a_compressor_at_constant_speed() {
+    let folder = folder();
+    let turn = std::f64::consts::TAU / 150.0;
+    let table = Table::of(&folder, &format!("simulate compressor.linkage --branch psi_z=far --to {turn} --steps 720"));
+    for (name, expected, error) in [
+        ("pressure", 0.8e6, 5e3),
+        ("phi_torque", 88.0, 0.05),
+        ("piston_pin_on_rod", 3326.0, 0.5),
+        ("crank_pin_on_rod", 3093.0, 0.5),
+        ("z_normal", 526.0, 0.5),
+        ("bearing_on_crank", 3001.0, 0.5),
+    ] {
+        close(table.largest(name), expected, error);
+    }
+    // The counterweight and the mass on the balance shaft that it finds.
+    let balanced = "--set counterweight=0.605,balance=0.300";
+    let run = format!("simulate compressor.linkage --branch psi_z=far --to {turn} --steps 720 {balanced}");
+    close(Table::of(&folder, &run).largest("bearing_on_crank"), 3375.0, 1.0);
+}
+
+/// The speed, the forces of the last cycle and the energy that the example `engine` prints.
+#[test]
+fn an_engine_on_its_brake() {
+    let folder = folder();
+    let start = "simulate engine.linkage --scene Running --branch psi_z=far --at phi=0 --rate phi=200";
+    let table = Table::of(&folder, &format!("{start} --to 1.051433277821996 --tolerance 1e-13 --own-steps"));
+    let [phi, rate] = ["phi", "phi_rate"].map(|name| table.column(name));
+    let last = phi.len() - 1;
+    close(phi[last], 40.0 * std::f64::consts::TAU, 1e-9);
+    close(rate[last], 231.09215321186463, 1e-8);
+    let energy = |row: usize| table.column("kinetic_energy")[row] + table.column("potential_energy")[row];
+    close(energy(last) - energy(0), 365.348203, 1e-6);
+    let in_cycle = phi.partition_point(|phi| *phi < 38.0 * std::f64::consts::TAU);
+    let largest = |name: &str| table.column(name)[in_cycle..].iter().fold(0.0, |most: f64, one| most.max(one.abs()));
+    // The example reads them at eight times within each step.
+    for (name, expected) in [
+        ("pressure", 3.58e6),
+        ("piston_on_rod", 18.68e3),
+        ("pin_on_rod", 17.34e3),
+        ("bearing_on_crank", 18.87e3),
+        ("z_normal", 2.09e3),
+        ("phi_acceleration", 6479.0),
+    ] {
+        close(largest(name) / expected, 1.0, 3e-3);
+    }
+}
+
+/// The torques of weight and spring about the pivot.
+fn torque(phi: f64, [m, k]: [f64; 2]) -> f64 {
+    let (a, h) = (0.1, 0.15);
+    let length = (a * a + h * h - 2.0 * a * h * phi.sin()).sqrt();
+    let pull = k * (length - 0.05);
+    pull * a * h * phi.cos() / length - m * 9.81 * 0.4 * phi.cos()
+}
+
+#[test]
+fn a_lamp_in_equilibrium() {
+    let folder = folder();
+    for (m, k) in [(1.0, 400.0), (1.2, 500.0)] {
+        let run = |form: &str| {
+            folder.run(&format!("equilibrium lamp.linkage --scene Rest --at phi=30deg --set m={m},k={k} {form}"))
+        };
+        let found: Value = serde_json::from_str(&run("--format json").works("")).unwrap();
+        let [phi, length] = ["coordinates", "outputs"].map(|of| found[of][0]["value"].as_f64().unwrap());
+        assert!(torque(phi, [m, k]).abs() < 1e-12 && phi.cos() > 0.1, "{phi}");
+        close(length, (0.1_f64 * 0.1 + 0.15 * 0.15 - 2.0 * 0.1 * 0.15 * phi.sin()).sqrt(), 1e-15);
+        let text = run("").works("");
+        assert!(text.starts_with("Rest: the forces are in equilibrium, stable or not, at\n  phi "), "{text}");
+        // A swing with damping ends there.
+        let swing =
+            format!("simulate lamp.linkage --scene Swing --at phi=30deg --to 60 --steps 1 --set m={m},k={k},slack=0");
+        close(Table::of(&folder, &swing).column("phi")[1], phi, 1e-7);
+    }
+}
+
+/// Driven inputs are where their laws are, at a kink too, and at rest at any time.
+#[test]
+fn driven_inputs() {
+    let folder = folder();
+    let table = Table::of(&folder, "simulate two.linkage --scene Driven --at y=1 --from 1 --to 2 --steps 4");
+    let times = [1.0, 1.25, 1.5, 1.75, 2.0];
+    assert_eq!(table.column("x"), times.map(|t| 2.0 * t + (t - 1.0)));
+    assert_eq!(table.column("x_rate"), [3.0; 5]);
+    for (t, y) in times.into_iter().zip(table.column("y")) {
+        close(y, (3.0_f64.sqrt() * (t - 1.0)).cos(), 1e-8);
+    }
+    let rest = folder.run("equilibrium two.linkage --scene Held --at x=0,y=0 --time 2 --format json").works("");
+    let rest: Value = serde_json::from_str(&rest).unwrap();
+    let [x, y] = [0, 1].map(|place: usize| rest["coordinates"][place]["value"].as_f64().unwrap());
+    close(x, 2.0, 0.0);
+    close(y, -1.0 / 3.0, 1e-15);
+}
+
+/// A page has the charts of all that there is, names of a text as text, and no script.
+#[test]
+fn a_page_of_charts() {
+    let folder = folder();
+    let ran = folder.run("simulate door_closer.linkage --at door=100deg --to 6 -o door.html");
+    assert!(ran.messages.ends_with("6 more events, the last at 4.544670 s: stop on door holds\n"), "{}", ran.messages);
+    let page = folder.read("door.html");
+    for heading in ["Events", "Coordinates", "Points", "Outputs", "Frictions and stops", "Energy"] {
+        assert!(page.contains(&format!("<h2>{heading}</h2>")), "{heading}");
+    }
+    assert!(
+        page.contains("stop on door is hit at 4.213621, 4.437298,") && page.contains("and 3 more until 4.544670 s.")
+    );
+    assert!(!page.contains("<script") && !page.contains("<h2>Drives"));
+    folder.run("simulate compressor.linkage --branch psi_z=far --to 0.02 -o turn.html").works("wrote turn.html\n");
+    let page = folder.read("turn.html");
+    assert!(
+        page.contains("<h2>Drives</h2>")
+            && page.contains("<h2>Forces in joints</h2>")
+            && page.contains("bearing_on_crank")
+    );
+}
+
+#[test]
+fn a_summary_over_time() {
+    let folder = folder();
+    let run = "simulate two.linkage --scene Driven --at y=1 --from 1 --to 2 --summary --columns x,x_rate";
+    let text = folder.run(run).works("");
+    assert_eq!(
+        text,
+        "column  minimum  at time [s]  maximum  at time [s]  swing\n     x        2            1        5            2      3\nx_rate        3            1        3            2      0\n"
+    );
+}
+
+#[test]
+fn what_cannot_be_simulated() {
+    let folder = folder();
+    for (arguments, code, message) in [
+        ("simulate four_bar.linkage --to 1", 2, "`FourBar` has no scene: write one into its text"),
+        ("simulate engine.linkage --to 1", 2, "`Engine` has the scenes `Running` and `Motored`: write --scene NAME"),
+        ("simulate lamp.linkage --scene Rest --to 1", 2, "the scene `Rest` has no `inertia;`"),
+        ("simulate lamp.linkage --scene Swung --to 1", 2, "Lamp has no scene `Swung`, did you mean `Swing`?"),
+        ("equilibrium door_closer.linkage", 2, "the scene `Closing` has no `equilibrium;`"),
+        ("equilibrium lamp.linkage", 2, "`Lamp` has the scenes `Rest` and `Loose`: write --scene NAME"),
+        ("equilibrium lamp.linkage --scene Loose", 2, "the parameter `slack` has no value: write --set slack=VALUE"),
+        ("simulate door_closer.linkage --to 1 --set mm=4", 2, "DoorCloser has no parameter `mm`"),
+        (
+            "simulate door_closer.linkage --to 1 --set widest=110",
+            2,
+            "`widest` is an angle, and 110 radians are more than a turn",
+        ),
+        ("simulate door_closer.linkage --to 0", 2, "--from and --to are equal"),
+        ("simulate door_closer.linkage --to 10deg", 2, "--to is a plain number, and this is a unit of angles"),
+        ("simulate door_closer.linkage --to 1 --columns dor", 2, "the table has no column `dor`; near names: `door`"),
+        ("simulate door_closer.linkage --to 1 --rate dor=1", 2, "DoorCloser has no input `dor`, did you mean `door`?"),
+        ("simulate door_closer.linkage --to 1 --at door=1,door=2", 2, "--at has `door` twice"),
+        ("simulate door_closer.linkage --to 1 --summary -o a.html", 2, "a page has all charts: leave out --summary"),
+        ("simulate door_closer.linkage --to 1 -o a.pdf", 2, "a simulation is CSV, JSON, text or HTML"),
+        (
+            "simulate door_closer.linkage --to -1",
+            1,
+            "Closing has a stop on door and cannot be simulated backwards in time",
+        ),
+        ("simulate door_closer.linkage --to 1 --at door=150deg", 1, "DoorCloser: "),
+        ("simulate door_closer.linkage --to 1 --tolerance 1e-20", 1, "the relative tolerance is 1e-20"),
+        ("simulate two.linkage --scene Driven --to 1", 2, "the input `y` has no value: write --at y=VALUE"),
+        ("simulate two.linkage --scene Driven --to 1 --at x=4,y=1", 1, "Driven"),
+        ("simulate two.linkage --scene Driven --to 1 --at y=1 --rate y=2rpm", 2, "`y` is a length"),
+    ] {
+        let ran = folder.run(arguments);
+        assert!(ran.code == Some(code) && ran.output.is_empty(), "{arguments}: {ran:?}");
+        assert!(ran.messages.starts_with(&format!("error: {message}")), "{arguments}: {}", ran.messages);
+    }
+}
+
+/// The rows before the end of a motion are printed, and the exit code says that there is an end.
+#[test]
+fn a_motion_that_ends() {
+    let folder = folder();
+    folder.write(
+        "pole.linkage",
+        "mechanism Pole {
+        input x;
+        body ball { mass 1; center (x, 0); }
+        scene Falling { inertia; potential -1 / x; }
+    }",
+    );
+    let ran = folder.run("simulate pole.linkage --at x=1 --to 5 --steps 5 --columns time,x");
+    assert_eq!(ran.code, Some(1));
+    assert!(ran.messages.starts_with("error: the motion ends at 1.1107"), "{}", ran.messages);
+    let rows: Vec<&str> = ran.output.lines().collect();
+    assert!(rows.len() == 7 && rows[1] == "0,1" && rows[3] == "2," && rows[6] == "5,", "{rows:?}");
+}
