@@ -39,7 +39,7 @@ fn event(name: &str, marks: &[&Mark]) -> String {
         marks.iter().filter(|mark| mark.name == name).map(|mark| format!("{:.6}", mark.at)).collect();
     let more = match all.len().saturating_sub(MOST_TIMES) {
         0 => String::new(),
-        more => format!(", and {more} more until {}", all[all.len() - 1]),
+        more => format!(", and {more} more until {} s", all[all.len() - 1]),
     };
     format!("{name} at {} s{more}.", all[..all.len().min(MOST_TIMES)].join(", "))
 }
