@@ -120,16 +120,18 @@ impl Table {
         let (mut names, mut has_energy) = (None, false);
         for input in inputs {
             let (mut row, motion) = row(range, input, &mut clock);
-            let loads = motion.map_err(Cause::Path).and_then(|motion| {
-                let t = clock.at(input).unwrap_or_default();
-                names = names.take().or_else(|| contact_names(scene, t, &motion.position, &motion.rates));
-                loads_and_energy(scene, t, &motion).map_err(Cause::of_motion)
-            });
-            let cause = loads.map(|(loads, energy)| {
-                has_energy |= energy.is_some();
-                row.extend(numbers(scene, &loads, |_| true).into_iter().chain(of_energy(energy)));
-            });
-            let cause = cause.err();
+            let cause = match motion {
+                Err(error) => Some(Cause::Path(error)),
+                Ok(motion) => {
+                    let t = clock.at(input).unwrap_or_default();
+                    names = names.take().or_else(|| contact_names(scene, t, &motion.position, &motion.rates));
+                    let loads = loads_and_energy(scene, t, &motion).map(|(loads, energy)| {
+                        has_energy |= energy.is_some();
+                        row.extend(numbers(scene, &loads, |_| true).into_iter().chain(of_energy(energy)));
+                    });
+                    loads.err().map(Cause::of_motion)
+                }
+            };
             rows.push((row, cause));
         }
         let loads = load_columns(scene, names.as_deref(), has_energy, |_| true);
@@ -142,12 +144,15 @@ impl Table {
     }
 }
 
+/// Loads, and the energy if the scene has it.
+type LoadsAndEnergy<S> = (Loads<S>, Option<Energy<f64>>);
+
 /// The loads if drives make this motion, and the energy.
 fn loads_and_energy<S>(
     scene: &S,
     t: f64,
     motion: &MotionOf<S::Mechanism>,
-) -> Result<(Loads<S>, Option<Energy<f64>>), MotionErrorOf<S>>
+) -> Result<LoadsAndEnergy<S>, MotionErrorOf<S>>
 where
     S: Scene<Scalar = f64, Mechanism: Kinematic>,
 {
