@@ -56,7 +56,7 @@ mod translate;
 mod written;
 
 pub use at_run_time::{
-    AllCoordinates, AtRunTime, BranchAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointForcesAtRunTime,
+    AllCoordinates, AtRunTime, BranchAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointCoordinates, JointForcesAtRunTime,
     NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime, StateCount,
 };
 pub use call_error::CallError;

@@ -11,6 +11,7 @@ use linkage_runtime::{BorrowedName, D, Dim};
 use nalgebra::Vector2;
 
 use super::DrawingError;
+use super::mechanism::check;
 use miniature::Miniature;
 use runs::{Axis, runs};
 
@@ -77,7 +78,7 @@ impl CircuitChart {
     /// The chart of a mechanism with `derive drawing;`; `unknown` is the coordinate that is drawn up.
     ///
     /// # Errors
-    /// [`DrawingError::Empty`] if there is no motion, [`DrawingError::UnknownCoordinate`] if the mechanism has no such
+    /// [`DrawingError::NoDrawing`] if the mechanism has none, [`DrawingError::Empty`] if there is no motion, [`DrawingError::UnknownCoordinate`] if the mechanism has no such
     /// unknown, [`DrawingError::NotFinite`] if a coordinate is infinite or NaN.
     pub fn of<M, B>(
         mechanism: &M,
@@ -88,6 +89,7 @@ impl CircuitChart {
         M: Skeleton<Scalar = f64, V = D<1>>,
         B: Copy,
     {
+        check(mechanism)?;
         let (u, ..) = mechanism.dims();
         let row = (0..u.count()).find(|&place| mechanism.unknown_name(place).to_string() == unknown);
         let row = row.ok_or_else(|| DrawingError::UnknownCoordinate(unknown.to_owned()))?;
