@@ -20,7 +20,7 @@ use crate::progress;
 /// The place of a start within its part of the range, the golden section: mechanisms are rarely singular there.
 const WITHIN: f64 = 0.381_966_011_250_105;
 
-type Found<'p> = circuits::Circuits<At, BranchAtRunTime, f64, &'p str>;
+type Found<'p> = circuits::Circuits<At, BranchAtRunTime<'p>, f64, &'p str>;
 
 pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     let arguments::Circuits { numbers, at, along, form, .. } = arguments;
@@ -116,7 +116,7 @@ struct Position {
 
 impl Circuits {
     fn of(machine: &Machine, inputs: &[f64], moving: usize, found: &Found<'_>) -> Result<Self, Failure> {
-        let position = |mode: &circuits::CircuitMode<At, BranchAtRunTime>| {
+        let position = |mode: &circuits::CircuitMode<At, BranchAtRunTime<'_>>| {
             let input = mode.position.parameter;
             let unknowns: Vec<f64> = OneInput::unknowns(&mode.position).iter().copied().collect();
             let mut here = inputs.to_vec();
