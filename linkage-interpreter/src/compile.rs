@@ -149,7 +149,9 @@ fn joint(place: usize, of: &Load) -> Joint {
 /// The names as written, the groups, and the drawing.
 fn written(implementations: &[program::Implementation<Code>]) -> Written {
     let mut written = Written::default();
-    let of = implementations.iter().filter(|one| matches!(one.of, Implemented::Mechanism | Implemented::Kinematic | Implemented::Skeleton));
+    let of = implementations
+        .iter()
+        .filter(|one| matches!(one.of, Implemented::Mechanism | Implemented::Kinematic | Implemented::Skeleton));
     for (name, value) in of.flat_map(|one| &one.constants) {
         match (*name, value) {
             ("UNKNOWNS", ConstantValue::Texts(names)) => written.unknowns.clone_from(names),
