@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::values::{Assignment, Choice, Value};
-pub use motions::{Circuits, Limits, ListForm, ListFormat};
+pub use motions::{Circuits, CircuitsFormat, Limits, ListForm, ListFormat};
 
 /// Planar linkages from their loop equations: formulas, checks and code of a mechanism in a file.
 ///

@@ -2,6 +2,7 @@
 //! dead points marked, and the linkage at each dead point.
 
 mod miniature;
+mod page;
 mod render;
 mod runs;
 
@@ -153,6 +154,13 @@ impl CircuitChart {
     #[must_use]
     pub fn to_svg(&self) -> String {
         render::svg(self)
+    }
+
+    /// Writes several charts, such as one for each unknown, as one HTML file, which loads nothing and runs no script. The text
+    /// comes after them; an empty line begins a paragraph.
+    #[must_use]
+    pub fn to_html(title: &str, charts: &[Self], text: &str) -> String {
+        page::html(title, text, charts)
     }
 }
 
