@@ -72,7 +72,7 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     let list = Circuits::of(machine, &inputs, moving, &found)?;
     let charts = charted.iter().map(|unknown| {
         let chart = CircuitChart::of(&mechanism, &found, unknown).map_err(undrawn)?;
-        Ok(chart.title(format!("{unknown} over {}", list.input)))
+        Ok(chart.title(format!("{unknown} over {}", list.input)).numbered_from(1))
     });
     let charts = charts.collect::<Result<Vec<_>, Failure>>()?;
     let text = match format {
@@ -91,9 +91,9 @@ fn charted<'m>(machine: &'m Machine, asked: &[String], format: CircuitsFormat) -
     let asked = asked.collect::<Result<Vec<&str>, Failure>>()?;
     match (format, asked.as_slice()) {
         (CircuitsFormat::Text | CircuitsFormat::Json, []) => Ok(Vec::new()),
-        (CircuitsFormat::Text | CircuitsFormat::Json, _) => {
-            Err(Failure::Argument("charts are HTML or SVG: write -o NAME.html or NAME.svg, or leave out --chart".to_owned()))
-        }
+        (CircuitsFormat::Text | CircuitsFormat::Json, _) => Err(Failure::Argument(
+            "charts are HTML or SVG: write -o NAME.html or NAME.svg, or leave out --chart".to_owned(),
+        )),
         (_, []) if names.is_empty() => {
             Err(Failure::Outside(format!("`{}` has no unknown that a chart could have", machine.about.name)))
         }

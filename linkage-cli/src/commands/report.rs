@@ -50,7 +50,9 @@ pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
     let text = match inputs.as_slice() {
         &[input] => match whole(machine, &prepared, &derivation, input, &positions) {
             Ok(report) => written(&report, pictures),
-            Err(why) => written(&Report { no_motion: Some(why), ..part(machine, &derivation, inputs, &positions) }, pictures),
+            Err(why) => {
+                written(&Report { no_motion: Some(why), ..part(machine, &derivation, inputs, &positions) }, pictures)
+            }
         },
         _ => written(&part(machine, &derivation, inputs, &positions), pictures),
     };
