@@ -73,9 +73,10 @@ Examples:
     #[command(after_help = "\
 Examples:
   linkage circuits wiper.linkage
-  linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json")]
+  linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json
+  linkage circuits wiper.linkage --set l2=45 -o circuits.html")]
     Circuits(Circuits),
-    /// Report mobility, and all positions at one choice of inputs
+    /// Report mobility, all positions at one choice of inputs, circuits, and a motion with its extremes
     #[command(after_help = "\
 Examples:
   linkage report wiper.linkage --at theta2=20deg
