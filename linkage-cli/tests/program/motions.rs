@@ -165,13 +165,13 @@ fn circuits_have_charts() {
     let folder = folder();
     folder.run("circuits four.linkage --at theta=20deg -o four.html").works("wrote four.html\n");
     let page = folder.read("four.html");
-    assert!(page.contains("<h1>Four</h1>") && page.contains("circuit 1: modes 1, 2, 2 dead points"), "{page}");
-    assert!(page.contains(">phi over theta<") && page.contains(">psi over theta<"), "{page}");
+    assert!(page.contains("<h1>FourBar</h1>") && page.contains("circuit 1: modes 1, 2, 2 dead points"), "{page}");
+    assert!(page.contains("phi over theta, one circuit") && page.contains("psi over theta, one circuit"), "{page}");
     assert!(page.contains("motion 1: theta goes to and fro"), "{page}");
     folder.run("circuits four.linkage --chart psi -o four.svg").works("wrote four.svg\n");
     let chart = folder.read("four.svg");
     // The linkage is drawn at both dead points.
-    assert!(chart.starts_with("<svg") && chart.contains(">psi over theta<"), "{chart}");
+    assert!(chart.starts_with("<svg") && chart.contains("psi over theta, one circuit"), "{chart}");
     assert_eq!((chart.matches("</svg>").count(), chart.matches("class=\"bar driven\"").count()), (1, 2), "{chart}");
     // One of two inputs moves.
     let two = "circuits two.linkage --along theta --at tilt=30deg,theta=50deg --format svg";
@@ -181,7 +181,7 @@ fn circuits_have_charts() {
         ("--chart phi,psi -o four.svg", "a picture has one chart: write one --chart, or -o NAME.html"),
         (
             "--chart theta -o four.svg",
-            "Four has no unknown `theta`: it has `phi` and `psi`; `linkage names` lists all names",
+            "FourBar has no unknown `theta`: it has `phi` and `psi`; `linkage names` lists all names",
         ),
     ] {
         folder.run(&format!("circuits four.linkage {arguments}")).fails(2, &format!("error: {message}\n"));
