@@ -117,11 +117,6 @@ impl<'n, M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>>> AtRunTime<'n
     fn rates_in(rates: &Split) -> M::Rates {
         M::rates(column(&rates.unknowns), rates.input)
     }
-
-    fn split_rates(rates: &M::Rates) -> Split {
-        let (unknowns, input) = M::rate_parts(rates);
-        Split { unknowns: column(&unknowns), input }
-    }
 }
 
 impl<'n, M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>>> Mechanism for AtRunTime<'n, M> {
