@@ -1,4 +1,5 @@
-//! The joints and parts of a mechanism, from its formulas.
+//! The joints and parts of a mechanism, from its formulas: also of one that has too many unknowns for the algorithms of the
+//! runtime, as a machine of three legs.
 
 use linkage_compiler::derivation;
 use linkage_report::drawing::Parts;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use linkage_compiler::Lowered;
+use linkage_compiler::derivation;
 use linkage_compiler::graph::Graph;
 use linkage_compiler::ids::{FunctionId, Table};
 use linkage_compiler::lower::Code;
@@ -11,7 +12,7 @@ use linkage_compiler::program::{self, ConstantValue, Implemented, MULTIPLIERS, P
 
 use crate::code::{Function, Name, Names};
 use crate::program::{
-    Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Scene, SceneTypes, Side, Types,
+    Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Part, Scene, SceneTypes, Side, Types,
     UserFunction, Written,
 };
 use crate::translate::{Context, Untranslated};
@@ -145,10 +146,12 @@ fn joint(place: usize, of: &Load) -> Joint {
     Joint { name: of.field.clone(), at, on, place }
 }
 
-/// The names as written, and the groups.
+/// The names as written, the groups, and the drawing.
 fn written(implementations: &[program::Implementation<Code>]) -> Written {
     let mut written = Written::default();
-    let of = implementations.iter().filter(|one| matches!(one.of, Implemented::Mechanism | Implemented::Kinematic));
+    let of = implementations
+        .iter()
+        .filter(|one| matches!(one.of, Implemented::Mechanism | Implemented::Kinematic | Implemented::Skeleton));
     for (name, value) in of.flat_map(|one| &one.constants) {
         match (*name, value) {
             ("UNKNOWNS", ConstantValue::Texts(names)) => written.unknowns.clone_from(names),
@@ -164,10 +167,24 @@ fn written(implementations: &[program::Implementation<Code>]) -> Written {
                 };
                 written.groups = groups.iter().map(group).collect();
             }
+            ("JOINTS", ConstantValue::Texts(names)) => written.drawing.get_or_insert_default().joints.clone_from(names),
+            ("PARTS", ConstantValue::Parts(parts)) => {
+                written.drawing.get_or_insert_default().parts = parts.iter().map(part).collect();
+            }
             _ => {}
         }
     }
     written
+}
+
+fn part(of: &derivation::Part) -> Part {
+    match *of {
+        derivation::Part::Ground(joint) => Part::Ground(joint),
+        derivation::Part::Bar { ref joints, is_driven } => Part::Bar { joints: joints.clone(), is_driven },
+        derivation::Part::Slider(joint) => Part::Slider(joint),
+        derivation::Part::Sleeve { pin, on, towards } => Part::Sleeve { pin, on, towards },
+        derivation::Part::Trace(joint) => Part::Trace(joint),
+    }
 }
 
 /// The places of the functions that are emitted, by their ids.

@@ -56,8 +56,8 @@ mod translate;
 mod written;
 
 pub use at_run_time::{
-    AllCoordinates, AtRunTime, BranchAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointForcesAtRunTime,
-    NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime, StateCount,
+    AllCoordinates, AtRunTime, BranchAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointCoordinates,
+    JointForcesAtRunTime, NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime, StateCount,
 };
 pub use call_error::CallError;
 pub use code::{Argument, Record, Shape};

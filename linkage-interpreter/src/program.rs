@@ -54,6 +54,36 @@ pub(crate) struct Written {
     pub(crate) ranges: Vec<String>,
     pub(crate) points: Vec<String>,
     pub(crate) outputs: Vec<String>,
+    /// None without `derive drawing`.
+    pub(crate) drawing: Option<Drawing>,
+}
+
+/// The joints of a drawing by name, and its parts.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub(crate) struct Drawing {
+    pub(crate) joints: Vec<String>,
+    pub(crate) parts: Vec<Part>,
+}
+
+/// A part of a drawing, by places of joints, as `linkage_runtime::skeleton::Part`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Part {
+    Ground(usize),
+    Bar { joints: Vec<usize>, is_driven: bool },
+    Slider(usize),
+    Sleeve { pin: usize, on: usize, towards: Option<usize> },
+    Trace(usize),
+}
+
+impl Part {
+    /// The places of its joints.
+    pub(crate) fn joints(&self) -> Vec<usize> {
+        match self {
+            Self::Ground(joint) | Self::Slider(joint) | Self::Trace(joint) => vec![*joint],
+            Self::Bar { joints, .. } => joints.clone(),
+            Self::Sleeve { pin, on, towards } => [*pin, *on].into_iter().chain(*towards).collect(),
+        }
+    }
 }
 
 /// Unknowns that are solved together, by indices, and the equations that determine them.

@@ -81,6 +81,11 @@ pub(crate) fn checked(driver: &Driver) -> Result<(), &'static str> {
     if !driver.written.groups.iter().flat_map(|group| group.equations.iter().chain(&group.unknowns)).all(is_unknown) {
         return Err("an unknown of a group does not exist");
     }
+    let drawing = driver.written.drawing.iter();
+    let joints = drawing.flat_map(|drawing| drawing.parts.iter().map(|part| (drawing.joints.len(), part)));
+    if !{ joints }.all(|(count, part)| part.joints().iter().all(|joint| *joint < count)) {
+        return Err("a joint of a part does not exist");
+    }
     Ok(())
 }
 

@@ -1,5 +1,7 @@
 //! The joints and parts of a drawing of a mechanism.
 
+use core::fmt::{self, Display, Formatter};
+
 use crate::{Column, Dim, Mechanism, Name};
 
 /// A part of a drawing. Joints are given by their index: that of [`Skeleton::joint_name`].
@@ -31,6 +33,35 @@ pub enum Part<'a> {
     Trace(usize),
 }
 
+/// The reason why a mechanism at run time has no drawing: its type is the same with and without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum NoDrawing {
+    /// It is compiled without `derive drawing;`.
+    NotDerived,
+    /// It has more joints than a drawing at run time can have.
+    TooLarge {
+        /// The number of joints.
+        joints: usize,
+        /// The most.
+        most: usize,
+    },
+}
+
+impl Display for NoDrawing {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotDerived => f.write_str("it is compiled without `derive drawing;`"),
+            Self::TooLarge { joints, most } => {
+                write!(f, "its {joints} joints are more than the {most} of a mechanism at run time: use `linkage!`")
+            }
+        }
+    }
+}
+
+impl core::error::Error for NoDrawing {}
+
 /// A mechanism that knows its drawing.
 ///
 /// `linkage!` implements it on request, by `derive drawing;`. The parts are guessed from the vectors of loops and points:
@@ -45,6 +76,14 @@ pub trait Skeleton: Mechanism {
     const JOINTS: &'static [&'static str];
     /// The parts.
     const PARTS: &'static [Part<'static>];
+
+    /// The reason why a mechanism at run time has no drawing: it has no joints then. Emitted code has one.
+    ///
+    /// # Errors
+    /// That reason.
+    fn check_drawing(&self) -> Result<(), NoDrawing> {
+        Ok(())
+    }
 
     /// The name of a joint; none beyond the last. The names and parts of emitted code are constants, those of a mechanism at run
     /// time are of its value.

@@ -9,7 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::values::{Assignment, Choice, Value};
-pub use motions::{Circuits, Limits, ListForm, ListFormat};
+pub use motions::{Circuits, CircuitsFormat, Limits, ListForm, ListFormat};
 pub use scenes::{Equilibrium, Simulate, SimulationFormat};
 
 /// Planar linkages from their loop equations: formulas, checks and code of a mechanism in a file.
@@ -75,7 +75,8 @@ Examples:
     #[command(after_help = "\
 Examples:
   linkage circuits wiper.linkage
-  linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json")]
+  linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json
+  linkage circuits wiper.linkage --set l2=45 -o circuits.html")]
     Circuits(Circuits),
     /// Simulate a scene: its motion in time, with loads and events, as a table or as a page of charts
     #[command(after_help = "\
@@ -89,7 +90,7 @@ Examples:
     /// Find the position at which the forces of a scene are in equilibrium, near the values of its inputs
     #[command(after_help = "Example:\n  linkage equilibrium lamp.linkage --at phi=30deg --set m=2")]
     Equilibrium(Equilibrium),
-    /// Report mobility, and all positions at one choice of inputs
+    /// Report mobility, all positions at one choice of inputs, circuits, and a motion with its extremes
     #[command(after_help = "\
 Examples:
   linkage report wiper.linkage --at theta2=20deg

@@ -43,8 +43,27 @@ pub struct Circuits {
     /// The number of values between them at which positions are listed
     #[arg(long, value_name = "NUMBER", default_value = "12", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..=MOST_STARTS))]
     pub starts: u32,
-    #[command(flatten)]
-    pub form: ListForm,
+    /// The unknowns that charts have, one in each [default: all; in a picture alone, the first]
+    #[arg(long, value_name = "UNKNOWN,…", value_delimiter = ',')]
+    pub chart: Vec<String>,
+    /// The form of the list [default: by the ending of OUT; else text]
+    #[arg(long, value_enum)]
+    pub format: Option<CircuitsFormat>,
+    /// The file to write, .txt or .json, .html with charts or .svg with one; `-` for standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum CircuitsFormat {
+    /// For readers, angles in degrees
+    Text,
+    /// Objects, angles in radians
+    Json,
+    /// A page with charts
+    Html,
+    /// A chart
+    Svg,
 }
 
 /// The form of a list, and its place.

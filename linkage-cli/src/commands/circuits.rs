@@ -3,29 +3,45 @@
 use std::f64::consts::TAU;
 
 use linkage_interpreter::BranchAtRunTime;
+use linkage_report::drawing::CircuitChart;
 use linkage_runtime::Mechanism;
 use linkage_runtime::circuits::{self, CircuitError, CircuitOptions};
+use linkage_runtime::continuation::Options;
 use serde::Serialize;
 
-use super::list::moving;
-use crate::arguments;
+use super::draw::undrawn;
+use super::list::{moving, to_json};
+use crate::arguments::{self, CircuitsFormat};
 use crate::curve::{Event, Motion};
 use crate::ends::{shown, why};
 use crate::failure::Failure;
 use crate::machine::Machine;
 use crate::motion::held;
+use crate::names::place;
 use crate::one_input::{At, OneInput, one_input, prepared};
+use crate::output::{self, Form, form};
 use crate::progress;
 
 /// The place of a start within its part of the range, the golden section: mechanisms are rarely singular there.
 const WITHIN: f64 = 0.381_966_011_250_105;
 
-type Found<'p> = circuits::Circuits<At, BranchAtRunTime, f64, &'p str>;
+/// The longest step of a curve in a chart, in the units of a path: it looks smooth.
+const SMOOTH: f64 = 1.0 / 16.0;
+
+const FORMS: [Form; 4] = [("text", &["txt"]), ("JSON", &["json"]), ("HTML", &["html", "htm"]), ("SVG", &["svg"])];
+
+/// The formats of these forms.
+const FORMATS: [CircuitsFormat; 4] =
+    [CircuitsFormat::Text, CircuitsFormat::Json, CircuitsFormat::Html, CircuitsFormat::Svg];
+
+type Found<'p> = circuits::Circuits<At, BranchAtRunTime<'p>, f64, &'p str>;
 
 pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
-    let arguments::Circuits { numbers, at, along, form, .. } = arguments;
-    let format = form.format("a list of circuits")?;
+    let arguments::Circuits { numbers, at, along, output, .. } = arguments;
+    let of_ending = form(output, "a list of circuits", &FORMS)?.map(|place| FORMATS[place]);
+    let format = arguments.format.or(of_ending).unwrap_or(CircuitsFormat::Text);
     let (machine, ()) = &Machine::of_all(numbers, "circuits have", |_| ())?;
+    let charted = charted(machine, &arguments.chart, format)?;
     let moving = moving(machine, along.as_deref())?;
     let starts = starts(machine, moving, arguments)?;
     let first = starts.first().copied().unwrap_or_default();
@@ -34,7 +50,11 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     let prepared = prepared(machine)?;
     let mechanism = one_input(&prepared, &inputs, moving)?;
     let found = progress::during("following".to_owned(), || {
-        Found::over(&mechanism, starts.iter().copied(), CircuitOptions::default())
+        let path = match charted.as_slice() {
+            [] => Options::default(),
+            _ => Options { longest_step: SMOOTH, ..Options::default() },
+        };
+        Found::over(&mechanism, starts.iter().copied(), CircuitOptions { path, ..CircuitOptions::default() })
     });
     if let Some(failure) = prepared.failure() {
         return Err(Failure::Outside(failure.to_string()));
@@ -50,7 +70,40 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
         return Err(Failure::Outside(none(machine, &inputs, starts.len())));
     }
     let list = Circuits::of(machine, &inputs, moving, &found)?;
-    form.write(format, &list, Circuits::to_text, &numbers.source.file)
+    let charts = charted.iter().map(|unknown| {
+        let chart = CircuitChart::of(&mechanism, &found, unknown).map_err(undrawn)?;
+        Ok(chart.title(format!("{unknown} over {}", list.input)).numbered_from(1))
+    });
+    let charts = charts.collect::<Result<Vec<_>, Failure>>()?;
+    let text = match format {
+        CircuitsFormat::Text => list.to_text(),
+        CircuitsFormat::Json => to_json(&list)?,
+        CircuitsFormat::Html => CircuitChart::to_html(&list.mechanism, &charts, &list.to_text()),
+        CircuitsFormat::Svg => charts.iter().map(CircuitChart::to_svg).collect(),
+    };
+    output::write(output, text.as_bytes(), &numbers.source.file)
+}
+
+/// The unknowns that the charts of a form have.
+fn charted<'m>(machine: &'m Machine, asked: &[String], format: CircuitsFormat) -> Result<Vec<&'m str>, Failure> {
+    let names: Vec<&str> = machine.about.unknowns.iter().map(|unknown| unknown.name.text.as_str()).collect();
+    let asked = asked.iter().map(|name| Ok(names[place(&machine.about.name, "unknown", name, &names)?]));
+    let asked = asked.collect::<Result<Vec<&str>, Failure>>()?;
+    match (format, asked.as_slice()) {
+        (CircuitsFormat::Text | CircuitsFormat::Json, []) => Ok(Vec::new()),
+        (CircuitsFormat::Text | CircuitsFormat::Json, _) => Err(Failure::Argument(
+            "charts are HTML or SVG: write -o NAME.html or NAME.svg, or leave out --chart".to_owned(),
+        )),
+        (_, []) if names.is_empty() => {
+            Err(Failure::Outside(format!("`{}` has no unknown that a chart could have", machine.about.name)))
+        }
+        (CircuitsFormat::Html, []) => Ok(names),
+        (CircuitsFormat::Svg, []) => Ok(names.into_iter().take(1).collect()),
+        (CircuitsFormat::Svg, [_, _, ..]) => {
+            Err(Failure::Argument("a picture has one chart: write one --chart, or -o NAME.html".to_owned()))
+        }
+        (_, _) => Ok(asked),
+    }
 }
 
 /// The reason why there is no position.
@@ -116,7 +169,7 @@ struct Position {
 
 impl Circuits {
     fn of(machine: &Machine, inputs: &[f64], moving: usize, found: &Found<'_>) -> Result<Self, Failure> {
-        let position = |mode: &circuits::CircuitMode<At, BranchAtRunTime>| {
+        let position = |mode: &circuits::CircuitMode<At, BranchAtRunTime<'_>>| {
             let input = mode.position.parameter;
             let unknowns: Vec<f64> = OneInput::unknowns(&mode.position).iter().copied().collect();
             let mut here = inputs.to_vec();

@@ -29,12 +29,15 @@ impl ListForm {
     ) -> Result<(), Failure> {
         let text = match format {
             ListFormat::Text => to_text(list),
-            ListFormat::Json => {
-                serde_json::to_string_pretty(list).map_err(|error| Failure::Outside(error.to_string()))? + "\n"
-            }
+            ListFormat::Json => to_json(list)?,
         };
         output::write(&self.output, text.as_bytes(), source)
     }
+}
+
+/// A list as JSON.
+pub fn to_json<L: Serialize>(list: &L) -> Result<String, Failure> {
+    Ok(serde_json::to_string_pretty(list).map_err(|error| Failure::Outside(error.to_string()))? + "\n")
 }
 
 /// The place of the input that moves: the one that is asked for, or the first.

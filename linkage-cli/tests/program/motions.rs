@@ -159,6 +159,35 @@ circuit 1: motions 1, 2
     assert!(ranged.contains("at the ends of ranges") && ranged.contains("the least value of theta at theta = -20°"));
 }
 
+/// The charts of the library, whose numbers begin at 1 as those of the list do.
+#[test]
+fn circuits_have_charts() {
+    let folder = folder();
+    folder.run("circuits four.linkage --at theta=20deg -o four.html").works("wrote four.html\n");
+    let page = folder.read("four.html");
+    assert!(page.contains("<h1>FourBar</h1>") && page.contains("circuit 1: modes 1, 2, 2 dead points"), "{page}");
+    assert!(page.contains("phi over theta, one circuit") && page.contains("psi over theta, one circuit"), "{page}");
+    assert!(page.contains("motion 1: theta goes to and fro"), "{page}");
+    folder.run("circuits four.linkage --chart psi -o four.svg").works("wrote four.svg\n");
+    let chart = folder.read("four.svg");
+    // The linkage is drawn at both dead points.
+    assert!(chart.starts_with("<svg") && chart.contains("psi over theta, one circuit"), "{chart}");
+    assert_eq!((chart.matches("</svg>").count(), chart.matches("class=\"bar driven\"").count()), (1, 2), "{chart}");
+    // One of two inputs moves.
+    let two = "circuits two.linkage --along theta --at tilt=30deg,theta=50deg --format svg";
+    assert!(folder.run(two).works("").contains("one circuit of 2 modes"));
+    for (arguments, message) in [
+        ("--chart phi", "charts are HTML or SVG: write -o NAME.html or NAME.svg, or leave out --chart"),
+        ("--chart phi,psi -o four.svg", "a picture has one chart: write one --chart, or -o NAME.html"),
+        (
+            "--chart theta -o four.svg",
+            "FourBar has no unknown `theta`: it has `phi` and `psi`; `linkage names` lists all names",
+        ),
+    ] {
+        folder.run(&format!("circuits four.linkage {arguments}")).fails(2, &format!("error: {message}\n"));
+    }
+}
+
 #[test]
 fn wrong_arguments_of_motions() {
     let folder = folder();
@@ -175,7 +204,7 @@ fn wrong_arguments_of_motions() {
         (
             "circuits four.linkage -o four.csv",
             2,
-            "a list of circuits is text or JSON: write -o NAME.txt or NAME.json, not `.csv`",
+            "a list of circuits is text, JSON, HTML or SVG: write -o NAME.txt, NAME.json, NAME.html or NAME.svg, not `.csv`",
         ),
         (
             "circuits parallel.linkage --at theta=0",

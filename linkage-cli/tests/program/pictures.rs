@@ -208,12 +208,15 @@ fn reports() {
     let text = folder.run("report four.linkage --at theta2=20deg").works("");
     for line in [
         "4 links (ground, theta2, theta3, theta4) meet in 4 joints, all of which turn.",
-        "At theta2 = 20° there are 2 modes.\n",
+        "At theta2 = 20° there are 2 modes on 2 motions, which form 2 circuits.\n",
         "Mode 1 (theta3_theta4=left): theta3 = 70.55077° and theta4 = −50.46595°.",
         "The transmission angle of theta3, theta4 is 58.98329°.",
         "Mode 2 (theta3_theta4=right): theta3 = ",
         "is a crank-rocker, seen from theta2",
-        "This report follows no motion.",
+        "Circuit 1: mode 1, which this report follows. theta2 turns fully",
+        "Motion\ntheta2 turns fully, without limits: the motion closes after 1 turn.",
+        "the angle between both links goes from 57.12165° (at theta2 = 0°) to 111.8037° (at theta2 = 180°)",
+        "The time ratio of both strokes is",
     ] {
         assert!(text.contains(line), "{line}: {text}");
     }
@@ -223,6 +226,32 @@ fn reports() {
     // Why there is no position.
     let none = folder.run("report four.linkage --set l2=300").works("");
     assert!(none.contains("The modes are not known: FourBar cannot be assembled"), "{none}");
+    assert!(none.contains("This report follows no motion: FourBar cannot be assembled"), "{none}");
+    // Where a motion is not followed, the report has the positions, and says why there is no more.
+    folder.write(
+        "five.linkage",
+        "mechanism Five { param a = 1, b = 4; input u, v; unknown p, q; \
+                                  loop a@u + b@p = 5@0 + a@v + b@q; }",
+    );
+    let two = folder.run("report five.linkage").works("");
+    assert!(
+        two.contains("there are 2 modes.\n") && two.contains("With 2 inputs a mechanism has as many motions"),
+        "{two}"
+    );
+    folder.write("arm.linkage", "mechanism Arm { input u; point P = 2@u; }");
+    let open = folder.run("report arm.linkage").works("");
+    assert!(open.contains("This report follows no motion: all positions are those of the input."), "{open}");
+    let [names, equations]: [String; 2] = [
+        (0..23).map(|place| format!(", e{place}")).collect(),
+        (0..23).map(|place| format!("equation e{place} = {place} * t; ")).collect(),
+    ];
+    let of = |names: &str, equations: &str| {
+        format!("mechanism Large {{ input t; unknown p, q{names}; loop 1@t + 3@p = 2@0 + 3@q; {equations} }}")
+    };
+    folder.write("large.linkage", of(&names, &equations));
+    let large = folder.run("report large.linkage").works("");
+    assert!(large.contains("no motion: there are 25 unknowns, more than the 24"), "{large}");
+    folder.run("draw large.linkage").works("wrote large.svg\n");
     let message = "error: a report has all positions: leave out --branch\n";
     folder.run("report four.linkage --branch theta3_theta4=left").fails(2, message);
 }

@@ -60,7 +60,7 @@ impl<'p, V: Dim> AtRunTime<'p, V> {
     fn moving(
         &self,
         guess: &CoordinatesAtRunTime<V>,
-        branch: &BranchAtRunTime,
+        branch: &BranchAtRunTime<'p>,
         [rates, accelerations]: [&Column<f64, V>; 2],
     ) -> [Value; 4] {
         let moving = [rates, accelerations].map(|column| self.inputs_value(column));
@@ -113,7 +113,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
     fn kinematics(
         &self,
         guess: &CoordinatesAtRunTime<V>,
-        branch: BranchAtRunTime,
+        branch: BranchAtRunTime<'p>,
         rates: Column<f64, V>,
         accelerations: Column<f64, V>,
     ) -> Found<'p, KinematicsOf<Self>> {
@@ -128,7 +128,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
     fn full_kinematics(
         &self,
         guess: &CoordinatesAtRunTime<V>,
-        branch: BranchAtRunTime,
+        branch: BranchAtRunTime<'p>,
         rates: Column<f64, V>,
         accelerations: Column<f64, V>,
     ) -> Found<'p, FullKinematicsOf<Self>> {

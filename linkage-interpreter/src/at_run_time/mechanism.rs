@@ -35,7 +35,7 @@ impl<'p, V: Dim> Mechanism for AtRunTime<'p, V> {
     type Rates = CoordinatesAtRunTime<V>;
     type Inputs = Column<f64, V>;
     type Pose = PoseAtRunTime<V>;
-    type Branch = BranchAtRunTime;
+    type Branch = BranchAtRunTime<'p>;
 
     // An algorithm that reads a constant instead of the value does not compile.
     const NAME: &'static str = panic!("the name is one of the value");
@@ -93,7 +93,7 @@ impl<'p, V: Dim> Mechanism for AtRunTime<'p, V> {
     fn is_finite(pose: &PoseAtRunTime<V>) -> bool {
         pose.numbers.as_ref().iter().all(|number| number.is_finite())
     }
-    fn branch_of(&self, pose: &PoseAtRunTime<V>) -> BranchAtRunTime {
+    fn branch_of(&self, pose: &PoseAtRunTime<V>) -> BranchAtRunTime<'p> {
         self.read_branch(&self.prepared.value("branch_of", [self.pose_value(pose)]))
     }
 

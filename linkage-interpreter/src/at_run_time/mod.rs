@@ -17,6 +17,7 @@ mod positions;
 mod prepared;
 mod read;
 mod scene;
+mod skeleton;
 
 use linkage_runtime::{Dim, UpTo};
 
@@ -34,6 +35,9 @@ pub(crate) const MOST: usize = 24;
 /// The most inputs.
 pub(crate) const MOST_INPUTS: usize = 6;
 
+/// The most joints of a drawing.
+pub(crate) const MOST_JOINTS: usize = 64;
+
 /// The most numbers of a pose.
 pub(crate) const MOST_OF_POSE: usize = 256;
 
@@ -42,6 +46,9 @@ pub type Count = UpTo<MOST>;
 
 /// The number of coordinates.
 pub type AllCoordinates = UpTo<{ MOST + MOST_INPUTS }>;
+
+/// Twice the number of joints of a drawing.
+pub type JointCoordinates = UpTo<{ 2 * MOST_JOINTS }>;
 
 /// A mechanism with values of its parameters, with `V` inputs, that the algorithms of the runtime take.
 #[derive(Debug)]

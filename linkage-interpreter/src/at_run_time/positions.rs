@@ -10,7 +10,7 @@ impl<'p, V: Dim> Assembly for AtRunTime<'p, V> {
     fn assemble(
         &self,
         inputs: Column<f64, V>,
-        branch: BranchAtRunTime,
+        branch: BranchAtRunTime<'p>,
     ) -> Result<PoseAtRunTime<V>, PositionError<&'p str>> {
         let given = [self.inputs_value(&inputs), self.branch_value(&branch)];
         self.prepared.result("assemble", given).map(|pose| self.read_pose(pose))
@@ -18,7 +18,7 @@ impl<'p, V: Dim> Assembly for AtRunTime<'p, V> {
     fn assemble_near(
         &self,
         guess: &CoordinatesAtRunTime<V>,
-        branch: BranchAtRunTime,
+        branch: BranchAtRunTime<'p>,
     ) -> Result<PoseAtRunTime<V>, PositionError<&'p str>> {
         match self.prepared.counts_turns() {
             true => {
@@ -36,7 +36,7 @@ impl<'p, V: Dim> Branches for AtRunTime<'p, V> {
     fn all_positions(
         &self,
         inputs: Column<f64, V>,
-    ) -> Result<impl Iterator<Item = (BranchAtRunTime, CoordinatesAtRunTime<V>)>, PositionError<&'p str>> {
+    ) -> Result<impl Iterator<Item = (BranchAtRunTime<'p>, CoordinatesAtRunTime<V>)>, PositionError<&'p str>> {
         let all = if self.prepared.has("all_positions") {
             let all = self.prepared.result("all_positions", [self.inputs_value(&inputs)])?;
             let pairs = all.as_list().unwrap_or_default().iter().filter_map(|pair| match pair.as_list() {

@@ -4,9 +4,11 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
+use linkage_runtime::skeleton::{NoDrawing, Part};
 use linkage_runtime::{Bounded, Dim, Group, PositionError};
 
 use super::names::Texts;
+use super::skeleton;
 use super::{AtRunTime, Count, MOST, MOST_INPUTS, MOST_OF_POSE, NotPrepared};
 use crate::call_error::CallError;
 use crate::code::{Function, Name};
@@ -23,6 +25,8 @@ pub struct Prepared<'d> {
     texts: Texts<'d>,
     pub(crate) inputs: Vec<&'d str>,
     pub(crate) groups: Vec<Group<'d, &'d str>>,
+    /// The parts of the drawing.
+    pub(crate) drawing: Result<Vec<Part<'d>>, NoDrawing>,
     /// The form of a pose.
     pose: Value,
     pub(crate) fields: Fields,
@@ -87,6 +91,7 @@ impl<'d> Prepared<'d> {
                     unknowns: &group.unknowns,
                 })
                 .collect(),
+            drawing: skeleton::drawing(driver),
             pose: Value::Absent,
             fields: Fields::of(driver),
             failed: RefCell::new(None),

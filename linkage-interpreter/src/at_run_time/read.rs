@@ -103,7 +103,7 @@ impl Prepared<'_> {
     }
 }
 
-impl<V: Dim> AtRunTime<'_, V> {
+impl<'p, V: Dim> AtRunTime<'p, V> {
     /// The coordinates, rates or accelerations that a value has by name.
     pub(crate) fn read_coordinates(&self, value: &Value) -> CoordinatesAtRunTime<V> {
         let driver = self.prepared.driver;
@@ -148,15 +148,15 @@ impl<V: Dim> AtRunTime<'_, V> {
     }
 
     /// The value of a branch.
-    pub(crate) fn branch_value(&self, branch: &BranchAtRunTime) -> Value {
-        branch.value(self.prepared.driver)
+    pub(crate) fn branch_value(&self, branch: &BranchAtRunTime<'_>) -> Value {
+        branch.value()
     }
 
     /// The branch that a value is.
-    pub(crate) fn read_branch(&self, value: &Value) -> BranchAtRunTime {
+    pub(crate) fn read_branch(&self, value: &Value) -> BranchAtRunTime<'p> {
         BranchAtRunTime::read(self.prepared.driver, value).unwrap_or_else(|defect: Defect| {
             self.prepared.keep(crate::CallError::Defect(defect));
-            BranchAtRunTime::none()
+            BranchAtRunTime::none(self.prepared.driver)
         })
     }
 }

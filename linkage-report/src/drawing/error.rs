@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use linkage_runtime::skeleton::NoDrawing;
+
 /// The error of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -9,6 +11,13 @@ use std::fmt;
 pub enum DrawingError {
     /// The drawing is empty.
     Empty,
+    /// A mechanism at run time has no drawing.
+    NoDrawing {
+        /// The mechanism.
+        mechanism: String,
+        /// The reason.
+        why: NoDrawing,
+    },
     /// A bar or a vector refers to an unknown point.
     UnknownPoint(String),
     /// No joint or point has the name that is to be changed or to leave a path.
@@ -42,6 +51,7 @@ impl fmt::Display for DrawingError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => f.write_str("the drawing is empty: add points"),
+            Self::NoDrawing { mechanism, why } => write!(f, "`{mechanism}` has no drawing: {why}"),
             Self::UnknownPoint(name) => write!(f, "the drawing has no point `{name}`: add it first"),
             Self::UnknownJoint { name, nearest } => {
                 write!(f, "the drawing has no joint or point `{name}`")?;

@@ -21,6 +21,9 @@ impl Figure {
     where
         M::Pose: 'a,
     {
+        if let Err(mistake) = check(mechanism) {
+            return Self { frames: vec![Vec::new()], mistake: Some(mistake), ..Self::default() };
+        }
         let mut poses = poses.into_iter().peekable();
         let guides: Vec<[f64; 2]> =
             poses.peek().iter().flat_map(|pose| (0..).map_while(|guide| mechanism.guide(pose, guide))).collect();
@@ -169,6 +172,12 @@ impl Animation {
         let poses: Result<Vec<<M::Of as Mechanism>::Pose>, PathErrorOf<M>> = inputs.map(pose).collect();
         Ok(Self::of(range.driven(), &poses.map_err(|error| no_position(&error))?, seconds))
     }
+}
+
+/// Checks that a mechanism has a drawing.
+pub(super) fn check<M: Skeleton>(mechanism: &M) -> Result<(), DrawingError> {
+    let no_drawing = |why| DrawingError::NoDrawing { mechanism: mechanism.name().to_string(), why };
+    mechanism.check_drawing().map_err(no_drawing)
 }
 
 fn no_position<N: Name>(error: &PathError<N>) -> DrawingError {

@@ -258,12 +258,12 @@ impl Drawing {
     pub fn forces<M, F>(&mut self, mechanism: &M, pose: &M::Pose, forces: &F) -> &mut Self
     where
         M: Skeleton<Scalar = f64>,
-        F: JointForces<f64, Mechanism = M>,
+        F: JointForces<f64, M::Name, Mechanism = M>,
     {
         self.fit(Quantity::Force);
-        let all = F::JOINTS.iter().zip(forces.each()).filter_map(|(joint, [first, second])| {
+        let all = forces.joints().zip(forces.each()).filter_map(|(joint, [first, second])| {
             // The second number of a guide is a moment.
-            let (on, place, second) = match *joint {
+            let (on, place, second) = match joint {
                 Joint::Pin { on, place, .. } => (on, place, second),
                 Joint::Guide { on, place, .. } => (on, place, 0.0),
             };
@@ -271,12 +271,13 @@ impl Drawing {
             let along = Vector2::new(along_x, along_y);
             Some((on, Vector2::new(x, y), along * first + Vector2::new(-along.y, along.x) * second))
         });
-        let all: Vec<(&str, Vector2<f64>, Vector2<f64>)> = all.collect();
-        for (index, &(link, at, vector)) in all.iter().enumerate() {
+        let all: Vec<(M::Name, Vector2<f64>, Vector2<f64>)> = all.collect();
+        for (index, &(ref link, at, vector)) in all.iter().enumerate() {
+            let link = link.as_ref();
             let here: Vec<usize> = (0..all.len()).filter(|&other| all[other].1 == at).collect();
             let is_shown = match here[..] {
                 [one, other] if is_opposite(all[one].2, all[other].2) => {
-                    let on_ground = if all[one].0 == GROUND { one } else { other };
+                    let on_ground = if all[one].0.as_ref() == GROUND { one } else { other };
                     index != on_ground
                 }
                 _ => true,

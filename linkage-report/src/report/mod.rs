@@ -75,6 +75,9 @@ pub struct Report<N: BorrowedName = &'static str> {
     /// One motion from end to end; none for a mechanism with several inputs, which has as many motions as paths of its
     /// inputs.
     pub motion: Option<MotionReport<N>>,
+    /// The reason why a report of data follows no motion, where one is known.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub no_motion: Option<String>,
 }
 
 /// A coordinate by name.
@@ -134,6 +137,7 @@ impl Report {
             modes,
             four_bars,
             motion: None,
+            no_motion: None,
         }
     }
 }
@@ -219,7 +223,7 @@ impl<N: BorrowedName> Report<N> {
     where
         M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
     {
-        let modes = Modes::of(range.mechanism(), start, options.circuits);
+        let modes = Modes::of(range.mechanism(), derivation, start, options.circuits);
         let modes = modes.map_or_else(ReportedModes::Failed, ReportedModes::Listed);
         let motion = MotionReport::of(range, derivation, M::inputs(start)[0], options)?;
         Ok(Self { motion: Some(motion), ..Self::without_motion(range.mechanism(), derivation, modes) })
@@ -240,6 +244,7 @@ impl<N: BorrowedName> Report<N> {
             modes,
             four_bars: Vec::new(),
             motion: None,
+            no_motion: None,
         }
     }
 }

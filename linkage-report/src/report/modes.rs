@@ -3,7 +3,11 @@
 use std::f64::consts::TAU;
 
 use linkage_runtime::circuits::{CircuitError, CircuitOptions, Circuits, CurveEnd, CurveEvent, MotionCurve};
-use linkage_runtime::{BorrowedName, Branches, D, Mechanism};
+use linkage_runtime::derivation::Derivation;
+use linkage_runtime::{BorrowedName, Branches, D, Kinematic, Mechanism};
+
+use super::local::Local;
+use super::transmission;
 
 /// The modes of a mechanism at an input, and how they are connected.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +35,7 @@ pub struct ListedMode {
     pub unknowns: Vec<f64>,
     /// Its motion, by index.
     pub motion: Option<usize>,
-    /// The transmission angle of each dyad, with the unknowns of the dyad, in a report of data.
+    /// The transmission angle of each dyad, with the unknowns of the dyad, in a report of a motion or of data.
     pub transmission: Vec<(String, f64)>,
 }
 
@@ -68,11 +72,12 @@ impl Modes {
     /// Those of [`Circuits::of`].
     pub(super) fn of<M>(
         mechanism: &M,
+        derivation: &Derivation<'_>,
         start: &M::Coordinates,
         options: CircuitOptions,
     ) -> Result<Self, CircuitError<M::Name>>
     where
-        M: Branches<Scalar = f64, V = D<1>>,
+        M: Kinematic<Scalar = f64, V = D<1>> + Branches,
     {
         let input = M::inputs(start)[0];
         let circuits = Circuits::of(mechanism, input, options)?;
@@ -82,7 +87,7 @@ impl Modes {
             branch: format!("{:?}", mode.branch),
             unknowns: M::unknowns(&mode.position).as_slice().to_vec(),
             motion: Some(mode.motion),
-            transmission: Vec::new(),
+            transmission: transmission::at(&Local::of(mechanism, derivation, &mode.position)),
         });
         let modes = modes.collect();
         let motions = circuits.motions.iter().map(listed).collect();

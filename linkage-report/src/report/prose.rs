@@ -50,7 +50,8 @@ pub(super) fn sections<N: BorrowedName>(report: &Report<N>) -> Vec<Section> {
     }
     match &report.motion {
         None if report.inputs.len() == 1 => {
-            sections.push(section("Motion", vec!["This report follows no motion.".to_owned()]));
+            let why = report.no_motion.as_ref().map_or(String::new(), |why| format!(": {why}"));
+            sections.push(section("Motion", vec![format!("This report follows no motion{why}.")]));
         }
         None => {
             let why = format!(
@@ -158,20 +159,17 @@ impl<N: BorrowedName> Writer<'_, N> {
         let at = list_of(inputs.map(|(input, &value)| format!("{} = {}", input.name, written(value, input.is_angle))));
         let count = modes.modes.len();
         let are = if count == 1 { "is" } else { "are" };
-        if modes.motions.is_empty() {
-            let first = format!("At {at} there {are} {}.", counted(count, "mode", "modes"));
-            return [first]
-                .into_iter()
-                .chain(modes.modes.iter().zip(1..).map(|(mode, number)| self.mode(mode, number)))
-                .collect();
-        }
-        let mut paragraphs = vec![format!(
-            "At {at} there {are} {} on {}, which {} {}.",
-            counted(count, "mode", "modes"),
-            counted(modes.motions.len(), "motion", "motions"),
-            if modes.motions.len() == 1 { "forms" } else { "form" },
-            counted(modes.circuits.len(), "circuit", "circuits"),
-        )];
+        let on = match modes.motions.len() {
+            0 => String::new(),
+            motions => format!(
+                " on {}, which {} {}",
+                counted(motions, "motion", "motions"),
+                if motions == 1 { "forms" } else { "form" },
+                counted(modes.circuits.len(), "circuit", "circuits"),
+            ),
+        };
+        let mut paragraphs = vec![format!("At {at} there {are} {}{on}.", counted(count, "mode", "modes"))];
+        paragraphs.extend(modes.modes.iter().zip(1..).map(|(mode, number)| self.mode(mode, number)));
         let followed = modes.followed.and_then(|mode| modes.modes.get(mode)?.motion);
         for (place, circuit) in modes.circuits.iter().enumerate() {
             for &at in circuit {

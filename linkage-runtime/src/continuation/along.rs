@@ -1,6 +1,7 @@
 //! A mechanism with several inputs, driven along a path of its inputs.
 
 use super::input_path::InputPath;
+use crate::skeleton::{NoDrawing, Part, Skeleton};
 use crate::{
     BorrowedName, Branches, Build, Column, D, Dim, Group, Matrix, Mechanism, PerInput, PerUnknown, PositionErrorOf,
     Ranged, Real,
@@ -219,5 +220,41 @@ where
         let [inputs, ..] = self.inputs.at(parameter[0]);
         let at = move |(branch, q)| (branch, AlongCoordinates { q, parameter: parameter[0] });
         Ok(self.mechanism.all_positions(inputs.into())?.map(at))
+    }
+}
+
+/// The drawing of the mechanism.
+impl<M, F> Skeleton for Along<M, F>
+where
+    M: Skeleton,
+    F: InputPath<M>,
+{
+    type Parts = M::Parts;
+
+    const JOINTS: &'static [&'static str] = M::JOINTS;
+    const PARTS: &'static [Part<'static>] = M::PARTS;
+
+    fn check_drawing(&self) -> Result<(), NoDrawing> {
+        self.mechanism.check_drawing()
+    }
+
+    fn joint_name(&self, place: usize) -> Option<M::Name> {
+        self.mechanism.joint_name(place)
+    }
+
+    fn drawn_parts(&self) -> &[Part<'_>] {
+        self.mechanism.drawn_parts()
+    }
+
+    fn joints(&self, at: &Self::Pose) -> Column<M::Scalar, M::Parts> {
+        self.mechanism.joints(&at.pose)
+    }
+
+    fn guide(&self, at: &Self::Pose, place: usize) -> Option<[M::Scalar; 2]> {
+        self.mechanism.guide(&at.pose, place)
+    }
+
+    fn force_place(&self, at: &Self::Pose, place: usize) -> Option<[M::Scalar; 4]> {
+        self.mechanism.force_place(&at.pose, place)
     }
 }

@@ -2,8 +2,19 @@
 //!
 //! An algorithm that reads a constant of a type, where it must read the value, does not compile here.
 
+/// Mechanisms, and their text.
+macro_rules! with_text {
+    ($($tokens:tt)*) => {
+        linkage! { $($tokens)* }
+
+        /// Their text.
+        const OF_THIS_FILE: &str = stringify!($($tokens)*);
+    };
+}
+
 mod functions;
 mod motions;
+mod pictures;
 mod scenes;
 
 use linkage::{Column, D, Dim, Mechanism};

@@ -11,16 +11,6 @@ use linkage_interpreter::{Mechanism as Compiled, Program};
 use super::{Numbers, bits, coordinates};
 use crate::drawn::mechanisms;
 
-/// Mechanisms, and their text.
-macro_rules! with_text {
-    ($($tokens:tt)*) => {
-        linkage! { $($tokens)* }
-
-        /// Their text.
-        const OF_THIS_FILE: &str = stringify!($($tokens)*);
-    };
-}
-
 with_text! {
     // Laws with kinks: of time and of the state.
     mechanism Bent {

@@ -1,11 +1,8 @@
-//! Pictures and certificates of mechanisms at run time against those of emitted code.
+//! Certificates of mechanisms at run time against those of emitted code.
 
-use linkage::skeleton::{Part, Skeleton};
-use linkage::{Branches, Certifiable, Column, D, Dim, Formulas, Kinematic, Number, Ranged, UpTo, linkage};
-use linkage_gallery::tilted_parallelogram::TiltedParallelogram;
+use linkage::{Branches, Certifiable, Column, D, Dim, Formulas, Mechanism, Number, Ranged, UpTo, linkage};
 
 use super::certificates::certificates;
-use super::pictures::{drawings, reports, tables};
 use super::wrapped::{AtRunTime, Most, Texts, column};
 
 linkage! {
@@ -20,7 +17,7 @@ linkage! {
         point C = crank@theta + coupler@phi;
         output swing = psi;
         output height = rocker * sin(psi);
-        derive drawing, intervals;
+        derive intervals;
     }
 
     /// A double rocker: the input turns back at dead points.
@@ -30,7 +27,7 @@ linkage! {
         input theta;
         unknown phi, psi;
         loop crank@theta + coupler@phi = ground@0 + rocker@psi;
-        derive drawing, intervals;
+        derive intervals;
     }
 
     /// An oscillating block.
@@ -42,32 +39,7 @@ linkage! {
         loop crank@theta = ground@0 + s@psi;
         point Pin = crank@theta;
         output turned = psi - theta;
-        derive drawing, intervals;
-    }
-}
-
-impl<'n, M> Skeleton for AtRunTime<'n, M>
-where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Skeleton,
-{
-    type Parts = UpTo<40>;
-    const JOINTS: &'static [&'static str] = panic!("joints of a value");
-    const PARTS: &'static [Part<'static>] = panic!("parts of a value");
-
-    fn joint_name(&self, place: usize) -> Option<&'n str> {
-        self.of.joint_name(place)
-    }
-    fn drawn_parts(&self) -> &[Part<'_>] {
-        self.of.drawn_parts()
-    }
-    fn joints(&self, pose: &M::Pose) -> Column<f64, UpTo<40>> {
-        column(&self.of.joints(pose))
-    }
-    fn guide(&self, pose: &M::Pose, place: usize) -> Option<[f64; 2]> {
-        self.of.guide(pose, place)
-    }
-    fn force_place(&self, pose: &M::Pose, place: usize) -> Option<[f64; 4]> {
-        self.of.force_place(pose, place)
+        derive intervals;
     }
 }
 
@@ -121,7 +93,7 @@ impl<F: Formulas<V = D<1>>> Formulas for FormulasAtRunTime<F> {
 
 impl<'n, M> Certifiable for AtRunTime<'n, M>
 where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Certifiable,
+    M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>> + Certifiable,
 {
     type P = Most;
     type Q = UpTo<40>;
@@ -158,7 +130,7 @@ where
 /// Calls a function with the mechanism at run time, whose names have a mark.
 fn wrapped<M, R>(m: &M, mark: &str, call: impl FnOnce(&AtRunTime<'_, M>) -> R) -> R
 where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Clone,
+    M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>> + Clone,
 {
     let texts = Texts::marked_by::<M>(mark);
     let (inputs, groups) = (texts.inputs(), texts.groups::<M>());
@@ -166,7 +138,7 @@ where
 }
 
 /// The first positions at an input, with their branches.
-fn positions<M: Kinematic<Scalar = f64, V = D<1>> + Branches>(m: &M, input: f64) -> Vec<(M::Branch, M::Coordinates)> {
+fn positions<M: Mechanism<Scalar = f64, V = D<1>> + Branches>(m: &M, input: f64) -> Vec<(M::Branch, M::Coordinates)> {
     let inputs: linkage::PerInput<M> = [input].into();
     m.all_positions(inputs.into()).unwrap().collect()
 }
@@ -183,24 +155,9 @@ fn same(emitted: &[String], at_run_time: &[String]) {
     assert_eq!(emitted.len(), at_run_time.len());
 }
 
-/// Pictures have no marks: their layout depends on the width of names.
-macro_rules! pictured {
-    ($Mechanism:ty, $input:expr) => {{
-        let m = <$Mechanism>::default();
-        let derivation = <$Mechanism>::DERIVATION;
-        for (branch, q) in positions(&m, $input) {
-            let split = AtRunTime::<$Mechanism>::split(&q);
-            same(&drawings(&m, &q, branch), &wrapped(&m, "", |m| drawings(m, &split, branch)));
-            same(&tables(&m, branch), &wrapped(&m, "", |m| tables(m, branch)));
-            let at_run_time = wrapped(&m, "", |m| reports(m, derivation, &split, branch));
-            same(&reports(&m, derivation, &q, branch), &at_run_time);
-        }
-    }};
-}
-
 fn certified<M>(m: &M, input: f64)
 where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Certifiable + Branches + Clone,
+    M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>> + Certifiable + Branches + Clone,
 {
     for (_, q) in positions(m, input) {
         let split = AtRunTime::<M>::split(&q);
@@ -209,14 +166,6 @@ where
         let unmarked: Vec<String> = at_run_time.iter().map(|text| text.replace(" at run time", "")).collect();
         same(&certificates(m, &q), &unmarked);
     }
-}
-
-#[test]
-fn pictures() {
-    pictured!(CrankRocker, 1.0);
-    pictured!(Rocker, 0.4);
-    pictured!(Block, 0.9);
-    pictured!(TiltedParallelogram, 0.7);
 }
 
 #[test]

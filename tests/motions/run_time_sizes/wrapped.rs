@@ -3,22 +3,12 @@
 
 use std::fmt::Debug;
 
-use linkage::kinematic::{
-    FullKinematics, FullKinematicsOf, Kinematics, KinematicsOf, Motion, MotionOf, Quantity, Ratios,
-};
-use linkage::nalgebra::{Point2, Vector2};
-use linkage::{
-    Assembly, Bounded, Branches, Build, Column, D, Dim, Group, InputValues, Kinematic, Matrix, Mechanism,
-    PositionError, Ranged, UpTo,
-};
+use linkage::{Branches, Build, Column, D, Dim, Group, InputValues, Matrix, Mechanism, PositionError, Ranged, UpTo};
 
 /// More unknowns, groups, points and outputs than any mechanism here has.
 pub type Most = UpTo<24>;
-/// All coordinates.
-type All = UpTo<25>;
 type Numbers = Column<f64, Most>;
 type Input = Column<f64, D<1>>;
-pub type List<X> = <Most as Dim>::Array<X>;
 
 /// The names and the groups of a mechanism, as texts that belong to no type.
 pub struct Texts {
@@ -71,20 +61,6 @@ pub struct Split {
     input: Input,
 }
 
-impl From<Bounded<f64, 25>> for Split {
-    fn from(list: Bounded<f64, 25>) -> Self {
-        let (input, unknowns) = list.as_ref().split_last().expect("an input");
-        Self { unknowns: Column::from_slice(unknowns).expect("few unknowns"), input: [*input].into() }
-    }
-}
-
-impl From<Split> for Bounded<f64, 25> {
-    fn from(Split { unknowns, input }: Split) -> Self {
-        let all: Vec<f64> = unknowns.iter().chain(&input).copied().collect();
-        All::new(all.len()).expect("few coordinates").array(|place| all[place])
-    }
-}
-
 /// A column of the same numbers in another type.
 pub fn column<X: Copy + Debug, R: Dim, S: Dim>(of: &Column<X, R>) -> Column<X, S> {
     Column::from_slice(of.as_slice()).expect("a number that both types have")
@@ -94,12 +70,7 @@ fn matrix<R: Dim, C: Dim, S: Dim, K: Dim>(of: &Matrix<f64, R, C>, rows: S, colum
     rows.matrix(columns, |row, column| of[(row, column)])
 }
 
-/// A list of the same quantities in another type.
-fn list<X: Quantity>(of: &[X]) -> List<X> {
-    Most::new(of.len()).expect("few quantities").array(|place| of[place])
-}
-
-impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> AtRunTime<'n, M> {
+impl<'n, M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>>> AtRunTime<'n, M> {
     /// The name at run time of one of the type; names of the library stay.
     pub fn own(&self, name: &'static str) -> &'n str {
         let texts = self.texts;
@@ -146,19 +117,9 @@ impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> AtRunTime<'n
     fn rates_in(rates: &Split) -> M::Rates {
         M::rates(column(&rates.unknowns), rates.input)
     }
-
-    fn split_rates(rates: &M::Rates) -> Split {
-        let (unknowns, input) = M::rate_parts(rates);
-        Split { unknowns: column(&unknowns), input }
-    }
-
-    fn split_accelerations(accelerations: &M::Accelerations) -> Split {
-        let (unknowns, input) = M::acceleration_parts(accelerations);
-        Split { unknowns: column(&unknowns), input }
-    }
 }
 
-impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Mechanism for AtRunTime<'n, M> {
+impl<'n, M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>>> Mechanism for AtRunTime<'n, M> {
     type Scalar = f64;
     type Name = &'n str;
     type U = Most;
@@ -272,148 +233,12 @@ impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Mechanism fo
     }
 }
 
-impl<'n, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Kinematic for AtRunTime<'n, M> {
-    type N = All;
-    type P = Most;
-    type O = Most;
-    type Accelerations = Split;
-    type Points<Q: Quantity> = List<Q>;
-    type Outputs<Q: Quantity> = List<Q>;
-
-    const POINTS: &'static [&'static str] = panic!("names of a value");
-    const OUTPUTS: &'static [&'static str] = panic!("names of a value");
-
-    fn point_name(&self, place: usize) -> &'n str {
-        self.of.point_name(place)
-    }
-    fn output_name(&self, place: usize) -> &'n str {
-        self.of.output_name(place)
-    }
-
-    fn coordinates_of(pose: &M::Pose) -> Split {
-        Self::split(&M::coordinates_of(pose))
-    }
-    fn velocity(&self, pose: &M::Pose, input_rates: Input) -> Result<Split, PositionError<&'n str>> {
-        self.named(self.of.velocity(pose, input_rates.into())).map(|rates| Self::split_rates(&rates))
-    }
-    fn acceleration(
-        &self,
-        pose: &M::Pose,
-        rates: &Split,
-        input_accelerations: Input,
-    ) -> Result<Split, PositionError<&'n str>> {
-        let found = self.of.acceleration(pose, &Self::rates_in(rates), input_accelerations.into());
-        self.named(found).map(|accelerations| Self::split_accelerations(&accelerations))
-    }
-    fn kinematics(
-        &self,
-        guess: &Split,
-        branch: M::Branch,
-        input_rates: Input,
-        input_accelerations: Input,
-    ) -> Result<KinematicsOf<Self>, PositionError<&'n str>> {
-        let guess = Self::coordinates_in(guess);
-        let found = self.of.kinematics(&guess, branch, input_rates.into(), input_accelerations.into());
-        let Kinematics { pose, rates, accelerations } = self.named(found)?;
-        let accelerations = Self::split_accelerations(&accelerations);
-        Ok(Kinematics { pose, rates: Self::split_rates(&rates), accelerations })
-    }
-    fn full_kinematics(
-        &self,
-        guess: &Split,
-        branch: M::Branch,
-        input_rates: Input,
-        input_accelerations: Input,
-    ) -> Result<FullKinematicsOf<Self>, PositionError<&'n str>> {
-        let guess = Self::coordinates_in(guess);
-        let found = self.of.full_kinematics(&guess, branch, input_rates.into(), input_accelerations.into());
-        let FullKinematics { pose, rates, accelerations, points, outputs } = self.named(found)?;
-        Ok(FullKinematics {
-            pose,
-            rates: Self::split_rates(&rates),
-            accelerations: Self::split_accelerations(&accelerations),
-            points: list(M::each_point(points).as_slice()),
-            outputs: list(M::each_output(outputs).as_slice()),
-        })
-    }
-    fn motion(
-        &self,
-        q: &Split,
-        input_rates: Input,
-        input_accelerations: Input,
-    ) -> Result<MotionOf<Self>, PositionError<&'n str>> {
-        let found = self.of.motion(&Self::coordinates_in(q), input_rates.into(), input_accelerations.into());
-        let Motion { position, rates, accelerations, points, outputs } = self.named(found)?;
-        Ok(Motion {
-            position: Self::split(&position),
-            rates: Self::split_rates(&rates),
-            accelerations: Self::split_accelerations(&accelerations),
-            points: list(M::each_point(points).as_slice()),
-            outputs: list(M::each_output(outputs).as_slice()),
-        })
-    }
-    fn velocity_ratios(&self, pose: &M::Pose) -> Result<Ratios<Self, Most>, PositionError<&'n str>> {
-        self.named(self.of.velocity_ratios(pose)).map(|ratios| matrix(&ratios, self.dims().0, D))
-    }
-    fn points(&self, pose: &M::Pose) -> Result<List<Point2<f64>>, PositionError<&'n str>> {
-        self.named(self.of.points(pose)).map(|points| list(M::each_point(points).as_slice()))
-    }
-    fn point_velocities(&self, pose: &M::Pose, rates: &Split) -> Result<List<Vector2<f64>>, PositionError<&'n str>> {
-        let found = self.of.point_velocities(pose, &Self::rates_in(rates));
-        self.named(found).map(|points| list(M::each_point(points).as_slice()))
-    }
-    fn point_accelerations(
-        &self,
-        pose: &M::Pose,
-        rates: &Split,
-        accelerations: &Split,
-    ) -> Result<List<Vector2<f64>>, PositionError<&'n str>> {
-        let accelerations = M::accelerations(column(&accelerations.unknowns), accelerations.input);
-        let found = self.of.point_accelerations(pose, &Self::rates_in(rates), &accelerations);
-        self.named(found).map(|points| list(M::each_point(points).as_slice()))
-    }
-    fn point_ratios(&self, pose: &M::Pose) -> Result<List<Ratios<Self, D<2>>>, PositionError<&'n str>> {
-        let found = self.named(self.of.point_ratios(pose))?;
-        Ok(list(M::each_point(found).map(|ratios| matrix(&ratios, D, D)).as_slice()))
-    }
-    fn output_ratios(&self, pose: &M::Pose) -> Result<List<Ratios<Self, D<1>>>, PositionError<&'n str>> {
-        let found = self.named(self.of.output_ratios(pose))?;
-        Ok(list(M::each_output(found).map(|ratios| matrix(&ratios, D, D)).as_slice()))
-    }
-    fn outputs(&self, pose: &M::Pose) -> Result<List<f64>, PositionError<&'n str>> {
-        self.named(self.of.outputs(pose)).map(|outputs| list(M::each_output(outputs).as_slice()))
-    }
-    fn output_rates(&self, pose: &M::Pose, rates: &Split) -> Result<List<f64>, PositionError<&'n str>> {
-        let found = self.of.output_rates(pose, &Self::rates_in(rates));
-        self.named(found).map(|outputs| list(M::each_output(outputs).as_slice()))
-    }
-    fn output_accelerations(
-        &self,
-        pose: &M::Pose,
-        rates: &Split,
-        accelerations: &Split,
-    ) -> Result<List<f64>, PositionError<&'n str>> {
-        let accelerations = M::accelerations(column(&accelerations.unknowns), accelerations.input);
-        let found = self.of.output_accelerations(pose, &Self::rates_in(rates), &accelerations);
-        self.named(found).map(|outputs| list(M::each_output(outputs).as_slice()))
-    }
-}
-
 impl<'n, M> Branches for AtRunTime<'n, M>
 where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Branches,
+    M: Mechanism<Scalar = f64, Name = &'static str, V = D<1>> + Branches,
 {
     fn all_positions(&self, inputs: Input) -> Result<impl Iterator<Item = (M::Branch, Split)>, PositionError<&'n str>> {
         let all = self.named(self.of.all_positions(inputs.into()))?;
         Ok(all.map(|(branch, q)| (branch, Self::split(&q))))
-    }
-}
-
-impl<'n, M> Assembly for AtRunTime<'n, M>
-where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Assembly,
-{
-    fn assemble(&self, inputs: Input, branch: M::Branch) -> Result<M::Pose, PositionError<&'n str>> {
-        self.named(self.of.assemble(inputs.into(), branch))
     }
 }

@@ -51,7 +51,7 @@ impl<'p, V: Dim> Scene for SceneAtRunTime<'p, V> {
     type State = StateCount;
     type Contacts = ContactCount;
     type Mechanism = AtRunTime<'p, V>;
-    type Reactions = JointForcesAtRunTime<'p>;
+    type Reactions = JointForcesAtRunTime<'p, V>;
 
     const NAME: &'static str = panic!("the name is one of the value");
     const BEARINGS: bool = panic!("bearings are those of the value");
@@ -164,7 +164,7 @@ impl<'p, V: Dim> Scene for SceneAtRunTime<'p, V> {
         rates: &CoordinatesAtRunTime<V>,
         accelerations: &Vector<f64, Count, V>,
         contact_forces: &Column<f64, ContactCount>,
-    ) -> Found<'p, JointForcesAtRunTime<'p>> {
+    ) -> Found<'p, JointForcesAtRunTime<'p, V>> {
         let of = self.prepared.fields;
         let fields = [
             (of.unknowns, list(accelerations.unknowns.as_slice())),

@@ -2,6 +2,7 @@
 //! dead points marked, and the linkage at each dead point.
 
 mod miniature;
+mod page;
 mod render;
 mod runs;
 
@@ -11,6 +12,7 @@ use linkage_runtime::{BorrowedName, D, Dim};
 use nalgebra::Vector2;
 
 use super::DrawingError;
+use super::mechanism::check;
 use miniature::Miniature;
 use runs::{Axis, runs};
 
@@ -53,7 +55,16 @@ pub struct CircuitChart {
     mode_circuits: Vec<usize>,
     places: Vec<Place>,
     /// The words about each circuit.
-    words: Vec<String>,
+    words: Vec<Words>,
+    /// The number of the first mode and of the first circuit.
+    first: usize,
+}
+
+/// The modes of a circuit, and what else is said about it.
+#[derive(Debug, Clone)]
+struct Words {
+    modes: Vec<usize>,
+    others: String,
 }
 
 /// A motion as lines of the chart.
@@ -77,7 +88,7 @@ impl CircuitChart {
     /// The chart of a mechanism with `derive drawing;`; `unknown` is the coordinate that is drawn up.
     ///
     /// # Errors
-    /// [`DrawingError::Empty`] if there is no motion, [`DrawingError::UnknownCoordinate`] if the mechanism has no such
+    /// [`DrawingError::NoDrawing`] if the mechanism has none, [`DrawingError::Empty`] if there is no motion, [`DrawingError::UnknownCoordinate`] if the mechanism has no such
     /// unknown, [`DrawingError::NotFinite`] if a coordinate is infinite or NaN.
     pub fn of<M, B>(
         mechanism: &M,
@@ -88,6 +99,7 @@ impl CircuitChart {
         M: Skeleton<Scalar = f64, V = D<1>>,
         B: Copy,
     {
+        check(mechanism)?;
         let (u, ..) = mechanism.dims();
         let row = (0..u.count()).find(|&place| mechanism.unknown_name(place).to_string() == unknown);
         let row = row.ok_or_else(|| DrawingError::UnknownCoordinate(unknown.to_owned()))?;
@@ -137,7 +149,7 @@ impl CircuitChart {
         let (title, lines) = (mechanism.name().to_string(), lines.collect());
         let modes = circuits.modes.iter().map(|mode| at(&mode.position)).collect();
         let mode_circuits = circuits.modes.iter().map(|mode| circuit_of(mode.motion)).collect();
-        Ok(Self { title, axes, lines, modes, mode_circuits, places, words })
+        Ok(Self { title, axes, lines, modes, mode_circuits, places, words, first: 0 })
     }
 
     /// Sets the title, by default the name of the mechanism.
@@ -147,10 +159,33 @@ impl CircuitChart {
         self
     }
 
+    /// Sets the number of the first mode and of the first circuit, by default 0 as in [`Circuits`]. Reports count from 1.
+    #[must_use]
+    pub fn numbered_from(mut self, first: usize) -> Self {
+        self.first = first;
+        self
+    }
+
     /// Writes the SVG.
     #[must_use]
     pub fn to_svg(&self) -> String {
         render::svg(self)
+    }
+
+    /// Writes several charts, such as one for each unknown, as one HTML file, which loads nothing and runs no script. The text
+    /// comes after them; an empty line begins a paragraph.
+    #[must_use]
+    pub fn to_html(title: &str, charts: &[Self], text: &str) -> String {
+        page::html(title, text, charts)
+    }
+
+    /// The modes, turns and dead points of each circuit, with its number.
+    fn all_words(&self) -> impl Iterator<Item = String> {
+        self.words.iter().zip(self.first..).map(|(words, circuit)| {
+            let modes: Vec<String> = words.modes.iter().map(|mode| (self.first + mode).to_string()).collect();
+            let ending = if modes.len() == 1 { "" } else { "s" };
+            format!("circuit {circuit}: mode{ending} {}{}", modes.join(", "), words.others)
+        })
     }
 }
 
@@ -168,14 +203,11 @@ fn letter(place: usize) -> String {
 }
 
 /// The modes, turns and dead points of a circuit.
-fn words<Q: Copy, B, N: BorrowedName>(circuits: &Circuits<Q, B, f64, N>, motions: &[usize]) -> String {
+fn words<Q: Copy, B, N: BorrowedName>(circuits: &Circuits<Q, B, f64, N>, motions: &[usize]) -> Words {
     let curves = || motions.iter().filter_map(|&motion| circuits.motions.get(motion));
     let mut modes: Vec<usize> = curves().flat_map(MotionCurve::modes).collect();
     modes.sort_unstable();
-    let mut words = match modes.as_slice() {
-        [mode] => format!("mode {mode}"),
-        modes => format!("modes {}", modes.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")),
-    };
+    let mut words = String::new();
     let mut add = |count: usize, one: &str, many: &str| match count {
         0 => {}
         1 => words += &format!(", {one}"),
@@ -189,7 +221,7 @@ fn words<Q: Copy, B, N: BorrowedName>(circuits: &Circuits<Q, B, f64, N>, motions
     for turns in curves().map(|curve| curve.full_turns().abs()).filter(|&turns| turns > 1) {
         words += &format!(", closed after {turns} turns");
     }
-    words
+    Words { modes, others: words }
 }
 
 /// The counts of modes, circuits and full turns in words.

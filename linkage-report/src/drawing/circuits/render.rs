@@ -47,10 +47,9 @@ pub(super) fn svg(chart: &CircuitChart) -> String {
         .add(axes(chart))
         .add(lines(chart))
         .add(marks(chart));
-    for (circuit, words) in chart.words.iter().take(shown).enumerate() {
+    for (circuit, words) in chart.all_words().take(shown).enumerate() {
         let y = legend + LEGEND * circuit as f64;
         let sample = [Vector2::new(10.0, y - 4.0), Vector2::new(44.0, y - 4.0)];
-        let words = format!("circuit {circuit}: {words}");
         document = document.add(coloured(circuit).add(line(circuit, &sample))).add(text(
             &clipped(&words, 68),
             "soft",
@@ -71,8 +70,8 @@ pub(super) fn svg(chart: &CircuitChart) -> String {
 
 fn describe(chart: &CircuitChart) -> String {
     let [input, unknown] = [0, 1].map(|axis| &chart.axes[axis].name);
-    let circuits = chart.words.iter().enumerate().map(|(circuit, words)| format!("circuit {circuit}: {words}"));
-    format!("{unknown} over {input}, {}; {}", summary(chart), circuits.collect::<Vec<_>>().join("; "))
+    let circuits: Vec<String> = chart.all_words().collect();
+    format!("{unknown} over {input}, {}; {}", summary(chart), circuits.join("; "))
 }
 
 /// The text, cut to a number of characters.
@@ -157,7 +156,7 @@ fn marks(chart: &CircuitChart) -> Group {
     for ((number, &at), label) in modes.iter().enumerate().zip(labels(&modes)) {
         let circle = Circle::new().set("class", "mode").set("cx", rounded(at.x)).set("cy", rounded(at.y)).set("r", 3.5);
         let circuit = chart.mode_circuits.get(number).copied().unwrap_or_default();
-        group = group.add(coloured(circuit).add(circle)).add(text(&number.to_string(), "label", label));
+        group = group.add(coloured(circuit).add(circle)).add(text(&(chart.first + number).to_string(), "label", label));
     }
     group
 }
@@ -196,7 +195,7 @@ fn badge(place: &Place, at: Vector2<f64>, number: usize) -> Group {
 /// The linkage at a place, with its letter, its input and its modes.
 fn cell(chart: &CircuitChart, number: usize, place: &Place, scale: &Scale, corner: Vector2<f64>) -> Group {
     let input = chart.axes[0].text(chart.axes[0].on_axis(place.at.x));
-    let modes = match (place.is_dead_point, place.modes) {
+    let modes = match (place.is_dead_point, place.modes.map(|mode| mode.map(|mode| chart.first + mode))) {
         (true, [Some(one), Some(other)]) => format!("modes {}, {}", one.min(other), one.max(other)),
         (true, [Some(mode), None] | [None, Some(mode)]) => format!("mode {mode}"),
         (true, [None, None]) => String::new(),
