@@ -1,9 +1,11 @@
 //! Simulations, loads and positions at rest of scenes at run time: the bits and the words of those of emitted code.
 
 use linkage::integrate::{Crossing, Dop853, Dopri5, Method};
+use linkage::range_of_motion::Driven;
 use linkage::simulation::{AtSingularity, Loads, Start, State, Then, simulate};
 use linkage::{
-    Column, Coordinates, D, Inputs, JointForces, Mechanism, MotionErrorOf, PerInput, Scene, StateParts, linkage,
+    Assembly, Column, Coordinates, D, Inputs, JointForces, Kinematic, Mechanism, MotionErrorOf, PerInput, Scene,
+    StateParts, Table, linkage,
 };
 use linkage_gallery::{cart_pendulum, double_pendulum, four_bar_effects, slider_crank_contacts, slider_crank_scenes};
 use linkage_interpreter::{Mechanism as Compiled, Program};
@@ -73,7 +75,7 @@ struct Run<Q, R> {
 type RunOf<S> = Run<Coordinates<S>, Inputs<S>>;
 
 /// All that a scene computes in a motion, as text.
-fn all<S: Scene<Scalar = f64>>(scene: &S, run: RunOf<S>) -> Vec<String> {
+fn all<S: Scene<Scalar = f64, Mechanism: Kinematic>>(scene: &S, run: RunOf<S>) -> Vec<String> {
     let Run { q, rates, times: [start, end], .. } = run;
     let column = |y: Column<f64, S::State>| bits(&y);
     let mut found = vec![
@@ -100,7 +102,28 @@ fn all<S: Scene<Scalar = f64>>(scene: &S, run: RunOf<S>) -> Vec<String> {
     ));
     found.extend(steps::<S, Dop853>(scene, Run { tolerance: 0.0, ..run }, AtSingularity::Pass));
     found.push(words(few_steps(scene, run), |()| String::new()));
+    found.extend(tables(scene, run));
     found
+}
+
+/// A simulation as a table of its steps, and of given times.
+fn tables<S: Scene<Scalar = f64, Mechanism: Kinematic>>(scene: &S, run: RunOf<S>) -> [String; 2] {
+    let Run { q, rates, times: [t, end], .. } = run;
+    let begun = || Ok(simulate(scene, Start { t, q, input_rates: rates }, end, 1e-6)?.most_steps(500));
+    let times = (0..=6).map(|part| t + (end - t) * f64::from(part) / 5.0);
+    let text = |table: Result<Table, MotionErrorOf<S>>| words(table, |table| table.to_json());
+    [
+        text(begun().map(|mut motion| Table::simulated(&mut motion))),
+        text(begun().map(|mut motion| Table::simulated_at(&mut motion, times))),
+    ]
+}
+
+/// The loads of a turn at a constant rate, as a table.
+fn loads_of_a_turn<S>(scene: &S, branch: <S::Mechanism as Mechanism>::Branch) -> String
+where
+    S: Scene<Scalar = f64, Mechanism: Kinematic + Driven<Of = <S as Scene>::Mechanism> + Assembly>,
+{
+    words(Table::turn_with_loads(scene, branch, 24, 3.0), |table| table.to_json())
 }
 
 /// A simulation that may take three steps.
@@ -186,7 +209,7 @@ fn same<const V: usize, S>(
     times: [f64; 2],
 ) -> Vec<String>
 where
-    S: Scene<Scalar = f64, V = D<V>, Mechanism: Mechanism<Scalar = f64, Name = &'static str, V = D<V>>>,
+    S: Scene<Scalar = f64, V = D<V>, Mechanism: Kinematic<Scalar = f64, Name = &'static str, V = D<V>>>,
 {
     let compiled = of.compiled();
     let (mut design, mut own) = (compiled.design(), Vec::new());
@@ -293,6 +316,35 @@ fn frictions_and_stops() {
     let found = same(of("Guided"), &Guided::default(), &[], q, -4.0, [0.0, 1.5]);
     assert!(says(&found, "(\"friction on z\", Slips)"));
     same(of("Jointed"), &Jointed::default(), &[], q, 2.0, [0.0, 1.0]);
+}
+
+/// Drives, frictions, energies and forces in joints over a turn, and inputs without a position.
+#[test]
+fn loads_of_turns() {
+    use slider_crank_contacts::{Machine, MachineBranch};
+    let compiled = Named::of("slider_crank_contacts", "Machine", "Guided").compiled();
+    // A rod that is shorter than the crank has no full turn.
+    for l in [Machine::<f64>::default().l, 0.9 * Machine::<f64>::default().r] {
+        let design = compiled.design().with("l", l).unwrap();
+        let machine = Machine { l, ..Machine::default() };
+        macro_rules! same {
+            ($($scene:ident)*) => {$({
+                let emitted = slider_crank_contacts::$scene { mechanism: machine.clone(), ..Default::default() };
+                let scene = design.scene(stringify!($scene)).unwrap();
+                let prepared = scene.prepared().unwrap();
+                let here = prepared.with_inputs::<D<1>>().unwrap();
+                let branch = MachineBranch::new(linkage::Slider::Far);
+                let q = machine.assemble(0.3, branch).unwrap().coordinates();
+                let (unknowns, inputs) = Machine::parts(&q);
+                let q = coordinates::<linkage_interpreter::AtRunTime<'_, D<1>>>(&[unknowns.as_slice().to_vec(), inputs.as_slice().to_vec()]);
+                let of_value = here.mechanism().branch_of(&here.mechanism().pose_at(&q));
+                let (emitted, found) = (loads_of_a_turn(&emitted, branch), loads_of_a_turn(&here, of_value));
+                assert!(emitted.contains("phi_torque"), "{emitted}");
+                assert_eq!(emitted, found);
+            })*};
+        }
+        same!(Guided Jointed);
+    }
 }
 
 #[test]
