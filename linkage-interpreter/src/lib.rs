@@ -47,6 +47,7 @@ mod compile;
 mod convert;
 mod data;
 mod error;
+mod formulas;
 mod machine;
 mod mechanism;
 mod program;
