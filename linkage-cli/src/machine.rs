@@ -2,7 +2,7 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::graph::NodeId;
-use linkage_compiler::model::Kind;
+use linkage_compiler::model::{Kind, Request};
 use linkage_interpreter::{Data, Mechanism};
 
 use crate::about::{About, chosen};
@@ -32,7 +32,12 @@ impl Machine {
 
     /// The mechanism that the arguments mean, with their numbers, and what a function makes of its formulas.
     pub fn with<R>(numbers: &Numbers, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
-        Self::begun(numbers, Start::of, f)
+        Self::begun(numbers, &[Request::Drawing], Start::of, f)
+    }
+
+    /// The mechanism that the arguments mean, with its formulas over intervals.
+    pub fn with_intervals(numbers: &Numbers) -> Result<Self, Failure> {
+        Self::begun(numbers, &[Request::Intervals], Start::of, |_| ()).map(|(machine, ())| machine)
     }
 
     /// The mechanism of all whose positions there is something to say: none of them is chosen.
@@ -41,16 +46,17 @@ impl Machine {
         if let Some((option, _)) = given.iter().find(|(_, is_empty)| !is_empty) {
             return Err(Failure::Argument(format!("{result} all positions: leave out {option}")));
         }
-        Self::begun(numbers, |_, _, _| Ok(Start::Listed), f)
+        Self::begun(numbers, &[Request::Drawing], |_, _, _| Ok(Start::Listed), f)
     }
 
     fn begun<R>(
         numbers: &Numbers,
+        requests: &[Request],
         start: impl FnOnce(&About, &Mechanism, &Numbers) -> Result<Start, Failure>,
         f: impl FnMut(&Lowered<'_>) -> R,
     ) -> Result<(Self, R), Failure> {
         let file = &numbers.source.file;
-        let (about, mechanism, result) = chosen(&read(file)?, numbers.source.mechanism.as_deref(), f)?;
+        let (about, mechanism, result) = chosen(&read(file)?, numbers.source.mechanism.as_deref(), requests, f)?;
         if let Some(function) = about.functions.first() {
             let name = &about.name;
             return Err(Failure::Outside(format!(

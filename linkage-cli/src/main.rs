@@ -26,6 +26,7 @@ mod picture;
 mod plain;
 mod position;
 mod progress;
+mod proved;
 mod said;
 mod solver;
 mod source;

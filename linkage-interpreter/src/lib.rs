@@ -57,8 +57,8 @@ mod translate;
 mod written;
 
 pub use at_run_time::{
-    AllCoordinates, AtRunTime, BranchAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointForcesAtRunTime,
-    NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime, StateCount,
+    AllCoordinates, AtRunTime, BranchAtRunTime, CertifiableAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointForcesAtRunTime,
+    FormulasAtRunTime, NotPrepared, OfDesign, ParameterCount, PoseAtRunTime, Prepared, PreparedScene, QuantityCount, SceneAtRunTime, StateCount, WithFormulas,
 };
 pub use call_error::CallError;
 pub use code::{Argument, Record, Shape};

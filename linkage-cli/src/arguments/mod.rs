@@ -1,5 +1,6 @@
 //! The arguments of the program, with its help.
 
+mod certify;
 mod motions;
 
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::values::{Assignment, Choice, Value};
+pub use certify::Certify;
 pub use motions::{Circuits, Limits, ListForm, ListFormat};
 
 /// Planar linkages from their loop equations: formulas, checks and code of a mechanism in a file.
@@ -75,6 +77,16 @@ Examples:
   linkage circuits wiper.linkage
   linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json")]
     Circuits(Circuits),
+    /// Prove a motion: that it turns fully or goes through dead points, with bounds of all outputs, by interval arithmetic
+    #[command(after_help = "\
+The motion begins at --at or --from, at the position by --branch or --guess. What is printed is proved
+for all values of the input, rounding errors included; what cannot be proved is an error that says why.
+
+Examples:
+  linkage certify wiper.linkage
+  linkage certify wiper.linkage --tolerance 0.1% --from 20deg --to 90deg
+  linkage certify wiper.linkage --set l2=45 --curve")]
+    Certify(Certify),
     /// Report mobility, and all positions at one choice of inputs
     #[command(after_help = "\
 Examples:

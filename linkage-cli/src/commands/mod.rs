@@ -1,6 +1,7 @@
 //! The commands, each a file.
 
 mod animate;
+mod certify;
 mod check;
 mod circuits;
 mod compiled;
@@ -35,6 +36,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Animate(arguments) => animate::run(&arguments),
         Command::Limits(arguments) => limits::run(&arguments),
         Command::Circuits(arguments) => circuits::run(&arguments),
+        Command::Certify(arguments) => certify::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),

@@ -13,7 +13,7 @@ use crate::output;
 use crate::source::read;
 
 pub fn run(arguments: &Names) -> Result<(), Failure> {
-    let all = all(&read(&arguments.source.file)?, arguments.source.mechanism.as_deref(), |_| ())?;
+    let all = all(&read(&arguments.source.file)?, arguments.source.mechanism.as_deref(), &[Request::Drawing], |_| ())?;
     let lists: Vec<List> = all.iter().map(|(about, ..)| List::of(about)).collect();
     let text = match arguments.format {
         NamesFormat::Json => {

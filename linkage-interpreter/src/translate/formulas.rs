@@ -155,9 +155,8 @@ impl<'l> Line<'l> {
             Pattern::Struct { fields, .. } => {
                 let Form::Itself = form else { return Err(format!("fields of {form:?}")) };
                 fields.iter().try_for_each(|(name, pattern)| {
-                    let parameter = self.parameters.get(name.as_str()).copied();
-                    let parameter = parameter.ok_or_else(|| format!("no parameter `{name}`"))?;
-                    self.bind(pattern, Form::Number(parameter))
+                    let parameter = Form::Number(self.parameter(name)?);
+                    self.bind(pattern, parameter)
                 })
             }
             Pattern::Case(..) => Err("a pattern that may not match".to_owned()),
@@ -174,6 +173,10 @@ impl<'l> Line<'l> {
             Value::Argument(place) => self.arguments.get(*place).cloned().ok_or_else(|| "no argument".to_owned()),
             other => self.bound.get(&id).cloned().ok_or_else(|| format!("{other:?} before it is bound")),
         }
+    }
+
+    fn parameter(&self, name: &str) -> Translated<Register> {
+        self.parameters.get(name).copied().ok_or_else(|| format!("no parameter `{name}`"))
     }
 
     fn number(&mut self, id: ValueId) -> Translated<Register> {
@@ -252,6 +255,7 @@ impl<'l> Line<'l> {
                 let all = all.iter().map(|value| self.value(*value)).collect::<Translated<_>>()?;
                 return Ok(Form::List(all));
             }
+            Value::Field(of, name) if matches!(code.operation(*of), Value::Itself) => self.parameter(name)?,
             Value::Repeated(value, count) => return Ok(Form::List(vec![self.value(*value)?; *count])),
             Value::Path(Path::None) => return Ok(Form::Absent),
             Value::Borrowed(of) | Value::Dereferenced(of) => return self.value(*of),
