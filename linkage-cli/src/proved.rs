@@ -8,11 +8,23 @@ const DIGITS: i32 = 8;
 
 /// A number that an interval contains, an angle in degrees: the digits that both of its ends have, or the ends, rounded apart.
 pub fn proved(of: Interval, is_angle: bool) -> String {
+    let [text] = all_proved([of], is_angle);
+    text
+}
+
+/// Numbers of one quantity likewise: the largest has eight digits, the others as many decimals.
+pub fn all_proved<const N: usize>(all: [Interval; N], is_angle: bool) -> [String; N] {
     let half_turn = Interval::exactly(180.0);
-    let (of, unit) = if is_angle { (of * half_turn / Interval::pi(), "°") } else { (of, "") };
+    let in_unit = |of: Interval| if is_angle { of * half_turn / Interval::pi() } else { of };
+    let all = all.map(in_unit);
+    let sizes = all.iter().map(|of| of.magnitude()).filter(|size| size.is_finite());
+    let size = sizes.fold(0.0, f64::max);
+    all.map(|of| text(of, size, if is_angle { "°" } else { "" }))
+}
+
+fn text(of: Interval, size: f64, unit: &str) -> String {
     let [least, most] = [of.least(), of.most()];
-    let size = least.abs().max(most.abs());
-    if !size.is_finite() {
+    if !of.magnitude().is_finite() {
         return "not bounded".to_owned();
     }
     let digits = |count: i32| (count - 1 - size.max(1e-12).log10().floor() as i32).clamp(0, 15) as usize;
@@ -57,6 +69,9 @@ mod tests {
         assert_eq!(of(1.111_111_19, 2.222_222_21), "1.1111111 to 2.2222223");
         assert_eq!(of(-2.222_222_21, -1.111_111_19), "-2.2222223 to -1.1111111");
         assert_eq!(of(0.0, f64::INFINITY), "not bounded");
+        // Next to larger numbers of the same quantity.
+        let small = Interval::new(1e-15, 2e-15).expect("an interval");
+        assert_eq!(all_proved([small, Interval::exactly(2.5)], false), ["0", "2.5"]);
         let right = Interval::pi() / Interval::exactly(2.0);
         assert_eq!(proved(right, true), "90°");
     }

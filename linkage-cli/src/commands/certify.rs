@@ -15,7 +15,7 @@ use crate::machine::Machine;
 use crate::motion::held;
 use crate::one_input::{Inputs, prepared};
 use crate::progress;
-use crate::proved::proved;
+use crate::proved::{all_proved, proved};
 
 /// The mechanism of a certificate.
 type Certified<'p> = CertifiableAtRunTime<'p, Inputs>;
@@ -256,7 +256,7 @@ impl Bounds {
     }
 
     fn row(&self) -> Vec<String> {
-        let [least, largest] = self.both.map(|of| proved(of, self.is_angle));
+        let [least, largest] = all_proved(self.both, self.is_angle);
         vec![self.name.clone(), least, largest]
     }
 }
@@ -296,7 +296,7 @@ impl Proof {
         if let Some(Arrival::Arrives { branch, .. }) = &self.end {
             text += &format!(", to {branch}");
         }
-        text += &format!("\nproved by {} boxes, with all digits below\n", self.boxes);
+        text += &format!("\nproved by {} boxes, as all digits of these numbers are\n", self.boxes);
         let dead_point = |of: &DeadPoint| {
             let input = Interval::new(of.input[0], of.input[1]).unwrap_or(Interval::ENTIRE);
             let kind = if of.is_largest { "largest" } else { "least" };

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use linkage_compiler::model::Request;
 use serde::Serialize;
 
 use crate::about::{About, all};
