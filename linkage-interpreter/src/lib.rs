@@ -57,8 +57,9 @@ mod translate;
 mod written;
 
 pub use at_run_time::{
-    AllCoordinates, AtRunTime, BranchAtRunTime, CertifiableAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointForcesAtRunTime,
-    FormulasAtRunTime, NotPrepared, OfDesign, ParameterCount, PoseAtRunTime, Prepared, PreparedScene, QuantityCount, SceneAtRunTime, StateCount, WithFormulas,
+    AllCoordinates, AtRunTime, BranchAtRunTime, CertifiableAtRunTime, ContactCount, CoordinatesAtRunTime, Count,
+    FormulasAtRunTime, JointForcesAtRunTime, NotPrepared, OfDesign, ParameterCount, PoseAtRunTime, Prepared,
+    PreparedScene, QuantityCount, SceneAtRunTime, StateCount, WithFormulas,
 };
 pub use call_error::CallError;
 pub use code::{Argument, Record, Shape};

@@ -2,8 +2,10 @@
 
 use linkage_interpreter::{CertifiableAtRunTime, CoordinatesAtRunTime, NotPrepared};
 use linkage_interval::Interval;
-use linkage_interval::certify::{Certificate, CertifiedRange, Certify, CertifyError, Curve, Enclosure, End, RangeProof};
-use linkage_runtime::{Column, Mechanism, RangeEnd};
+use linkage_interval::certify::{
+    Certificate, CertifiedRange, Certify, CertifyError, Curve, Enclosure, End, RangeProof,
+};
+use linkage_runtime::{Column, RangeEnd};
 use serde::Serialize;
 
 use super::list::moving;
@@ -88,7 +90,7 @@ impl Asked<'_> {
         };
         let certificate = certificate.map_err(|error| self.refused(&error))?;
         let branches: Vec<&str> = others.iter().map(|(branch, _)| branch.as_str()).collect();
-        Ok(self.of_certificate(mechanism, &certificate, &branches))
+        Ok(self.of_certificate(&certificate, &branches))
     }
 
     /// The reason why there is no proof, with the input in its unit.
@@ -111,49 +113,45 @@ impl Asked<'_> {
             CertifyError::NoBounds { group, input, .. } => {
                 format!("not certified: the equations of {group} jump or have a kink or a pole {}", between(input))
             }
-            CertifyError::Undecided { input, .. } => format!("not certified: the bounds are too wide {}", between(input)),
+            CertifyError::Undecided { input, .. } => {
+                format!("not certified: the bounds are too wide {}", between(input))
+            }
             CertifyError::NoTurn { .. } => {
                 format!("not certified: no sine of `{name}` is taken, so that it has no turn: write --to VALUE")
             }
             CertifyError::Exhausted { boxes, input, .. } => {
-                format!("not certified beyond {name} = {}: the work is bounded, and {boxes} boxes took it", shown(*input))
+                format!(
+                    "not certified beyond {name} = {}: the work is bounded, and {boxes} boxes took it",
+                    shown(*input)
+                )
             }
             other => format!("not certified: {other}"),
         })
     }
 
-    fn of_certificate(
-        &self,
-        mechanism: &Certified<'_>,
-        certificate: &Certificate<Certified<'_>>,
-        branches: &[&str],
-    ) -> Proof {
+    fn of_certificate(&self, certificate: &Certificate<Certified<'_>>, branches: &[&str]) -> Proof {
         let input = &self.machine.about.inputs[self.moving];
         let end = match certificate.end() {
             End::Closed { turns } => Arrival::Closed { turns: turns.clone() },
             End::Arrives { position, turns } => {
                 let branch = branches.get(*position).copied().unwrap_or_default().to_owned();
-                Arrival::Arrives { branch, turns: turns.clone() }
+                Arrival::Arrives { position: *position, branch, turns: turns.clone() }
             }
             End::Open => Arrival::Open,
         };
         let ratios = certificate.velocity_ratios();
         let names = self.machine.about.unknowns.iter().map(|of| format!("d {} / d {}", of.name.text, input.name.text));
         let inputs = certificate.inputs();
-        let statement = match certificate.end() {
-            // The position has a name here.
-            End::Arrives { .. } => {
-                let all = certificate.to_string();
-                all.split(", to the position").next().unwrap_or_default().to_owned()
-            }
-            _ => certificate.to_string(),
-        };
-        debug_assert_eq!(mechanism.dims().0, ratios.dim());
         Proof {
             inputs: Some([inputs.least(), inputs.most()]),
             end: Some(end),
             velocity_ratios: names.zip(&ratios).map(|(name, of)| Bounds::of(name, of, false)).collect(),
-            ..self.of(statement, certificate.boxes(), &certificate.quantities(), certificate.joint_ranges())
+            ..self.of(
+                certificate.to_string(),
+                certificate.boxes(),
+                &certificate.quantities(),
+                certificate.joint_ranges(),
+            )
         }
     }
 
@@ -222,9 +220,15 @@ struct Proof {
 #[serde(rename_all = "snake_case", tag = "kind")]
 enum Arrival {
     /// At its start again, after these full turns of the unknowns.
-    Closed { turns: Vec<i64> },
-    /// At another position.
-    Arrives { branch: String, turns: Vec<i64> },
+    Closed {
+        turns: Vec<i64>,
+    },
+    /// At another position, by its number in the list of all at these inputs.
+    Arrives {
+        position: usize,
+        branch: String,
+        turns: Vec<i64>,
+    },
     Open,
 }
 
@@ -292,11 +296,11 @@ impl Range {
 
 impl Proof {
     fn to_text(&self) -> String {
-        let mut text = self.statement.clone();
-        if let Some(Arrival::Arrives { branch, .. }) = &self.end {
-            text += &format!(", to {branch}");
+        let mut text = self.statement.clone() + "\n";
+        if let Some(Arrival::Arrives { position, branch, .. }) = &self.end {
+            text += &format!("position {position} is {branch}\n");
         }
-        text += &format!("\nproved by {} boxes, as all digits of these numbers are\n", self.boxes);
+        text += &format!("proved by {} boxes, as all digits of these numbers are\n", self.boxes);
         let dead_point = |of: &DeadPoint| {
             let input = Interval::new(of.input[0], of.input[1]).unwrap_or(Interval::ENTIRE);
             let kind = if of.is_largest { "largest" } else { "least" };

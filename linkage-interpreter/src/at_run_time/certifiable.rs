@@ -142,11 +142,7 @@ impl<N: Number, V: Dim> Trait for FormulasAtRunTime<'_, N, V> {
         let formula = &self.of.residual;
         column(&formula.run(&self.given(unknowns, inputs)), &formula.results, 0, self.unknowns)
     }
-    fn jacobian_unknowns(
-        &self,
-        unknowns: &Column<N, Count>,
-        inputs: &Column<N, V>,
-    ) -> Column<Column<N, Count>, Count> {
+    fn jacobian_unknowns(&self, unknowns: &Column<N, Count>, inputs: &Column<N, V>) -> Column<Column<N, Count>, Count> {
         self.columns(&self.of.jacobian_unknowns, &self.given(unknowns, inputs), self.unknowns)
     }
     fn jacobian_inputs(&self, unknowns: &Column<N, Count>, inputs: &Column<N, V>) -> Column<Column<N, Count>, V> {

@@ -34,7 +34,8 @@ impl Formulas {
         }
         let registers = |range: &Range| [Some(range.value), range.least, range.most].into_iter().flatten();
         self.ranges.check(values, self.ranges.results.iter().flat_map(registers))?;
-        if self.ranges.results.len() != ranges || self.names.len() != quantities || self.user_functions.len() != groups {
+        if self.ranges.results.len() != ranges || self.names.len() != quantities || self.user_functions.len() != groups
+        {
             return Err("names of formulas are missing");
         }
         Ok(())

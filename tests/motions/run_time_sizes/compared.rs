@@ -1,12 +1,11 @@
-//! Pictures and certificates of mechanisms at run time against those of emitted code.
+//! Pictures of mechanisms at run time against those of emitted code.
 
 use linkage::skeleton::{Part, Skeleton};
-use linkage::{Branches, Certifiable, Column, D, Dim, Formulas, Kinematic, Number, Ranged, UpTo, linkage};
+use linkage::{Branches, Column, D, Kinematic, UpTo, linkage};
 use linkage_gallery::tilted_parallelogram::TiltedParallelogram;
 
-use super::certificates::certificates;
 use super::pictures::{drawings, reports, tables};
-use super::wrapped::{AtRunTime, Most, Texts, column};
+use super::wrapped::{AtRunTime, Texts, column};
 
 linkage! {
     /// A crank-rocker.
@@ -20,7 +19,7 @@ linkage! {
         point C = crank@theta + coupler@phi;
         output swing = psi;
         output height = rocker * sin(psi);
-        derive drawing, intervals;
+        derive drawing;
     }
 
     /// A double rocker: the input turns back at dead points.
@@ -30,7 +29,7 @@ linkage! {
         input theta;
         unknown phi, psi;
         loop crank@theta + coupler@phi = ground@0 + rocker@psi;
-        derive drawing, intervals;
+        derive drawing;
     }
 
     /// An oscillating block.
@@ -42,7 +41,7 @@ linkage! {
         loop crank@theta = ground@0 + s@psi;
         point Pin = crank@theta;
         output turned = psi - theta;
-        derive drawing, intervals;
+        derive drawing;
     }
 }
 
@@ -68,90 +67,6 @@ where
     }
     fn force_place(&self, pose: &M::Pose, place: usize) -> Option<[f64; 4]> {
         self.of.force_place(pose, place)
-    }
-}
-
-/// The formulas of a mechanism at run time.
-pub struct FormulasAtRunTime<F>(F);
-
-impl<F: Formulas<V = D<1>>> Formulas for FormulasAtRunTime<F> {
-    type Number = F::Number;
-    type U = Most;
-    type V = D<1>;
-    type Q = UpTo<40>;
-
-    fn residual(&self, u: &Column<F::Number, Most>, v: &Column<F::Number, D<1>>) -> Column<F::Number, Most> {
-        column(&self.0.residual(&column(u), v))
-    }
-    fn jacobian_unknowns(
-        &self,
-        u: &Column<F::Number, Most>,
-        v: &Column<F::Number, D<1>>,
-    ) -> Column<Column<F::Number, Most>, Most> {
-        column(&self.0.jacobian_unknowns(&column(u), v).map(|own| column(&own)))
-    }
-    fn jacobian_inputs(
-        &self,
-        u: &Column<F::Number, Most>,
-        v: &Column<F::Number, D<1>>,
-    ) -> Column<Column<F::Number, Most>, D<1>> {
-        self.0.jacobian_inputs(&column(u), v).map(|own| column(&own))
-    }
-    fn gamma(
-        &self,
-        u: &Column<F::Number, Most>,
-        v: &Column<F::Number, D<1>>,
-        unknown_rates: &Column<F::Number, Most>,
-        input_rates: &Column<F::Number, D<1>>,
-    ) -> Column<F::Number, Most> {
-        column(&self.0.gamma(&column(u), v, &column(unknown_rates), input_rates))
-    }
-    fn quantities(&self, u: &Column<F::Number, Most>, v: &Column<F::Number, D<1>>) -> Column<F::Number, UpTo<40>> {
-        column(&self.0.quantities(&column(u), v))
-    }
-    fn ranged(
-        &self,
-        place: usize,
-        u: &Column<F::Number, Most>,
-        v: &Column<F::Number, D<1>>,
-    ) -> Option<Ranged<F::Number>> {
-        self.0.ranged(place, &column(u), v)
-    }
-}
-
-impl<'n, M> Certifiable for AtRunTime<'n, M>
-where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Certifiable,
-{
-    type P = Most;
-    type Q = UpTo<40>;
-    type Over<N: Number> = FormulasAtRunTime<M::Over<N>>;
-
-    const PARAMETERS: &'static [&'static str] = panic!("names of a value");
-    const QUANTITIES: &'static [&'static str] = panic!("names of a value");
-    const USER_FUNCTIONS: &'static [Option<&'static str>] = panic!("functions of a value");
-
-    fn parameter_name(&self, place: usize) -> &'n str {
-        self.of.parameter_name(place)
-    }
-    fn quantity_name(&self, place: usize) -> &'n str {
-        self.of.quantity_name(place)
-    }
-    fn user_function(&self, group: usize) -> Option<&'n str> {
-        self.of.user_function(group)
-    }
-    fn quantity_count(&self) -> UpTo<40> {
-        UpTo::new(self.of.quantity_count().count()).expect("few quantities")
-    }
-    fn parameters(&self) -> Column<f64, Most> {
-        column(&self.of.parameters())
-    }
-    fn with(&self, parameters: Column<f64, Most>) -> Self {
-        let Self { texts, inputs, groups, .. } = *self;
-        Self { of: self.of.with(column(&parameters)), texts, inputs, groups }
-    }
-    fn over<N: Number>(&self, parameters: Column<N, Most>) -> Self::Over<N> {
-        FormulasAtRunTime(self.of.over(column(&parameters)))
     }
 }
 
@@ -198,30 +113,10 @@ macro_rules! pictured {
     }};
 }
 
-fn certified<M>(m: &M, input: f64)
-where
-    M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>> + Certifiable + Branches + Clone,
-{
-    for (_, q) in positions(m, input) {
-        let split = AtRunTime::<M>::split(&q);
-        let at_run_time = wrapped(m, " at run time", |m| certificates(m, &split));
-        assert!(at_run_time.iter().any(|text| text.contains(" at run time")));
-        let unmarked: Vec<String> = at_run_time.iter().map(|text| text.replace(" at run time", "")).collect();
-        same(&certificates(m, &q), &unmarked);
-    }
-}
-
 #[test]
 fn pictures() {
     pictured!(CrankRocker, 1.0);
     pictured!(Rocker, 0.4);
     pictured!(Block, 0.9);
     pictured!(TiltedParallelogram, 0.7);
-}
-
-#[test]
-fn proofs() {
-    certified(&CrankRocker::default(), 1.0);
-    certified(&Rocker::default(), 0.4);
-    certified(&Block::default(), 0.9);
 }

@@ -2,12 +2,12 @@
 
 use std::fmt::Debug;
 
-use linkage::{Certifiable, Column, D, Dim, Formulas, Interval, Number};
+use linkage::{Certifiable, Column, D, Dim, Formulas, Interval, Number, linkage};
 use linkage_gallery::{Fixture, all_mechanisms};
 
-use super::super::{Numbers, Positions, same};
+use super::super::{Numbers, Positions, equal, same};
 use super::operations::{Operations, given};
-use super::certifiable;
+use super::{both, certifiable, only, ready};
 
 /// All that the formulas compute of these parameters, unknowns and inputs, and of rates like them.
 fn computed<M: Certifiable, N: Number>(m: &M, [parameters, unknowns, inputs]: [&[N]; 3]) -> Vec<String> {
@@ -35,8 +35,13 @@ fn facts<M: Certifiable>(m: &M) -> Vec<String> {
     let parameters = Certifiable::parameters(m);
     let names = (0..=parameters.iter().count()).map(|place| m.parameter_name(place).to_string());
     let quantities = (0..=m.quantity_count().count()).map(|place| m.quantity_name(place).to_string());
-    let users = (0..=m.dims().2.count()).map(|group| format!("{:?}", m.user_function(group).map(|name| name.to_string())));
-    names.chain(quantities).chain(users).chain([format!("{parameters:?}", parameters = parameters.as_slice())]).collect()
+    let users =
+        (0..=m.dims().2.count()).map(|group| format!("{:?}", m.user_function(group).map(|name| name.to_string())));
+    names
+        .chain(quantities)
+        .chain(users)
+        .chain([format!("{parameters:?}", parameters = parameters.as_slice())])
+        .collect()
 }
 
 /// Numbers of all kinds.
@@ -62,6 +67,30 @@ fn compare<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Certifiable>() {
         same::<M>(&facts(&mechanism), &facts(own));
         same::<M>(&numbers(&mechanism, &starts), &numbers(own, &starts));
     });
+}
+
+both! { CONSTANTS:
+    /// Constants of all kinds: doubles, ratios, ratios of numbers that are none, numbers near a double, multiples of pi.
+    #[derive(Debug, Clone, Copy)]
+    mechanism Constants {
+        param a = 2, bend = 30deg;
+        input phi in -0.3..;
+        unknown x, y in 0.1..9.5;
+        equation x = 0.1 * a * cos(phi + 60deg) - phi / 3 + 0.5;
+        equation y = -0.7 * x - 9007199254740993 / 7 * cos(bend) + 1e300 * a - 1e30 * x;
+        output one = 1.5 * x - 9007199254740993 / 7 + 45deg;
+        output other = pi * x - (2 + 1/3) * phi + sqrt(2) * a - y^2 - 0.3 * (x - y)^2;
+        output third = -9007199254740993 / 7 * x^3 - 1e300 * (phi + 0.25)^2;
+        derive intervals;
+    }
+}
+
+#[test]
+fn constants_keep_their_kinds() {
+    let start = [vec![0.3, 0.4], vec![0.7]];
+    let emitted = numbers(&Constants::default(), std::slice::from_ref(&start));
+    let at_run_time = ready::<1, _>(&only(CONSTANTS), |own| numbers(own, std::slice::from_ref(&start)));
+    equal("Constants", &emitted, &at_run_time);
 }
 
 macro_rules! compared {

@@ -41,7 +41,9 @@ fn a_mechanism_with_too_many_parameters() {
         let names: Vec<String> = (0..count).map(|place| format!("p{place}")).collect();
         let all = names.iter().map(|name| format!("{name} = 1")).collect::<Vec<_>>().join(", ");
         let sum = names.join(" + ");
-        only(&format!("mechanism M {{ param {all}; input phi; unknown x; equation x = ({sum}) * cos(phi); derive intervals; }}"))
+        only(&format!(
+            "mechanism M {{ param {all}; input phi; unknown x; equation x = ({sum}) * cos(phi); derive intervals; }}"
+        ))
     };
     let [most, more] = [64, 65].map(|count| of(count).design());
     assert!(most.prepared().expect("a mechanism").certifiable::<D<1>>().is_ok());
