@@ -6,6 +6,9 @@ use linkage_runtime::Number;
 /// The digits of a number.
 const DIGITS: i32 = 8;
 
+/// Its most decimals: zero by rounding errors is zero.
+const MOST_DECIMALS: i32 = 12;
+
 /// A number that an interval contains, an angle in degrees: the digits that both of its ends have, or the ends, rounded apart.
 pub fn proved(of: Interval, is_angle: bool) -> String {
     let [text] = all_proved([of], is_angle);
@@ -27,7 +30,7 @@ fn text(of: Interval, size: f64, unit: &str) -> String {
     if !of.magnitude().is_finite() {
         return "not bounded".to_owned();
     }
-    let digits = |count: i32| (count - 1 - size.max(1e-12).log10().floor() as i32).clamp(0, 15) as usize;
+    let digits = |count: i32| (count - 1 - size.max(1e-12).log10().floor() as i32).clamp(0, MOST_DECIMALS) as usize;
     // The fewer digits, the wider an interval is one number.
     let same = (DIGITS - 1..=DIGITS).rev().find_map(|count| {
         let [one, other] = [least, most].map(|end| rounded(end, digits(count), 0.0));

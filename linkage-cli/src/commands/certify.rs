@@ -106,6 +106,12 @@ impl Asked<'_> {
                 let at = proved(*limit, input.is_angle);
                 format!("not certified: {name} turns back at {at}, a dead point of {group}; --curve goes through it")
             }
+            CertifyError::NoPosition { group, .. } => {
+                let at = self.machine.at(self.inputs);
+                format!(
+                    "not certified: {at} is a dead point or a change point of {group}, or nearly so: write another --at"
+                )
+            }
             CertifyError::Singular { group, input, .. } => {
                 let at = between(input);
                 format!("not certified: {at} there is a change point or a dead point of {group}, or nearly so")
