@@ -117,7 +117,7 @@ fn a_curve_goes_through_dead_points() {
 fn other_ends_of_a_turn() {
     let folder = folder();
     // The positions have numbers from 0.
-    let arrives = folder.run("certify triad.linkage --at theta=0 --branch alpha_beta_gamma_epsilon=0").works("");
+    let arrives = folder.run("certify triad.linkage --at theta=0 --branch alpha_beta_gamma_epsilon=1").works("");
     let end = "to the position with the number 3 of those given\nposition 3 is alpha_beta_gamma_epsilon=3\n";
     assert!(arrives.contains(end), "{arrives}");
     // A wheel is at its start after two turns.
