@@ -201,7 +201,7 @@ impl Asked<'_> {
     }
 }
 
-/// What is proved about a motion.
+/// The statements that are proved about a motion.
 #[derive(Serialize)]
 struct Proof {
     mechanism: String,

@@ -7,6 +7,7 @@
 
 mod algorithms;
 mod branch;
+mod calls;
 mod certifiable;
 mod coordinates;
 mod kinematic;
