@@ -104,13 +104,15 @@ impl About {
     }
 }
 
-/// The mechanism with a name, or the only one of a file, and what a function makes of its formulas.
+/// The mechanism with a name, or the only one of a file, with these `derive` statements besides its own, and what a function
+/// makes of its formulas.
 pub fn chosen<R>(
     source: &Source,
     asked: Option<&str>,
+    requests: &[Request],
     f: impl FnMut(&Lowered<'_>) -> R,
 ) -> Result<(About, Mechanism, R), Failure> {
-    let mut all = all(source, asked, f)?;
+    let mut all = all(source, asked, requests, f)?;
     match all.as_slice() {
         [_] => Ok(all.swap_remove(0)),
         several => {
@@ -120,14 +122,16 @@ pub fn chosen<R>(
     }
 }
 
-/// The mechanism with a name, or all of a file, and what a function makes of their formulas.
+/// The mechanism with a name, or all of a file, each with these `derive` statements besides its own, and what a function makes
+/// of their formulas.
 pub fn all<R>(
     source: &Source,
     asked: Option<&str>,
+    requests: &[Request],
     mut f: impl FnMut(&Lowered<'_>) -> R,
 ) -> Result<Vec<(About, Mechanism, R)>, Failure> {
     let compiled = progress::during(format!("deriving {}", source.name), || {
-        Program::compile_with(&source.text, &[Request::Drawing], |lowered| {
+        Program::compile_with(&source.text, requests, |lowered| {
             let result = f(&lowered);
             (About::of(lowered), result)
         })

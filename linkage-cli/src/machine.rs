@@ -2,6 +2,7 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::graph::NodeId;
+use linkage_compiler::model::Request;
 use linkage_interpreter::{Data, Design, Mechanism, SceneDesign};
 
 use crate::about::{About, chosen};
@@ -33,7 +34,7 @@ impl Machine {
 
     /// The mechanism that the arguments mean, with their numbers, and what a function makes of its formulas.
     pub fn with<R>(numbers: &Numbers, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
-        let (machine, _, result) = Self::begun(numbers, |_| Ok(None), Start::of, f)?;
+        let (machine, _, result) = Self::begun(numbers, &[Request::Drawing], |_| Ok(None), Start::of, f)?;
         Ok((machine, result))
     }
 
@@ -42,9 +43,15 @@ impl Machine {
         numbers: &Numbers,
         scene: impl FnOnce(&About) -> Result<usize, Failure>,
     ) -> Result<(Self, SceneDesign), Failure> {
-        let (machine, scene, ()) = Self::begun(numbers, |about| scene(about).map(Some), Start::of, |_| ())?;
+        let (machine, scene, ()) = Self::begun(numbers, &[], |about| scene(about).map(Some), Start::of, |_| ())?;
         let scene = scene.ok_or_else(|| Failure::Argument(format!("`{}` has no scene", machine.about.name)))?;
         Ok((machine, scene))
+    }
+
+    /// The mechanism that the arguments mean, with its formulas over intervals.
+    pub fn with_intervals(numbers: &Numbers) -> Result<Self, Failure> {
+        let (machine, ..) = Self::begun(numbers, &[Request::Intervals], |_| Ok(None), Start::of, |_| ())?;
+        Ok(machine)
     }
 
     /// The mechanism of all whose positions there is something to say: none of them is chosen.
@@ -53,18 +60,20 @@ impl Machine {
         if let Some((option, _)) = given.iter().find(|(_, is_empty)| !is_empty) {
             return Err(Failure::Argument(format!("{result} all positions: leave out {option}")));
         }
-        let (machine, _, result) = Self::begun(numbers, |_| Ok(None), |_, _, _| Ok(Start::Listed), f)?;
+        let (machine, _, result) =
+            Self::begun(numbers, &[Request::Drawing], |_| Ok(None), |_, _, _| Ok(Start::Listed), f)?;
         Ok((machine, result))
     }
 
     fn begun<R>(
         numbers: &Numbers,
+        requests: &[Request],
         scene: impl FnOnce(&About) -> Result<Option<usize>, Failure>,
         start: impl FnOnce(&About, &Mechanism, &Numbers) -> Result<Start, Failure>,
         f: impl FnMut(&Lowered<'_>) -> R,
     ) -> Result<(Self, Option<SceneDesign>, R), Failure> {
         let file = &numbers.source.file;
-        let (about, mechanism, result) = chosen(&read(file)?, numbers.source.mechanism.as_deref(), f)?;
+        let (about, mechanism, result) = chosen(&read(file)?, numbers.source.mechanism.as_deref(), requests, f)?;
         if let Some(function) = about.functions.first() {
             let name = &about.name;
             return Err(Failure::Outside(format!(

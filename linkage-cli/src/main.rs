@@ -27,6 +27,7 @@ mod picture;
 mod plain;
 mod position;
 mod progress;
+mod proved;
 mod said;
 mod scene;
 mod solver;

@@ -15,7 +15,7 @@ use crate::program::{
     Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Part, Scene, SceneTypes, Side, Types,
     UserFunction, Written,
 };
-use crate::translate::{Context, Untranslated};
+use crate::translate::{Context, Untranslated, formulas};
 
 /// The driver with its scenes.
 pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
@@ -96,6 +96,7 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
         scenes,
         lanes: lanes(implementations),
         written: written(implementations),
+        formulas: formulas(lowered)?,
         names,
     })
 }

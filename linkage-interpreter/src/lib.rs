@@ -47,6 +47,7 @@ mod compile;
 mod convert;
 mod data;
 mod error;
+mod formulas;
 mod machine;
 mod mechanism;
 mod program;
@@ -56,8 +57,9 @@ mod translate;
 mod written;
 
 pub use at_run_time::{
-    AllCoordinates, AtRunTime, BranchAtRunTime, ContactCount, CoordinatesAtRunTime, Count, JointCoordinates,
-    JointForcesAtRunTime, NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime, StateCount,
+    AllCoordinates, AtRunTime, BranchAtRunTime, CertifiableAtRunTime, ContactCount, CoordinatesAtRunTime, Count,
+    FormulasAtRunTime, JointCoordinates, JointForcesAtRunTime, NotPrepared, OfDesign, ParameterCount, PoseAtRunTime,
+    Prepared, PreparedScene, QuantityCount, SceneAtRunTime, StateCount, WithFormulas,
 };
 pub use call_error::CallError;
 pub use code::{Argument, Record, Shape};

@@ -6,6 +6,7 @@ use linkage_runtime::InputValues;
 use serde::{Deserialize, Serialize};
 
 use crate::code::{Function, Name, Names};
+use crate::formulas::Formulas;
 
 /// One mechanism, or one choice of inputs of a mechanism with several.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,6 +44,8 @@ pub(crate) struct Driver {
     pub(crate) scenes: Vec<Scene>,
     pub(crate) lanes: Lanes,
     pub(crate) written: Written,
+    /// The formulas over numbers of any kind, with `derive intervals`.
+    pub(crate) formulas: Option<Formulas>,
 }
 
 /// The names as written, and the groups: the constants of the traits of the runtime.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 
 use crate::Program;
 use crate::code::{Block, Expression, Function, Id, Pattern, Slot, Statement};
+use crate::formulas::Counts;
 use crate::mechanism::Mechanism;
 use crate::program::Driver;
 
@@ -86,7 +87,15 @@ pub(crate) fn checked(driver: &Driver) -> Result<(), &'static str> {
     if !{ joints }.all(|(count, part)| part.joints().iter().all(|joint| *joint < count)) {
         return Err("a joint of a part does not exist");
     }
-    Ok(())
+    let counts = Counts {
+        parameters: driver.parameters.len(),
+        unknowns: driver.unknowns.len(),
+        inputs: driver.inputs.len(),
+        groups: driver.written.groups.len(),
+        quantities: 2 * driver.points.len() + driver.outputs.len(),
+        ranges: driver.written.ranges.len(),
+    };
+    driver.formulas.as_ref().map_or(Ok(()), |formulas| formulas.check(counts))
 }
 
 /// Checks a function.

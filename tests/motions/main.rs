@@ -10,4 +10,3 @@ mod joint_ranges;
 mod parameters;
 mod range_of_motion;
 mod reports;
-mod run_time_sizes;

@@ -1,5 +1,6 @@
 //! The arguments of the program, with its help.
 
+mod certify;
 mod motions;
 mod scenes;
 
@@ -9,6 +10,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use crate::values::{Assignment, Choice, Value};
+pub use certify::Certify;
 pub use motions::{Circuits, CircuitsFormat, Limits, ListForm, ListFormat};
 pub use scenes::{Equilibrium, Simulate, SimulationFormat};
 
@@ -90,6 +92,16 @@ Examples:
     /// Find the position at which the forces of a scene are in equilibrium, near the values of its inputs
     #[command(after_help = "Example:\n  linkage equilibrium lamp.linkage --at phi=30deg --set m=2")]
     Equilibrium(Equilibrium),
+    /// Prove a motion: that it turns fully or goes through dead points, with bounds of all outputs, by interval arithmetic
+    #[command(after_help = "\
+The motion begins at --at or --from, at the position by --branch or --guess. What is printed is proved
+for all values of the input, rounding errors included; what cannot be proved is an error that says why.
+
+Examples:
+  linkage certify wiper.linkage
+  linkage certify wiper.linkage --tolerance 0.1% --from 20deg --to 90deg
+  linkage certify wiper.linkage --set l2=45 --curve")]
+    Certify(Certify),
     /// Report mobility, all positions at one choice of inputs, circuits, and a motion with its extremes
     #[command(after_help = "\
 Examples:

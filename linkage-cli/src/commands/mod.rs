@@ -1,6 +1,7 @@
 //! The commands, each a file.
 
 mod animate;
+mod certify;
 mod check;
 mod circuits;
 mod compiled;
@@ -39,6 +40,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Circuits(arguments) => circuits::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Equilibrium(arguments) => equilibrium::run(&arguments),
+        Command::Certify(arguments) => certify::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),

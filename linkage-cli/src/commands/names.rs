@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use linkage_compiler::model::Kind;
+use linkage_compiler::model::{Kind, Request};
 use serde::Serialize;
 
 use crate::about::{About, all};
@@ -15,7 +15,7 @@ use crate::scene::AboutScene;
 use crate::source::read;
 
 pub fn run(arguments: &Names) -> Result<(), Failure> {
-    let all = all(&read(&arguments.source.file)?, arguments.source.mechanism.as_deref(), |_| ())?;
+    let all = all(&read(&arguments.source.file)?, arguments.source.mechanism.as_deref(), &[Request::Drawing], |_| ())?;
     let lists: Vec<List> = all.iter().map(|(about, ..)| List::of(about)).collect();
     let text = match arguments.format {
         NamesFormat::Json => {

@@ -1,6 +1,7 @@
 //! The program from outside: each command, its exit code and its messages; bad input; interrupts.
 
 mod bad_input;
+mod certificates;
 mod commands;
 mod folder;
 mod interrupts;

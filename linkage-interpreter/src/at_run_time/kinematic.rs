@@ -6,6 +6,7 @@ use linkage_runtime::kinematic::{
 use linkage_runtime::nalgebra::{Point2, Vector2};
 use linkage_runtime::{Build as _, Column, D, Dim, PositionError};
 
+use super::parameters::Parameters;
 use super::read::{List, Read, field, matrix};
 use super::{AllCoordinates, AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, PoseAtRunTime};
 use crate::code::Name;
@@ -14,7 +15,7 @@ use crate::machine::Value;
 /// The result of a call, or the error of the mechanism.
 type Found<'p, X> = Result<X, PositionError<&'p str>>;
 
-impl<'p, V: Dim> AtRunTime<'p, V> {
+impl<'p, V: Dim, P: Parameters> AtRunTime<'p, V, P> {
     /// A quantity for each point.
     fn each_point_of<Q: Read>(&self, value: &Value) -> List<Q> {
         self.prepared.each(value, &self.prepared.driver.points, Q::read)
@@ -29,7 +30,7 @@ impl<'p, V: Dim> AtRunTime<'p, V> {
     fn found_points<Q: Read, const N: usize>(&self, function: &str, arguments: [Value; N]) -> Found<'p, List<Q>> {
         match self.prepared.driver.points.is_empty() {
             true => Ok(self.each_point_of(&Value::Absent)),
-            false => Ok(self.each_point_of(&self.prepared.result(function, arguments)?)),
+            false => Ok(self.each_point_of(&self.result(function, arguments)?)),
         }
     }
 
@@ -37,7 +38,7 @@ impl<'p, V: Dim> AtRunTime<'p, V> {
     fn found_outputs<Q: Read, const N: usize>(&self, function: &str, arguments: [Value; N]) -> Found<'p, List<Q>> {
         match self.prepared.driver.outputs.is_empty() {
             true => Ok(self.each_output_of(&Value::Absent)),
-            false => Ok(self.each_output_of(&self.prepared.result(function, arguments)?)),
+            false => Ok(self.each_output_of(&self.result(function, arguments)?)),
         }
     }
 
@@ -51,7 +52,7 @@ impl<'p, V: Dim> AtRunTime<'p, V> {
     ) -> Found<'p, List<Ratios<Self, R>>> {
         let found = match names.is_empty() {
             true => Value::Absent,
-            false => self.prepared.result(function, [self.pose_value(pose)])?,
+            false => self.result(function, [self.pose_value(pose)])?,
         };
         Ok(self.prepared.each(&found, names, |value| matrix(value, rows, self.inputs)))
     }
@@ -69,7 +70,7 @@ impl<'p, V: Dim> AtRunTime<'p, V> {
     }
 }
 
-impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
+impl<'p, V: Dim, P: Parameters> Kinematic for AtRunTime<'p, V, P> {
     type N = AllCoordinates;
     type P = Count;
     type O = Count;
@@ -98,7 +99,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
         pose.coordinates
     }
     fn velocity(&self, pose: &PoseAtRunTime<V>, rates: Column<f64, V>) -> Found<'p, CoordinatesAtRunTime<V>> {
-        let found = self.prepared.result("velocity", [self.pose_value(pose), self.inputs_value(&rates)])?;
+        let found = self.result("velocity", [self.pose_value(pose), self.inputs_value(&rates)])?;
         Ok(self.read_coordinates(&found))
     }
     fn acceleration(
@@ -108,7 +109,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
         input_accelerations: Column<f64, V>,
     ) -> Found<'p, CoordinatesAtRunTime<V>> {
         let given = [self.pose_value(pose), self.coordinates_value(rates), self.inputs_value(&input_accelerations)];
-        Ok(self.read_coordinates(&self.prepared.result("acceleration", given)?))
+        Ok(self.read_coordinates(&self.result("acceleration", given)?))
     }
     fn kinematics(
         &self,
@@ -117,7 +118,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
         rates: Column<f64, V>,
         accelerations: Column<f64, V>,
     ) -> Found<'p, KinematicsOf<Self>> {
-        let found = self.prepared.result("kinematics", self.moving(guess, &branch, [&rates, &accelerations]))?;
+        let found = self.result("kinematics", self.moving(guess, &branch, [&rates, &accelerations]))?;
         let of = self.prepared.fields;
         Ok(Kinematics {
             pose: self.read_pose(field(&found, Name::POSE).clone()),
@@ -134,7 +135,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
     ) -> Found<'p, FullKinematicsOf<Self>> {
         // A mechanism without points and outputs has `kinematics` only.
         let function = if self.prepared.has("full_kinematics") { "full_kinematics" } else { "kinematics" };
-        let found = self.prepared.result(function, self.moving(guess, &branch, [&rates, &accelerations]))?;
+        let found = self.result(function, self.moving(guess, &branch, [&rates, &accelerations]))?;
         let of = self.prepared.fields;
         Ok(FullKinematics {
             pose: self.read_pose(field(&found, Name::POSE).clone()),
@@ -151,7 +152,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
         accelerations: Column<f64, V>,
     ) -> Found<'p, MotionOf<Self>> {
         let given = [self.coordinates_value(q), self.inputs_value(&rates), self.inputs_value(&accelerations)];
-        let found = self.prepared.result("motion", given)?;
+        let found = self.result("motion", given)?;
         let of = self.prepared.fields;
         Ok(Motion {
             position: self.read_coordinates(field(&found, Name::POSITION)),
@@ -167,7 +168,7 @@ impl<'p, V: Dim> Kinematic for AtRunTime<'p, V> {
         if rows.count() == 0 {
             return Ok(rows.zero_matrix(self.inputs));
         }
-        Ok(matrix(&self.prepared.result("velocity_ratios", [self.pose_value(pose)])?, rows, self.inputs))
+        Ok(matrix(&self.result("velocity_ratios", [self.pose_value(pose)])?, rows, self.inputs))
     }
     fn points(&self, pose: &PoseAtRunTime<V>) -> Found<'p, List<Point2<f64>>> {
         self.found_points("points", [self.pose_value(pose)])

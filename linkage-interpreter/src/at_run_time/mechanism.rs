@@ -2,17 +2,18 @@
 
 use linkage_runtime::{Build as _, Column, Dim, Group, Matrix, Mechanism, PositionError, Ranged};
 
+use super::parameters::Parameters;
 use super::read::{matrix, number, ranged};
 use super::{AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, PoseAtRunTime};
 use crate::machine::Value;
 
-impl<V: Dim> AtRunTime<'_, V> {
+impl<V: Dim, P: Parameters> AtRunTime<'_, V, P> {
     /// A column that a function of a pose returns: of a mechanism without equations it has no entries.
     fn column_at(&self, function: &str, pose: &PoseAtRunTime<V>, count: Count) -> Column<f64, Count> {
         if count.count() == 0 {
             return count.zeros();
         }
-        self.prepared.column(&self.prepared.value(function, [self.pose_value(pose)]), count)
+        self.prepared.column(&self.value(function, [self.pose_value(pose)]), count)
     }
 
     /// A matrix that a function of a pose returns, likewise.
@@ -21,11 +22,11 @@ impl<V: Dim> AtRunTime<'_, V> {
         if rows.count() == 0 {
             return rows.zero_matrix(columns);
         }
-        matrix(&self.prepared.value(function, [self.pose_value(pose)]), rows, columns)
+        matrix(&self.value(function, [self.pose_value(pose)]), rows, columns)
     }
 }
 
-impl<'p, V: Dim> Mechanism for AtRunTime<'p, V> {
+impl<'p, V: Dim, P: Parameters> Mechanism for AtRunTime<'p, V, P> {
     type Scalar = f64;
     type Name = &'p str;
     type U = Count;
@@ -88,13 +89,13 @@ impl<'p, V: Dim> Mechanism for AtRunTime<'p, V> {
         (rates.unknowns, rates.inputs)
     }
     fn pose_at(&self, q: &CoordinatesAtRunTime<V>) -> PoseAtRunTime<V> {
-        self.read_pose(self.prepared.value("pose_at", [self.coordinates_value(q)]))
+        self.read_pose(self.value("pose_at", [self.coordinates_value(q)]))
     }
     fn is_finite(pose: &PoseAtRunTime<V>) -> bool {
         pose.numbers.as_ref().iter().all(|number| number.is_finite())
     }
     fn branch_of(&self, pose: &PoseAtRunTime<V>) -> BranchAtRunTime<'p> {
-        self.read_branch(&self.prepared.value("branch_of", [self.pose_value(pose)]))
+        self.read_branch(&self.value("branch_of", [self.pose_value(pose)]))
     }
 
     fn residual(&self, pose: &PoseAtRunTime<V>) -> Column<f64, Count> {
@@ -118,7 +119,7 @@ impl<'p, V: Dim> Mechanism for AtRunTime<'p, V> {
     fn determinant(&self, pose: &PoseAtRunTime<V>) -> f64 {
         match self.prepared.counts().0.count() {
             0 => 1.0,
-            _ => number(&self.prepared.value("determinant", [self.pose_value(pose)])),
+            _ => number(&self.value("determinant", [self.pose_value(pose)])),
         }
     }
     fn block_determinants(&self, pose: &PoseAtRunTime<V>) -> Column<f64, Count> {
@@ -129,7 +130,7 @@ impl<'p, V: Dim> Mechanism for AtRunTime<'p, V> {
         if count.count() == 0 {
             return count.zeros();
         }
-        let found = self.prepared.value("gamma", [self.pose_value(pose), self.coordinates_value(rates)]);
+        let found = self.value("gamma", [self.pose_value(pose), self.coordinates_value(rates)]);
         self.prepared.column(&found, count)
     }
     fn solve_jacobian(
@@ -141,24 +142,24 @@ impl<'p, V: Dim> Mechanism for AtRunTime<'p, V> {
             return Ok(*right);
         }
         let right_side = Value::list(right.iter().copied().map(Value::Number));
-        let found = self.prepared.result("solve_jacobian", [self.pose_value(pose), right_side])?;
+        let found = self.result("solve_jacobian", [self.pose_value(pose), right_side])?;
         Ok(self.prepared.column(&found, right.dim()))
     }
 
     fn length_scale(&self, pose: &PoseAtRunTime<V>) -> f64 {
         match self.prepared.has("length_scale") {
-            true => number(&self.prepared.value("length_scale", [self.pose_value(pose)])),
+            true => number(&self.value("length_scale", [self.pose_value(pose)])),
             false => 1.0,
         }
     }
     fn check_implied(&self, q: &CoordinatesAtRunTime<V>) -> Result<(), PositionError<&'p str>> {
         match self.prepared.has("check_implied") {
-            true => self.prepared.result("check_implied", [self.coordinates_value(q)]).map(|_| ()),
+            true => self.result("check_implied", [self.coordinates_value(q)]).map(|_| ()),
             false => Ok(()),
         }
     }
     fn ranged(&self, place: usize, q: &CoordinatesAtRunTime<V>) -> Option<Ranged<f64>> {
         self.range_name(place)?;
-        ranged(&self.prepared.value("ranged", [Value::Count(place as i64), self.coordinates_value(q)]))
+        ranged(&self.value("ranged", [Value::Count(place as i64), self.coordinates_value(q)]))
     }
 }

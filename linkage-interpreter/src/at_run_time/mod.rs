@@ -7,11 +7,14 @@
 
 mod algorithms;
 mod branch;
+mod calls;
+mod certifiable;
 mod coordinates;
 mod kinematic;
 mod mechanism;
 mod names;
 mod not_prepared;
+mod parameters;
 mod pose;
 mod positions;
 mod prepared;
@@ -19,12 +22,14 @@ mod read;
 mod scene;
 mod skeleton;
 
-use linkage_runtime::{Dim, UpTo};
+use linkage_runtime::UpTo;
 
 pub(crate) use algorithms::OfTheRuntime;
 pub use branch::BranchAtRunTime;
+pub use certifiable::{CertifiableAtRunTime, FormulasAtRunTime, ParameterCount, QuantityCount, WithFormulas};
 pub use coordinates::CoordinatesAtRunTime;
 pub use not_prepared::NotPrepared;
+pub use parameters::OfDesign;
 pub use pose::PoseAtRunTime;
 pub use prepared::Prepared;
 pub use scene::{ContactCount, JointForcesAtRunTime, PreparedScene, SceneAtRunTime, StateCount};
@@ -51,16 +56,11 @@ pub type AllCoordinates = UpTo<{ MOST + MOST_INPUTS }>;
 pub type JointCoordinates = UpTo<{ 2 * MOST_JOINTS }>;
 
 /// A mechanism with values of its parameters, with `V` inputs, that the algorithms of the runtime take.
-#[derive(Debug)]
-pub struct AtRunTime<'p, V> {
+///
+/// `P` are the values of its parameters: those of the design, or [`WithFormulas`] for certificates.
+#[derive(Debug, Clone, Copy)]
+pub struct AtRunTime<'p, V, P = OfDesign> {
     pub(crate) prepared: &'p Prepared<'p>,
     pub(crate) inputs: V,
+    parameters: P,
 }
-
-impl<V: Dim> Clone for AtRunTime<'_, V> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<V: Dim> Copy for AtRunTime<'_, V> {}

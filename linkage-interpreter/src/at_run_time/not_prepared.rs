@@ -23,6 +23,11 @@ pub enum NotPrepared {
         /// The inputs of the mechanism.
         count: usize,
     },
+    /// The mechanism has no formulas over intervals: its text has no `derive intervals;`.
+    NoFormulas {
+        /// The mechanism, or the driver of one.
+        mechanism: String,
+    },
     /// The scene has no `inertia`: nothing of it moves by itself.
     NoInertia {
         /// The scene.
@@ -42,6 +47,9 @@ impl Display for NotPrepared {
             ),
             Self::Inputs { count } => {
                 write!(f, "the mechanism has {count} inputs, which this computation does not take")
+            }
+            Self::NoFormulas { mechanism } => {
+                write!(f, "`{mechanism}` has no formulas over intervals: add `derive intervals;` to its mechanism")
             }
             Self::NoInertia { scene } => write!(f, "`{scene}` has no `inertia`: nothing of it moves by itself"),
             Self::Defect(error) => error.fmt(f),

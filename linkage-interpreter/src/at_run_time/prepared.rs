@@ -8,6 +8,7 @@ use linkage_runtime::skeleton::{NoDrawing, Part};
 use linkage_runtime::{Bounded, Dim, Group, PositionError};
 
 use super::names::Texts;
+use super::parameters::OfDesign;
 use super::skeleton;
 use super::{AtRunTime, Count, MOST, MOST_INPUTS, MOST_OF_POSE, NotPrepared};
 use crate::call_error::CallError;
@@ -20,7 +21,8 @@ use crate::program::Driver;
 pub struct Prepared<'d> {
     pub(crate) driver: &'d Driver,
     pub(crate) users: &'d [Option<User>],
-    own: Value,
+    /// The mechanism with the parameters of the design.
+    pub(crate) own: Value,
     functions: BTreeMap<&'d str, &'d Function>,
     texts: Texts<'d>,
     pub(crate) inputs: Vec<&'d str>,
@@ -97,7 +99,7 @@ impl<'d> Prepared<'d> {
             failed: RefCell::new(None),
         };
         let anywhere = driver.coordinates.iter().map(|name| (*name, Value::Number(1.0)));
-        let pose = prepared.called("pose_at", [Value::record(driver.types.coordinates, anywhere)]);
+        let pose = prepared.called(&prepared.own, "pose_at", [Value::record(driver.types.coordinates, anywhere)]);
         prepared.pose = pose.map_err(|failure| match CallError::from(failure) {
             CallError::Mistake(mistake) => NotPrepared::Mistake(mistake),
             CallError::Defect(defect) => NotPrepared::Defect(defect),
@@ -117,7 +119,8 @@ impl<'d> Prepared<'d> {
     /// [`NotPrepared::Inputs`] if it has another number.
     pub fn with_inputs<V: Dim>(&self) -> Result<AtRunTime<'_, V>, NotPrepared> {
         let count = self.driver.inputs.len();
-        V::new(count).map(|inputs| AtRunTime { prepared: self, inputs }).ok_or(NotPrepared::Inputs { count })
+        let inputs = V::new(count).ok_or(NotPrepared::Inputs { count })?;
+        Ok(AtRunTime { prepared: self, inputs, parameters: OfDesign })
     }
 
     /// The first failure of a call that is no error of the mechanism, as of damaged code. Algorithms find numbers that are none
@@ -132,11 +135,17 @@ impl<'d> Prepared<'d> {
         self.functions.contains_key(function)
     }
 
-    fn called(&self, function: &str, arguments: impl IntoIterator<Item = Value>) -> Result<Value, Box<Failure>> {
+    /// Calls a function of a mechanism with values of its parameters.
+    pub(crate) fn called(
+        &self,
+        own: &Value,
+        function: &str,
+        arguments: impl IntoIterator<Item = Value>,
+    ) -> Result<Value, Box<Failure>> {
         let called = self.functions.get(function);
         let called = called.ok_or_else(|| Defect::new(format!("no function `{function}`")))?;
         let mut machine = Machine::new(self.driver, None, self.users, Kind::Double);
-        let own = if called.is_method { self.own.clone() } else { Value::Absent };
+        let own = if called.is_method { own.clone() } else { Value::Absent };
         machine.call(Of::Driver, called, own, arguments)
     }
 
@@ -147,19 +156,15 @@ impl<'d> Prepared<'d> {
 
     /// Calls a function that cannot fail; nothing if it does.
     pub(crate) fn value(&self, function: &str, arguments: impl IntoIterator<Item = Value>) -> Value {
-        self.called(function, arguments).unwrap_or_else(|failure| {
+        self.or_nothing(self.called(&self.own, function, arguments))
+    }
+
+    /// The value of a call that cannot fail; nothing if it did.
+    pub(crate) fn or_nothing(&self, called: Result<Value, Box<Failure>>) -> Value {
+        called.unwrap_or_else(|failure| {
             self.keep(failure);
             Value::Absent
         })
-    }
-
-    /// Calls a function that can fail.
-    pub(crate) fn result(
-        &self,
-        function: &str,
-        arguments: impl IntoIterator<Item = Value>,
-    ) -> Result<Value, PositionError<&str>> {
-        self.called(function, arguments).map_err(|failure| self.error(failure))
     }
 
     /// The error of a call with borrowed names.

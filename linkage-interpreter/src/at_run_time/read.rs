@@ -6,6 +6,7 @@ use linkage_runtime::{Bounded, Build as _, Column, Dim, Matrix, OutputMotion, Po
 use smallvec::SmallVec;
 
 use super::coordinates::column;
+use super::parameters::Parameters;
 use super::{AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, MOST, MOST_OF_POSE, PoseAtRunTime, Prepared};
 use crate::code::Name;
 use crate::machine::{Defect, Value};
@@ -103,7 +104,7 @@ impl Prepared<'_> {
     }
 }
 
-impl<'p, V: Dim> AtRunTime<'p, V> {
+impl<'p, V: Dim, P: Parameters> AtRunTime<'p, V, P> {
     /// The coordinates, rates or accelerations that a value has by name.
     pub(crate) fn read_coordinates(&self, value: &Value) -> CoordinatesAtRunTime<V> {
         let driver = self.prepared.driver;

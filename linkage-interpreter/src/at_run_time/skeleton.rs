@@ -3,6 +3,7 @@
 use linkage_runtime::skeleton::{NoDrawing, Part, Skeleton};
 use linkage_runtime::{Build as _, Column, Dim};
 
+use super::parameters::Parameters;
 use super::read::numbers;
 use super::{AtRunTime, JointCoordinates, MOST_JOINTS, PoseAtRunTime};
 use crate::machine::Value;
@@ -28,25 +29,25 @@ fn part(of: &program::Part) -> Part<'_> {
 }
 
 /// The names of the joints; none without a drawing.
-fn joints<'p, V>(of: &AtRunTime<'p, V>) -> &'p [String] {
+fn joints<'p, V, P>(of: &AtRunTime<'p, V, P>) -> &'p [String] {
     let drawing = of.prepared.driver.written.drawing.as_ref().filter(|_| of.prepared.drawing.is_ok());
     drawing.map_or(&[], |drawing| &drawing.joints)
 }
 
-impl<V: Dim> AtRunTime<'_, V> {
+impl<V: Dim, P: Parameters> AtRunTime<'_, V, P> {
     /// The numbers of an entry of a list at a pose; none if the list, which a mechanism has no function for if it is empty, is
     /// shorter.
     fn entry<const N: usize>(&self, function: &str, pose: &PoseAtRunTime<V>, place: usize) -> Option<[f64; N]> {
         if !self.prepared.has(function) {
             return None;
         }
-        let found = self.prepared.value(function, [self.pose_value(pose), Value::Count(i64::try_from(place).ok()?)]);
+        let found = self.value(function, [self.pose_value(pose), Value::Count(i64::try_from(place).ok()?)]);
         numbers(&found).as_slice().try_into().ok()
     }
 }
 
 /// A mechanism that is compiled without `derive drawing;` has no joints, and [`check_drawing`](Skeleton::check_drawing) says so.
-impl<'p, V: Dim> Skeleton for AtRunTime<'p, V> {
+impl<'p, V: Dim, P: Parameters> Skeleton for AtRunTime<'p, V, P> {
     type Parts = JointCoordinates;
 
     const JOINTS: &'static [&'static str] = panic!("the joints are those of the value");

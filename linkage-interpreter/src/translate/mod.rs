@@ -1,5 +1,6 @@
 //! From the compiler's lowered functions to those that are run: names become numbers, types are resolved.
 
+mod formulas;
 mod intrinsics;
 mod types;
 
@@ -11,6 +12,8 @@ use linkage_compiler::ids::Id as _;
 use linkage_compiler::lower::{self, Code, Returned as Lowered, ValueId};
 use linkage_compiler::program::{self, Constant as Path, Passed, Receiver, Type as TypeOf, TypeNames};
 use linkage_compiler::text::Message;
+
+pub(crate) use formulas::formulas;
 
 use crate::code::{
     Access, Argument, Block, Constant, Elementary, Expression, Function, Id, Name, Names, Operation, Pattern, Place,

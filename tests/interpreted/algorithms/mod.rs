@@ -12,6 +12,7 @@ macro_rules! with_text {
     };
 }
 
+mod certificates;
 mod functions;
 mod motions;
 mod pictures;
@@ -88,10 +89,16 @@ impl<M: Fixture<Scalar = f64>> Positions<M> {
 /// Compares what an algorithm finds on a mechanism of the gallery and at run time.
 #[track_caller]
 pub fn same<M: Fixture>(emitted: &[String], at_run_time: &[String]) {
+    equal(&format!("{} of {}", M::NAME, M::FILE), emitted, at_run_time);
+}
+
+/// Compares what an algorithm finds on a mechanism with this name, and at run time.
+#[track_caller]
+pub fn equal(of: &str, emitted: &[String], at_run_time: &[String]) {
     for (one, other) in emitted.iter().zip(at_run_time) {
-        assert_eq!(one, other, "{} of {}", M::NAME, M::FILE);
+        assert_eq!(one, other, "{of}");
     }
-    assert_eq!(emitted.len(), at_run_time.len(), "{} of {}", M::NAME, M::FILE);
+    assert_eq!(emitted.len(), at_run_time.len(), "{of}");
 }
 
 /// Calls a function with the mechanism at run time.

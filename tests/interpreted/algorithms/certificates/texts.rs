@@ -34,6 +34,11 @@ fn of_curve<M: Certifiable<V = D<1>>>(found: &Curve<M>) -> Vec<String> {
     [found.to_string(), numbers].into_iter().chain(dead_points).collect()
 }
 
+/// The certificate of a turn.
+pub fn turn<M: Certifiable<V = D<1>>>(m: &M, start: &M::Coordinates) -> Vec<String> {
+    Certify::new(m).turn(start).map_or_else(|error| vec![error.to_string()], |found| of_certificate(&found))
+}
+
 /// Certificates of the motion through a position and of the circuits at an input, and enclosures at the position.
 pub fn certificates<M: Certifiable<V = D<1>> + Branches>(m: &M, start: &M::Coordinates) -> Vec<String> {
     let input = M::inputs(start)[0];

@@ -1,0 +1,326 @@
+//! `linkage certify`: a proof that a motion exists, is one and has no singular position.
+
+use linkage_interpreter::{CertifiableAtRunTime, CoordinatesAtRunTime, NotPrepared};
+use linkage_interval::Interval;
+use linkage_interval::certify::{
+    Certificate, CertifiedRange, Certify, CertifyError, Curve, Enclosure, End, RangeProof,
+};
+use linkage_runtime::{Column, RangeEnd};
+use serde::Serialize;
+
+use super::list::moving;
+use crate::aligned::aligned;
+use crate::arguments;
+use crate::ends::shown;
+use crate::failure::Failure;
+use crate::machine::Machine;
+use crate::motion::held;
+use crate::one_input::{Inputs, prepared};
+use crate::progress;
+use crate::proved::{all_proved, proved};
+
+/// The mechanism of a certificate.
+type Certified<'p> = CertifiableAtRunTime<'p, Inputs>;
+
+pub fn run(arguments: &arguments::Certify) -> Result<(), Failure> {
+    let arguments::Certify { numbers, place, along, from, form, .. } = arguments;
+    let format = form.format("a certificate")?;
+    let machine = Machine::with_intervals(numbers)?;
+    let moving = moving(&machine, along.as_deref())?;
+    let input = &machine.about.inputs[moving];
+    let name = &input.name.text;
+    if from.is_some() && place.at.iter().any(|at| at.name == *name) {
+        return Err(Failure::Argument(format!("--at {name} and --from are both the first value: leave out one")));
+    }
+    let first = from.map(|value| input.value(value)).transpose()?;
+    let inputs = held(&machine, &place.at, first.map(|first| (moving, first)))?;
+    let to = arguments.to.map(|value| input.value(value)).transpose()?;
+    match to {
+        None if !input.is_angle && !arguments.curve => {
+            let message = format!("`{name}` is a length and has no turn: write --to VALUE, or --curve");
+            return Err(Failure::Argument(message));
+        }
+        Some(to) if to == inputs[moving] => {
+            return Err(Failure::Argument(format!("--to is the first value of `{name}`")));
+        }
+        _ => {}
+    }
+    let prepared = prepared(&machine)?;
+    let outside = |error: NotPrepared| Failure::Outside(error.to_string());
+    let mechanism: Certified<'_> = prepared.certifiable().map_err(outside)?;
+    let asked = Asked { machine: &machine, inputs: &inputs, moving, to };
+    let proof = progress::during("certifying".to_owned(), || asked.proof(&mechanism, arguments));
+    if let Some(failure) = prepared.failure() {
+        return Err(Failure::Outside(failure.to_string()));
+    }
+    form.write(format, &proof?, Proof::to_text, &numbers.source.file)
+}
+
+/// The motion that is asked for.
+struct Asked<'a> {
+    machine: &'a Machine,
+    inputs: &'a [f64],
+    moving: usize,
+    /// The last value of the input, instead of turns.
+    to: Option<f64>,
+}
+
+impl Asked<'_> {
+    fn proof(&self, mechanism: &Certified<'_>, arguments: &arguments::Certify) -> Result<Proof, Failure> {
+        let at = |unknowns: &[f64]| -> Option<CoordinatesAtRunTime<Inputs>> {
+            let inputs = Column::from_slice(self.inputs)?;
+            Some(CoordinatesAtRunTime { unknowns: Column::from_slice(unknowns)?, inputs })
+        };
+        let unknowns = self.machine.place(self.inputs, &vec![0.0; self.inputs.len()]).map_err(Failure::Outside)?;
+        let start = at(&unknowns).ok_or_else(|| Failure::Outside("too many numbers".to_owned()))?;
+        // The motion may arrive at another one; not all mechanisms have a list.
+        let others = self.machine.positions(self.inputs).unwrap_or_default();
+        let mut certify = Certify::new(mechanism).input(self.moving).turns(arguments.turns);
+        if let Some(part) = arguments.tolerance {
+            certify = certify.tolerance(part.0);
+        }
+        if arguments.curve {
+            let curve = certify.curve(&start).map_err(|error| self.refused(&error))?;
+            return Ok(self.of_curve(&curve));
+        }
+        let certify = certify.positions(others.iter().filter_map(|(_, motion)| at(&motion.unknowns)));
+        let certificate = match self.to {
+            Some(to) => certify.range(&start, to),
+            None => certify.turn(&start),
+        };
+        let certificate = certificate.map_err(|error| self.refused(&error))?;
+        let branches: Vec<&str> = others.iter().map(|(branch, _)| branch.as_str()).collect();
+        Ok(self.of_certificate(&certificate, &branches))
+    }
+
+    /// The reason why there is no proof, with the input in its unit.
+    fn refused(&self, error: &CertifyError<&str>) -> Failure {
+        let input = &self.machine.about.inputs[self.moving];
+        let (name, shown) = (&input.name.text, |value: f64| shown(value, input.is_angle));
+        let between = |of: &Interval| match [of.least(), of.most()].map(shown) {
+            [one, other] if one == other => format!("at {name} = {one}"),
+            [one, other] => format!("between {name} = {one} and {other}"),
+        };
+        Failure::Outside(match error {
+            CertifyError::DeadPoint { group, limit, .. } => {
+                let at = proved(*limit, input.is_angle);
+                format!("not certified: {name} turns back at {at}, a dead point of {group}; --curve goes through it")
+            }
+            CertifyError::NoPosition { group, .. } => {
+                let at = self.machine.at(self.inputs);
+                format!(
+                    "not certified: {at} is a dead point or a change point of {group}, or nearly so: write another --at"
+                )
+            }
+            CertifyError::Singular { group, input, .. } => {
+                let at = between(input);
+                format!("not certified: {at} there is a change point or a dead point of {group}, or nearly so")
+            }
+            CertifyError::NoBounds { group, input, .. } => {
+                format!("not certified: the equations of {group} jump or have a kink or a pole {}", between(input))
+            }
+            CertifyError::Undecided { input, .. } => {
+                format!("not certified: the bounds are too wide {}", between(input))
+            }
+            CertifyError::NoTurn { .. } => {
+                format!("not certified: no sine of `{name}` is taken, so that it has no turn: write --to VALUE")
+            }
+            CertifyError::Exhausted { boxes, input, .. } => {
+                format!(
+                    "not certified beyond {name} = {}: the work is bounded, and {boxes} boxes took it",
+                    shown(*input)
+                )
+            }
+            other => format!("not certified: {other}"),
+        })
+    }
+
+    fn of_certificate(&self, certificate: &Certificate<Certified<'_>>, branches: &[&str]) -> Proof {
+        let input = &self.machine.about.inputs[self.moving];
+        let end = match certificate.end() {
+            End::Closed { turns } => Arrival::Closed { turns: turns.clone() },
+            End::Arrives { position, turns } => {
+                let branch = branches.get(*position).copied().unwrap_or_default().to_owned();
+                Arrival::Arrives { position: *position, branch, turns: turns.clone() }
+            }
+            End::Open => Arrival::Open,
+        };
+        let ratios = certificate.velocity_ratios();
+        let names = self.machine.about.unknowns.iter().map(|of| format!("d {} / d {}", of.name.text, input.name.text));
+        let inputs = certificate.inputs();
+        Proof {
+            inputs: Some([inputs.least(), inputs.most()]),
+            end: Some(end),
+            velocity_ratios: names.zip(&ratios).map(|(name, of)| Bounds::of(name, of, false)).collect(),
+            ..self.of(
+                certificate.to_string(),
+                certificate.boxes(),
+                &certificate.quantities(),
+                certificate.joint_ranges(),
+            )
+        }
+    }
+
+    fn of_curve(&self, curve: &Curve<Certified<'_>>) -> Proof {
+        let dead_points = curve.dead_points().iter().map(|at| DeadPoint {
+            input: [at.input.least(), at.input.most()],
+            group: at.group.to_owned(),
+            is_largest: at.is_largest,
+        });
+        Proof {
+            dead_points: dead_points.collect(),
+            ..self.of(curve.to_string(), curve.boxes(), &curve.quantities(), curve.joint_ranges())
+        }
+    }
+
+    fn of<'e>(
+        &self,
+        statement: String,
+        boxes: usize,
+        quantities: impl IntoIterator<Item = &'e Enclosure>,
+        ranges: Vec<CertifiedRange<&str>>,
+    ) -> Proof {
+        let about = &self.machine.about;
+        let points = about.points.iter().flat_map(|of| ["x", "y"].map(|axis| (format!("{}_{axis}", of.text), false)));
+        let angles = about.output_angles.iter().map(Option::is_some);
+        let outputs = about.outputs.iter().map(|of| of.text.clone()).zip(angles);
+        let quantities = points.chain(outputs).zip(quantities);
+        Proof {
+            mechanism: about.name.clone(),
+            statement,
+            input: about.inputs[self.moving].name.text.clone(),
+            is_angle: about.inputs[self.moving].is_angle,
+            inputs: None,
+            end: None,
+            dead_points: Vec::new(),
+            boxes,
+            quantities: quantities.map(|((name, is_angle), of)| Bounds::of(name, of, is_angle)).collect(),
+            velocity_ratios: Vec::new(),
+            ranges: ranges.iter().map(Range::of).collect(),
+        }
+    }
+}
+
+/// The statements that are proved about a motion.
+#[derive(Serialize)]
+struct Proof {
+    mechanism: String,
+    statement: String,
+    input: String,
+    is_angle: bool,
+    /// The first and the last value of the input; none of a curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inputs: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    end: Option<Arrival>,
+    /// Those of a curve.
+    dead_points: Vec<DeadPoint>,
+    boxes: usize,
+    quantities: Vec<Bounds>,
+    velocity_ratios: Vec<Bounds>,
+    ranges: Vec<Range>,
+}
+
+/// The end of a motion over full turns.
+#[derive(Serialize)]
+#[serde(rename_all = "snake_case", tag = "kind")]
+enum Arrival {
+    /// At its start again, after these full turns of the unknowns.
+    Closed {
+        turns: Vec<i64>,
+    },
+    /// At another position, by its number in the list of all at these inputs.
+    Arrives {
+        position: usize,
+        branch: String,
+        turns: Vec<i64>,
+    },
+    Open,
+}
+
+#[derive(Serialize)]
+struct DeadPoint {
+    /// They enclose the limit of the input.
+    input: [f64; 2],
+    group: String,
+    is_largest: bool,
+}
+
+/// The least and the largest value of a quantity, each between two numbers.
+#[derive(Serialize)]
+struct Bounds {
+    name: String,
+    is_angle: bool,
+    least: [f64; 2],
+    largest: [f64; 2],
+    is_sharp: bool,
+    #[serde(skip)]
+    both: [Interval; 2],
+}
+
+impl Bounds {
+    fn of(name: String, of: &Enclosure, is_angle: bool) -> Self {
+        let ends = |of: Interval| [of.least(), of.most()];
+        let (least, largest) = (ends(of.least), ends(of.largest));
+        Self { name, is_angle, least, largest, is_sharp: of.is_sharp, both: [of.least, of.largest] }
+    }
+
+    fn row(&self) -> Vec<String> {
+        let [least, largest] = all_proved(self.both, self.is_angle);
+        vec![self.name.clone(), least, largest]
+    }
+}
+
+/// A declared range.
+#[derive(Serialize)]
+struct Range {
+    of: String,
+    proof: &'static str,
+}
+
+impl Range {
+    fn of(range: &CertifiedRange<&str>) -> Self {
+        let proof = match range.proof {
+            RangeProof::Within => "within",
+            RangeProof::Beyond(RangeEnd::Least) => "beyond_least",
+            RangeProof::Beyond(RangeEnd::Most) => "beyond_largest",
+            RangeProof::Undecided => "undecided",
+        };
+        Self { of: range.of.to_owned(), proof }
+    }
+
+    fn in_words(&self) -> String {
+        let of = &self.of;
+        match self.proof {
+            "within" => format!("{of} stays in its range"),
+            "beyond_least" => format!("{of} goes below its range"),
+            "beyond_largest" => format!("{of} goes above its range"),
+            _ => format!("{of} comes so near to an end of its range that nothing is proved"),
+        }
+    }
+}
+
+impl Proof {
+    fn to_text(&self) -> String {
+        let mut text = self.statement.clone() + "\n";
+        if let Some(Arrival::Arrives { position, branch, .. }) = &self.end {
+            text += &format!("position {position} is {branch}\n");
+        }
+        text += &format!("proved by {} boxes, as all digits of these numbers are\n", self.boxes);
+        let dead_point = |of: &DeadPoint| {
+            let input = Interval::new(of.input[0], of.input[1]).unwrap_or(Interval::ENTIRE);
+            let kind = if of.is_largest { "largest" } else { "least" };
+            let at = proved(input, self.is_angle);
+            format!("{kind} {} {at}, a dead point of {}\n", self.input, of.group)
+        };
+        text.extend(self.dead_points.iter().map(dead_point));
+        text.extend(self.ranges.iter().map(|range| range.in_words() + "\n"));
+        if !self.quantities.is_empty() || !self.velocity_ratios.is_empty() {
+            let head = ["", "least", "largest"].map(str::to_owned).to_vec();
+            let rows = self.quantities.iter().chain(&self.velocity_ratios).map(Bounds::row);
+            text += "\n";
+            text += &aligned(std::iter::once(head).chain(rows).collect());
+        }
+        text
+    }
+}

@@ -1,0 +1,174 @@
+//! Certificates: what is proved, against the law of cosines; what is not, with the reason.
+
+use serde_json::Value;
+
+use super::folder::{Folder, SLIDER_CRANK};
+
+const CRANK_ROCKER: &str = "mechanism CrankRocker {
+    param ground = 4, crank = 1, coupler = 3, rocker = 3;
+    input theta;
+    unknown phi, psi in 40deg..170deg;
+    loop crank@theta + coupler@phi = ground@0 + rocker@psi;
+    point A = crank@theta;
+    output mu = psi - phi;
+}";
+
+/// The crank goes to and fro.
+const ROCKER: &str = "mechanism Rocker {
+    param ground = 4, crank = 3, coupler = 2, rocker = 2.5;
+    input tilt, theta;
+    unknown phi, psi;
+    loop crank@theta + coupler@phi = ground@tilt + rocker@psi;
+}";
+
+/// A full turn ends on another mode.
+const TRIAD: &str = "mechanism Triad {
+    param a = 4.9, b = 1.23, c = 4.18, d = 1.52, px = 0.83, py = -2.31, e = 4.26, f = 2.25, fx = 2.04, fy = 1.17;
+    input theta;
+    unknown alpha, beta, gamma, epsilon;
+    loop a@alpha + b@beta = d@0 + c@gamma;
+    loop a@alpha + (px, py)@beta + e@epsilon = (fx, fy) + f@theta;
+}";
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    for (name, text) in [
+        ("crank", CRANK_ROCKER),
+        ("rocker", ROCKER),
+        ("triad", TRIAD),
+        ("slider", SLIDER_CRANK),
+        ("wheel", "mechanism Wheel { input theta; unknown psi; equation 2*psi = theta; point P = 1@theta + 1@psi; }"),
+        (
+            "parallel",
+            "mechanism Parallel {
+            param ground = 4, crank = 2;
+            input theta;
+            unknown phi, psi;
+            loop crank@theta + ground@phi = ground@0 + crank@psi;
+        }",
+        ),
+    ] {
+        folder.write(&format!("{name}.linkage"), text);
+    }
+    folder
+}
+
+fn json(folder: &Folder, arguments: &str) -> Value {
+    serde_json::from_str(&folder.run(&format!("{arguments} --format json")).works("")).unwrap()
+}
+
+/// The two numbers between which a value is proved to be.
+fn contains(between: &Value, value: f64) -> bool {
+    let end = |place: usize| between[place].as_f64().unwrap();
+    end(0) <= value && value <= end(1)
+}
+
+#[test]
+fn a_turn_is_proved() {
+    let folder = folder();
+    insta::assert_snapshot!("a_turn", folder.run("certify crank.linkage").works(""));
+    let of = json(&folder, "certify crank.linkage --branch phi_psi=right");
+    assert_eq!((&of["end"]["kind"], &of["input"]), (&"closed".into(), &"theta".into()));
+    // The distance of the pins is ground +- crank; the branch has the other sign of the angle.
+    let mu = |distance: f64| ((9.0 + 9.0 - distance * distance) / 18.0).acos();
+    let found = &of["quantities"][2];
+    assert_eq!((&found["name"], &found["is_angle"], &found["is_sharp"]), (&"mu".into(), &true.into(), &true.into()));
+    let either = |sign: f64| contains(&found["least"], sign * mu(3.0)) || contains(&found["least"], sign * mu(5.0));
+    assert!(either(1.0) || either(-1.0), "{found}");
+    // With tolerances there are more mechanisms, and more values.
+    let wide = json(&folder, "certify crank.linkage --tolerance 0.1%");
+    let width = |of: &Value| {
+        of["quantities"][2]["least"][1].as_f64().unwrap() - of["quantities"][2]["least"][0].as_f64().unwrap()
+    };
+    assert!(width(&wide) > 1e-4 && width(&of) < 1e-8);
+    assert!(wide["statement"].as_str().unwrap().ends_with(", for all parameters within their tolerances"));
+}
+
+#[test]
+fn a_range_is_proved() {
+    let folder = folder();
+    let text = folder.run("certify crank.linkage --from 20deg --to 90deg").works("");
+    assert!(text.starts_with("CrankRocker: one motion without dead points, theta from 20° to 90°\n"), "{text}");
+    // A length has no turn; the crank is at rest at neither end.
+    let slider = folder.run("certify slider.linkage --mechanism Piston --from 3 --to 3.5").works("");
+    assert!(slider.starts_with("Piston: one motion without dead points, s from 3 to 3.5\n"), "{slider}");
+    // The range of psi is left on the other branch.
+    let left = folder.run("certify crank.linkage --branch phi_psi=right --from 20deg --to 30deg").works("");
+    let kept = folder.run("certify crank.linkage --branch phi_psi=left --from 20deg --to 30deg").works("");
+    assert!([&left, &kept].iter().any(|text| text.contains("psi stays in its range\n")), "{left}{kept}");
+    assert!([&left, &kept].iter().any(|text| text.contains("psi goes below its range\n")), "{left}{kept}");
+}
+
+#[test]
+fn a_curve_goes_through_dead_points() {
+    let folder = folder();
+    let curve = "certify rocker.linkage --along theta --at tilt=30deg,theta=60deg --curve";
+    insta::assert_snapshot!("a_curve", folder.run(curve).works(""));
+    let of = json(&folder, curve);
+    let limit = ((9.0 + 16.0 - 4.5_f64 * 4.5) / 24.0).acos();
+    let at = |sign: f64| 30_f64.to_radians() + sign * limit;
+    let points = of["dead_points"].as_array().unwrap();
+    let near = |of: &Value, value: f64| (of["input"][0].as_f64().unwrap() - value).abs() < 1e-12;
+    assert!(points.iter().any(|of| near(of, at(1.0)) && of["is_largest"] == true), "{of}");
+    assert!(points.iter().any(|of| near(of, at(-1.0)) && of["is_largest"] == false), "{of}");
+}
+
+#[test]
+fn other_ends_of_a_turn() {
+    let folder = folder();
+    // The positions have numbers from 0.
+    let arrives = folder.run("certify triad.linkage --at theta=0 --branch alpha_beta_gamma_epsilon=1").works("");
+    let end = "to the position with the number 3 of those given\nposition 3 is alpha_beta_gamma_epsilon=3\n";
+    assert!(arrives.contains(end), "{arrives}");
+    // A wheel is at its start after two turns.
+    let wheel = |turns: u32| folder.run(&format!("certify wheel.linkage --turns {turns}")).works("");
+    assert!(
+        !wheel(1).contains("at its start again") && wheel(2).contains("theta from 60° to 780°, at its start again")
+    );
+}
+
+#[test]
+fn what_is_not_proved() {
+    let folder = folder();
+    for (arguments, code, message) in [
+        (
+            "certify rocker.linkage --along theta --at tilt=0",
+            1,
+            "not certified: theta turns back at 78.584842°, a dead point of phi, psi; --curve goes through it",
+        ),
+        (
+            "certify parallel.linkage",
+            1,
+            "not certified: at theta = 180° there is a change point or a dead point of phi, psi, or nearly so",
+        ),
+        (
+            "certify parallel.linkage --at theta=0",
+            1,
+            "not certified: theta = 0° is a dead point or a change point of phi, psi, or nearly so: write another --at",
+        ),
+        (
+            "certify crank.linkage --from 1 --at theta=1",
+            2,
+            "--at theta and --from are both the first value: leave out one",
+        ),
+        ("certify crank.linkage --from 1 --to 1", 2, "--to is the first value of `theta`"),
+        (
+            "certify slider.linkage --mechanism Piston --at s=3",
+            2,
+            "`s` is a length and has no turn: write --to VALUE, or --curve",
+        ),
+        (
+            "certify crank.linkage -o crank.csv",
+            2,
+            "a certificate is text or JSON: write -o NAME.txt or NAME.json, not `.csv`",
+        ),
+    ] {
+        folder.run(arguments).fails(code, &format!("error: {message}\n"));
+    }
+    let part = folder.run("certify crank.linkage --tolerance 120%");
+    assert!(part.code == Some(2) && part.messages.contains("write a part from 0 to less than 1"), "{part:?}");
+    let cam = "mechanism Cam { input phi; unknown s; extern fn lift(phi) -> (l, l1, l2); equation s = l(phi); }";
+    folder.write("cam.linkage", cam);
+    let message = "error: `Cam` calls `l`, which a program in Rust has to give it\n";
+    folder.run("certify cam.linkage").fails(1, message);
+}
