@@ -67,7 +67,7 @@ impl<'p, V: Dim, P: Parameters> Skeleton for AtRunTime<'p, V, P> {
         if count.count() == 0 {
             return count.zeros();
         }
-        let found = numbers(&self.prepared.value("joints", [self.pose_value(pose)]));
+        let found = numbers(&self.value("joints", [self.pose_value(pose)]));
         count.column(|place| found.get(place).copied().unwrap_or(f64::NAN))
     }
     fn guide(&self, pose: &PoseAtRunTime<V>, place: usize) -> Option<[f64; 2]> {

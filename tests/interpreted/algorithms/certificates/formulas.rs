@@ -79,7 +79,7 @@ both! { CONSTANTS:
         equation x = 0.1 * a * cos(phi + 60deg) - phi / 3 + 0.5;
         equation y = -0.7 * x - 9007199254740993 / 7 * cos(bend) + 1e300 * a - 1e30 * x;
         output one = 1.5 * x - 9007199254740993 / 7 + 45deg;
-        output other = pi * x - (2 + 1/3) * phi + sqrt(2) * a - y^2 - 0.3 * (x - y)^2;
+        output other = pi * x - (2 + 1/3) * phi + sqrt(5) * a - y^2 - 0.3 * (x - y)^2;
         output third = -9007199254740993 / 7 * x^3 - 1e300 * (phi + 0.25)^2;
         derive intervals;
     }
