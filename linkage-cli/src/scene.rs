@@ -5,7 +5,6 @@ use linkage_compiler::lower::Code;
 use linkage_compiler::model::{Kind, Parameter, SceneRequest};
 use linkage_compiler::program::SceneProgram;
 
-use crate::about::About;
 use crate::failure::Failure;
 use crate::names::{listed, place};
 
@@ -50,17 +49,16 @@ pub struct Need {
     pub statement: &'static str,
 }
 
-/// The place of the scene with a name, or of the only one that has what is needed.
-pub fn chosen(about: &About, asked: Option<&str>, need: &Need) -> Result<usize, Failure> {
-    let all = &about.scenes;
+/// The place of the scene of a mechanism with a name, or of the only one that has what is needed.
+pub fn chosen(mechanism: &str, all: &[AboutScene], asked: Option<&str>, need: &Need) -> Result<usize, Failure> {
     let wrong = |message: String| Err(Failure::Argument(message));
     if all.is_empty() {
-        return wrong(format!("`{}` has no scene: write one into its text", about.name));
+        return wrong(format!("`{}` has no scene: write one into its text", mechanism));
     }
     let names: Vec<&str> = all.iter().map(|scene| scene.name.as_str()).collect();
     let lacks = |what: String| format!("{what} has no `{}`", need.statement);
     if let Some(asked) = asked {
-        let place = place(&about.name, "scene", asked, &names)?;
+        let place = place(mechanism, "scene", asked, &names)?;
         return if (need.is_met)(&all[place]) { Ok(place) } else { wrong(lacks(format!("the scene `{asked}`"))) };
     }
     let able: Vec<usize> = (0..all.len()).filter(|place| (need.is_met)(&all[*place])).collect();
@@ -70,7 +68,7 @@ pub fn chosen(about: &About, asked: Option<&str>, need: &Need) -> Result<usize, 
         [] => wrong(lacks(format!("each of the scenes {}", listed(&names)))),
         several => {
             let of: Vec<&str> = several.iter().map(|place| names[*place]).collect();
-            wrong(format!("`{}` has the scenes {}: write --scene NAME", about.name, listed(&of)))
+            wrong(format!("`{}` has the scenes {}: write --scene NAME", mechanism, listed(&of)))
         }
     }
 }

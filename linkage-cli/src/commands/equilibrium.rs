@@ -18,7 +18,8 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
     if let Some(what) = time.measures {
         return Err(Failure::Argument(format!("--time is a plain number of seconds, and this is a unit of {what}")));
     }
-    let (machine, design) = Machine::with_scene(numbers, |about| chosen(about, scene.as_deref(), &NEED))?;
+    let (machine, design) =
+        Machine::with_scene(numbers, |about| chosen(&about.name, &about.scenes, scene.as_deref(), &NEED))?;
     let inputs = held(&machine, at, None)?;
     let unknowns = machine.place(&inputs, &vec![0.0; inputs.len()]).map_err(Failure::Outside)?;
     let all = || machine.about.inputs.iter().chain(&machine.about.unknowns);

@@ -1,14 +1,15 @@
 //! `linkage simulate`: the motion of a scene in time.
 
 mod charts;
+mod running;
 mod start;
 
 use linkage_dynamics::MotionError;
 use linkage_dynamics::simulation::{Simulation, simulate};
-use linkage_interpreter::{PreparedScene, SceneAtRunTime};
+use linkage_interpreter::PreparedScene;
 use linkage_report::Table;
 use linkage_report::table::{Cause, Mark};
-use linkage_runtime::{BorrowedName, UpTo};
+use linkage_runtime::BorrowedName;
 
 use super::summary::Summary;
 use super::table::{FOR_READERS, asked, with_units, written};
@@ -19,13 +20,8 @@ use crate::output::{self, Form, form};
 use crate::progress;
 use crate::scene::{Need, chosen};
 use charts::page;
+use running::{Running, is_event};
 use start::start;
-
-/// The number of inputs: open chains have several.
-type Inputs = UpTo<6>;
-
-/// A scene with numbers.
-type Running<'p> = SceneAtRunTime<'p, Inputs>;
 
 const NEED: Need = Need { is_met: |scene| scene.has_inertia, statement: "inertia;" };
 
@@ -36,8 +32,9 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     let format = format(arguments)?;
     let [from, to] = times(arguments)?;
     let tolerance = arguments.tolerance.number;
-    let (machine, design) =
-        Machine::with_scene(&arguments.numbers, |about| chosen(about, arguments.scene.as_deref(), &NEED))?;
+    let (machine, design) = Machine::with_scene(&arguments.numbers, |about| {
+        chosen(&about.name, &about.scenes, arguments.scene.as_deref(), &NEED)
+    })?;
     let prepared = design.prepared().map_err(|error| Failure::Outside(error.to_string()))?;
     let scene: Running<'_> = prepared.with_inputs().map_err(|error| Failure::Outside(error.to_string()))?;
     let start = start(&machine, &scene, arguments, from)?;
@@ -134,11 +131,6 @@ fn ended(simulation: &Simulation<'_, Running<'_>>, table: &Table, to: f64) -> Op
     });
     // Without an error, the loads of single rows may be missing.
     motion.filter(|_| reached != to).map(|error| format!("the motion ends at {reached:.6} s: {error}"))
-}
-
-/// True for a mark that is more than a kink of a law.
-fn is_event(mark: &str) -> bool {
-    !mark.starts_with("kink of ")
 }
 
 /// Says on standard error which events there were; kinks of laws are none.

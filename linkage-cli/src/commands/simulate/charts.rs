@@ -6,7 +6,7 @@ use linkage_report::chart::{Chart, Page, Polar, Section};
 use linkage_report::table::{Mark, TableError};
 use linkage_runtime::Joint;
 
-use super::{Running, is_event};
+use super::running::{Running, is_event};
 use crate::failure::Failure;
 use crate::machine::{Coordinate, Machine};
 

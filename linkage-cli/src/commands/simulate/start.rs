@@ -5,7 +5,7 @@ use linkage_dynamics::{Prescribed, Scene};
 use linkage_interpreter::CoordinatesAtRunTime;
 use linkage_runtime::Column;
 
-use super::{Inputs, Running};
+use super::running::{Inputs, Running};
 use crate::arguments::Simulate;
 use crate::failure::Failure;
 use crate::machine::Machine;
