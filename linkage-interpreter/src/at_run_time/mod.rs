@@ -12,6 +12,7 @@ mod kinematic;
 mod mechanism;
 mod names;
 mod not_prepared;
+mod parts;
 mod pose;
 mod positions;
 mod prepared;

@@ -8,7 +8,7 @@ use linkage_runtime::skeleton::{NoDrawing, Part};
 use linkage_runtime::{Bounded, Dim, Group, PositionError};
 
 use super::names::Texts;
-use super::skeleton;
+use super::parts;
 use super::{AtRunTime, Count, MOST, MOST_INPUTS, MOST_OF_POSE, NotPrepared};
 use crate::call_error::CallError;
 use crate::code::{Function, Name};
@@ -91,7 +91,7 @@ impl<'d> Prepared<'d> {
                     unknowns: &group.unknowns,
                 })
                 .collect(),
-            drawing: skeleton::drawing(driver),
+            drawing: parts::drawing(driver),
             pose: Value::Absent,
             fields: Fields::of(driver),
             failed: RefCell::new(None),
