@@ -15,6 +15,7 @@ mod mechanism;
 mod names;
 mod not_prepared;
 mod parameters;
+mod parts;
 mod pose;
 mod positions;
 mod prepared;

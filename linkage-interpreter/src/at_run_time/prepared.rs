@@ -9,7 +9,7 @@ use linkage_runtime::{Bounded, Dim, Group, PositionError};
 
 use super::names::Texts;
 use super::parameters::OfDesign;
-use super::skeleton;
+use super::parts;
 use super::{AtRunTime, Count, MOST, MOST_INPUTS, MOST_OF_POSE, NotPrepared};
 use crate::call_error::CallError;
 use crate::code::{Function, Name};
@@ -93,7 +93,7 @@ impl<'d> Prepared<'d> {
                     unknowns: &group.unknowns,
                 })
                 .collect(),
-            drawing: skeleton::drawing(driver),
+            drawing: parts::drawing(driver),
             pose: Value::Absent,
             fields: Fields::of(driver),
             failed: RefCell::new(None),

@@ -5,28 +5,8 @@ use linkage_runtime::{Build as _, Column, Dim};
 
 use super::parameters::Parameters;
 use super::read::numbers;
-use super::{AtRunTime, JointCoordinates, MOST_JOINTS, PoseAtRunTime};
+use super::{AtRunTime, JointCoordinates, PoseAtRunTime};
 use crate::machine::Value;
-use crate::program::{self, Driver};
-
-/// The parts of a drawing, or the reason why there is none.
-pub(crate) fn drawing(driver: &Driver) -> Result<Vec<Part<'_>>, NoDrawing> {
-    let drawing = driver.written.drawing.as_ref().ok_or(NoDrawing::NotDerived)?;
-    match drawing.joints.len() {
-        ..=MOST_JOINTS => Ok(drawing.parts.iter().map(part).collect()),
-        joints => Err(NoDrawing::TooLarge { joints, most: MOST_JOINTS }),
-    }
-}
-
-fn part(of: &program::Part) -> Part<'_> {
-    match *of {
-        program::Part::Ground(joint) => Part::Ground(joint),
-        program::Part::Bar { ref joints, is_driven } => Part::Bar { joints, is_driven },
-        program::Part::Slider(joint) => Part::Slider(joint),
-        program::Part::Sleeve { pin, on, towards } => Part::Sleeve { pin, on, towards },
-        program::Part::Trace(joint) => Part::Trace(joint),
-    }
-}
 
 /// The names of the joints; none without a drawing.
 fn joints<'p, V, P>(of: &AtRunTime<'p, V, P>) -> &'p [String] {
