@@ -12,6 +12,7 @@ macro_rules! with_text {
     };
 }
 
+mod bad_input;
 mod certificates;
 mod functions;
 mod motions;
