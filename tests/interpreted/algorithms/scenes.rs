@@ -109,7 +109,7 @@ fn all<S: Scene<Scalar = f64, Mechanism: Kinematic>>(scene: &S, run: RunOf<S>) -
 /// A simulation as a table of its steps, and of given times.
 fn tables<S: Scene<Scalar = f64, Mechanism: Kinematic>>(scene: &S, run: RunOf<S>) -> [String; 2] {
     let Run { q, rates, times: [t, end], .. } = run;
-    let begun = || Ok(simulate(scene, Start { t, q, input_rates: rates }, end, 1e-6)?.most_steps(500));
+    let begun = || Ok(simulate(scene, Start { t, q, input_rates: rates }, end, 1e-6)?.most_steps(60));
     let times = (0..=6).map(|part| t + (end - t) * f64::from(part) / 5.0);
     let text = |table: Result<Table, MotionErrorOf<S>>| words(table, |table| table.to_json());
     [
