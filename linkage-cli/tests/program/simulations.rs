@@ -29,8 +29,10 @@ const TWO: &str = "mechanism Two {
 
 fn folder() -> Folder {
     let folder = Folder::new();
-    for name in ["door_closer", "compressor", "engine", "four_bar"] {
-        let path = format!("{}/../examples/linkages/{name}.linkage", env!("CARGO_MANIFEST_DIR"));
+    for (name, of) in
+        [("door_closer", "machines"), ("compressor", "machines"), ("engine", "machines"), ("four_bar", "linkages")]
+    {
+        let path = format!("{}/../examples/{of}/{name}.linkage", env!("CARGO_MANIFEST_DIR"));
         folder.write(&format!("{name}.linkage"), fs::read(path).unwrap());
     }
     folder.write("lamp.linkage", LAMP);

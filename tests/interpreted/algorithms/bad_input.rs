@@ -138,7 +138,7 @@ fn open_chains() {
     assert_eq!(still, Err(NotPrepared::NoInertia { scene: "Static".to_owned() }));
 }
 
-/// As many as there may be, and one more, with the number in the error.
+/// The largest number of each, and one more, which the error has.
 #[test]
 fn capacities() {
     let prepared =
