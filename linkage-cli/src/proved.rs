@@ -6,7 +6,7 @@ use linkage_runtime::Number;
 /// The digits of a number.
 const DIGITS: i32 = 8;
 
-/// Its most decimals: zero by rounding errors is zero.
+/// The most digits after the point: a rounding error of zero is printed as 0.
 const MOST_DECIMALS: i32 = 12;
 
 /// A number that an interval contains, an angle in degrees: the digits that both of its ends have, or the ends, rounded apart.

@@ -94,8 +94,8 @@ Examples:
     Equilibrium(Equilibrium),
     /// Prove a motion: that it turns fully or goes through dead points, with bounds of all outputs, by interval arithmetic
     #[command(after_help = "\
-The motion begins at --at or --from, at the position by --branch or --guess. What is printed is proved
-for all values of the input, rounding errors included; what cannot be proved is an error that says why.
+The motion begins at --at or --from, at the position by --branch or --guess. Each printed number is proved
+for all values of the input, rounding errors included. If there is no proof, the error says why.
 
 Examples:
   linkage certify wiper.linkage
