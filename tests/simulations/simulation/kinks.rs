@@ -405,6 +405,8 @@ fn a_kink_just_before_the_end() {
         let (last, end) = (states.last().unwrap(), states.last().unwrap().t - 1.0);
         assert!(last.t == 1.0 + beyond && states.iter().any(|state| (state.t - 1.0).abs() < 1e-14), "{beyond}");
         let errors = [last.q.y - (-2.0 * end + end * end), last.rates.y - (-2.0 + 2.0 * end)];
+        // The step over the kink has 8e-15 s, and y'' differs by 4 there: the positive weights of the method, which have the sum
+        // 7, may all be on the wrong side.
         assert!(errors.iter().all(|error| error.abs() < 2e-13), "{beyond} {errors:?}");
     }
 }
