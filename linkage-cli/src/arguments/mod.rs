@@ -277,15 +277,9 @@ pub struct Along {
     pub steps: u32,
 }
 
+/// The part of a table that is printed.
 #[derive(Args)]
-pub struct Table {
-    #[command(flatten)]
-    pub numbers: Numbers,
-    #[command(flatten)]
-    pub along: Along,
-    /// The rate of the moving input, such as 45rpm, or a plain number of radians per second; time is then a column
-    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
-    pub rate: Option<Value>,
+pub struct Shown {
     /// The columns to print, by name and in this order
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub columns: Vec<String>,
@@ -298,6 +292,19 @@ pub struct Table {
     /// Print at most so many digits [default: all, of text: 6]
     #[arg(long, value_name = "NUMBER")]
     pub digits: Option<usize>,
+}
+
+#[derive(Args)]
+pub struct Table {
+    #[command(flatten)]
+    pub numbers: Numbers,
+    #[command(flatten)]
+    pub along: Along,
+    /// The rate of the moving input, such as 45rpm, or a plain number of radians per second; time is then a column
+    #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
+    pub rate: Option<Value>,
+    #[command(flatten)]
+    pub shown: Shown,
     /// The form of the table [default: by the ending of OUT; else csv, of a summary text]
     #[arg(long, value_enum)]
     pub format: Option<TableFormat>,

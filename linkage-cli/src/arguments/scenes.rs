@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{ListForm, MOST_STEPS, Numbers};
+use super::{ListForm, MOST_STEPS, Numbers, Shown};
 use crate::values::{Assignment, Value};
 
 /// A scene, with values of its parameters in `--set`.
@@ -37,18 +37,8 @@ pub struct Simulate {
     /// The relative error of a step
     #[arg(long, value_name = "NUMBER", default_value = "1e-9")]
     pub tolerance: Value,
-    /// The columns to print, by name and in this order
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
-    pub columns: Vec<String>,
-    /// Print the least and the largest value of each column, and when they are, and their difference
-    #[arg(long)]
-    pub summary: bool,
-    /// Print angles in degrees
-    #[arg(long)]
-    pub degrees: bool,
-    /// Print at most so many digits [default: all, of text: 6]
-    #[arg(long, value_name = "NUMBER")]
-    pub digits: Option<usize>,
+    #[command(flatten)]
+    pub shown: Shown,
     /// The form of the result [default: by the ending of OUT; else csv, of a summary text]
     #[arg(long, value_enum)]
     pub format: Option<SimulationFormat>,

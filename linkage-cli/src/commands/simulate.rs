@@ -41,7 +41,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     let mut simulation = simulate(&scene, start, to, tolerance).map_err(|error| outside(&prepared, error))?;
     // The columns are known, and names that do not exist are found, before the work.
     let all = Table::simulated_at(&mut simulation, []);
-    let asked = asked(&all.names().into_iter().map(str::to_owned).collect::<Vec<_>>(), &arguments.columns)?;
+    let asked = asked(&all.names().into_iter().map(str::to_owned).collect::<Vec<_>>(), &arguments.shown.columns)?;
     let table = progress::during(format!("simulating {}", design.name()), || match arguments.own_steps {
         true => Table::simulated(&mut simulation),
         false => {
@@ -54,12 +54,12 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
         return Err(Failure::Outside(failure.to_string()));
     }
     let (marks, ended) = (table.marks().to_vec(), ended(&simulation, &table, to));
-    let digits = arguments.digits.or((format == SimulationFormat::Text).then_some(FOR_READERS));
-    let table = with_units(&machine, table, arguments.degrees)?;
-    let text = match (arguments.summary, format.as_table()) {
+    let digits = arguments.shown.digits.or((format == SimulationFormat::Text).then_some(FOR_READERS));
+    let table = with_units(&machine, table, arguments.shown.degrees)?;
+    let text = match (arguments.shown.summary, format.as_table()) {
         (_, None) => page(&machine, &scene, &table, ended.as_deref())?,
         (true, Some(format)) => {
-            let units = with_units(&machine, all, arguments.degrees)?;
+            let units = with_units(&machine, all, arguments.shown.degrees)?;
             let moving = || table.names().into_iter().filter(|name| *name != "time").map(str::to_owned).collect();
             let names = if asked.is_empty() { moving() } else { asked };
             Summary::of(&table, &units, "time", &names)?.to_text(format, digits)?
@@ -92,10 +92,10 @@ fn format(arguments: &arguments::Simulate) -> Result<SimulationFormat, Failure> 
 
     let of_place = [Csv, Json, Text, Html];
     let forms: [Form; 4] = [("CSV", &["csv"]), ("JSON", &["json"]), ("text", &["txt"]), ("HTML", &["html", "htm"])];
-    let usual = if arguments.summary { Text } else { Csv };
+    let usual = if arguments.shown.summary { Text } else { Csv };
     let of_ending = form(&arguments.output, "a simulation", &forms)?.and_then(|place| of_place.get(place).copied());
     let format = arguments.format.or(of_ending).unwrap_or(usual);
-    let given = [("--summary", arguments.summary), ("--columns", !arguments.columns.is_empty())];
+    let given = [("--summary", arguments.shown.summary), ("--columns", !arguments.shown.columns.is_empty())];
     match given.into_iter().find(|(_, is_given)| *is_given && format == Html) {
         Some((option, _)) => Err(Failure::Argument(format!("a page has all charts: leave out {option}"))),
         None => Ok(format),

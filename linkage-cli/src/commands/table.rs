@@ -32,7 +32,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         [&machine.about.points, &machine.about.outputs],
         rate != 0.0,
     );
-    let asked = asked(&all, &arguments.columns)?;
+    let asked = asked(&all, &arguments.shown.columns)?;
     let mut table = Table::new(all);
     let mut unwound = Unwound::default();
     let (mut missing, mut first) = (0, None);
@@ -61,11 +61,11 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
             followed.say(missing, &format!("{} rows", steps + 1), first);
         }
     }
-    let digits = arguments.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
-    let table = with_units(&machine, table, arguments.degrees)?;
-    let text = match arguments.summary {
+    let digits = arguments.shown.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
+    let table = with_units(&machine, table, arguments.shown.degrees)?;
+    let text = match arguments.shown.summary {
         true => {
-            let units = with_units(&machine, Table::new(table.names()), arguments.degrees)?;
+            let units = with_units(&machine, Table::new(table.names()), arguments.shown.degrees)?;
             let input = &machine.about.inputs[path.moving].name.text;
             Summary::of(&table, &units, input, &summed(&machine, &table, &asked))?.to_text(format, digits)?
         }
@@ -96,7 +96,7 @@ fn wrong(error: linkage_report::table::TableError) -> Failure {
 fn format(arguments: &arguments::Table) -> Result<TableFormat, Failure> {
     let of_place = [TableFormat::Csv, TableFormat::Json, TableFormat::Text];
     let forms: [Form; 3] = [("CSV", &["csv"]), ("JSON", &["json"]), ("text", &["txt"])];
-    let usual = if arguments.summary { TableFormat::Text } else { TableFormat::Csv };
+    let usual = if arguments.shown.summary { TableFormat::Text } else { TableFormat::Csv };
     let of_ending = form(&arguments.output, "a table", &forms)?.and_then(|place| of_place.get(place).copied());
     Ok(arguments.format.or(of_ending).unwrap_or(usual))
 }
