@@ -54,6 +54,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
         return Err(Failure::Outside(failure.to_string()));
     }
     let (marks, ended) = (table.marks().to_vec(), ended(&simulation, &table, to));
+    let incomplete = if ended.is_none() { incomplete(&table) } else { None };
     let digits = arguments.shown.digits.or((format == SimulationFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.shown.degrees)?;
     let text = match (arguments.shown.summary, format.as_table()) {
@@ -68,6 +69,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     };
     output::write(&arguments.output, text.as_bytes(), &arguments.numbers.source.file)?;
     say(&marks);
+    incomplete.iter().for_each(|words| anstream::eprintln!("{words}"));
     match ended {
         Some(why) => Err(Failure::Outside(why)),
         None => Ok(()),
@@ -131,6 +133,15 @@ fn ended(simulation: &Simulation<'_, Running<'_>>, table: &Table, to: f64) -> Op
     });
     // Without an error, the loads of single rows may be missing.
     motion.filter(|_| reached != to).map(|error| format!("the motion ends at {reached:.6} s: {error}"))
+}
+
+/// The number of rows with empty cells, with the time and the reason of the first; none if all cells have numbers.
+fn incomplete(table: &Table) -> Option<String> {
+    let (missing, times) = (table.missing(), table.column("time").unwrap_or_default());
+    let first = missing.first()?;
+    let at = times.get(first.row).map(|t| format!(", at {t:.6} s")).unwrap_or_default();
+    let rows = if missing.len() == 1 { "1 row has" } else { &format!("{} rows have", missing.len()) };
+    Some(format!("{rows} empty cells; the first{at}: {}", first.cause))
 }
 
 /// Says on standard error which events there were; kinks of laws are none.

@@ -293,3 +293,23 @@ fn a_motion_that_ends() {
     let rows: Vec<&str> = ran.output.lines().collect();
     assert!(rows.len() == 7 && rows[1] == "0,1" && rows[3] == "2," && rows[6] == "5,", "{rows:?}");
 }
+
+/// At an impact a point has no acceleration: a message says which rows have empty cells, and why.
+#[test]
+fn cells_without_a_number_are_named() {
+    let folder = folder();
+    folder.write(
+        "wall.linkage",
+        "mechanism Wall {
+        input x;
+        point P = (x, 0);
+        body ball { mass 1; center P; }
+        scene Bouncing { inertia; gravity (-10, 0); stop x in 0..9, restitution 0.5; }
+    }",
+    );
+    let ran = folder.run("simulate wall.linkage --at x=5 --to 1.5 --own-steps --columns time,P_acceleration_x");
+    assert_eq!(ran.code, Some(0));
+    let messages: Vec<&str> = ran.messages.lines().collect();
+    assert_eq!(messages[0], "at 1.000000 s: stop on x is hit");
+    assert!(messages[1].starts_with("1 row has empty cells; the first, at 1.000000 s: "), "{messages:?}");
+}
