@@ -5,9 +5,9 @@ use linkage::circuits::{CircuitOptions, Circuits};
 use linkage::range_of_motion::{RangeOfMotion, RangeOptions};
 use linkage::simulation::{Start, simulate};
 use linkage::{Branches, D, Inputs, Kinematic, Mechanism, PerInput, Real, Scene, linkage};
-use linkage_interpreter::{Mechanism as Compiled, NotPrepared, Program};
+use linkage_interpreter::{Mechanism as Compiled, NotPrepared};
 
-use super::{bits, coordinates};
+use super::{bits, coordinates, of_text};
 
 /// A law that has a value up to 1.
 fn fading<T: Real>(x: T) -> (T, T, T) {
@@ -41,14 +41,9 @@ with_text! {
     }
 }
 
-fn text_compiled(text: &str, name: &str) -> Compiled {
-    let all = Program::compile(text).expect("it compiles");
-    all.mechanism(name).expect("the mechanism").clone()
-}
-
 /// The law of the emitted code.
 fn follower() -> Compiled {
-    let of = text_compiled(OF_THIS_FILE, "Follower");
+    let of = of_text(OF_THIS_FILE, "Follower");
     let law = |x: &[f64]| {
         let (value, first, second) = fading(x[0]);
         vec![value, first, second]
@@ -117,13 +112,13 @@ fn user_functions_that_return_nan() {
     }
     assert_eq!(prepared.failure(), None);
     // One that is not given has no numbers at all.
-    let missing = text_compiled(OF_THIS_FILE, "Follower").design().prepared().map(|_| ());
+    let missing = of_text(OF_THIS_FILE, "Follower").design().prepared().map(|_| ());
     assert!(matches!(missing, Err(NotPrepared::Mistake(_))), "{missing:?}");
 }
 
 #[test]
 fn open_chains() {
-    let design = text_compiled(OF_THIS_FILE, "Lever").design();
+    let design = of_text(OF_THIS_FILE, "Lever").design();
     let prepared = design.prepared().unwrap();
     let here = prepared.with_inputs::<D<1>>().unwrap();
     let at = [vec![], vec![0.3]];
@@ -141,8 +136,7 @@ fn open_chains() {
 /// The largest number of each, and one more, which the error has.
 #[test]
 fn capacities() {
-    let prepared =
-        |text: &str| text_compiled(&format!("mechanism M {{ {text} }}"), "M").design().prepared().map(|_| ());
+    let prepared = |text: &str| of_text(&format!("mechanism M {{ {text} }}"), "M").design().prepared().map(|_| ());
     let each = |count: usize, of: &dyn Fn(usize) -> String| (0..count).map(of).collect::<String>();
     let large = |of, count, most| Err(NotPrepared::TooLarge { of, count, most });
     let points = |count| format!("input phi; {}", each(count, &|place| format!("point P{place} = {}@phi;", place + 1)));
@@ -167,7 +161,7 @@ fn capacities() {
         let text = format!(
             "mechanism M {{ input x; body b {{ mass 1; center (x, 0); }} scene S {{ inertia; {frictions} }} }}"
         );
-        text_compiled(&text, "M").design().scene("S").unwrap().prepared().map(|_| ())
+        of_text(&text, "M").design().scene("S").unwrap().prepared().map(|_| ())
     };
     assert_eq!((contacts(16), contacts(17)), (Ok(()), large("frictions and stops", 17, 16)));
 }

@@ -2,13 +2,16 @@
 //!
 //! An algorithm that reads a constant of a type, where it must read the value, does not compile here.
 
-/// Mechanisms, and their text.
+/// Mechanisms by the macro, and their text, which has a name or is that of the file.
 macro_rules! with_text {
-    ($($tokens:tt)*) => {
+    ($TEXT:ident: $($tokens:tt)*) => {
         linkage! { $($tokens)* }
 
-        /// Their text.
-        const OF_THIS_FILE: &str = stringify!($($tokens)*);
+        /// The text of these mechanisms.
+        pub const $TEXT: &str = stringify!($($tokens)*);
+    };
+    ($($tokens:tt)*) => {
+        with_text! { OF_THIS_FILE: $($tokens)* }
     };
 }
 
@@ -16,12 +19,13 @@ mod bad_input;
 mod certificates;
 mod functions;
 mod motions;
+mod one_loop;
 mod pictures;
 mod scenes;
 
 use linkage::{Column, D, Dim, Mechanism};
 use linkage_gallery::Fixture;
-use linkage_interpreter::{AtRunTime, Mechanism as Compiled};
+use linkage_interpreter::{AtRunTime, Mechanism as Compiled, Program};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -56,6 +60,12 @@ pub fn coordinates<M: Mechanism<Scalar = f64>>([unknowns, inputs]: &Numbers) -> 
 pub fn compiled<M: Fixture>() -> Compiled {
     let mut all = mechanisms(M::FILE).into_iter();
     all.find(|mechanism| mechanism.name() == M::NAME).expect("the mechanism")
+}
+
+/// A mechanism of a text.
+pub fn of_text(text: &str, name: &str) -> Compiled {
+    let program = Program::compile(text).expect("it compiles");
+    program.mechanism(name).expect("the mechanism").clone()
 }
 
 /// Random positions and positions on branches, of a mechanism with the default parameters.

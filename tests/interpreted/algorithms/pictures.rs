@@ -20,45 +20,10 @@ use linkage_gallery::three_link_arm::ThreeLinkArm;
 use linkage_gallery::tilted_parallelogram::TiltedParallelogram;
 use linkage_interpreter::{AtRunTime, Mechanism as Compiled, Program};
 
-use super::{Positions, at_run_time, compiled, coordinates};
+use super::one_loop::{self, Block, CrankRocker, Rocker};
+use super::{Positions, at_run_time, compiled, coordinates, of_text};
 
 with_text! {
-    /// A crank-rocker.
-    #[derive(Debug, Clone, Copy)]
-    mechanism CrankRocker {
-        param ground = 80, crank = 20, coupler = 50, rocker = 70;
-        input theta;
-        unknown phi, psi in 60deg..115deg;
-        loop crank@theta + coupler@phi = ground@0 + rocker@psi;
-        point A = crank@theta;
-        point C = crank@theta + coupler@phi;
-        output swing = psi;
-        output height = rocker * sin(psi);
-        derive drawing;
-    }
-
-    /// A double rocker: the input turns back at dead points.
-    #[derive(Debug, Clone, Copy)]
-    mechanism Rocker {
-        param ground = 4, crank = 3, coupler = 2, rocker = 2.5;
-        input theta;
-        unknown phi, psi;
-        loop crank@theta + coupler@phi = ground@0 + rocker@psi;
-        derive drawing;
-    }
-
-    /// An oscillating block.
-    #[derive(Debug, Clone, Copy)]
-    mechanism Block {
-        param ground = 3, crank = 1;
-        input theta;
-        unknown s, psi;
-        loop crank@theta = ground@0 + s@psi;
-        point Pin = crank@theta;
-        output turned = psi - theta;
-        derive drawing;
-    }
-
     /// Two inputs.
     #[derive(Debug, Clone, Copy)]
     mechanism FiveBar {
@@ -218,8 +183,7 @@ fn same(emitted: &[String], at_run_time: &[String]) {
 
 /// A mechanism of this file as it is compiled at run time.
 fn of_this_file(name: &str) -> Compiled {
-    let program = Program::compile(OF_THIS_FILE).expect("it compiles");
-    program.mechanism(name).expect("the mechanism").clone()
+    of_text(OF_THIS_FILE, name)
 }
 
 /// Calls a function with a mechanism at run time.
@@ -241,13 +205,13 @@ macro_rules! pictured {
 
 #[test]
 fn pictures_and_reports_of_one_loop() {
-    pictured!(CrankRocker, of_this_file("CrankRocker"), 1.0);
-    pictured!(Rocker, of_this_file("Rocker"), 0.4);
+    pictured!(CrankRocker, one_loop::compiled("CrankRocker"), 1.0);
+    pictured!(Rocker, one_loop::compiled("Rocker"), 0.4);
 }
 
 #[test]
 fn pictures_and_reports_with_guides() {
-    pictured!(Block, of_this_file("Block"), 0.9);
+    pictured!(Block, one_loop::compiled("Block"), 0.9);
     pictured!(Pump, of_this_file("Pump"), 0.7);
 }
 
@@ -330,7 +294,8 @@ fn a_text_without_a_drawing_says_so() {
 
 #[test]
 fn a_part_of_a_joint_that_does_not_exist_is_damage() {
-    let mut written = serde_json::to_value(Program::compile(OF_THIS_FILE).expect("it compiles")).expect("a program");
+    let mut written =
+        serde_json::to_value(Program::compile(one_loop::OF_THIS_FILE).expect("it compiles")).expect("a program");
     written["mechanisms"][0]["written"]["drawing"]["parts"][0] =
         serde_json::json!({ "Sleeve": { "pin": 0, "on": 1, "towards": 9 } });
     let error = serde_json::from_value::<Program>(written).expect_err("damage").to_string();

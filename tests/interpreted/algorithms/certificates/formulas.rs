@@ -7,7 +7,7 @@ use linkage_gallery::{Fixture, all_mechanisms};
 
 use super::super::{Numbers, Positions, equal, same};
 use super::operations::{Operations, given};
-use super::{both, certifiable, only, ready};
+use super::{certifiable, only, ready};
 
 /// All that the formulas compute of these parameters, unknowns and inputs, and of rates like them.
 fn computed<M: Certifiable, N: Number>(m: &M, [parameters, unknowns, inputs]: [&[N]; 3]) -> Vec<String> {
@@ -69,7 +69,7 @@ fn compare<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Certifiable>() {
     });
 }
 
-both! { CONSTANTS:
+with_text! { CONSTANTS:
     /// Constants of all kinds: doubles, ratios, ratios of numbers that are none, numbers near a double, multiples of pi.
     #[derive(Debug, Clone, Copy)]
     mechanism Constants {

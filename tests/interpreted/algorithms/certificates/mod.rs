@@ -6,7 +6,7 @@ mod refused;
 mod texts;
 
 use linkage::certify::Certify;
-use linkage::{Branches, Certifiable, Column, D, Mechanism, linkage};
+use linkage::{Branches, Certifiable, Column, D, Mechanism};
 use linkage_gallery::Fixture;
 use linkage_gallery::geared_five_bar::GearedFiveBar;
 use linkage_gallery::offset_slider_crank::OffsetSliderCrank;
@@ -15,59 +15,9 @@ use linkage_gallery::tilted_parallelogram::TiltedParallelogram;
 use linkage_gallery::watt_i::WattI;
 use linkage_interpreter::{CertifiableAtRunTime, Mechanism as Compiled, Program};
 
+use super::one_loop::{self, Block, CrankRocker, Rocker};
 use super::{Numbers, compiled, coordinates, equal};
 use texts::{certificates, turn};
-
-/// A mechanism by the macro, and its text.
-macro_rules! both {
-    ($TEXT:ident: $($mechanism:tt)*) => {
-        linkage! { $($mechanism)* }
-        const $TEXT: &str = stringify!($($mechanism)*);
-    };
-}
-use both;
-
-both! { CRANK_ROCKER:
-    /// A crank-rocker.
-    #[derive(Debug, Clone, Copy)]
-    mechanism CrankRocker {
-        param ground = 80, crank = 20, coupler = 50, rocker = 70;
-        input theta;
-        unknown phi, psi in 60deg..115deg;
-        loop crank@theta + coupler@phi = ground@0 + rocker@psi;
-        point A = crank@theta;
-        point C = crank@theta + coupler@phi;
-        output swing = psi;
-        output height = rocker * sin(psi);
-        derive intervals;
-    }
-}
-
-both! { ROCKER:
-    /// A double rocker: the input turns back at dead points.
-    #[derive(Debug, Clone, Copy)]
-    mechanism Rocker {
-        param ground = 4, crank = 3, coupler = 2, rocker = 2.5;
-        input theta;
-        unknown phi, psi;
-        loop crank@theta + coupler@phi = ground@0 + rocker@psi;
-        derive intervals;
-    }
-}
-
-both! { BLOCK:
-    /// An oscillating block.
-    #[derive(Debug, Clone, Copy)]
-    mechanism Block {
-        param ground = 3, crank = 1;
-        input theta;
-        unknown s, psi;
-        loop crank@theta = ground@0 + s@psi;
-        point Pin = crank@theta;
-        output turned = psi - theta;
-        derive intervals;
-    }
-}
 
 /// Calls a function with a mechanism that is ready for certificates.
 fn ready<const V: usize, R>(of: &Compiled, call: impl FnOnce(&CertifiableAtRunTime<'_, D<V>>) -> R) -> R {
@@ -125,9 +75,9 @@ fn only(text: &str) -> Compiled {
 
 #[test]
 fn certificates_of_one_loop() {
-    compare(&CrankRocker::default(), &only(CRANK_ROCKER), 1.0);
-    compare(&Rocker::default(), &only(ROCKER), 0.4);
-    compare(&Block::default(), &only(BLOCK), 0.9);
+    compare(&CrankRocker::default(), &one_loop::compiled("CrankRocker"), 1.0);
+    compare(&Rocker::default(), &one_loop::compiled("Rocker"), 0.4);
+    compare(&Block::default(), &one_loop::compiled("Block"), 0.9);
 }
 
 #[test]
@@ -161,7 +111,7 @@ fn other_parameters() {
     let start = positions(&CrankRocker::default(), 1.0).swap_remove(0);
     let longer = [81.0, 21.0, 51.0, 71.0];
     let emitted = CrankRocker::default().with(longer.into());
-    ready::<1, _>(&only(CRANK_ROCKER), |own| {
+    ready::<1, _>(&one_loop::compiled("CrankRocker"), |own| {
         let other = own.with(Column::from_slice(&longer).expect("four parameters"));
         let at = coordinates::<CertifiableAtRunTime<'_, _>>(&start);
         assert_eq!(Certifiable::parameters(&other).as_slice(), longer);
