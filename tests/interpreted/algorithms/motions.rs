@@ -3,11 +3,10 @@
 use std::f64::consts::TAU;
 
 use linkage::circuits::{CircuitOptions, Circuits};
-use linkage::continuation::{AtChangePoint, Direction, Event, Options, Path};
+use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Line, Options, Path};
 use linkage::kinematic::MotionOf;
-use linkage::range_of_motion::{MotionByLength, RangeOfMotion, RangeOptions};
-use linkage::{Branches, D, Kinematic, Mechanism, OutputMotion, extremes};
-use linkage_gallery::Fixture;
+use linkage::range_of_motion::{Driven, MotionByLength, RangeOfMotion, RangeOptions};
+use linkage::{Branches, Column, D, Kinematic, Mechanism, OutputMotion, PerInput, extremes};
 use linkage_gallery::double_butterfly::DoubleButterfly;
 use linkage_gallery::four_bar::FourBar;
 use linkage_gallery::geneva::Geneva;
@@ -17,18 +16,23 @@ use linkage_gallery::one_window::OneWindow;
 use linkage_gallery::stephenson_iii::StephensonIII;
 use linkage_gallery::tilted_parallelogram::TiltedParallelogram;
 use linkage_gallery::wiper::Wiper;
+use linkage_gallery::{Fixture, all_mechanisms};
+use linkage_interpreter::AtRunTime;
 
 use super::{Numbers, Positions, at_run_time, bit, coordinates, position, same};
 
+/// A mechanism with two branches takes about 10 seconds.
+const MOST_BRANCHES: usize = 1;
+
 /// The steps of paths in both directions: positions, lengths and events, and the error at the end.
-fn steps<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, starts: &[Numbers], count: usize) -> Vec<String> {
+fn steps<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, starts: &[M::Coordinates], count: usize) -> Vec<String> {
     let mut found = Vec::new();
     for start in starts {
         for (at_change_point, direction) in
             [(AtChangePoint::Keep, Direction::Increasing), (AtChangePoint::Stop, Direction::Decreasing)]
         {
             let options = Options { at_change_point, ..Options::default() };
-            let mut path = match Path::with(m, &coordinates::<M>(start), direction, options) {
+            let mut path = match Path::with(m, start, direction, options) {
                 Ok(path) => path,
                 Err(error) => {
                     found.push(error.to_string());
@@ -58,18 +62,18 @@ fn steps<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, starts: &[Numbers], count:
 }
 
 /// The motion through a position: its ends, its change points, its dead points by length, and extremes of its points.
-fn motions<M: Kinematic<Scalar = f64, V = D<1>>>(m: &M, start: &Numbers) -> Vec<String> {
-    let (mut all, start) = (Vec::new(), coordinates::<M>(start));
-    match RangeOfMotion::of(m, &start, RangeOptions::through_change_points()) {
+fn motions<M: Driven<Scalar = f64>>(m: &M, start: &M::Coordinates) -> Vec<String> {
+    let mut all = Vec::new();
+    match RangeOfMotion::of(m, start, RangeOptions::through_change_points()) {
         Ok(range) => {
             let [first, last] = range.inputs();
             all.push(format!("{} {} {:?} {}", bit(first), bit(last), range.ends(), range.crossings().len()));
             for part in [0.1, 0.77] {
                 let at = range.at(first + (last - first) * part);
-                all.push(at.map_or_else(|error| error.to_string(), |q| position::<M>(&q)));
+                all.push(at.map_or_else(|error| error.to_string(), |q| position::<M::Of>(&q)));
             }
-            let turning = extremes::courses(&range, |motion: &MotionOf<M>| {
-                let points = M::each_point(motion.points);
+            let turning = extremes::courses(&range, |motion: &MotionOf<M::Of>| {
+                let points = M::Of::each_point(motion.points);
                 let height = |point: &linkage::PointMotion<f64>| OutputMotion {
                     value: point.position.y,
                     rate: point.velocity.y,
@@ -81,7 +85,7 @@ fn motions<M: Kinematic<Scalar = f64, V = D<1>>>(m: &M, start: &Numbers) -> Vec<
         }
         Err(error) => all.push(error.to_string()),
     }
-    match MotionByLength::of(m, &start, RangeOptions::default()) {
+    match MotionByLength::of(m, start, RangeOptions::default()) {
         Ok(motion) => {
             all.extend(motion.dead_points().map(|at| format!("{} {}", bit(at.length), at.group)));
             all.push(bit(motion.length()));
@@ -108,9 +112,80 @@ fn compare<M: Fixture<Scalar = f64, V = D<1>>>() {
     let Positions { mechanism, starts, .. } = Positions::<M>::drawn(20);
     assert!(starts.len() > 1, "{}", M::NAME);
     at_run_time::<1, M, _>(|own| {
-        same::<M>(&steps(&mechanism, &starts[..2], 25), &steps(own, &starts[..2], 25));
-        same::<M>(&motions(&mechanism, &starts[0]), &motions(own, &starts[0]));
+        let (emitted, own_starts) = (at::<M>(&starts[..2]), at::<AtRunTime<'_, D<1>>>(&starts[..2]));
+        same::<M>(&steps(&mechanism, &emitted, 25), &steps(own, &own_starts, 25));
+        same::<M>(&motions(&mechanism, &emitted[0]), &motions(own, &own_starts[0]));
     });
+}
+
+fn at<M: Mechanism<Scalar = f64>>(all: &[Numbers]) -> Vec<M::Coordinates> {
+    all.iter().map(coordinates::<M>).collect()
+}
+
+/// The motion from a position while all inputs move along a line.
+fn along_a_line<M: Kinematic<Scalar = f64> + Clone>(m: &M, start: &Numbers) -> Vec<String> {
+    let line = line(m, start);
+    let start = AlongCoordinates { q: coordinates::<M>(start), parameter: 0.0 };
+    [steps(&line, &[start], 6), motions(&line, &start)].concat()
+}
+
+/// Inputs that grow, each with another rate.
+fn line<M: Mechanism<Scalar = f64> + Clone>(m: &M, [_, inputs]: &Numbers) -> Along<M, Line<M::Inputs>> {
+    let column = |numbers: &[f64]| -> PerInput<M> { Column::from_slice(numbers).expect("as many inputs") };
+    let to: Vec<f64> = inputs.iter().zip(1..).map(|(input, place)| input + 0.25 * f64::from(place)).collect();
+    Along { mechanism: m.clone(), inputs: Line { from: column(inputs).into(), to: column(&to).into() } }
+}
+
+fn compare_along<const V: usize, M: Fixture<Scalar = f64, V = D<V>>>() {
+    let Positions { mechanism, starts, .. } = Positions::<M>::drawn(80);
+    let start = starts.first().expect("a position");
+    at_run_time::<V, M, _>(|own| same::<M>(&along_a_line(&mechanism, start), &along_a_line(own, start)));
+}
+
+/// The most branches of a mechanism whose circuits are compared: `BRANCHES=1000` is the whole gallery.
+fn most_branches() -> usize {
+    std::env::var("BRANCHES").ok().and_then(|text| text.parse().ok()).unwrap_or(MOST_BRANCHES)
+}
+
+fn compare_circuits_along<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Branches>() {
+    // Each position begins a motion.
+    if M::branches().len() > most_branches() {
+        return;
+    }
+    let Positions { mechanism, starts, .. } = Positions::<M>::drawn(80);
+    let start = starts.first().expect("a position");
+    at_run_time::<V, M, _>(|own| {
+        same::<M>(&circuits(&line(&mechanism, start), 0.3), &circuits(&line(own, start), 0.3));
+    });
+}
+
+macro_rules! along {
+    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
+        $($(compare_along::<_, linkage_gallery::$file::$Mechanism>();)+)*
+    };
+}
+
+macro_rules! circuits_if_listed {
+    ($file:ident $Mechanism:ident closed) => {
+        compare_circuits_along::<_, linkage_gallery::$file::$Mechanism>();
+    };
+    ($file:ident $Mechanism:ident $method:ident) => {};
+}
+
+macro_rules! circuits_along {
+    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
+        $($(circuits_if_listed!($file $Mechanism $method);)+)*
+    };
+}
+
+#[test]
+fn motions_of_the_whole_gallery() {
+    all_mechanisms!(along);
+}
+
+#[test]
+fn circuits_of_the_whole_gallery() {
+    all_mechanisms!(circuits_along);
 }
 
 fn compare_circuits<M: Fixture<Scalar = f64, V = D<1>> + Branches>() {
