@@ -18,6 +18,7 @@ macro_rules! with_text {
 mod bad_input;
 mod certificates;
 mod functions;
+mod gallery_scenes;
 mod motions;
 mod one_loop;
 mod pictures;

@@ -178,14 +178,14 @@ fn steps<S: Scene<Scalar = f64>, M: Method>(scene: &S, run: RunOf<S>, at_singula
 
 /// A scene of a mechanism, in a file of the gallery or in this one.
 #[derive(Clone, Copy)]
-struct Named {
+pub struct Named {
     file: &'static str,
     mechanism: &'static str,
     scene: &'static str,
 }
 
 impl Named {
-    fn of(file: &'static str, mechanism: &'static str, scene: &'static str) -> Self {
+    pub fn of(file: &'static str, mechanism: &'static str, scene: &'static str) -> Self {
         Self { file, mechanism, scene }
     }
 
@@ -200,7 +200,7 @@ impl Named {
 
 /// Compares the motion of an emitted scene with that of the same scene at run time, with these parameters.
 #[track_caller]
-fn same<const V: usize, S>(
+pub fn same<const V: usize, S>(
     of: Named,
     scene: &S,
     set: &[(&str, f64)],
