@@ -1,0 +1,32 @@
+// The answer to each question of the protocol.
+
+import type { About, Mistake, Moved, Quantity, Question, Refusal, Simulated } from "./protocol";
+
+export type Position = { branch: string; unknowns: number[]; svg: string };
+export type Motion = { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: Quantity[] };
+export type Compiled = { mistakes: Mistake[] } | { mechanisms: About[] };
+
+export type Answers = {
+    compile: Compiled;
+    words: { keywords: string[]; functions: string[] };
+    begin: Moved;
+    positions: { positions: Position[] };
+    picture: Moved;
+    follow: Moved;
+    drag: Moved;
+    motion: Motion;
+    chart: { svg: string };
+    csv: { text: string };
+    sheet: { text: string };
+    circuits: { text: string; charts: { name: string; svg: string }[] };
+    report: { html: string };
+    rust: { text: string };
+    simulate: Simulated;
+};
+
+export type Kind = keyof Answers;
+export type QuestionOf<K extends Kind> = Extract<Question, { do: K }>;
+
+export function isRefusal(answer: object): answer is Refusal {
+    return "why" in answer;
+}

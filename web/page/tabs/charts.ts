@@ -1,0 +1,163 @@
+// Charts over the motion: coordinates, outputs and points with their velocities and accelerations.
+
+import { h, set } from "../dom";
+import { isRefusal } from "../answers";
+import { Island } from "../island";
+import type { Machine } from "../machine";
+import type { Quantity } from "../protocol";
+import type { Session } from "../session";
+import { chartStyles } from "../styles";
+import { onLanguage, say, word } from "../words";
+import { Tab } from "./tab";
+
+/** Curves that one chart has at most. */
+const CURVES = 5;
+const STEPS = 180;
+
+/** A column by the quantity that it is of, and what of it. */
+type Column = Quantity & { of: string; part: string };
+
+export class ChartsTab extends Tab {
+    #chosen: string[] | null = null;
+    #columns: Column[] = [];
+    #shape = "";
+    #picker = h("div", { class: "picker" });
+    #charts = h("div", { class: "charts" });
+    #islands = new Map<string, Island>();
+    #title = h("h2");
+
+    constructor(machine: Machine, session: Session) {
+        super(machine, session);
+        const columns = h(
+            "details",
+            { class: "columns", open: true },
+            h("summary", {}, say((w) => w.choose)),
+            h("p", { class: "soft" }, say((w) => w.chooseHint)),
+            this.#picker,
+        );
+        this.element.append(this.why, this.stale, h("div", { class: "page wide" }, this.#title, this.#charts, columns));
+        onLanguage(() => {
+            this.#shape = "";
+        });
+    }
+
+    /** The columns that a link has. */
+    get chosen(): string[] | null {
+        return this.#chosen;
+    }
+    set chosen(names: string[] | null) {
+        this.#chosen = names;
+    }
+
+    protected key(): unknown[] | null {
+        const { at, show, motion } = this.machine;
+        // A motion does not depend on where on it the mechanism is.
+        if (at === null || motion === null) return null;
+        const { least, largest } = motion;
+        return [at.mechanism, at.parameters, at.place.inputs.with(show.along, 0), show.along, show.rate, least, largest, this.#chosen];
+    }
+
+    protected async compute(): Promise<boolean> {
+        const { at, show, text, about } = this.machine;
+        if (at === null || text === null || about === null) return false;
+        const { along, rate } = show;
+        const motion = await this.ask<"motion">(() => ({ do: "motion", ...at, along, rate, steps: STEPS }));
+        if (!motion) return motion === null;
+        this.#title.textContent = word().overMotion(about.inputs[along]?.name ?? "");
+        this.#columns = motion.columns.map((column) => ({ ...column, ...this.#split(column.name) }));
+        const known = new Set(this.#columns.map(({ name }) => name));
+        const chosen = this.#chosen?.filter((name) => known.has(name)) ?? [];
+        this.#chosen = chosen.length > 0 || this.#chosen?.length === 0 ? chosen : this.#first();
+        this.#pick();
+        const groups = this.#groups();
+        const figures: HTMLElement[] = [];
+        for (const columns of groups) {
+            const key = columns.join(" ");
+            const island = this.#islands.get(key) ?? new Island("chart", chartStyles);
+            this.#islands.set(key, island);
+            const answer = await this.session.ask("chart", text, () => ({ do: "chart", columns }));
+            if (answer === null) return false;
+            if (!isRefusal(answer)) {
+                island.svg(answer.svg);
+                figures.push(h("figure", {}, island.element));
+            } else {
+                this.why.hidden = false;
+                this.why.textContent = answer.why;
+            }
+        }
+        for (const key of this.#islands.keys()) {
+            if (!groups.some((columns) => columns.join(" ") === key)) this.#islands.delete(key);
+        }
+        this.#charts.replaceChildren(...figures);
+        return true;
+    }
+
+    /** `C_velocity_x` is `velocity_x` of `C`. */
+    #split(column: string): { of: string; part: string } {
+        const { about } = this.machine;
+        const names = [...(about?.points ?? []), ...(about?.outputs ?? []).map((q) => q.name), ...(about?.unknowns ?? []).map((q) => q.name), ...(about?.inputs ?? []).map((q) => q.name)];
+        const of = names.filter((name) => column === name || column.startsWith(`${name}_`)).sort((a, b) => b.length - a.length)[0];
+        return of === undefined ? { of: column, part: "" } : { of, part: column.slice(of.length + 1) };
+    }
+
+    /** The outputs and the unknowns, if there is nothing chosen. */
+    #first(): string[] {
+        const { about } = this.machine;
+        const names = [...(about?.unknowns ?? []), ...(about?.outputs ?? [])].map(({ name }) => name);
+        return names.filter((name) => this.#columns.some((column) => column.name === name)).slice(0, 3 * CURVES);
+    }
+
+    /** Columns of one kind share a chart: they have one scale. */
+    #groups(): string[][] {
+        const groups = new Map<string, string[][]>();
+        const kinds = new Set(this.machine.about?.points);
+        for (const name of this.#chosen ?? []) {
+            const column = this.#columns.find((candidate) => candidate.name === name);
+            if (column === undefined) continue;
+            const kind = kinds.has(column.of) ? column.part.replace(/_?[xy]$|speed$/u, "") || "place" : `${column.part}`;
+            const key = `${kinds.has(column.of)} ${column.is_angle} ${kind === "speed" ? "velocity" : kind}`;
+            const charts = groups.get(key) ?? [[]];
+            if (charts.at(-1)?.length === CURVES) charts.push([]);
+            charts.at(-1)?.push(name);
+            groups.set(key, charts);
+        }
+        return [...groups.values()].flat();
+    }
+
+    #pick(): void {
+        const shape = JSON.stringify(this.#columns);
+        if (shape !== this.#shape) {
+            this.#shape = shape;
+            const rows = new Map<string, Column[]>();
+            for (const column of this.#columns) rows.set(column.of, [...(rows.get(column.of) ?? []), column]);
+            this.#picker.replaceChildren(
+                ...[...rows].map(([of, columns]) =>
+                    h(
+                        "div",
+                        { class: "row", role: "group", "aria-label": of },
+                        h("span", { class: "name" }, of),
+                        ...columns.map((column) => this.#chip(column)),
+                    ),
+                ),
+            );
+        }
+        for (const button of this.#picker.querySelectorAll("button")) {
+            set(button, "aria-pressed", this.#chosen?.includes(button.dataset.column ?? "") ? "true" : "false");
+        }
+    }
+
+    #chip(column: Column): HTMLElement {
+        const label = column.part === "" ? column.of : column.part.replaceAll("_", " ");
+        const toggle = (): void => {
+            const chosen = this.#chosen ?? [];
+            this.#chosen = chosen.includes(column.name) ? chosen.filter((name) => name !== column.name) : [...chosen, column.name];
+            this.#pick();
+            this.refresh();
+        };
+        return h(
+            "button",
+            { type: "button", class: "chip", "data-column": column.name, "aria-label": column.name, onclick: toggle },
+            label,
+        );
+    }
+}

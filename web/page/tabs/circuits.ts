@@ -1,0 +1,42 @@
+// The circuits: which positions are connected by motion.
+
+import { h } from "../dom";
+import { Island } from "../island";
+import type { Machine } from "../machine";
+import type { Session } from "../session";
+import { chartStyles } from "../styles";
+import { Tab } from "./tab";
+
+export class CircuitsTab extends Tab {
+    #text = h("pre", { class: "lines", lang: "en" });
+    #charts = h("div", { class: "charts" });
+
+    constructor(machine: Machine, session: Session) {
+        super(machine, session);
+        this.element.append(this.why, this.stale, h("div", { class: "page wide" }, this.#text, this.#charts));
+    }
+
+    protected key(): unknown[] | null {
+        const { at, show } = this.machine;
+        // The circuits do not depend on the input that moves.
+        return at && [at.mechanism, at.parameters, at.place.inputs.with(show.along, 0), show.along];
+    }
+
+    protected async compute(): Promise<boolean> {
+        const { at, show } = this.machine;
+        if (at === null) return false;
+        const { mechanism, parameters, place } = at;
+        const question = { do: "circuits", mechanism, parameters, inputs: place.inputs, along: show.along } as const;
+        const answer = await this.ask<"circuits">(() => question);
+        if (answer === undefined) return false;
+        this.#text.textContent = answer?.text.trimEnd() ?? "";
+        this.#charts.replaceChildren(
+            ...(answer?.charts ?? []).map(({ name, svg }) => {
+                const island = new Island("chart", chartStyles);
+                island.svg(svg);
+                return h("figure", {}, island.element, h("figcaption", {}, name));
+            }),
+        );
+        return true;
+    }
+}

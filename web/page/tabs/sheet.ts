@@ -1,0 +1,36 @@
+// The sheet: formulas, with numbers at this position. It changes in place while sliders move.
+
+import { Island } from "../island";
+import type { Machine } from "../machine";
+import type { Session } from "../session";
+import { sheetStyles } from "../styles";
+import { languageOf } from "../words";
+import { Tab } from "./tab";
+
+export class SheetTab extends Tab {
+    #island = new Island("sheet", sheetStyles);
+
+    constructor(machine: Machine, session: Session) {
+        super(machine, session);
+        this.element.append(this.why, this.stale, this.#island.element);
+    }
+
+    protected key(): unknown[] | null {
+        const { at, show } = this.machine;
+        return at && [at, show.rate, languageOf()];
+    }
+
+    protected async compute(): Promise<boolean> {
+        const { at, show } = this.machine;
+        if (at === null) return false;
+        const language = languageOf();
+        const answer = await this.ask<"sheet">(() => ({ do: "sheet", ...at, rate: show.rate, language, form: "html" }));
+        if (answer) {
+            this.#island.element.lang = language;
+            this.#island.html(answer.text);
+        } else if (answer === null) {
+            this.#island.clear();
+        }
+        return answer !== undefined;
+    }
+}

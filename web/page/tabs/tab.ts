@@ -1,0 +1,81 @@
+// What every tab has in common: it computes while it is seen, and says so if what it shows is of an earlier choice.
+
+import type { Answers, Kind, QuestionOf } from "../answers";
+import { isRefusal } from "../answers";
+import { h, set } from "../dom";
+import type { Machine } from "../machine";
+import type { Lane, Session } from "../session";
+import { onLanguage, say } from "../words";
+
+/** A result that took longer, in milliseconds, is not computed anew by itself at each move. */
+const SLOW = 1500;
+
+export abstract class Tab {
+    readonly element = h("div", { class: "tab" });
+    protected readonly machine: Machine;
+    protected readonly session: Session;
+    protected readonly why = h("p", { class: "why", role: "status", hidden: true });
+    protected readonly stale = h("p", { class: "stale", hidden: true });
+    #isSeen = false;
+    #key = "";
+    #wanted = "";
+    #isRunning = false;
+    #took = 0;
+
+    constructor(machine: Machine, session: Session) {
+        this.machine = machine;
+        this.session = session;
+        const again = h("button", { type: "button", onclick: () => void this.#compute() }, say((w) => w.again));
+        this.stale.append(say((w) => w.old), " ", again);
+        const refresh = (): void => this.refresh();
+        machine.compiled.on(refresh);
+        machine.moved.on(refresh);
+        machine.motionFound.on(refresh);
+        onLanguage(refresh);
+    }
+
+    /** What the result depends on; null if there is nothing to compute. */
+    protected abstract key(): unknown[] | null;
+    protected abstract compute(): Promise<boolean>;
+
+    set seen(isSeen: boolean) {
+        this.#isSeen = isSeen;
+        if (isSeen) this.refresh();
+    }
+
+    refresh(): void {
+        const { text, isOld } = this.machine;
+        const key = this.key();
+        if (key === null || text === null) return;
+        this.#wanted = JSON.stringify([text, key]);
+        const isStale = this.#wanted !== this.#key;
+        set(this.element, "data-old", (isStale && this.#key !== "" && this.#took > SLOW) || isOld);
+        this.stale.hidden = !(isStale && this.#key !== "" && this.#took > SLOW);
+        if (this.#isSeen && isStale && !this.#isRunning && (this.#took <= SLOW || this.#key === "")) void this.#compute();
+    }
+
+    async #compute(): Promise<void> {
+        if (this.#isRunning) return;
+        this.#isRunning = true;
+        const key = this.#wanted;
+        const since = performance.now();
+        const isDone = await this.compute();
+        this.#isRunning = false;
+        if (!isDone) return;
+        this.#took = performance.now() - since;
+        this.#key = key;
+        this.refresh();
+    }
+
+    /** Asks; a refusal is shown in place of the answer. */
+    protected async ask<K extends Kind>(make: () => QuestionOf<K>, lane: Lane = "tab"): Promise<Answers[K] | null | undefined> {
+        const answer = await this.session.ask(lane, this.machine.text ?? "", make);
+        if (answer === null) return undefined;
+        this.why.hidden = !isRefusal(answer);
+        if (isRefusal(answer)) {
+            this.why.textContent = answer.why;
+            return null;
+        }
+        return answer;
+    }
+}
