@@ -21,6 +21,7 @@ mod scene;
 mod simulation;
 mod write;
 
+pub(crate) use motion::names;
 pub use column::Units;
 pub use error::TableError;
 

@@ -1,0 +1,76 @@
+//! The documents of a driver: its derivation, the analysis by hand where formulas for it exist, and its scenes.
+
+use linkage_compiler::document::{self, Document, SceneDocument, SheetDocument};
+use linkage_compiler::graph::Number;
+use linkage_compiler::{Lowered, emit};
+use linkage_lent::{Lender, Unsound};
+use linkage_report::sheet::Sheet;
+use linkage_runtime::derivation::Derivation;
+
+use crate::plain::paragraphs;
+
+pub struct Documents {
+    driver: Option<Document>,
+    by_hand: Option<SheetDocument>,
+    scenes: Vec<SceneDocument>,
+    /// The parameters with default values.
+    defaults: Vec<(String, f64)>,
+    /// The doc comment of the mechanism, in plain words.
+    about: Vec<String>,
+}
+
+impl Documents {
+    pub fn of(of: &Lowered<'_>) -> Self {
+        let (driver, scenes) = emit::documents(&of.program, &of.derivation);
+        let signatures = &of.program.signatures;
+        let has_formulas = of.derivation.groups.iter().all(|group| group.determinant.is_some());
+        let by_hand = has_formulas.then(|| document::of_sheet(signatures.mechanism, signatures.driver, &of.derivation));
+        let graph = &signatures.mechanism.graph;
+        let defaults = signatures.mechanism.parameters.iter().filter_map(|parameter| {
+            let node = parameter.default?;
+            let value = graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node))?;
+            Some((parameter.name.text.clone(), value))
+        });
+        let about = paragraphs(&signatures.mechanism.documentation());
+        Self { driver, by_hand, scenes, defaults: defaults.collect(), about }
+    }
+
+    /// Applies a function to all of them as one sheet, with the default values of parameters.
+    pub fn sheet(&self, write: impl FnOnce(&mut Sheet<'_>) -> String) -> Result<String, Unsound> {
+        let lender = Lender::default();
+        let derivation = self.derivation(&lender)?;
+        let scenes = self.scenes.iter().map(|scene| lender.scene(scene)).collect::<Result<Vec<_>, _>>()?;
+        let by_hand = self.by_hand.as_ref().map(|sheet| lender.sheet(sheet)).transpose()?;
+        let Some(mut sheet) = derivation.as_ref().map(Sheet::new) else { return Ok(String::new()) };
+        for scene in &scenes {
+            sheet.scene(scene);
+        }
+        if let Some(by_hand) = &by_hand {
+            sheet.by_hand(by_hand);
+        }
+        for paragraph in &self.about {
+            sheet.about(paragraph);
+        }
+        for (name, value) in &self.defaults {
+            sheet.given(name, *value);
+        }
+        Ok(write(&mut sheet))
+    }
+
+    /// The derivation of the driver.
+    pub fn derivation<'l>(&self, lender: &'l Lender) -> Result<Option<Derivation<'l>>, Unsound> {
+        self.driver.as_ref().map(|driver| lender.derivation(driver)).transpose()
+    }
+
+    /// Visits those that have functions one after the other.
+    pub fn each(&self, mut visit: impl FnMut(&dyn linkage_report::Document)) -> Result<(), Unsound> {
+        let lender = Lender::default();
+        if let Some(driver) = &self.driver {
+            visit(&lender.derivation(driver)?);
+        }
+        for scene in &self.scenes {
+            visit(&lender.scene(scene)?);
+        }
+        Ok(())
+    }
+}

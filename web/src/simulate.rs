@@ -1,0 +1,96 @@
+//! The motion of a scene in time.
+
+use linkage_dynamics::simulation::{Start, simulate as begin};
+use linkage_interpreter::{CoordinatesAtRunTime, SceneAtRunTime};
+use linkage_report::Table;
+use linkage_report::chart::Page;
+use linkage_report::table::Cause;
+use linkage_runtime::Column;
+use serde::Serialize;
+
+use crate::Refusal;
+use crate::at::Inputs;
+use crate::machine::Machine;
+use crate::question::{Place, Simulate};
+
+/// The most steps of a table.
+const MOST_STEPS: u32 = 20_000;
+
+/// A simulation for the page.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Simulated {
+    lines: Vec<String>,
+    sections: Vec<Section>,
+    times: Vec<f64>,
+    places: Vec<Place>,
+    csv: String,
+}
+
+/// Charts under a heading.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Section {
+    heading: String,
+    charts: Vec<String>,
+}
+
+/// Simulates a scene, and says how far it is, from 0 to 1.
+pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f64)) -> Result<Simulated, Refusal> {
+    let design = machine.design(&asked.at.parameters);
+    let about = machine.about.scenes.get(asked.scene).ok_or_else(|| Refusal::new("there is no such scene"))?;
+    let scene = design.scene(&about.name).map_err(Refusal::new)?.with_parameters(&asked.values);
+    let prepared = scene.prepared().map_err(Refusal::new)?;
+    let scene: SceneAtRunTime<'_, Inputs> = prepared.with_inputs().map_err(Refusal::new)?;
+    let few = || Refusal::new("the position has other numbers than the mechanism");
+    let start = Start {
+        t: 0.0,
+        q: CoordinatesAtRunTime {
+            unknowns: Column::from_slice(&asked.at.place.unknowns).ok_or_else(few)?,
+            inputs: Column::from_slice(&asked.at.place.inputs).ok_or_else(few)?,
+        },
+        input_rates: Column::from_slice(&asked.rates).ok_or_else(few)?,
+    };
+    let mut simulation = begin(&scene, start, asked.to, asked.tolerance).map_err(Refusal::new)?;
+    let steps = asked.steps.clamp(1, MOST_STEPS);
+    let times = (0..=steps).map(|step| {
+        progress(f64::from(step) / f64::from(steps));
+        if step == steps { asked.to } else { asked.to * f64::from(step) / f64::from(steps) }
+    });
+    let table = Table::simulated_at(&mut simulation, times);
+    if let Some(failure) = prepared.failure() {
+        return Err(Refusal::new(failure));
+    }
+    let reached = simulation.state().t;
+    let error = table.missing().iter().rev().find_map(|missing| match &missing.cause {
+        Cause::Motion(error) => Some(error),
+        _ => None,
+    });
+    let ended = error.filter(|_| reached != asked.to).map(|error| format!("the motion ends at {reached:.6} s: {error}"));
+    let page = Page::of_simulation(&scene, &table, ended.as_deref()).map_err(Refusal::new)?;
+    let mut lines = Vec::new();
+    let mut sections = Vec::new();
+    for section in &page.sections {
+        lines.extend(section.lines.iter().cloned());
+        let charts = section.to_svgs();
+        if !charts.is_empty() {
+            sections.push(Section { heading: section.heading.clone(), charts });
+        }
+    }
+    let (times, places) = frames(machine, &table);
+    Ok(Simulated { lines, sections, times, places, csv: table.to_csv() })
+}
+
+/// The times, and the positions at them.
+fn frames(machine: &Machine, table: &Table) -> (Vec<f64>, Vec<Place>) {
+    let columns = |all: &[crate::about::Quantity]| -> Vec<&[f64]> {
+        all.iter().map(|quantity| table.column(&quantity.name).unwrap_or_default()).collect()
+    };
+    let [inputs, unknowns] = [columns(&machine.about.inputs), columns(&machine.about.unknowns)];
+    let row = |columns: &[&[f64]], row: usize| -> Option<Vec<f64>> {
+        columns.iter().map(|column| column.get(row).copied().filter(|number| number.is_finite())).collect()
+    };
+    let times = table.column("time").unwrap_or_default().iter().enumerate();
+    let frames = times.filter_map(|(place, time)| {
+        Some((*time, Place { inputs: row(&inputs, place)?, unknowns: row(&unknowns, place)? }))
+    });
+    frames.unzip()
+}
