@@ -24,7 +24,6 @@ mod one_input;
 mod output;
 mod parameters;
 mod picture;
-mod plain;
 mod position;
 mod progress;
 mod proved;

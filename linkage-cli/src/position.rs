@@ -1,9 +1,10 @@
 //! The numbers and the picture of a sheet at one position.
 
+use linkage_lent::Documents;
 use linkage_report::sheet::{Sheet, Values};
 
 use crate::arguments;
-use crate::commands::{Documents, drawing};
+use crate::commands::drawing;
 use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::machine::{Coordinate, Machine, Motion};

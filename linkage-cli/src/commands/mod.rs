@@ -6,7 +6,6 @@ mod check;
 mod circuits;
 mod compiled;
 mod completions;
-mod documents;
 mod draw;
 mod equilibrium;
 mod fpcore;
@@ -21,7 +20,6 @@ mod simulate;
 mod summary;
 mod table;
 
-pub use documents::Documents;
 pub use draw::drawing;
 
 use crate::arguments::Command;
