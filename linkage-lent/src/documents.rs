@@ -67,6 +67,12 @@ impl Documents {
         Ok(Some(write(&mut sheet)))
     }
 
+    /// The doc comment of the mechanism in plain words, paragraph by paragraph.
+    #[must_use]
+    pub fn about(&self) -> &[String] {
+        &self.about
+    }
+
     /// Lends the derivation of the driver; none if its mechanism has none.
     ///
     /// # Errors

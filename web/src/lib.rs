@@ -6,8 +6,6 @@
 mod about;
 mod at;
 mod circuits;
-mod documents;
-mod plain;
 mod drag;
 mod exports;
 mod follow;

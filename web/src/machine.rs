@@ -1,7 +1,7 @@
 //! A mechanism of a text: its names, its compiled functions, and its documents.
 
 use linkage_interpreter::{Design, Mechanism, Prepared, Program};
-use crate::documents::Documents;
+use linkage_lent::Documents;
 use serde::{Deserialize, Serialize};
 
 use crate::Refusal;
@@ -15,14 +15,16 @@ pub struct Machine {
 }
 
 /// The names and the documents of a mechanism, as they are written.
+#[derive(Serialize, Deserialize)]
 struct Written {
     about: About,
     documents: Documents,
 }
 
-/// Mechanisms that were compiled, as they are written.
-struct All<W, P> {
-    about: Vec<W>,
+/// Mechanisms that were compiled, for a file: `program` is a `Program`.
+#[derive(Serialize, Deserialize)]
+struct All<P> {
+    machines: Vec<Written>,
     program: P,
 }
 
@@ -34,7 +36,9 @@ impl Machine {
 
     /// Mechanisms as [`written`] wrote them.
     pub fn all(text: &str) -> Result<Vec<Self>, Refusal> {
-        Err(Refusal::new(text))
+        let All { machines, program }: All<Program> = serde_json::from_str(text).map_err(Refusal::new)?;
+        let pairs = program.mechanisms().iter().cloned().zip(machines);
+        Ok(pairs.map(|(mechanism, Written { about, documents })| Self { about, documents, mechanism }).collect())
     }
 }
 

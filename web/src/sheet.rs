@@ -30,7 +30,7 @@ pub fn sheet(machine: &Machine, at: &At, rate: Option<f64>, language: Language, 
             Form::Text => sheet.to_text(),
         }
     });
-    written.map_err(Refusal::new)
+    written.map_err(Refusal::new).map(Option::unwrap_or_default)
 }
 
 /// The numbers of the formulas; none if the mechanism cannot be moved, or rates do not exist at the position.

@@ -11,7 +11,7 @@ use linkage_compiler::model::VECTOR_FUNCTIONS;
 use linkage_compiler::text::Message;
 use linkage_compiler::{Lowered, emit};
 use linkage_interpreter::Program;
-use crate::documents::Documents;
+use linkage_lent::Documents;
 use proc_macro2::TokenStream;
 use quote::quote;
 use serde::Serialize;
@@ -53,7 +53,8 @@ pub fn words() -> Words {
 /// The mechanisms of a text, or its mistakes.
 pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
     let compiled = Program::compile_with_within(text, MOST_STEPS, &[Request::Drawing], |lowered| {
-        (about(&lowered), Documents::of(&lowered))
+        let documents = Documents::of(&lowered);
+        (About { paragraphs: documents.about().to_vec(), ..about(&lowered) }, documents)
     });
     let compiled = compiled.map_err(|messages| messages.iter().map(|message| mistake(text, message)).collect::<Vec<_>>())?;
     let machines = compiled.into_iter().map(|(mechanism, (about, documents))| {
@@ -94,7 +95,7 @@ fn about(lowered: &Lowered<'_>) -> About {
     let refusal = function.map(|function| format!("`{}` calls `{function}`, which a program in Rust has to give it", driver.name));
     About {
         name: driver.name.to_string(),
-        paragraphs: crate::plain::paragraphs(&mechanism.documentation()),
+        paragraphs: Vec::new(),
         parameters: mechanism.parameters.iter().map(|of| parameter(mechanism, of)).collect(),
         inputs: driver.inputs.iter().map(coordinate).collect(),
         unknowns: driver.unknowns.iter().map(coordinate).collect(),
