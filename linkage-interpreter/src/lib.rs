@@ -77,6 +77,13 @@ pub struct Program {
     mechanisms: Vec<Mechanism>,
 }
 
+/// The mechanisms of [`Program::compile_with`] as one that can be written.
+impl FromIterator<Mechanism> for Program {
+    fn from_iter<I: IntoIterator<Item = Mechanism>>(mechanisms: I) -> Self {
+        Self::of(mechanisms.into_iter().collect())
+    }
+}
+
 impl Program {
     fn of(mechanisms: Vec<Mechanism>) -> Self {
         Self { mechanisms }

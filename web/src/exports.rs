@@ -29,7 +29,6 @@ macro_rules! export {
 }
 
 /// The progress of a long answer, from 0 to 1, which the page shows.
-#[cfg(target_family = "wasm")]
 fn progress(part: f64) {
     #[allow(unsafe_code, reason = "the page gives the function, which takes any number")]
     mod page {
@@ -40,9 +39,6 @@ fn progress(part: f64) {
     }
     page::progress(part);
 }
-
-#[cfg(not(target_family = "wasm"))]
-fn progress(_: f64) {}
 
 export! {
     /// Gives room for a question of so many bytes, and returns its address.

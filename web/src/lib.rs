@@ -7,6 +7,7 @@ mod about;
 mod at;
 mod circuits;
 mod drag;
+#[cfg(target_family = "wasm")]
 mod exports;
 mod follow;
 mod machine;
@@ -25,3 +26,5 @@ mod text;
 pub use question::Question;
 pub use refusal::Refusal;
 pub use session::Session;
+#[cfg(feature = "compiler")]
+pub use text::compiled;

@@ -34,7 +34,15 @@ impl Machine {
         self.mechanism.design().with_parameters(parameters)
     }
 
-    /// Mechanisms as [`written`] wrote them.
+    /// Mechanisms that were compiled, for a file.
+    #[cfg(feature = "compiler")]
+    pub fn written(machines: Vec<Self>) -> Result<String, Refusal> {
+        let program: Program = machines.iter().map(|machine| machine.mechanism.clone()).collect();
+        let machines = machines.into_iter().map(|Self { about, documents, .. }| Written { about, documents });
+        serde_json::to_string(&All { machines: machines.collect(), program }).map_err(Refusal::new)
+    }
+
+    /// Mechanisms as [`written`](Self::written) wrote them.
     pub fn all(text: &str) -> Result<Vec<Self>, Refusal> {
         let All { machines, program }: All<Program> = serde_json::from_str(text).map_err(Refusal::new)?;
         let pairs = program.mechanisms().iter().cloned().zip(machines);

@@ -66,6 +66,16 @@ pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
     Ok(machines.collect())
 }
 
+/// The mechanisms of a text for the file of a live sheet, which runs without the compiler; they are the answer to
+/// [`Question::Load`](crate::Question::Load).
+///
+/// # Errors
+/// [`Refusal`] with the first mistake of the text.
+pub fn compiled(text: &str) -> Result<String, Refusal> {
+    let first = |mistakes: Vec<Mistake>| Refusal::new(mistakes.into_iter().next().map(|one| one.text).unwrap_or_default());
+    Machine::written(compile(text).map_err(first)?)
+}
+
 /// A message with its place in the text.
 fn mistake(text: &str, message: &Message) -> Mistake {
     let units = |text: &str| text.encode_utf16().count();
