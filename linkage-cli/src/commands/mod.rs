@@ -15,6 +15,7 @@ mod names;
 mod new;
 mod report;
 mod rust;
+mod serve;
 mod sheet;
 mod simulate;
 mod summary;
@@ -41,6 +42,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Certify(arguments) => certify::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
+        Command::Serve(arguments) => serve::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),
         Command::Completions { shell } => completions::run(shell),
     }

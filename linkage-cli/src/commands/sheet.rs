@@ -6,6 +6,7 @@ use linkage_report::sheet::Sheet;
 use super::compiled::of_drivers;
 use crate::arguments::{self, SheetFormat};
 use crate::failure::Failure;
+use crate::live::live;
 use crate::names::listed;
 use crate::output::{self, Form, form, next_to};
 use crate::position::Position;
@@ -33,9 +34,13 @@ pub fn run(arguments: &arguments::Sheet) -> Result<(), Failure> {
         (None, Some(output)) => form(output, "a sheet", &FORMS)?.unwrap_or_default(),
         (None, None) => 0,
     };
+    if arguments.live && FORMATS[place] != SheetFormat::Html {
+        return Err(Failure::Argument("a live sheet is a page: leave out --live, or write -o NAME.html".to_owned()));
+    }
     let ending = FORMS[place].1.first().copied().unwrap_or_default();
     let output = arguments.output.clone().unwrap_or_else(|| next_to(file, ending));
     let text = sheets(arguments, FORMATS[place])?;
+    let text = if arguments.live { live(&text, arguments)? } else { text };
     output::write(&output, text.as_bytes(), file)
 }
 
