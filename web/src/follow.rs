@@ -9,6 +9,7 @@ use crate::Refusal;
 use crate::at::{Coordinates, Moving, coordinates, moving, one_input, place};
 use crate::machine::{Machine, prepared};
 use crate::picture::joints;
+use crate::positions::why_not;
 use crate::question::{Aim, At, Place};
 
 /// The most steps of a motion to other inputs.
@@ -17,6 +18,9 @@ const MOST_STEPS: usize = 20_000;
 /// The distance from the limit at which a motion stops, in radians or in parts of the linkage: at a dead point itself it would
 /// not be known on which side it goes on.
 const BEFORE: f64 = 1e-6;
+
+/// The distances from that place, as a part of it, that are rounding errors: the motion is there already.
+const SAME: f64 = 1e-3;
 
 /// The most steps of a motion to other parameters, and the least part of the way of a step.
 const MOST_CHANGES: usize = 2_000;
@@ -90,7 +94,7 @@ fn drive_one(
     let back = (gap + BEFORE * scale).copysign(to - from);
     let last = to - back;
     // Already at the limit.
-    let is_ahead = (last - from) * (to - from) > 0.0;
+    let is_ahead = (last - from).signum() == (to - from).signum() && (last - from).abs() > BEFORE * scale * SAME;
     let reached = if is_ahead { reach(last).unwrap_or(q) } else { q };
     Ok((reached, Some(error.to_string())))
 }
@@ -125,6 +129,8 @@ fn reshape(machine: &Machine, from: At, to: &Aim) -> Result<Reached, Refusal> {
             Err(why) => {
                 step /= 2.0;
                 if step < LEAST_CHANGE {
+                    let there = machine.design(&to.parameters);
+                    let why = why_not(&there, &from.place.inputs).map_or(why, |refusal| refusal.why);
                     return Ok((at, Some(why)));
                 }
             }

@@ -45,8 +45,13 @@ pub fn positions(machine: &Machine, parameters: &[f64], inputs: &[f64]) -> Resul
     }
 }
 
-/// The reason why there is no position at these inputs: that of the first branch.
+/// The reason why there is no position at these inputs.
 fn no_position(design: &Design, inputs: &[f64]) -> Refusal {
+    why_not(design, inputs).unwrap_or_else(|| Refusal::new("there is no position at these inputs"))
+}
+
+/// The reason why there is no position on the first branch; none if there is one.
+pub fn why_not(design: &Design, inputs: &[f64]) -> Option<Refusal> {
     let [sides, modes, turns] = design.mechanism().branch_fields();
     let words = sides.iter().map(|(name, words)| (*name, words.first().copied().map_or(Data::Nothing, Data::from)));
     let numbers = modes.iter().chain(&turns).map(|(name, _)| (*name, Data::Count(0)));
@@ -54,10 +59,7 @@ fn no_position(design: &Design, inputs: &[f64]) -> Refusal {
         [only] => Data::from(*only),
         several => Data::from(several),
     };
-    match design.call("assemble", &[given, Data::fields(words.chain(numbers))]) {
-        Err(error) => Refusal::new(error),
-        Ok(_) => Refusal::new("there is no position at these inputs"),
-    }
+    design.call("assemble", &[given, Data::fields(words.chain(numbers))]).err().map(Refusal::new)
 }
 
 /// A position to begin with: near another one if that is given, else the first at 60 degrees of each input or, if there is none,
@@ -121,8 +123,12 @@ fn at_inputs(
     };
     let is_far = |q: &Coordinates| {
         let each = q.unknowns.iter().zip(near.unwrap_or_default()).zip(mechanism.unknown_angles());
-        each.map(|((one, other), is_angle)| if *is_angle { ((one - other) / 2.0).sin().abs() } else { (one - other).abs() / size })
-            .fold(0.0, f64::max)
+        each.map(
+            |((one, other), is_angle)| {
+                if *is_angle { ((one - other) / 2.0).sin().abs() } else { (one - other).abs() / size }
+            },
+        )
+        .fold(0.0, f64::max)
     };
     let moves = |q: &&Coordinates| {
         let pose = mechanism.pose_at(q);

@@ -1,15 +1,16 @@
 //! The motion of a scene in time.
 
 use linkage_dynamics::simulation::{Start, simulate as begin};
-use linkage_interpreter::{CoordinatesAtRunTime, SceneAtRunTime};
+use linkage_dynamics::{Scene as _, prescribed_after};
+use linkage_interpreter::SceneAtRunTime;
 use linkage_report::Table;
 use linkage_report::chart::Page;
 use linkage_report::table::Cause;
-use linkage_runtime::Column;
 use serde::Serialize;
 
 use crate::Refusal;
-use crate::at::Inputs;
+use crate::at::{Inputs, coordinates, inputs_of};
+use crate::follow::drive;
 use crate::machine::Machine;
 use crate::question::{Place, Simulate};
 
@@ -40,15 +41,9 @@ pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f6
     let scene = design.scene(&about.name).map_err(Refusal::new)?.with_parameters(&asked.values);
     let prepared = scene.prepared().map_err(Refusal::new)?;
     let scene: SceneAtRunTime<'_, Inputs> = prepared.with_inputs().map_err(Refusal::new)?;
-    let few = || Refusal::new("the position has other numbers than the mechanism");
-    let start = Start {
-        t: 0.0,
-        q: CoordinatesAtRunTime {
-            unknowns: Column::from_slice(&asked.at.place.unknowns).ok_or_else(few)?,
-            inputs: Column::from_slice(&asked.at.place.inputs).ok_or_else(few)?,
-        },
-        input_rates: Column::from_slice(&asked.rates).ok_or_else(few)?,
-    };
+    let (place, rates) = start(&scene, asked)?;
+    let q = coordinates(scene.mechanism(), &place)?;
+    let start = Start { t: 0.0, q, input_rates: inputs_of(scene.mechanism(), &rates)? };
     let mut simulation = begin(&scene, start, asked.to, asked.tolerance).map_err(Refusal::new)?;
     let steps = asked.steps.clamp(1, MOST_STEPS);
     let times = (0..=steps).map(|step| {
@@ -64,7 +59,8 @@ pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f6
         Cause::Motion(error) => Some(error),
         _ => None,
     });
-    let ended = error.filter(|_| reached != asked.to).map(|error| format!("the motion ends at {reached:.6} s: {error}"));
+    let ended =
+        error.filter(|_| reached != asked.to).map(|error| format!("the motion ends at {reached:.6} s: {error}"));
     let page = Page::of_simulation(&scene, &table, ended.as_deref()).map_err(Refusal::new)?;
     let mut lines = Vec::new();
     let mut sections = Vec::new();
@@ -77,6 +73,23 @@ pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f6
     }
     let (times, places) = frames(machine, &table);
     Ok(Simulated { lines, sections, times, places, csv: table.to_csv() })
+}
+
+/// The position and the rates at the start: inputs with a law have its value and its rate, to which the motion is followed.
+fn start(scene: &SceneAtRunTime<'_, Inputs>, asked: &Simulate) -> Result<(Place, Vec<f64>), Refusal> {
+    let laws = prescribed_after(scene, 0.0);
+    let mut inputs = asked.at.place.inputs.clone();
+    let mut rates = asked.rates.clone();
+    rates.resize(inputs.len(), 0.0);
+    for (place, law) in laws.iter().enumerate().filter_map(|(place, law)| Some((place, (*law)?))) {
+        if let (Some(input), Some(rate)) = (inputs.get_mut(place), rates.get_mut(place)) {
+            (*input, *rate) = (law.value, law.rate);
+        }
+    }
+    match drive(scene.mechanism(), &asked.at.place, &inputs)? {
+        (place, None) => Ok((place, rates)),
+        (_, Some(why)) => Err(Refusal::new(format!("the motion to the start of the law stops: {why}"))),
+    }
 }
 
 /// The times, and the positions at them.
