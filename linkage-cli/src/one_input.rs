@@ -1,8 +1,8 @@
 //! A mechanism of which one input moves and the others are held, for the algorithms of the runtime.
 
 use linkage_interpreter::{AtRunTime, CoordinatesAtRunTime, Prepared};
-use linkage_runtime::continuation::{Along, AlongCoordinates, InputPath};
-use linkage_runtime::{Column, Mechanism, PerInput, UpTo};
+use linkage_runtime::continuation::{Along, AlongCoordinates, InputAt};
+use linkage_runtime::{Column, UpTo};
 
 use crate::failure::Failure;
 use crate::machine::Machine;
@@ -11,41 +11,13 @@ use crate::machine::Machine;
 pub type Inputs = UpTo<3>;
 
 /// The mechanism with its moving input as its only one.
-pub type OneInput<'p> = Along<AtRunTime<'p, Inputs>, Moving>;
+pub type OneInput<'p> = Along<AtRunTime<'p, Inputs>, InputAt<Column<f64, Inputs>>>;
 
 /// The mechanism with all of its inputs.
 pub type Followable<'p> = AtRunTime<'p, Inputs>;
 
 /// Its coordinates.
 pub type At = AlongCoordinates<CoordinatesAtRunTime<Inputs>>;
-
-/// The inputs that are held, and the place of the one that moves.
-#[derive(Debug, Clone, Copy)]
-pub struct Moving {
-    held: Column<f64, Inputs>,
-    place: usize,
-}
-
-impl<'p> InputPath<AtRunTime<'p, Inputs>> for Moving {
-    fn parameter(&self, mechanism: &AtRunTime<'p, Inputs>) -> &'p str {
-        mechanism.input_name(self.place)
-    }
-
-    fn is_angle(&self, mechanism: &AtRunTime<'p, Inputs>) -> bool {
-        mechanism.input_angles().get(self.place).copied().unwrap_or_default()
-    }
-
-    fn at(&self, parameter: f64) -> [PerInput<AtRunTime<'p, Inputs>>; 3] {
-        let [mut inputs, mut slope, bend] = [self.held, self.held * 0.0, self.held * 0.0];
-        inputs[self.place] = parameter;
-        slope[self.place] = 1.0;
-        [inputs, slope, bend]
-    }
-
-    fn length_scale(mechanism: &AtRunTime<'p, Inputs>, pose: &<AtRunTime<'p, Inputs> as Mechanism>::Pose) -> f64 {
-        mechanism.length_scale(pose)
-    }
-}
 
 /// The design of a machine for the algorithms of the runtime.
 pub fn prepared(machine: &Machine) -> Result<Prepared<'_>, Failure> {
@@ -57,7 +29,7 @@ pub fn one_input<'p>(prepared: &'p Prepared<'p>, inputs: &[f64], place: usize) -
     let mechanism = prepared.with_inputs().map_err(|error| Failure::Outside(error.to_string()))?;
     // As many as the mechanism has.
     let held = Column::from_slice(inputs).ok_or_else(|| Failure::Outside("too many inputs".to_owned()))?;
-    Ok(Along { mechanism, inputs: Moving { held, place } })
+    Ok(Along { mechanism, inputs: InputAt { held, place } })
 }
 
 /// The coordinates at a value of the moving input.

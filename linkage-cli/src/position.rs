@@ -1,9 +1,10 @@
 //! The numbers and the picture of a sheet at one position.
 
+use linkage_lent::Documents;
 use linkage_report::sheet::{Sheet, Values};
 
 use crate::arguments;
-use crate::commands::{Documents, drawing};
+use crate::commands::drawing;
 use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::machine::{Coordinate, Machine, Motion};
@@ -26,8 +27,8 @@ struct Numbers {
 impl Position {
     /// The position that arguments ask for, and the documents of its mechanism; none if they ask for no numbers.
     pub fn of(arguments: &arguments::Sheet) -> Result<Option<(Self, Documents)>, Failure> {
-        let arguments::Sheet { numbers, place, rate, .. } = arguments;
-        let is_asked = !numbers.branch.is_empty() || !place.at.is_empty() || rate.is_some();
+        let arguments::Sheet { numbers, place, rate, live, .. } = arguments;
+        let is_asked = !numbers.branch.is_empty() || !place.at.is_empty() || rate.is_some() || *live;
         if numbers.set.is_empty() && !is_asked {
             return Ok(None);
         }

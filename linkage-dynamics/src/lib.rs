@@ -32,6 +32,6 @@ pub use equilibrium::Balance;
 pub use error::{CrossingRates, MotionError};
 pub use scene::{
     Accelerations, Coordinates, Inputs, Kink, MotionErrorOf, NameOf, Prescribed, Rates, Scene, StateColumn, StateParts,
-    StateRates,
+    StateRates, prescribed_after,
 };
 pub use unreduced::Unreduced;

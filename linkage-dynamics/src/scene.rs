@@ -411,6 +411,12 @@ pub(crate) fn beside<S: Scene + ?Sized>(scene: &S, t: S::Scalar, is_forward: boo
     t
 }
 
+/// The prescribed motion of each input at a time, with the rate and the acceleration just after it where its law has a kink: the
+/// rates with which a simulation starts.
+pub fn prescribed_after<S: Scene + ?Sized>(scene: &S, t: S::Scalar) -> Column<Option<Prescribed<S::Scalar>>, S::V> {
+    one_sided(scene, t, true)
+}
+
 /// The prescribed motion of each input: at a kink its rate and acceleration just after it, or before it.
 pub(crate) fn one_sided<S: Scene + ?Sized>(
     scene: &S,

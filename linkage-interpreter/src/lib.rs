@@ -77,6 +77,13 @@ pub struct Program {
     mechanisms: Vec<Mechanism>,
 }
 
+/// The mechanisms of [`Program::compile_with`] as one that can be written.
+impl FromIterator<Mechanism> for Program {
+    fn from_iter<I: IntoIterator<Item = Mechanism>>(mechanisms: I) -> Self {
+        Self::of(mechanisms.into_iter().collect())
+    }
+}
+
 impl Program {
     fn of(mechanisms: Vec<Mechanism>) -> Self {
         Self { mechanisms }
@@ -101,7 +108,7 @@ impl Program {
     /// The messages that the macro gives for this text, in the order of their places.
     #[cfg(feature = "compiler")]
     pub fn compile_within(text: &str, steps: usize) -> Result<Self, Vec<Message>> {
-        Self::lent(text, steps, &[], |_| ())
+        Self::compile_with_within(text, steps, &[], |_| ())
             .map(|pairs| Self::of(pairs.into_iter().map(|(mechanism, ())| mechanism).collect()))
     }
 
@@ -125,11 +132,15 @@ impl Program {
         requests: &[linkage_compiler::model::Request],
         f: impl FnMut(linkage_compiler::Lowered<'_>) -> R,
     ) -> Result<Vec<(Mechanism, R)>, Vec<Message>> {
-        Self::lent(text, linkage_compiler::budget::MOST_STEPS, requests, f)
+        Self::compile_with_within(text, linkage_compiler::budget::MOST_STEPS, requests, f)
     }
 
+    /// [`compile_with`](Self::compile_with) in this number of steps, as [`compile_within`](Self::compile_within).
+    ///
+    /// # Errors
+    /// Those of [`compile_within`](Self::compile_within).
     #[cfg(feature = "compiler")]
-    fn lent<R>(
+    pub fn compile_with_within<R>(
         text: &str,
         steps: usize,
         requests: &[linkage_compiler::model::Request],

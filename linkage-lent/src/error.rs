@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use linkage_compiler::program::CheckKind;
+
 /// A document refers to what it does not have. Those that the compiler makes are sound.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -19,8 +21,8 @@ pub enum Unsound {
         /// The place.
         place: usize,
     },
-    /// No check of a function has this name and as many numbers.
-    Check(String),
+    /// A check of this kind has another number of formulas.
+    Check(CheckKind),
 }
 
 impl fmt::Display for Unsound {
@@ -30,7 +32,7 @@ impl fmt::Display for Unsound {
             Self::TooLong => f.write_str("the document has more formulas than their numbers reach"),
             Self::Formula(number) => write!(f, "the document has no formula {number}"),
             Self::Place { list, place } => write!(f, "the document has no item {place} in its list of {list}"),
-            Self::Check(name) => write!(f, "the document has a check `{name}` that no function makes"),
+            Self::Check(kind) => write!(f, "a check of the document has too few or too many formulas: {kind:?}"),
         }
     }
 }

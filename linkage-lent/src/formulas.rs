@@ -1,7 +1,7 @@
 //! The formulas of one table, and what is made of them.
 
 use linkage_compiler::document::{self, Number};
-use linkage_compiler::program;
+use linkage_compiler::program::{self, CheckKind};
 use linkage_compiler::structure::GroupKind;
 use linkage_runtime::derivation::{
     Entry, Equation, Formula, FormulaMatrix, FormulaTable, Group, GroupForm, GroupMethod, Kernel, KernelCheck,
@@ -9,6 +9,7 @@ use linkage_runtime::derivation::{
 };
 
 use crate::arena::Arena;
+use crate::derivation::places;
 use crate::error::Unsound;
 use crate::nodes;
 
@@ -49,6 +50,10 @@ impl<'a> Formulas<'a> {
     }
 
     pub(crate) fn matrix(self, matrix: &document::Matrix) -> Result<FormulaMatrix<'a>, Unsound> {
+        matrix.entries.iter().try_for_each(|([row, column], _)| {
+            places("rows", &[*row], matrix.rows)?;
+            places("columns", &[*column], matrix.columns)
+        })?;
         Ok(FormulaMatrix {
             name: self.one(matrix.name)?,
             factor: matrix.factor.map(|factor| self.one(factor)).transpose()?,
@@ -61,8 +66,10 @@ impl<'a> Formulas<'a> {
     }
 
     pub(crate) fn group(self, group: &document::Group) -> Result<Group<'a>, Unsound> {
-        let root =
-            group.root.as_ref().map(|root| Ok(Root { formula: self.one(root.formula)?, branches: root.branches }));
+        let root = group
+            .root
+            .as_ref()
+            .map(|root| Ok(Root { formula: self.one(root.formula)?, branches: root.choice.variants() }));
         Ok(Group {
             unknowns: self.all(&group.unknowns)?,
             equations: self.arena.copied(&group.equations),
@@ -97,7 +104,7 @@ impl<'a> Formulas<'a> {
             operations: Operations { functions, divisions, multiplications, additions },
             code: KernelCode {
                 steps: self.equations(&code.steps)?,
-                checks: self.arena.list(&code.checks, |(name, of)| self.check(name, of))?,
+                checks: self.arena.list(&code.checks, |(kind, of)| self.check(*kind, of))?,
                 results: self.arena.list(&code.results, |(place, value)| {
                     Ok(KernelResult { place: self.arena.text(place), value: self.one(*value)? })
                 })?,
@@ -105,18 +112,17 @@ impl<'a> Formulas<'a> {
         })
     }
 
-    fn check(self, name: &str, of: &[Number]) -> Result<KernelCheck<'a>, Unsound> {
+    fn check(self, kind: CheckKind, of: &[Number]) -> Result<KernelCheck<'a>, Unsound> {
         let of = self.all(of)?;
-        let check = match name {
-            "regular" => of.try_into().map(KernelCheck::Regular).ok(),
-            "nonzero" => of.try_into().map(KernelCheck::Nonzero).ok(),
-            "positive" => of.try_into().map(KernelCheck::Positive).ok(),
-            "apart" => of.try_into().map(KernelCheck::Apart).ok(),
-            "moderate" => of.try_into().map(KernelCheck::Moderate).ok(),
-            "open" => of.try_into().map(KernelCheck::Open).ok(),
-            _ => None,
+        let check = match kind {
+            CheckKind::Regular => of.try_into().map(KernelCheck::Regular).ok(),
+            CheckKind::Nonzero => of.try_into().map(KernelCheck::Nonzero).ok(),
+            CheckKind::Positive => of.try_into().map(KernelCheck::Positive).ok(),
+            CheckKind::Apart => of.try_into().map(KernelCheck::Apart).ok(),
+            CheckKind::Moderate => of.try_into().map(KernelCheck::Moderate).ok(),
+            CheckKind::Open => of.try_into().map(KernelCheck::Open).ok(),
         };
-        check.ok_or_else(|| Unsound::Check(name.to_owned()))
+        check.ok_or(Unsound::Check(kind))
     }
 }
 

@@ -21,9 +21,11 @@
 
 mod arena;
 mod derivation;
+mod documents;
 mod error;
 mod formulas;
 mod nodes;
+mod plain;
 mod scene;
 mod sheet;
 
@@ -31,6 +33,7 @@ use linkage_compiler::document::{Document, SceneDocument, SheetDocument, Table};
 use linkage_runtime::derivation::{Derivation, FormulaTable, SceneDerivation, SheetDerivation};
 
 use arena::Arena;
+pub use documents::Documents;
 pub use error::Unsound;
 
 /// The owner of derivations: it lends them, and frees all of them at its end.

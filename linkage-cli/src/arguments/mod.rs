@@ -111,6 +111,13 @@ Examples:
     /// Print the Rust code that the macro `linkage!` makes of a file
     #[command(after_help = "Example:\n  linkage rust wiper.linkage -o wiper.rs")]
     Rust(Code),
+    /// Open the page on a file in a browser: text, picture, sheet, charts and simulation, which follow the changes of the file
+    #[command(after_help = "\
+The address is printed. The page is for this machine only, and has this file only.
+
+Example:
+  linkage serve wiper.linkage")]
+    Serve(Serve),
     /// Print the computed formulas as FPCore, for tools that say how many digits a formula loses
     #[command(after_help = "Example:\n  linkage fpcore wiper.linkage --mechanism Wiper")]
     Fpcore(Code),
@@ -173,12 +180,31 @@ pub struct Sheet {
     /// The rate of the first input, such as 45rpm: velocities and accelerations have numbers too
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub rate: Option<Value>,
+    /// Numbers and picture follow sliders, in a browser and without network: for a page
+    #[arg(long)]
+    pub live: bool,
+    /// The folder of the built page, for --live [default: web/dist of the project]
+    #[arg(long, value_name = "DIR", requires = "live")]
+    pub page: Option<PathBuf>,
     /// The form of the sheet [default: that of the ending of OUT, else html]
     #[arg(long, value_enum)]
     pub format: Option<SheetFormat>,
     /// The file to write, .html, .tex or .txt; `-` for standard output [default: as FILE, with the ending of the form]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub struct Serve {
+    /// The file that the page follows
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// The port of this machine; 0 for any that is free
+    #[arg(long, default_value_t = 0)]
+    pub port: u16,
+    /// The folder of the built page [default: web/dist of the project]
+    #[arg(long, value_name = "DIR")]
+    pub page: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -1,7 +1,8 @@
 //! `linkage fpcore`: the formulas of functions, for tools that say how many digits a formula loses.
 
+use linkage_lent::Documents;
+
 use super::compiled::of_drivers;
-use super::documents::Documents;
 use crate::arguments::Code;
 use crate::failure::Failure;
 use crate::output::{self, form};

@@ -6,7 +6,6 @@ mod check;
 mod circuits;
 mod compiled;
 mod completions;
-mod documents;
 mod draw;
 mod equilibrium;
 mod fpcore;
@@ -16,12 +15,12 @@ mod names;
 mod new;
 mod report;
 mod rust;
+mod serve;
 mod sheet;
 mod simulate;
 mod summary;
 mod table;
 
-pub use documents::Documents;
 pub use draw::drawing;
 
 use crate::arguments::Command;
@@ -43,6 +42,7 @@ pub fn run(command: Command) -> Result<(), Failure> {
         Command::Certify(arguments) => certify::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Rust(arguments) => rust::run(&arguments),
+        Command::Serve(arguments) => serve::run(&arguments),
         Command::Fpcore(arguments) => fpcore::run(&arguments),
         Command::Completions { shell } => completions::run(shell),
     }

@@ -2,12 +2,11 @@
 //! motion from end to end.
 
 use linkage_interpreter::{NotPrepared, Prepared};
-use linkage_lent::Lender;
+use linkage_lent::{Documents, Lender};
 use linkage_report::report::{ListedMode, Local, Modes, Report, ReportOptions, ReportedModes};
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::{BorrowedName, Branches, Column, D};
 
-use super::documents::Documents;
 use super::draw::drawing;
 use crate::arguments;
 use crate::ends::why;

@@ -1,11 +1,12 @@
 //! `linkage sheet`: the derivation for readers, also with numbers at a position.
 
+use linkage_lent::Documents;
 use linkage_report::sheet::Sheet;
 
 use super::compiled::of_drivers;
-use super::documents::Documents;
 use crate::arguments::{self, SheetFormat};
 use crate::failure::Failure;
+use crate::live::live;
 use crate::names::listed;
 use crate::output::{self, Form, form, next_to};
 use crate::position::Position;
@@ -33,9 +34,13 @@ pub fn run(arguments: &arguments::Sheet) -> Result<(), Failure> {
         (None, Some(output)) => form(output, "a sheet", &FORMS)?.unwrap_or_default(),
         (None, None) => 0,
     };
+    if arguments.live && FORMATS[place] != SheetFormat::Html {
+        return Err(Failure::Argument("a live sheet is a page: leave out --live, or write -o NAME.html".to_owned()));
+    }
     let ending = FORMS[place].1.first().copied().unwrap_or_default();
     let output = arguments.output.clone().unwrap_or_else(|| next_to(file, ending));
     let text = sheets(arguments, FORMATS[place])?;
+    let text = if arguments.live { live(&text, arguments)? } else { text };
     output::write(&output, text.as_bytes(), file)
 }
 
@@ -47,7 +52,7 @@ fn sheets(arguments: &arguments::Sheet, format: SheetFormat) -> Result<String, F
         SheetFormat::Text => sheet.to_text(),
     };
     let text = match Position::of(arguments)? {
-        Some((position, documents)) => documents.sheet(|sheet| written(position.add_to(sheet)))?,
+        Some((position, documents)) => documents.sheet(|sheet| written(position.add_to(sheet)))?.unwrap_or_default(),
         None => {
             let all = of_drivers(&arguments.numbers.source, |lowered| Documents::of(&lowered))?;
             if let (SheetFormat::Html, [_, _, ..]) = (format, all.as_slice()) {
@@ -55,8 +60,9 @@ fn sheets(arguments: &arguments::Sheet, format: SheetFormat) -> Result<String, F
                 let message = format!("a page has one mechanism, and the file has {of}: write --mechanism NAME");
                 return Err(Failure::Argument(message));
             }
-            let all: Result<Vec<String>, _> = all.iter().map(|(_, one)| one.sheet(written)).collect();
-            all?.join("\n")
+            let all: Result<Vec<_>, _> = all.iter().map(|(_, one)| one.sheet(written)).collect();
+            let all: Vec<String> = all?.into_iter().map(Option::unwrap_or_default).collect();
+            all.join("\n")
         }
     };
     let [begin, end] = LATEX;

@@ -1,6 +1,5 @@
 //! `linkage simulate`: the motion of a scene in time.
 
-mod charts;
 mod running;
 mod start;
 
@@ -8,6 +7,7 @@ use linkage_dynamics::MotionError;
 use linkage_dynamics::simulation::{Simulation, simulate};
 use linkage_interpreter::PreparedScene;
 use linkage_report::Table;
+use linkage_report::chart::Page;
 use linkage_report::table::{Cause, Mark};
 use linkage_runtime::BorrowedName;
 
@@ -19,7 +19,6 @@ use crate::machine::Machine;
 use crate::output::{self, Form, form};
 use crate::progress;
 use crate::scene::{Need, chosen};
-use charts::page;
 use running::{Running, is_event};
 use start::start;
 
@@ -58,7 +57,10 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     let digits = arguments.shown.digits.or((format == SimulationFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.shown.degrees)?;
     let text = match (arguments.shown.summary, format.as_table()) {
-        (_, None) => page(&machine, &scene, &table, ended.as_deref())?,
+        (_, None) => {
+            let page = Page::of_simulation(&scene, &table, ended.as_deref());
+            page.map_err(|error| Failure::Outside(error.to_string()))?.to_html()
+        }
         (true, Some(format)) => {
             let units = with_units(&machine, all, arguments.shown.degrees)?;
             let moving = || table.names().into_iter().filter(|name| *name != "time").map(str::to_owned).collect();

@@ -1,11 +1,12 @@
 //! Documents as plain data: the types of `DERIVATION` with numbers for formulas.
 
 use super::table::{Number, Numbers, Table};
-use crate::program::Operations;
-use crate::structure::GroupKind;
+use crate::program::{CheckKind, Operations};
+use crate::structure::{Choice, GroupKind};
 
 /// A parameter, a coordinate, or a force that has a name.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Symbol {
     pub name: String,
     pub formula: Number,
@@ -16,6 +17,7 @@ pub type Equation = [Number; 2];
 
 /// A matrix; its entries are those that are not zero, by row and column.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Matrix {
     pub name: Number,
     pub factor: Option<Number>,
@@ -25,20 +27,23 @@ pub struct Matrix {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Method {
     ClosedForm,
     Factorization,
 }
 
-/// A root and the names of the branches on which it is positive and negative.
+/// A root, whose sign makes a choice.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Root {
     pub formula: Number,
-    pub branches: [&'static str; 2],
+    pub choice: Choice,
 }
 
 /// Unknowns that are solved for together.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Group {
     pub unknowns: Vec<Number>,
     pub equations: Vec<usize>,
@@ -52,6 +57,7 @@ pub struct Group {
 
 /// A point or an output.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Quantity {
     pub name: String,
     pub value: Vec<Equation>,
@@ -61,6 +67,7 @@ pub struct Quantity {
 }
 
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sensitivity {
     pub jacobian: Matrix,
     pub formulas: Vec<Equation>,
@@ -68,6 +75,7 @@ pub struct Sensitivity {
 
 /// A public function, its operations and its code.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Kernel {
     pub function: String,
     pub operations: Operations,
@@ -76,14 +84,16 @@ pub struct Kernel {
 
 /// The formulas of a function: the steps are names and values, the results places and values.
 #[derive(Debug, Clone, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KernelCode {
     pub steps: Vec<Equation>,
-    pub checks: Vec<(&'static str, Vec<Number>)>,
+    pub checks: Vec<(CheckKind, Vec<Number>)>,
     pub results: Vec<(String, Number)>,
 }
 
 /// The links and joints of a mechanism.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Chain {
     /// The name of each link and the coordinates in its angle; the ground comes first.
     pub links: Vec<(String, Vec<String>)>,
@@ -95,6 +105,7 @@ pub struct Chain {
 
 /// The document of a driver.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Document {
     pub table: Table,
     pub mechanism: String,
@@ -121,6 +132,7 @@ pub struct Document {
 
 /// The document of a scene.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SceneDocument {
     pub table: Table,
     pub scene: String,
@@ -139,6 +151,7 @@ pub struct SceneDocument {
 
 /// The document of an analysis by hand, line by line.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SheetDocument {
     pub table: Table,
     pub mechanism: String,
@@ -162,6 +175,7 @@ pub struct SheetDocument {
 
 /// A choice of inputs, and the determinant of J in the other coordinates if it has a formula.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct DriverChoice {
     pub inputs: Vec<Number>,
     pub determinant: Option<Equation>,
@@ -169,6 +183,7 @@ pub struct DriverChoice {
 
 /// The skew matrices of the rate and acceleration of a link, which turns with these coordinates.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Turning {
     pub with: Vec<String>,
     pub rate: Matrix,
@@ -177,6 +192,7 @@ pub struct Turning {
 
 /// The vectors that lead to a point, by their places in the list of all; its position, velocity and acceleration as sums.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PointVectors {
     pub name: String,
     pub vectors: Vec<usize>,
@@ -185,6 +201,7 @@ pub struct PointVectors {
 
 /// A vector, the matrix and the rates whose product is its velocity, its velocity and its acceleration.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Vector {
     pub vector: Matrix,
     pub matrix: Matrix,
@@ -195,6 +212,7 @@ pub struct Vector {
 
 /// The contribution of a body or an effect to the generalised forces.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Effect {
     pub name: String,
     pub forces: Vec<Equation>,
@@ -202,6 +220,7 @@ pub struct Effect {
 
 /// A friction or a stop.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactEffect {
     pub name: String,
     pub force: Number,
@@ -214,6 +233,7 @@ pub struct ContactEffect {
 
 /// The force of a joint on a link.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointForce {
     pub name: String,
     pub components: [Equation; 2],

@@ -176,7 +176,7 @@ impl<'a> Writer<'a> {
             method: if determinant.is_some() { Method::ClosedForm } else { Method::Factorization },
             determinant: determinant.map(|value| self.equation(Name::Determinant(number), value)),
             inverse: inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())),
-            root: position.root.map(|(root, choice)| Root { formula: self.formula(root), branches: choice.variants() }),
+            root: position.root.map(|(root, choice)| Root { formula: self.formula(root), choice }),
             position: position.equations.iter().map(|sides| sides.map(|side| self.formula(side))).collect(),
         }
     }

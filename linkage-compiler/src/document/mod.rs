@@ -7,6 +7,8 @@ mod data;
 mod driver;
 mod layout;
 mod name;
+#[cfg(feature = "serde")]
+mod read;
 mod scene;
 mod sheet;
 mod table;

@@ -7,10 +7,12 @@ use crate::graph::Function;
 
 /// The number of a node in its table, from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Number(u32);
 
 /// A node, as the runtime prints it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Node {
     Name(String),
     Rate(Number),
@@ -48,6 +50,14 @@ pub struct Table {
     lengths: Vec<usize>,
 }
 
+/// The largest length of a formula that is read, in bytes; the longest of the gallery has 2359.
+#[cfg(feature = "serde")]
+const LONGEST: usize = 1 << 14;
+
+/// The largest number of nodes within nodes of a formula that is read; the deepest of the gallery has 13.
+#[cfg(feature = "serde")]
+const DEEPEST: usize = 256;
+
 /// A value with numbers in it.
 pub(super) trait Numbers {
     /// Visits each number once.
@@ -75,7 +85,7 @@ impl Table {
     /// True if a node is this name.
     #[must_use]
     pub fn is_name(&self, number: Number, name: &str) -> bool {
-        matches!(self.node(number), Node::Name(text) if text == name)
+        matches!(self.nodes.get((number.0 as usize).wrapping_sub(1)), Some(Node::Name(text)) if text == name)
     }
 
     /// The number of a node, which is added if it is new.
@@ -89,6 +99,34 @@ impl Table {
         self.nodes.push(node);
         self.lengths.push(length);
         number
+    }
+
+    /// The table of these nodes; none if one refers to a node that is not before it, or is too large to be written.
+    #[cfg(feature = "serde")]
+    pub(super) fn of(nodes: Vec<Node>) -> Option<Self> {
+        let mut table = Self::default();
+        let mut depths: Vec<usize> = Vec::new();
+        for mut node in nodes {
+            let (mut is_sound, mut depth, mut parts) = (true, 0, 0);
+            node.each(&mut |part| {
+                let inside = (part.0 as usize).checked_sub(1).and_then(|index| depths.get(index));
+                is_sound &= inside.is_some();
+                depth = depth.max(inside.map_or(0, |inside| inside + 1));
+                parts += 1;
+            });
+            let order = if let Node::External(_, order, _) = &node { *order } else { 0 };
+            if !is_sound || depth > DEEPEST || parts > LONGEST || order > LONGEST {
+                return None;
+            }
+            let length = table.length_of(&node);
+            if length > LONGEST {
+                return None;
+            }
+            table.nodes.push(node);
+            table.lengths.push(length);
+            depths.push(depth);
+        }
+        Some(table)
     }
 
     pub(super) fn node(&self, number: Number) -> &Node {

@@ -401,8 +401,8 @@ impl Lists {
             GroupKind::Scalar | GroupKind::Pair | GroupKind::Loops(_) | GroupKind::Irreducible(..) => quote!(Other),
         };
         let of_group = group.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
-        let root = option(group.root.as_ref().map(|Root { formula, branches }| {
-            let root = self::formula(formula);
+        let root = option(group.root.as_ref().map(|Root { formula, choice }| {
+            let (root, branches) = (self::formula(formula), choice.variants());
             quote!(Root { formula: #root, branches: [#(#branches),*] })
         }));
         let method = match group.method {
@@ -478,9 +478,8 @@ impl Lists {
             return quote!(Kernel::new(#function, [#(#operations),*]));
         }
         let steps = self.equations(steps);
-        let checks = list(checks.iter().map(|(word, of)| {
-            let (first, rest) = word.split_at(1);
-            let check = format_ident!("{}{rest}", first.to_uppercase());
+        let checks = list(checks.iter().map(|(kind, of)| {
+            let check = format_ident!("{kind:?}");
             let of = of.iter().map(formula);
             quote!(KernelCheck::#check([#(#of),*]))
         }));

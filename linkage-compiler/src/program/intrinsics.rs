@@ -67,6 +67,18 @@ pub enum LaneResult {
     Flag,
 }
 
+/// The kind of a condition in the code of a function, as in `KernelCheck` of the runtime.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum CheckKind {
+    Regular,
+    Nonzero,
+    Positive,
+    Apart,
+    Moderate,
+    Open,
+}
+
 /// The formula of a result in FPCore, for a regular position: checks pass, triangles are open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meaning {
@@ -74,8 +86,8 @@ pub enum Meaning {
     None,
     /// This argument.
     Argument(usize),
-    /// A condition with this word on these arguments.
-    Check(&'static str, &'static [usize]),
+    /// A condition of this kind on these arguments.
+    Check(CheckKind, &'static [usize]),
     /// The half chord of the factors and the side at these places.
     Chord { factors: usize, side: usize },
     /// A half chord whose radius and scale are apart; the scale may be the first of a list.
@@ -250,16 +262,16 @@ intrinsics! {
     }
     /// The mechanism at its inputs, in place of its name, so that an error names them.
     At "at" Function [Data, Numbers] {}
-    Regular "regular" Function [Mechanism, Part, Number, Number] { meaning: Meaning::Check("regular", &[2, 3]) }
-    IsNonzero "is_nonzero" Function [Number, Number] { meaning: Meaning::Check("regular", &[0, 1]) }
+    Regular "regular" Function [Mechanism, Part, Number, Number] { meaning: Meaning::Check(CheckKind::Regular, &[2, 3]) }
+    IsNonzero "is_nonzero" Function [Number, Number] { meaning: Meaning::Check(CheckKind::Regular, &[0, 1]) }
     Closes "closes" Function [Number, Number] {}
     Solvable "solvable" Function [Mechanism, Part, Number, Numbers, Numbers] {
         in_lane: in_lane(Intrinsic::IsSolvableInLane, &[2], LaneResult::Flag),
-        meaning: Meaning::Check("nonzero", &[2])
+        meaning: Meaning::Check(CheckKind::Nonzero, &[2])
     }
     Reachable "reachable" Function [Mechanism, Part, Number] {
         in_lane: in_lane(Intrinsic::IsReachableInLane, &[2], LaneResult::Flag),
-        meaning: Meaning::Check("positive", &[2])
+        meaning: Meaning::Check(CheckKind::Positive, &[2])
     }
     Implied "implied" Function [Mechanism, Data, Numbers, Numbers] {}
     NotNegative "not_negative::<T, _>" Function [Mechanism, Data] {}

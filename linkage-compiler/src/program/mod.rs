@@ -46,7 +46,7 @@ pub use expression::{Expression, Pattern, Receiver, Statement, Type, Variable};
 pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Passed, Shape, Source, Stored, Value};
 pub use functions::Functions;
 pub use implementation::{Associated, ConstantValue, Group, Implementation, Implemented, Kink};
-pub use intrinsics::{Constant, Entry, Finite, Form, InLane, Intrinsic, LaneResult, Meaning, Role, Row};
+pub use intrinsics::{CheckKind, Constant, Entry, Finite, Form, InLane, Intrinsic, LaneResult, Meaning, Role, Row};
 pub use lane_columns::Column;
 pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
 pub use operations::Operations;

@@ -2,6 +2,7 @@
 
 /// Operation counts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Operations {
     pub multiplications: usize,
     pub additions: usize,

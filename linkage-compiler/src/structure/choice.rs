@@ -4,6 +4,7 @@ use super::{GroupKind, Slide};
 
 /// The names of the two solutions of a group; the first is that of the positive root.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Choice {
     /// Left or right of the line between the outer joints.
     Elbow,

@@ -19,6 +19,7 @@ use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 
 /// The kind of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum GroupKind {
     /// Two angles: two links between three revolute joints.
     Rrr,

@@ -2,6 +2,7 @@
 
 /// The reason why the positions of a group cannot be listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Obstacle {
     MoreLoops,
     TwoGuides,

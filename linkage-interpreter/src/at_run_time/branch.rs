@@ -1,6 +1,6 @@
 //! Branches: a side, a number or a turn for each choice.
 
-use std::fmt::{self, Debug, Formatter};
+use std::fmt::{self, Debug, Display, Formatter};
 
 use linkage_runtime::{AssemblyMode, Bounded, Build as _, Column, Dim as _};
 
@@ -41,6 +41,25 @@ impl Debug for BranchAtRunTime<'_> {
             text.field(names.text(*name), &turn);
         }
         text.finish()
+    }
+}
+
+/// The choices as the program `linkage` takes them, such as `theta3_theta4=left`, without the turns of angles.
+impl Display for BranchAtRunTime<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Driver { names, sides, modes, .. } = self.driver;
+        let sides = sides.iter().zip(self.sides).map(|(side, is_first)| {
+            let word = side.solutions[usize::from(!is_first)].to_string().to_lowercase();
+            (names.text(side.field), word)
+        });
+        let modes = modes.iter().zip(self.modes).map(|((name, _), mode)| match mode {
+            AssemblyMode::Number(number) => (names.text(*name), number.to_string()),
+            other => (names.text(*name), format!("{other:?}")),
+        });
+        for (place, (name, choice)) in sides.chain(modes).enumerate() {
+            write!(f, "{}{name}={choice}", if place == 0 { "" } else { ", " })?;
+        }
+        Ok(())
     }
 }
 

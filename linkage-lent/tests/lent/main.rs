@@ -71,11 +71,11 @@ fn a_missing_place_is_an_error() {
 }
 
 #[test]
-fn an_unknown_check_is_an_error() {
+fn a_check_without_formulas_is_an_error() {
     let (mut driver, ..) = documents();
     let checks = driver.kernels.iter_mut().map(|kernel| &mut kernel.code.checks);
     let check = checks.into_iter().find_map(|checks| checks.first_mut()).unwrap();
     check.1.clear();
-    let name = check.0.to_owned();
-    assert_eq!(Lender::default().derivation(&driver).unwrap_err(), Unsound::Check(name));
+    let kind = check.0;
+    assert_eq!(Lender::default().derivation(&driver).unwrap_err(), Unsound::Check(kind));
 }

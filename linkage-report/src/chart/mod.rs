@@ -11,6 +11,8 @@
 //! ```
 
 mod axis;
+#[cfg(feature = "dynamics")]
+mod of_simulation;
 mod of_table;
 mod page;
 mod polar;

@@ -34,8 +34,14 @@ pub struct Section {
     pub heading: String,
     /// Paragraphs above the charts.
     pub lines: Vec<String>,
-    /// The charts, as SVG without a style of their own.
-    charts: Vec<String>,
+    charts: Vec<Drawn>,
+}
+
+/// A chart of a section.
+#[derive(Debug, Clone, PartialEq)]
+enum Drawn {
+    Chart(Chart),
+    Polar(Polar),
 }
 
 impl Page {
@@ -67,17 +73,31 @@ impl Page {
 impl Section {
     /// Adds a chart.
     pub fn chart(&mut self, chart: &Chart) {
-        self.charts.push(chart.to_svg_fragment());
+        self.charts.push(Drawn::Chart(chart.clone()));
     }
 
     /// Adds a chart of vectors.
     pub fn polar(&mut self, chart: &Polar) {
-        self.charts.push(chart.to_svg_fragment());
+        self.charts.push(Drawn::Polar(chart.clone()));
+    }
+
+    /// Its charts as SVG, for pages of another form.
+    #[must_use]
+    pub fn to_svgs(&self) -> Vec<String> {
+        let each = self.charts.iter().map(|chart| match chart {
+            Drawn::Chart(chart) => chart.to_svg(),
+            Drawn::Polar(chart) => chart.to_svg(),
+        });
+        each.collect()
     }
 
     fn to_html(&self) -> String {
         let lines: String = self.lines.iter().map(|line| format!("<p>{}</p>\n", escape(line))).collect();
-        let charts: String = self.charts.iter().map(|svg| format!("<figure>{svg}</figure>\n")).collect();
+        let svg = |chart: &Drawn| match chart {
+            Drawn::Chart(chart) => chart.to_svg_fragment(),
+            Drawn::Polar(chart) => chart.to_svg_fragment(),
+        };
+        let charts: String = self.charts.iter().map(|chart| format!("<figure>{}</figure>\n", svg(chart))).collect();
         let charts = if charts.is_empty() { charts } else { format!("<div class=\"charts\">\n{charts}</div>\n") };
         format!("<section>\n<h2>{}</h2>\n{lines}{charts}</section>\n", escape(&self.heading))
     }

@@ -182,8 +182,8 @@ fn shown(parts: &[Part], names: &[String], frames: &[Vec<Vector2<f64>>]) -> Resu
             Part::Plate { centre, outline, .. } => {
                 (centre, outline.iter().map(Vector2::norm).max_by(f64::total_cmp).unwrap_or_default())
             }
-            Part::GroundLine(line) | Part::Path(line) => {
-                let what = if matches!(part, Part::Path(_)) { "a path" } else { "a line of the ground" };
+            Part::GroundLine(line) | Part::Path(line) | Part::Room(line) => {
+                let what = if matches!(part, Part::GroundLine(_)) { "a line of the ground" } else { "a path" };
                 if !line.iter().all(finite) {
                     return Err(DrawingError::NotFinite(what.to_owned()));
                 }

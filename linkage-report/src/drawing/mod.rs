@@ -39,4 +39,5 @@ pub use animation::Animation;
 pub use circuits::CircuitChart;
 pub use error::DrawingError;
 pub use parts::Parts;
+pub use render::Placement;
 pub use still::Drawing;

@@ -57,7 +57,7 @@ pub(super) fn shapes(figure: &Figure, film: &Film, places: &[Vector2<f64>]) -> R
             Part::Path(path) => {
                 shapes.extend(curve(&path.iter().map(|at| film.view.pixel(*at)).collect::<Vec<_>>()));
             }
-            Part::Joint(_) | Part::Point(_) => {}
+            Part::Joint(_) | Part::Point(_) | Part::Room(_) => {}
         }
     }
     Ok(shapes)

@@ -37,6 +37,8 @@ pub(super) enum Part {
     Trace(String),
     /// A path by its points.
     Path(Vec<Vector2<f64>>),
+    /// Places for which the picture has room.
+    Room(Vec<Vector2<f64>>),
     /// A joint that is shown also where no parts meet.
     Joint(String),
     /// A point that is no joint.
@@ -55,7 +57,7 @@ impl Part {
             Self::Sleeve { pin, arm: [from, to] } => vec![pin, from, to],
             Self::Wheel { centre, towards, .. } | Self::Plate { centre, towards, .. } => vec![centre, towards],
             Self::Spring([from, to]) => vec![from, to],
-            Self::GroundLine(_) | Self::Path(_) => Vec::new(),
+            Self::GroundLine(_) | Self::Path(_) | Self::Room(_) => Vec::new(),
         }
     }
 
@@ -70,7 +72,7 @@ impl Part {
             Self::Sleeve { pin, arm: [from, to] } => vec![pin, from, to],
             Self::Wheel { centre, towards, .. } | Self::Plate { centre, towards, .. } => vec![centre, towards],
             Self::Spring([from, to]) => vec![from, to],
-            Self::GroundLine(_) | Self::Path(_) => Vec::new(),
+            Self::GroundLine(_) | Self::Path(_) | Self::Room(_) => Vec::new(),
         }
     }
 

@@ -38,6 +38,14 @@ impl Drawing {
         svg(self, STYLE.to_owned() + PLOT)
     }
 
+    /// Writes the SVG, and says which place of it a point of the mechanism has: for programs that move a linkage by a pointer.
+    ///
+    /// # Errors
+    /// As [`to_svg`](Self::to_svg).
+    pub fn to_placed_svg(&self) -> Result<(String, Placement), DrawingError> {
+        placed(self, STYLE.to_owned() + PLOT)
+    }
+
     /// Writes the SVG with plain styles, without variables and always light, for programs that make other formats of it.
     ///
     /// # Errors
@@ -47,8 +55,23 @@ impl Drawing {
     }
 }
 
+/// The place of the plane in a picture: a point (x, y) of the mechanism is at (origin.x + scale x, origin.y - scale y), in the
+/// units of its `viewBox`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// The origin of the mechanism.
+    pub origin: [f64; 2],
+    /// The length of a unit of the mechanism.
+    pub scale: f64,
+}
+
 /// The SVG of a drawing.
 fn svg(drawing: &Drawing, style: String) -> Result<String, DrawingError> {
+    placed(drawing, style).map(|(svg, _)| svg)
+}
+
+/// The SVG of a drawing, and its place.
+fn placed(drawing: &Drawing, style: String) -> Result<(String, Placement), DrawingError> {
     let arrows = arrows(drawing)?;
     let ends: Vec<[Vector2<f64>; 2]> = arrows.iter().map(|(_, ends)| *ends).collect();
     let title = wrapped(&drawing.title, TITLE);
@@ -89,7 +112,8 @@ fn svg(drawing: &Drawing, style: String) -> Result<String, DrawingError> {
             .add(line([Vector2::new(x, y), Vector2::new(x + 26.0, y)], &format!("{class} vector")))
             .add(text(words, "tick", Vector2::new(x + 34.0, y + 4.0), "start"));
     }
-    Ok(document.to_string())
+    let origin = view.pixel(Vector2::zeros());
+    Ok((document.to_string(), Placement { origin: origin.into(), scale: view.pixels_per_unit }))
 }
 
 /// The words of a title in lines of at most this number of letters, where words allow it.

@@ -96,6 +96,7 @@ impl Stage<'_> {
                 self.behind([path("curve", Pen::default().curve(&points).path())]);
             }
             Part::Joint(point) | Part::Point(point) => _ = film.index(point)?,
+            Part::Room(_) => {}
             Part::Link { points, driven } => {
                 let (points, body) = self.link(points)?;
                 let is_moving = film.frames().len() > 1;

@@ -145,6 +145,13 @@ impl Drawing {
         self
     }
 
+    /// Gives the picture room for all frames of an animation, so that the pictures of a motion have one scale and one frame.
+    pub fn room(&mut self, film: &Animation) -> &mut Self {
+        let places = film.figure.frames.iter().flatten().map(|(_, at)| *at);
+        self.figure.part(Part::Room(places.collect()));
+        self
+    }
+
     /// Removes the parts that connect exactly these points: to draw another one there.
     /// [`DrawingError::NoPart`](super::DrawingError::NoPart) if there is none.
     pub fn without(&mut self, points: &[&str]) -> &mut Self {

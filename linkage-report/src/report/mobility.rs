@@ -47,8 +47,9 @@ impl Mobility {
         let chain = derivation.chain.map(|chain| {
             let (n, j) = (chain.links.len(), chain.joints.len());
             let sliding = chain.joints.iter().filter(|joint| joint.slides_along.is_some()).count();
-            // At most 64 coordinates and their links.
-            let count = 3 * (n as i64 - 1) - 2 * j as i64 - chain.conditions as i64;
+            // At most 64 coordinates and their links; a document that was read has any number of conditions.
+            let conditions = i64::try_from(chain.conditions).unwrap_or(i64::MAX);
+            let count = (3 * (n as i64 - 1) - 2 * j as i64).saturating_sub(conditions);
             LinksAndJoints {
                 links: chain.links.iter().map(|link| link.name.to_owned()).collect(),
                 turning: j - sliding,
@@ -56,7 +57,7 @@ impl Mobility {
                 loops: (j + 1).saturating_sub(n),
                 conditions: chain.conditions,
                 count,
-                redundant: usize::try_from(inputs as i64 - count).unwrap_or_default(),
+                redundant: usize::try_from((inputs as i64).saturating_sub(count)).unwrap_or_default(),
             }
         });
         Self {

@@ -28,7 +28,13 @@ impl<N: BorrowedName> Report<N> {
     /// The sections of the page alone, to be part of another.
     #[must_use]
     pub fn to_html_fragment(&self) -> String {
-        self.body(&[])
+        self.to_html_fragment_with(&[])
+    }
+
+    /// The sections of the page alone, with a picture of each mode as SVG.
+    #[must_use]
+    pub fn to_html_fragment_with(&self, pictures: &[String]) -> String {
+        self.body(pictures)
     }
 
     fn body(&self, pictures: &[String]) -> String {

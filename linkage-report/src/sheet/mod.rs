@@ -192,4 +192,10 @@ impl<'a> Sheet<'a> {
     pub fn to_html(&self) -> String {
         page::html(self)
     }
+
+    /// Writes the sections of the HTML file alone, to be part of another page.
+    #[must_use]
+    pub fn to_html_fragment(&self) -> String {
+        page::body(self)
+    }
 }

@@ -25,6 +25,12 @@ struct Page {
 }
 
 pub(super) fn html(sheet: &Sheet<'_>) -> String {
+    let title = escape(sheet.title.as_deref().unwrap_or(sheet.derivation.mechanism));
+    document(&title, &body(sheet))
+}
+
+/// The content of the page.
+pub(super) fn body(sheet: &Sheet<'_>) -> String {
     let derivation = sheet.derivation;
     let mut page = Page { values: sheet.values.clone(), ..Page::default() };
     page.header(sheet);
@@ -54,8 +60,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
         page.operations(Some(scene.scene), scene.kernels);
     }
     page.conditions(&sheet.conditions());
-    let title = escape(sheet.title.as_deref().unwrap_or(derivation.mechanism));
-    document(&title, &page.body)
+    page.body
 }
 
 /// A page with this title and this body, both HTML.

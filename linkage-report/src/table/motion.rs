@@ -195,7 +195,7 @@ pub(super) fn points_and_outputs<M: Kinematic>(mechanism: &M) -> impl Iterator<I
 }
 
 /// The names by place, up to the first empty one, which is that beyond the last.
-fn names<N: Display>(name: impl Fn(usize) -> N) -> impl Iterator<Item = String> {
+pub(crate) fn names<N: Display>(name: impl Fn(usize) -> N) -> impl Iterator<Item = String> {
     (0..).map(move |place| name(place).to_string()).take_while(|name| !name.is_empty())
 }
 

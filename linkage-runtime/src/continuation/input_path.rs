@@ -78,6 +78,37 @@ where
     }
 }
 
+/// The input at a place that is known when the program runs, as the parameter, with the others held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InputAt<I> {
+    /// The inputs; the value of that which is the parameter is unused.
+    pub held: I,
+    /// The place of the input that moves; at a place beyond the last no input does.
+    pub place: usize,
+}
+
+impl<M: Mechanism> InputPath<M> for InputAt<M::Inputs> {
+    fn parameter(&self, mechanism: &M) -> M::Name {
+        mechanism.input_name(self.place)
+    }
+
+    fn is_angle(&self, mechanism: &M) -> bool {
+        mechanism.input_angles().get(self.place).copied().unwrap_or_default()
+    }
+
+    fn at(&self, parameter: M::Scalar) -> [PerInput<M>; 3] {
+        let held: PerInput<M> = self.held.into();
+        let unit = |place: usize| if place == self.place { M::Scalar::one() } else { M::Scalar::zero() };
+        let v = held.dim();
+        let inputs = v.column(|place| if place == self.place { parameter } else { held[place] });
+        [inputs, v.column(unit), v.zeros()]
+    }
+
+    fn length_scale(mechanism: &M, pose: &M::Pose) -> M::Scalar {
+        mechanism.length_scale(pose)
+    }
+}
+
 /// The straight line between two inputs, with a parameter from 0 to 1. At both ends the inputs are exactly these.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line<I> {

@@ -1,7 +1,7 @@
 //! The start of a simulation: the position and the rates of the inputs.
 
+use linkage_dynamics::prescribed_after;
 use linkage_dynamics::simulation::Start;
-use linkage_dynamics::{Prescribed, Scene};
 use linkage_interpreter::CoordinatesAtRunTime;
 use linkage_runtime::Column;
 
@@ -16,7 +16,7 @@ type StartOf = Start<f64, CoordinatesAtRunTime<Inputs>, Column<f64, Inputs>>;
 
 /// The start with the values and rates that are given, and for driven inputs those of their laws.
 pub fn start(machine: &Machine, scene: &Running<'_>, arguments: &Simulate, t: f64) -> Result<StartOf, Failure> {
-    let laws = laws(scene, t);
+    let laws = prescribed_after(scene, t);
     let law = |place: usize| laws.as_slice().get(place).copied().flatten();
     let inputs = &machine.about.inputs;
     let mut values: Vec<Option<f64>> = inputs
@@ -48,15 +48,4 @@ pub fn start(machine: &Machine, scene: &Running<'_>, arguments: &Simulate, t: f6
         inputs: Column::from_slice(&values).ok_or_else(too_large)?,
     };
     Ok(Start { t, q, input_rates: Column::from_slice(&rates).ok_or_else(too_large)? })
-}
-
-/// The laws of the driven inputs; at a kink that has no rate, those just after it.
-fn laws(scene: &Running<'_>, t: f64) -> Column<Option<Prescribed<f64>>, Inputs> {
-    let laws = scene.prescribed(t);
-    let is_whole = |law: &Prescribed<f64>| law.rate.is_finite();
-    if laws.iter().flatten().all(is_whole) {
-        return laws;
-    }
-    // A time whose square does not underflow.
-    scene.prescribed(t + (t.abs() * f64::EPSILON).max(1e-150))
 }

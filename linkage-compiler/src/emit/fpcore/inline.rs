@@ -10,7 +10,7 @@ use crate::graph::Function as Elementary;
 use crate::lower::{self, Block, Code, Pattern, Signed, Statement, ValueId};
 use crate::model::Mechanism;
 use crate::program::{
-    Arguments, Entry, Family, Function, Functions, Intrinsic, Meaning, Order, Passed, Receiver, Type,
+    Arguments, CheckKind, Entry, Family, Function, Functions, Intrinsic, Meaning, Order, Passed, Receiver, Type,
 };
 
 /// The functions of a type.
@@ -292,8 +292,8 @@ impl Inlined {
         match of.row().meaning {
             Meaning::None => Value::Unknown,
             Meaning::Argument(place) => argument(place).clone(),
-            Meaning::Check(word, places) => {
-                self.check(word, &places.iter().map(|place| argument(*place)).collect::<Vec<_>>());
+            Meaning::Check(kind, places) => {
+                self.check(kind, &places.iter().map(|place| argument(*place)).collect::<Vec<_>>());
                 Value::Unknown
             }
             Meaning::Chord { factors, side } => self.chord(argument(factors), argument(side)),
@@ -302,7 +302,7 @@ impl Inlined {
                     Value::List(scales) => scales.first().cloned().unwrap_or(Value::Unknown),
                     scale => scale.clone(),
                 };
-                self.check("apart", &[argument(radius), &scale]);
+                self.check(CheckKind::Apart, &[argument(radius), &scale]);
                 self.chord(argument(factors), argument(side))
             }
             Meaning::Elbow { triangle, side, is_flagged } => {
@@ -334,16 +334,16 @@ impl Inlined {
         Value::list(both.map(|function| self.made(lower::Value::Call(function, angle.clone()))))
     }
 
-    fn check(&mut self, word: &'static str, of: &[&Value]) {
+    fn check(&mut self, kind: CheckKind, of: &[&Value]) {
         if let Some(of) = self.places(of) {
-            self.checks.push(Check { word, of });
+            self.checks.push(Check { kind, of });
         }
     }
 
     fn elbow_chord(&mut self, triangle: &Value, side: &Value) -> Value {
         let factors = triangle.field("factors");
         let [reach, distance] = ["reach_squared", "distance_squared"].map(|name| triangle.field(name));
-        self.check("open", &[&factors.index(0), &factors.index(1), &reach, &distance]);
+        self.check(CheckKind::Open, &[&factors.index(0), &factors.index(1), &reach, &distance]);
         self.chord(&factors, side)
     }
 
@@ -352,7 +352,7 @@ impl Inlined {
         let factors = self.places(&[&factors.index(0), &factors.index(1)]);
         let Some((factors, side)) = factors.zip(self.place(side)) else { return Value::Unknown };
         let radicand = self.operations.add(lower::Value::Product(factors));
-        self.check("moderate", &[&Value::Number(radicand)]);
+        self.check(CheckKind::Moderate, &[&Value::Number(radicand)]);
         let root = lower::Value::Call(Elementary::Sqrt, vec![Signed::positive(radicand)]);
         let root = self.operations.add(root);
         self.made(lower::Value::Product(vec![side, root]))

@@ -43,7 +43,7 @@ pub(super) fn code(
     }
     KernelCode {
         steps,
-        checks: checks.iter().map(|Check { word, of }| (*word, names.all(of))).collect(),
+        checks: checks.iter().map(|Check { kind, of }| (*kind, names.all(of))).collect(),
         results: results.into_iter().map(|(path, id)| (ascii(&path), names.node(id))).collect(),
     }
 }

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use crate::ids::{Id, Table};
 use crate::lower::{Value, ValueId};
+use crate::program::CheckKind;
 
 /// A condition of the code on numbers, by its word.
 #[derive(Debug)]
 pub(super) struct Check {
-    pub(super) word: &'static str,
+    pub(super) kind: CheckKind,
     /// It holds for the results that depend on the first.
     pub(super) of: Vec<ValueId>,
 }

@@ -1,14 +1,11 @@
 //! The charts of a simulation.
 
 use linkage_dynamics::Scene;
-use linkage_report::Table;
-use linkage_report::chart::{Chart, Page, Polar, Section};
-use linkage_report::table::{Mark, TableError};
-use linkage_runtime::Joint;
+use linkage_runtime::{Joint, Kinematic, Mechanism};
 
-use super::running::{Running, is_event};
-use crate::failure::Failure;
-use crate::machine::{Coordinate, Machine};
+use super::{Chart, Page, Polar, Section};
+use crate::Table;
+use crate::table::{Mark, TableError, names};
 
 /// The most curves of a chart.
 const MOST_CURVES: usize = 5;
@@ -19,18 +16,34 @@ const MOST_TIMES: usize = 12;
 /// The most dashed lines of a chart: many hide the curves.
 const MOST_LINES: usize = 30;
 
-/// The page of a simulation, with the reason why it ended before its end.
-pub fn page(machine: &Machine, scene: &Running<'_>, table: &Table, ended: Option<&str>) -> Result<String, Failure> {
-    let mut charted = Charted { table, page: Page::new(scene.name(), format!("Simulation of {}", machine.about.name)) };
-    charted.about(ended);
-    charted.motion(machine)?;
-    charted.points(machine)?;
-    let outputs = machine.about.outputs.iter().map(|output| vec![output.text.clone()]);
-    charted.section("Outputs", outputs)?;
-    charted.loads(machine, scene)?;
-    let energies = ["kinetic_energy", "potential_energy"].map(str::to_owned).to_vec();
-    charted.section("Energy", [energies])?;
-    Ok(charted.page.to_html())
+impl Page {
+    /// The charts of a simulation whose table has these columns, and the reason why it ended before its end.
+    ///
+    /// # Errors
+    /// [`TableError`] of a table that is none of this scene.
+    pub fn of_simulation<S>(scene: &S, table: &Table, ended: Option<&str>) -> Result<Self, TableError>
+    where
+        S: Scene<Scalar = f64>,
+        S::Mechanism: Kinematic,
+    {
+        let mechanism = scene.mechanism();
+        let mut charted =
+            Charted { table, page: Self::new(scene.name().to_string(), format!("Simulation of {}", mechanism.name())) };
+        charted.about(ended);
+        charted.motion(mechanism)?;
+        charted.points(mechanism)?;
+        let outputs = names(|place| mechanism.output_name(place)).map(|output| vec![output]);
+        charted.section("Outputs", outputs)?;
+        charted.loads(scene)?;
+        let energies = ["kinetic_energy", "potential_energy"].map(str::to_owned).to_vec();
+        charted.section("Energy", [energies])?;
+        Ok(charted.page)
+    }
+}
+
+/// True for the name of a mark that is more than a kink of a law.
+fn is_event(mark: &str) -> bool {
+    !mark.starts_with("kink of ")
 }
 
 /// An event with its times.
@@ -67,20 +80,22 @@ impl Charted<'_> {
         section.lines.extend(names.into_iter().map(|name| event(name, &marks)));
     }
 
-    fn motion(&mut self, machine: &Machine) -> Result<(), Failure> {
-        let all = || machine.about.inputs.iter().chain(&machine.about.unknowns);
-        let named = |is_angle: bool, end: &str| -> Vec<String> {
-            let of = all().filter(|of: &&Coordinate| of.is_angle == is_angle);
-            of.map(|of| format!("{}{end}", of.name.text)).collect()
+    fn motion<M: Mechanism>(&mut self, mechanism: &M) -> Result<(), TableError> {
+        let inputs = (0..).map(|place| mechanism.input_name(place)).zip(mechanism.input_angles());
+        let unknowns = (0..).map(|place| mechanism.unknown_name(place)).zip(mechanism.unknown_angles());
+        let all: Vec<(String, bool)> =
+            inputs.chain(unknowns).map(|(name, is_angle)| (name.to_string(), *is_angle)).collect();
+        let named = |are_angles: bool, end: &str| -> Vec<String> {
+            let of = all.iter().filter(|(_, is_angle)| *is_angle == are_angles);
+            of.map(|(name, _)| format!("{name}{end}")).collect()
         };
         let ends = ["", "_rate", "_acceleration"];
         self.section("Coordinates", ends.into_iter().flat_map(|end| [named(true, end), named(false, end)]))
     }
 
-    fn points(&mut self, machine: &Machine) -> Result<(), Failure> {
-        let points = || machine.about.points.iter().map(|point| &point.text);
-        let moves = |point: &&String| self.moves(&[format!("{point}_x"), format!("{point}_y")]);
-        let moving: Vec<&String> = points().filter(moves).collect();
+    fn points<M: Kinematic>(&mut self, mechanism: &M) -> Result<(), TableError> {
+        let moves = |point: &String| self.moves(&[format!("{point}_x"), format!("{point}_y")]);
+        let moving: Vec<String> = names(|place| mechanism.point_name(place)).filter(moves).collect();
         let places = moving.iter().map(|point| vec![format!("{point}_x"), format!("{point}_y")]);
         let speeds = moving.iter().map(|point| format!("{point}_speed")).collect();
         self.section("Points", places.chain([speeds]))
@@ -94,10 +109,11 @@ impl Charted<'_> {
         })
     }
 
-    fn loads(&mut self, machine: &Machine, scene: &Running<'_>) -> Result<(), Failure> {
-        let drives = machine.about.inputs.iter().map(|input| {
-            let end = if input.is_angle { "torque" } else { "force" };
-            vec![format!("{}_{end}", input.name.text)]
+    fn loads<S: Scene>(&mut self, scene: &S) -> Result<(), TableError> {
+        let mechanism = scene.mechanism();
+        let drives = mechanism.input_angles().iter().enumerate().map(|(place, is_angle)| {
+            let end = if *is_angle { "torque" } else { "force" };
+            vec![format!("{}_{end}", mechanism.input_name(place))]
         });
         self.section("Drives", drives.chain([vec!["drive_power".to_owned()]]))?;
         self.section("Frictions and stops", self.contacts())?;
@@ -105,8 +121,8 @@ impl Charted<'_> {
         for joint in scene.joints() {
             match joint {
                 Joint::Pin { name, .. } => {
-                    forces.push(name.to_owned());
-                    pins.push(name);
+                    forces.push(name.to_string());
+                    pins.push(name.to_string());
                 }
                 Joint::Guide { name, .. } => {
                     forces.push(format!("{name}_normal"));
@@ -118,11 +134,11 @@ impl Charted<'_> {
         let acts = |name: &String| self.moves(std::slice::from_ref(name));
         let acting = [forces, moments].map(|names| names.into_iter().filter(acts).collect::<Vec<_>>());
         self.section("Forces in joints", acting)?;
-        for pin in pins.into_iter().filter(|pin| self.moves(&[(*pin).to_owned()])).collect::<Vec<_>>() {
+        for pin in pins.into_iter().filter(|pin| self.moves(std::slice::from_ref(pin))).collect::<Vec<_>>() {
             match Polar::of(self.table, &format!("{pin}_x"), &format!("{pin}_y")) {
                 Ok(chart) => self.last().polar(&chart),
                 Err(TableError::NoNumbers { .. }) => {}
-                Err(error) => return Err(Failure::Outside(error.to_string())),
+                Err(error) => return Err(error),
             }
         }
         Ok(())
@@ -141,7 +157,7 @@ impl Charted<'_> {
     }
 
     /// A section with a chart of each of these lists of columns over time, in parts of few curves; none without a column.
-    fn section(&mut self, heading: &str, charts: impl IntoIterator<Item = Vec<String>>) -> Result<(), Failure> {
+    fn section(&mut self, heading: &str, charts: impl IntoIterator<Item = Vec<String>>) -> Result<(), TableError> {
         let known = |name: &String| self.table.column(name).is_some();
         let lists: Vec<Vec<String>> = charts.into_iter().map(|list| list.into_iter().filter(known).collect()).collect();
         let parts: Vec<&[String]> = lists.iter().flat_map(|list| list.chunks(MOST_CURVES)).collect();
@@ -156,7 +172,7 @@ impl Charted<'_> {
                 }
                 // As the loads of a motion that has none.
                 Err(TableError::NoNumbers { .. }) => {}
-                Err(error) => return Err(Failure::Outside(error.to_string())),
+                Err(error) => return Err(error),
             }
         }
         if !drawn.is_empty() {

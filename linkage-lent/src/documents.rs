@@ -3,12 +3,17 @@
 use linkage_compiler::document::{self, Document, SceneDocument, SheetDocument};
 use linkage_compiler::graph::Number;
 use linkage_compiler::{Lowered, emit};
-use linkage_lent::{Lender, Unsound};
 use linkage_report::sheet::Sheet;
 use linkage_runtime::derivation::Derivation;
 
 use crate::plain::paragraphs;
+use crate::{Lender, Unsound};
 
+/// The documents of a driver, as plain data: its derivation, the analysis by hand where formulas for it exist, and its scenes,
+/// with the default values of its parameters and its doc comment. With the feature `serde` they can be written, and read by a
+/// program that compiles nothing.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Documents {
     driver: Option<Document>,
     by_hand: Option<SheetDocument>,
@@ -20,6 +25,8 @@ pub struct Documents {
 }
 
 impl Documents {
+    /// The documents of a driver.
+    #[must_use]
     pub fn of(of: &Lowered<'_>) -> Self {
         let (driver, scenes) = emit::documents(&of.program, &of.derivation);
         let signatures = &of.program.signatures;
@@ -35,13 +42,16 @@ impl Documents {
         Self { driver, by_hand, scenes, defaults: defaults.collect(), about }
     }
 
-    /// Applies a function to all of them as one sheet, with the default values of parameters.
-    pub fn sheet(&self, write: impl FnOnce(&mut Sheet<'_>) -> String) -> Result<String, Unsound> {
+    /// Applies a function to all of them as one sheet, with the default values of parameters; none without a derivation.
+    ///
+    /// # Errors
+    /// [`Unsound`] if a document refers to what it does not have.
+    pub fn sheet<R>(&self, write: impl FnOnce(&mut Sheet<'_>) -> R) -> Result<Option<R>, Unsound> {
         let lender = Lender::default();
         let derivation = self.derivation(&lender)?;
         let scenes = self.scenes.iter().map(|scene| lender.scene(scene)).collect::<Result<Vec<_>, _>>()?;
         let by_hand = self.by_hand.as_ref().map(|sheet| lender.sheet(sheet)).transpose()?;
-        let Some(mut sheet) = derivation.as_ref().map(Sheet::new) else { return Ok(String::new()) };
+        let Some(mut sheet) = derivation.as_ref().map(Sheet::new) else { return Ok(None) };
         for scene in &scenes {
             sheet.scene(scene);
         }
@@ -54,15 +64,27 @@ impl Documents {
         for (name, value) in &self.defaults {
             sheet.given(name, *value);
         }
-        Ok(write(&mut sheet))
+        Ok(Some(write(&mut sheet)))
     }
 
-    /// The derivation of the driver.
+    /// The doc comment of the mechanism in plain words, paragraph by paragraph.
+    #[must_use]
+    pub fn about(&self) -> &[String] {
+        &self.about
+    }
+
+    /// Lends the derivation of the driver; none if its mechanism has none.
+    ///
+    /// # Errors
+    /// [`Unsound`] if the document refers to what it does not have.
     pub fn derivation<'l>(&self, lender: &'l Lender) -> Result<Option<Derivation<'l>>, Unsound> {
         self.driver.as_ref().map(|driver| lender.derivation(driver)).transpose()
     }
 
-    /// Visits those that have functions one after the other.
+    /// Visits those that have functions one after the other: the derivation, then the scenes.
+    ///
+    /// # Errors
+    /// [`Unsound`] if a document refers to what it does not have.
     pub fn each(&self, mut visit: impl FnMut(&dyn linkage_report::Document)) -> Result<(), Unsound> {
         let lender = Lender::default();
         if let Some(driver) = &self.driver {

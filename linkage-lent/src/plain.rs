@@ -1,7 +1,7 @@
 //! Doc comments in plain words.
 
 /// The paragraphs of a doc comment before its first heading or code, with the words of links instead of the links.
-pub fn paragraphs(lines: &[String]) -> Vec<String> {
+pub(crate) fn paragraphs(lines: &[String]) -> Vec<String> {
     let is_prose = |line: &&String| !line.starts_with("```") && !line.starts_with('#');
     let prose: Vec<&str> = lines.iter().take_while(is_prose).map(String::as_str).collect();
     let paragraphs = prose.split(|line| line.is_empty()).map(|lines| without_links(&lines.join(" ")));

@@ -1,0 +1,46 @@
+//! The names and values of a mechanism, for the page.
+
+use serde::{Deserialize, Serialize};
+
+/// A coordinate or an output by name.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Quantity {
+    pub name: String,
+    pub is_angle: bool,
+}
+
+/// A parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Parameter {
+    pub name: String,
+    pub is_angle: bool,
+    /// Its default, or 1.
+    pub value: f64,
+    /// The default as written.
+    pub text: Option<String>,
+}
+
+/// A scene.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Scene {
+    pub name: String,
+    pub parameters: Vec<Parameter>,
+    /// True with `inertia`.
+    pub simulates: bool,
+}
+
+/// A mechanism, or one choice of inputs of a mechanism with several.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct About {
+    pub name: String,
+    /// The doc comment, paragraph by paragraph.
+    pub paragraphs: Vec<String>,
+    pub parameters: Vec<Parameter>,
+    pub inputs: Vec<Quantity>,
+    pub unknowns: Vec<Quantity>,
+    pub points: Vec<String>,
+    pub outputs: Vec<Quantity>,
+    pub scenes: Vec<Scene>,
+    /// The reason why it cannot be moved.
+    pub refusal: Option<String>,
+}

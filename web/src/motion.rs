@@ -1,0 +1,116 @@
+//! The whole motion through a position: its range, its table and its film.
+
+use std::f64::consts::TAU;
+
+use linkage_report::Table;
+use linkage_report::chart::Chart;
+use linkage_report::drawing::Animation;
+use linkage_runtime::continuation::AlongCoordinates;
+use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
+use linkage_runtime::{Mechanism as _, PathError};
+use serde::Serialize;
+
+use crate::Refusal;
+use crate::at::{AlongOne, OneInput, coordinates, moving, one_input};
+use crate::machine::{Machine, prepared};
+use crate::question::At;
+
+/// The most steps of a table.
+const MOST_STEPS: u32 = 10_000;
+
+/// A motion that was followed.
+pub struct Followed {
+    /// The mechanism and the values of its parameters.
+    pub of: (usize, Vec<f64>),
+    pub along: usize,
+    table: Table,
+    /// None of a mechanism without a drawing.
+    pub film: Option<Animation>,
+}
+
+/// The range of a motion.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Range {
+    least: f64,
+    largest: f64,
+    is_angle: bool,
+    /// Why it ends at its least and its largest input; none if it turns.
+    ends: Vec<String>,
+    turns: bool,
+    columns: Vec<String>,
+}
+
+/// The whole motion of the mechanism through a position.
+pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -> Result<(Followed, Range), Refusal> {
+    let design = machine.design(&at.parameters);
+    let prepared = prepared(&design)?;
+    let mechanism = moving(&prepared)?;
+    let q = coordinates(&mechanism, &at.place)?;
+    let Some(&parameter) = at.place.inputs.get(along) else { return Err(Refusal::new("no input moves")) };
+    let one = one_input(mechanism, &at.place.inputs, along)?;
+    let start = AlongCoordinates { q, parameter };
+    let is_angle = mechanism.input_angles().get(along).copied().unwrap_or_default();
+    let scale = if is_angle { TAU } else { mechanism.length_scale(&mechanism.pose_at(&q)) };
+    let range = followed(one, &start, [parameter - scale, parameter + scale]).map_err(Refusal::new)?;
+    if let Some(failure) = prepared.failure() {
+        return Err(Refusal::new(failure));
+    }
+    let [least, largest] = range.inputs();
+    let steps = steps.clamp(1, MOST_STEPS);
+    let inputs = (0..=steps).map(|step| {
+        if step == steps { largest } else { least + (largest - least) * f64::from(step) / f64::from(steps) }
+    });
+    let table = Table::over(&range, inputs, rate);
+    let film = Animation::over(&range).ok();
+    let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().map(words).collect() };
+    let columns = table.names().into_iter().map(str::to_owned).collect();
+    let about = Range { least, largest, is_angle, ends, turns: range.is_closed(), columns };
+    Ok((Followed { of: (at.mechanism, at.parameters.clone()), along, table, film }, about))
+}
+
+/// The motion to its ends, or over a range if it has none.
+fn followed<'p>(
+    one: OneInput<'p>,
+    start: &AlongOne,
+    range: [f64; 2],
+) -> Result<RangeOfMotion<'p, OneInput<'p>>, PathError<&'p str>> {
+    let whole = RangeOptions::through_change_points();
+    let within = || {
+        let mut options = whole;
+        options.path.range = Some(range);
+        RangeOfMotion::of(one, start, options)
+    };
+    match RangeOfMotion::of(one, start, whole) {
+        Ok(found) if found.ends().contains(&MotionEnd::Open) => within().or(Ok(found)),
+        Ok(found) => Ok(found),
+        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => {
+            Err(error)
+        }
+        Err(error) => within().map_err(|_| error),
+    }
+}
+
+fn words(end: MotionEnd<&str>) -> String {
+    match end {
+        MotionEnd::DeadPoint { group } => format!("dead point of {group}"),
+        MotionEnd::ChangePoint { groups } => format!("change point of {}", groups.first()),
+        MotionEnd::JointRange { of, end } => {
+            format!("the {} value of {of}", if end == linkage_runtime::RangeEnd::Least { "least" } else { "largest" })
+        }
+        MotionEnd::Range | MotionEnd::Open => "it goes on".to_owned(),
+        MotionEnd::Closed { .. } => "it turns".to_owned(),
+    }
+}
+
+impl Followed {
+    /// A chart of columns over the input.
+    pub fn chart(&self, columns: &[String]) -> Result<String, Refusal> {
+        let over = self.table.names().first().map(|name| (*name).to_owned()).unwrap_or_default();
+        Chart::of(&self.table, &over, columns).map(|chart| chart.to_svg()).map_err(Refusal::new)
+    }
+
+    /// The table.
+    pub fn csv(&self) -> String {
+        self.table.to_csv()
+    }
+}

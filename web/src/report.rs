@@ -1,0 +1,55 @@
+//! The report of a mechanism.
+
+use linkage_interpreter::Prepared;
+use linkage_lent::Lender;
+use linkage_report::report::{Report, ReportOptions};
+use linkage_runtime::derivation::Derivation;
+use linkage_runtime::{BorrowedName, Branches as _, Column, D};
+
+use crate::Refusal;
+use crate::at::{coordinates, moving};
+use crate::machine::{Machine, prepared};
+use crate::picture::drawing;
+use crate::question::At;
+
+/// The report as the sections of a page: with the motion through the position, or with the reason why there is none.
+pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
+    let lender = Lender::default();
+    let derivation = machine.documents.derivation(&lender).map_err(Refusal::new)?;
+    let Some(derivation) = derivation else { return Err(Refusal::new("it has no formulas to report on")) };
+    let design = machine.design(&at.parameters);
+    let prepared = prepared(&design)?;
+    let mechanism = moving(&prepared)?;
+    let q = coordinates(&mechanism, &at.place)?;
+    let inputs = q.inputs;
+    let pictures = mechanism.all_positions(inputs).map_or_else(
+        |_| Vec::new(),
+        |all| all.filter_map(|(_, q)| drawing(&mechanism, &q).ok()?.to_svg().ok()).collect(),
+    );
+    let text = match whole(&prepared, &derivation, at) {
+        Ok(report) => written(&report, &pictures),
+        Err(why) => {
+            let part = Report::at(&mechanism, &derivation, &q);
+            written(&Report { no_motion: Some(why.why), ..part }, &pictures)
+        }
+    };
+    match prepared.failure() {
+        Some(failure) => Err(Refusal::new(failure)),
+        None => Ok(text),
+    }
+}
+
+/// The report of the motion of a mechanism with one input.
+fn whole<'p>(prepared: &'p Prepared<'p>, derivation: &Derivation<'_>, at: &At) -> Result<Report<&'p str>, Refusal> {
+    let mechanism = prepared.with_inputs::<D<1>>().map_err(Refusal::new)?;
+    let few = || Refusal::new("the position has other numbers than the mechanism");
+    let start = linkage_interpreter::CoordinatesAtRunTime {
+        unknowns: Column::from_slice(&at.place.unknowns).ok_or_else(few)?,
+        inputs: Column::from_slice(&at.place.inputs).ok_or_else(few)?,
+    };
+    Report::of(&mechanism, derivation, &start, &ReportOptions::default()).map_err(Refusal::new)
+}
+
+fn written<N: BorrowedName>(report: &Report<N>, pictures: &[String]) -> String {
+    report.to_html_fragment_with(pictures)
+}

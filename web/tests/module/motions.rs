@@ -1,0 +1,191 @@
+//! Motions by sliders and by the pointer, against emitted code.
+
+use linkage::{Elbow, Kinematic as _, Mechanism as _, linkage};
+use serde_json::{Value, json};
+
+use super::{Page, numbers};
+
+linkage! {
+    #[derive(Debug, Clone)]
+    mechanism FourBar {
+        param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
+        input theta2;
+        unknown theta3, theta4;
+        loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+        point C = l2@theta2 + l3@theta3;
+    }
+}
+
+const TEXT: &str = "
+    mechanism FourBar {
+        param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
+        input theta2;
+        unknown theta3, theta4;
+        loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+        point B = l2@theta2;
+        point C = l2@theta2 + l3@theta3;
+    }";
+
+/// The page with the four-bar at this input, on the first branch.
+fn at_input(page: &mut Page, parameters: &[f64], input: f64) -> Value {
+    let near = json!({ "inputs": [input], "unknowns": page.begin(0, parameters)["place"]["unknowns"] });
+    let moved = page.ask(&json!({ "do": "begin", "mechanism": 0, "parameters": parameters, "near": near }));
+    assert_eq!(numbers(&moved["place"]["inputs"]), [input], "{moved}");
+    json!({ "mechanism": 0, "parameters": parameters, "place": moved["place"] })
+}
+
+fn follow(page: &mut Page, at: &Value, parameters: &[f64], input: f64) -> Value {
+    page.at(at, &json!({ "do": "follow", "to": { "parameters": parameters, "inputs": [input] } }))
+}
+
+/// A position without its full turns.
+fn within_a_turn(angle: f64) -> f64 {
+    angle.sin().atan2(angle.cos())
+}
+
+/// The unknowns of emitted code on the branch of these unknowns.
+fn emitted(four_bar: &FourBar, input: f64, like: &Value) -> [f64; 2] {
+    let unknowns = numbers(&like["place"]["unknowns"]);
+    let found = [Elbow::Left, Elbow::Right].map(|side| {
+        let pose = four_bar.assemble(input, FourBarBranch::new(side)).unwrap();
+        let q = FourBar::coordinates_of(&pose);
+        [q.theta3, q.theta4]
+    });
+    let far = |one: &[f64; 2]| within_a_turn(one[0] - unknowns[0]).abs() + within_a_turn(one[1] - unknowns[1]).abs();
+    found.into_iter().min_by(|one, other| far(one).total_cmp(&far(other))).unwrap()
+}
+
+fn same(moved: &Value, expected: [f64; 2]) {
+    let unknowns = numbers(&moved["place"]["unknowns"]);
+    for (one, other) in unknowns.iter().zip(expected) {
+        assert!(within_a_turn(one - other).abs() < 1e-13, "{unknowns:?} {expected:?}");
+    }
+}
+
+#[test]
+fn a_slider_follows_the_motion_over_turns() {
+    let mut page = Page::with(TEXT);
+    let parameters = page.defaults(0);
+    let at = page.begin(0, &parameters);
+    let from = numbers(&at["place"]["inputs"])[0];
+    for input in [from + 0.3, from - 2.0, from + 20.0] {
+        let moved = follow(&mut page, &at, &parameters, input);
+        assert_eq!(numbers(&moved["place"]["inputs"]), [input]);
+        assert!(moved["stopped"].is_null());
+        same(&moved, emitted(&FourBar::default(), input, &moved));
+        // The coupler of a crank-rocker goes to and fro: it is on the side on which it began.
+        let sign =
+            |of: &Value| (numbers(&of["place"]["unknowns"])[0] - numbers(&of["place"]["unknowns"])[1]).sin() > 0.0;
+        assert_eq!(sign(&moved), sign(&at));
+    }
+}
+
+#[test]
+fn a_slider_stops_at_a_dead_point_and_goes_back() {
+    // The crank is no crank: l2 + l1 > l3 + l4.
+    let parameters = [80.0, 50.0, 50.0, 70.0];
+    let mut page = Page::with(TEXT);
+    let at = page.begin(0, &parameters);
+    let stopped = follow(&mut page, &at, &parameters, 3.0);
+    let words = stopped["stopped"].as_str().unwrap();
+    assert!(words.contains("dead point"), "{words}");
+    // The farthest distance of the ends of l2 and the frame is l3 + l4 = 120.
+    let limit = ((80.0_f64.powi(2) + 50.0_f64.powi(2) - 120.0_f64.powi(2)) / (2.0 * 80.0 * 50.0)).acos();
+    let input = numbers(&stopped["place"]["inputs"])[0];
+    assert!(input < limit && limit - input < 2e-6, "{input} {limit}");
+    // Further in the same direction nothing moves; back there is the position of before.
+    let again = json!({ "mechanism": 0, "parameters": parameters, "place": stopped["place"] });
+    let more = follow(&mut page, &again, &parameters, 3.5);
+    assert_eq!(more["place"], stopped["place"]);
+    assert!(more["stopped"].is_string());
+    let from = numbers(&at["place"]["inputs"])[0];
+    let back = follow(&mut page, &again, &parameters, from);
+    let [there, here] = [&back, &at].map(|of| numbers(&of["place"]["unknowns"]));
+    assert!(there.iter().zip(&here).all(|(one, other)| (one - other).abs() < 1e-9), "{there:?} {here:?}");
+}
+
+#[test]
+fn parameters_change_and_the_position_goes_along() {
+    let mut page = Page::with(TEXT);
+    let parameters = page.defaults(0);
+    let at = at_input(&mut page, &parameters, 1.0);
+    for changed in [[80.0, 25.0, 50.0, 70.0], [60.0, 20.0, 90.0, 70.0], [40.0, 10.0, 25.0, 35.0]] {
+        let moved = follow(&mut page, &at, &changed, 1.0);
+        assert!(moved["stopped"].is_null(), "{moved}");
+        let [l1, l2, l3, l4] = changed;
+        let four_bar = FourBar { l1, l2, l3, l4 };
+        same(&moved, emitted(&four_bar, 1.0, &moved));
+        let pose = four_bar.pose_at(&FourBarCoordinates {
+            theta2: 1.0,
+            theta3: numbers(&moved["place"]["unknowns"])[0],
+            theta4: numbers(&moved["place"]["unknowns"])[1],
+        });
+        let before = FourBar::default().pose_at(&FourBarCoordinates {
+            theta2: 1.0,
+            theta3: numbers(&at["place"]["unknowns"])[0],
+            theta4: numbers(&at["place"]["unknowns"])[1],
+        });
+        // No branch is changed: the determinant keeps its sign.
+        assert_eq!(four_bar.determinant(&pose) > 0.0, FourBar::default().determinant(&before) > 0.0);
+    }
+}
+
+#[test]
+fn parameters_stop_where_the_linkage_opens() {
+    let mut page = Page::with(TEXT);
+    let parameters = page.defaults(0);
+    let at = at_input(&mut page, &parameters, 1.0);
+    let opened = follow(&mut page, &at, &[200.0, 20.0, 50.0, 70.0], 1.0);
+    assert!(opened["stopped"].as_str().unwrap().contains("theta3"), "{opened}");
+    // C is where the links are in line: |(l1 - l2 cos, l2 sin)| = l3 + l4.
+    let l1 = numbers(&opened["parameters"])[0];
+    let (sine, cosine) = 1.0_f64.sin_cos();
+    let limit = 20.0 * cosine + (120.0_f64.powi(2) - (20.0 * sine).powi(2)).sqrt();
+    assert!(l1 < limit && limit - l1 < 1e-3, "{l1} {limit}");
+}
+
+#[test]
+fn a_pointer_turns_the_crank_and_turns_count() {
+    let mut page = Page::with(TEXT);
+    let parameters = page.defaults(0);
+    let mut at = page.begin(0, &parameters);
+    let from = numbers(&at["place"]["inputs"])[0];
+    // Three turns in steps of 20 degrees, the pointer outside of the crank's circle.
+    for step in 1..=54 {
+        let angle = from + f64::from(step) * 20_f64.to_radians();
+        let to = [33.0 * angle.cos(), 33.0 * angle.sin()];
+        let moved = page.at(&at, &json!({ "do": "drag", "joint": "B", "to": to }));
+        assert!(moved["stopped"].is_null(), "{moved}");
+        let input = numbers(&moved["place"]["inputs"])[0];
+        assert!((input - angle).abs() < 1e-9, "{input} {angle}");
+        at["place"] = moved["place"].clone();
+    }
+}
+
+#[test]
+fn a_pointer_moves_a_joint_of_the_coupler() {
+    let mut page = Page::with(TEXT);
+    let parameters = page.defaults(0);
+    let at = page.begin(0, &parameters);
+    let further = follow(&mut page, &at, &parameters, numbers(&at["place"]["inputs"])[0] + 0.2);
+    let joints = further["picture"]["joints"].as_array().unwrap();
+    let coupler = joints.iter().find(|joint| joint["name"] == "C").unwrap();
+    let moved = page.at(&at, &json!({ "do": "drag", "joint": "C", "to": [coupler["x"], coupler["y"]] }));
+    let [input, expected] = [&moved, &further].map(|of| numbers(&of["place"]["inputs"])[0]);
+    assert!((input - expected).abs() < 1e-3, "{input} {expected}");
+}
+
+#[test]
+fn a_picture_has_the_joints_where_it_says() {
+    let mut page = Page::with(TEXT);
+    let parameters = page.defaults(0);
+    let at = at_input(&mut page, &parameters, 1.0);
+    let picture = &page.at(&at, &json!({ "do": "picture" }))["picture"];
+    let (origin, scale) = (numbers(&picture["origin"]), picture["scale"].as_f64().unwrap());
+    let svg = picture["svg"].as_str().unwrap();
+    for joint in picture["joints"].as_array().unwrap() {
+        let at = [origin[0] + scale * joint["x"].as_f64().unwrap(), origin[1] - scale * joint["y"].as_f64().unwrap()];
+        let [x, y] = at.map(|pixel| (pixel * 10.0).round() / 10.0);
+        assert!(svg.contains(&format!("translate({x} {y})")), "{joint} {x} {y}");
+    }
+}
