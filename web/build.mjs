@@ -1,6 +1,7 @@
 // Builds the page: `dist/` as a folder of files and as one file, `dist/linkage.html`. Neither asks the network for anything.
 //
-// LINKAGE_WASM=path takes a module that is built already. LINKAGE_FAKE=1 takes the few answers of test/fake.ts in its place.
+// LINKAGE_WASM=path takes a module that is built already, LINKAGE_DRAFT=1 leaves out wasm-opt, which takes minutes, and
+// LINKAGE_FAKE=1 takes the few answers of test/fake.ts in place of the module.
 
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -14,6 +15,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const root = dirname(here);
 const dist = process.env.LINKAGE_DIST ?? join(here, "dist");
 const isFake = process.env.LINKAGE_FAKE === "1";
+const isDraft = process.env.LINKAGE_DRAFT === "1";
 
 /** The examples in the order of the menu: simple ones first, then those with a scene. */
 const ORDER = [
@@ -42,6 +44,7 @@ function wasm() {
         const folder = process.env.CARGO_TARGET_DIR ?? join(root, "target");
         path = join(folder, "wasm32-unknown-unknown", "page", "linkage_page.wasm");
     }
+    if (isDraft) return readFileSync(path);
     const small = join(dist, "linkage.wasm");
     const features = ["--enable-bulk-memory", "--enable-nontrapping-float-to-int", "--enable-sign-ext", "--enable-mutable-globals"];
     const more = ["--enable-multivalue", "--enable-reference-types", "--enable-simd"];
@@ -203,6 +206,6 @@ const report = (name, data) => {
 };
 for (const [name, text] of Object.entries(files)) {
     writeFileSync(join(dist, name), text);
-    report(name, Buffer.from(text));
+    if (!isDraft) report(name, Buffer.from(text));
 }
-report("(wasm)", bytes);
+if (!isDraft) report("(wasm)", bytes);

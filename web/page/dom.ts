@@ -30,6 +30,11 @@ export function set(element: Element, name: string, value: string | number | boo
     }
 }
 
+/** Replaces the children of an element. */
+export function fill(element: Element, ...children: Child[]): void {
+    element.replaceChildren(...children.filter((child): child is Node | string => child != null));
+}
+
 let count = 0;
 /** An id that no other element has. */
 export function freshId(stem: string): string {

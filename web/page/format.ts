@@ -2,15 +2,15 @@
 
 const DEGREE = Math.PI / 180;
 
-/** At most six digits, with a true minus sign. */
-export function show(value: number, isAngle = false): string {
+/** At most so many digits, with a true minus sign. */
+export function show(value: number, isAngle = false, digits = 6): string {
     const shown = isAngle ? value / DEGREE : value;
     if (!Number.isFinite(shown)) return "–";
     const size = Math.abs(shown);
     const text =
         size !== 0 && (size < 1e-4 || size >= 1e7)
-            ? shown.toExponential(4).replace(/\.?0+e/u, "e").replace("e+", "e")
-            : String(Number(shown.toPrecision(6)));
+            ? shown.toExponential(digits - 2).replace(/\.?0+e/u, "e").replace("e+", "e")
+            : String(Number(shown.toPrecision(digits)));
     return (text === "-0" ? "0" : text).replaceAll("-", "−") + (isAngle ? "°" : "");
 }
 

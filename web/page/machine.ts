@@ -190,10 +190,10 @@ export class Machine {
         }
     }
 
-    async #beginAt(parameters: number[]): Promise<void> {
+    async #beginAt(parameters: number[], near?: Place): Promise<void> {
         const { text, index, show } = this;
         if (text === null) return;
-        const answer = await this.#session.ask("move", text, () => ({ do: "begin", mechanism: index, parameters, show }));
+        const answer = await this.#session.ask("move", text, () => ({ do: "begin", mechanism: index, parameters, ...(near && { near }), show }));
         this.#accept(answer, true);
     }
 
@@ -217,7 +217,7 @@ export class Machine {
         if (text === null) return;
         this.target = to;
         const answer = await this.#session.ask("move", text, () => ({ do: "follow", ...from, to, show }));
-        if (answer !== null && isRefusal(answer)) await this.#beginAt(to.parameters);
+        if (answer !== null && isRefusal(answer)) await this.#beginAt(to.parameters, from.place);
         else this.#accept(answer, true);
     }
 

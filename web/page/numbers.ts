@@ -27,8 +27,8 @@ export class NumbersView {
                 {},
                 h("th", { scope: "row" }, name),
                 h("td", {}, show(value, is_angle)),
-                h("td", {}, show(rate)),
-                h("td", {}, show(acceleration)),
+                h("td", {}, show(rate, false, 5)),
+                h("td", {}, show(acceleration, false, 5)),
             ),
         );
         const table = h("table", {}, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows));

@@ -40,7 +40,7 @@ export type Question =
     | { do: "load"; written: string }
     | { do: "words" }                                              // { keywords: string[]; functions: string[] } of the language, for colours and completion
     /** A first position, at 60 degrees of each input or the nearest inputs that have one. */
-    | ({ do: "begin"; mechanism: number; parameters: number[]; show: Show })            // Moved
+    | ({ do: "begin"; mechanism: number; parameters: number[]; near?: Place; show: Show }) // Moved; `near` is a position of the text before
     | ({ do: "positions"; mechanism: number; parameters: number[]; inputs: number[] })  // { positions: { branch: string; unknowns: number[]; svg: string }[] }
     | ({ do: "picture"; show: Show } & At)                         // Moved
     /** Follows the motion to other inputs, and to other parameters. */
@@ -48,7 +48,7 @@ export type Question =
     /** Moves an input so that a joint comes near a place of the plane. */
     | ({ do: "drag"; joint: string; to: [number, number]; show: Show } & At)            // Moved
     /** Follows the whole motion: its range, and the traces of points, which pictures show from then on. */
-    | ({ do: "motion"; along: number; rate: number; steps: number } & At)               // { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: Quantity[] }
+    | ({ do: "motion"; along: number; rate: number; steps: number } & At)               // { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: string[] }
     /** A chart over the motion that was followed last; of at most five columns. */
     | { do: "chart"; columns: string[] }                           // { svg: string }
     | { do: "csv" }                                                // { text: string } of the motion that was followed last

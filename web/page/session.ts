@@ -11,8 +11,8 @@ import { word } from "./words";
 const LANES = ["compile", "move", "motion", "positions", "chart", "tab", "copy"] as const;
 export type Lane = (typeof LANES)[number];
 
-/** How long a more urgent question waits for the running one before that is stopped. */
-const PATIENCE = 400;
+/** How long a more urgent question waits for the running one before that is stopped, in milliseconds and in compilations. */
+const PATIENCE = { milliseconds: 800, compilations: 2 };
 
 /** The first question of a worker. */
 type Reading = QuestionOf<"compile"> | QuestionOf<"load">;
@@ -40,6 +40,8 @@ export class Session {
     #waiting = new Map<Lane, Waiting>();
     #running: Running | null = null;
     #failures = 0;
+    /** How long the last compilation took. */
+    #compiling = 0;
     #ids = 0;
 
     /** `reading` is the question that gives the module a text, or mechanisms that were compiled before. */
@@ -113,9 +115,11 @@ export class Session {
         if (running === null) return;
         const isMore = LANES.indexOf(lane) < LANES.indexOf(running.lane) || lane === "compile";
         if (!isMore) return;
+        // A new worker compiles the text first: stopping has to be worth it.
+        const end = running.since + PATIENCE.milliseconds + PATIENCE.compilations * this.#compiling;
         setTimeout(() => {
             if (this.#running === running && this.#waiting.has(lane)) this.stop(word().replaced);
-        }, Math.max(0, running.since + PATIENCE - performance.now()));
+        }, Math.max(0, end - performance.now()));
     }
 
     #next(): void {
@@ -163,6 +167,7 @@ export class Session {
         this.progress = null;
         if (running.isPreparation || running.lane === "compile") {
             const isGood = !isRefusal(answer) && "mechanisms" in answer;
+            this.#compiling = performance.now() - running.since;
             this.#loaded = isGood ? running.text : null;
             if (running.isPreparation && !isGood) this.#drop(running.lane, { why: word().noLongerCompiles });
         }

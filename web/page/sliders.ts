@@ -10,7 +10,7 @@ const TURN = 2 * Math.PI;
 
 type Range = { least: number; largest: number };
 
-class Slider {
+export class Slider {
     readonly element: HTMLElement;
     readonly range = h("input", { type: "range" });
     readonly field: HTMLInputElement;
@@ -172,8 +172,13 @@ export class SlidersView {
         });
         const isMoved = about.parameters.some(({ value }, index) => value !== target.parameters[index]);
         this.#actions.hidden = !isMoved;
-        const ends = motion !== null && at !== null && !motion.turns ? motion.ends.filter((end) => end !== "") : [];
-        this.#ends.textContent = ends.join(" ");
+        const limits = motion !== null && at !== null && !motion.turns ? [motion.least, motion.largest] : [];
+        // The module says that a range goes on where nothing ends it.
+        const ends = limits.flatMap((limit, index) => {
+            const why = motion?.ends[index];
+            return why === undefined || why === "it goes on" ? [] : [`${show(limit, motion?.is_angle)}: ${why}`];
+        });
+        this.#ends.replaceChildren(...ends.map((end) => h("span", {}, end)));
         this.#ends.hidden = ends.length === 0;
     }
 }
@@ -183,7 +188,7 @@ function scale(parameters: Parameter[]): number {
 }
 
 /** From zero to twice the value, or about zero. */
-function around(parameter: Parameter, all: Parameter[]): Range {
+export function around(parameter: Parameter, all: Parameter[]): Range {
     const { value, is_angle } = parameter;
     if (is_angle) return { least: value - Math.PI / 2, largest: value + Math.PI / 2 };
     if (value === 0) return { least: -scale(all), largest: scale(all) };

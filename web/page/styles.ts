@@ -16,13 +16,15 @@ const inShadow = page
     .replace(/:target/gu, ".target");
 
 const fit =
-    ":host{container-type:inline-size;background:none}.body{background:none;padding:2.5rem 1.5rem 5rem;overflow-wrap:break-word}";
+    ":host{container-type:inline-size;background:none}.body{background:none;padding:2.5rem 1.5rem 5rem;overflow-wrap:break-word}.body>section:first-child{margin-top:0}";
 
 export const sheetStyles = [inShadow, chart, charted.replace(/(^|[\s}])main:has/gu, "$1.body:has"), fit];
+/** Drawings bring their own style: these rules are more specific. */
 export const pictureStyles = [
     linkage,
     plot,
-    ".body{height:100%}svg{display:block;width:100%;height:100%}.linkage .paper{fill:none}.linkage .title{display:none}",
+    ".body{height:100%}svg{display:block;width:100%;height:100%}.body .linkage .paper{fill:none}.body .linkage .title{display:none}",
 ];
-export const smallStyles = [linkage, plot, ".body{height:100%}svg{display:block;width:100%;height:100%}.linkage .paper{fill:none}.linkage .title,.linkage text{display:none}"];
-export const chartStyles = [chart, ".body{display:block}svg{display:block;width:100%;height:auto}"];
+const bare = "svg{display:block;width:100%;height:100%}.body .linkage :is(.paper,.frame){fill:none;stroke:none}.body .linkage :is(text,.grid){display:none}";
+export const smallStyles = [linkage, plot, `.body{height:100%}${bare}`];
+export const chartStyles = [chart, ".body{display:block}svg{display:block;width:100%;height:auto}.body .chart{--card:transparent}"];

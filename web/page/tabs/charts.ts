@@ -64,7 +64,7 @@ export class ChartsTab extends Tab {
         const motion = await this.ask<"motion">(() => ({ do: "motion", ...at, along, rate, steps: STEPS }));
         if (!motion) return motion === null;
         this.#title.textContent = word().overMotion(about.inputs[along]?.name ?? "");
-        this.#columns = motion.columns.map((column) => ({ ...column, ...this.#split(column.name) }));
+        this.#columns = motion.columns.map((name) => this.#column(name));
         const known = new Set(this.#columns.map(({ name }) => name));
         const chosen = this.#chosen?.filter((name) => known.has(name)) ?? [];
         this.#chosen = chosen.length > 0 || this.#chosen?.length === 0 ? chosen : this.#first();
@@ -93,11 +93,15 @@ export class ChartsTab extends Tab {
     }
 
     /** `C_velocity_x` is `velocity_x` of `C`. */
-    #split(column: string): { of: string; part: string } {
+    #column(name: string): Column {
         const { about } = this.machine;
-        const names = [...(about?.points ?? []), ...(about?.outputs ?? []).map((q) => q.name), ...(about?.unknowns ?? []).map((q) => q.name), ...(about?.inputs ?? []).map((q) => q.name)];
-        const of = names.filter((name) => column === name || column.startsWith(`${name}_`)).sort((a, b) => b.length - a.length)[0];
-        return of === undefined ? { of: column, part: "" } : { of, part: column.slice(of.length + 1) };
+        const quantities: Quantity[] = about ? [...about.inputs, ...about.unknowns, ...about.outputs] : [];
+        const points = (about?.points ?? []).map((point) => ({ name: point, is_angle: false }));
+        const owners = [...quantities, ...points].filter((owner) => name === owner.name || name.startsWith(`${owner.name}_`));
+        const owner = owners.sort((a, b) => b.name.length - a.name.length)[0];
+        if (owner === undefined) return { name, is_angle: false, of: name, part: "" };
+        const part = name.slice(owner.name.length + 1);
+        return { name, is_angle: owner.is_angle, of: owner.name, part };
     }
 
     /** The outputs and the unknowns, if there is nothing chosen. */

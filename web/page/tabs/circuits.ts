@@ -31,10 +31,10 @@ export class CircuitsTab extends Tab {
         if (answer === undefined) return false;
         this.#text.textContent = answer?.text.trimEnd() ?? "";
         this.#charts.replaceChildren(
-            ...(answer?.charts ?? []).map(({ name, svg }) => {
+            ...(answer?.charts ?? []).map(({ svg }) => {
                 const island = new Island("chart", chartStyles);
                 island.svg(svg);
-                return h("figure", {}, island.element, h("figcaption", {}, name));
+                return h("figure", {}, island.element);
             }),
         );
         return true;

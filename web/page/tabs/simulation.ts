@@ -2,12 +2,13 @@
 
 import type { Answers } from "../answers";
 import { isRefusal } from "../answers";
-import { h, set } from "../dom";
+import { fill, h, set } from "../dom";
 import { read, show } from "../format";
 import { Island } from "../island";
 import type { Machine } from "../machine";
 import type { Simulated } from "../protocol";
 import type { Session } from "../session";
+import { around, Slider } from "../sliders";
 import { chartStyles, pictureStyles } from "../styles";
 import { onLanguage, say, word } from "../words";
 import { Tab } from "./tab";
@@ -123,18 +124,28 @@ export class SimulationTab extends Tab {
             });
             return h("label", {}, h("span", {}, label), input, unit === "" ? null : h("span", { class: "unit" }, unit));
         };
-        this.#form.replaceChildren(
+        const sliders = scene.parameters.map((parameter, index) => {
+            const slider = new Slider(parameter, (value) => {
+                settings.values[index] = value;
+                slider.show(value);
+            });
+            slider.bound(around(parameter, scene.parameters));
+            slider.show(settings.values[index] ?? parameter.value);
+            return slider.element;
+        });
+        fill(
+            this.#form,
             h("label", {}, h("span", {}, word().scene), select),
             field(word().until, show(settings.to), word().seconds, (value) => (settings.to = value)),
             field(word().tolerance, show(settings.tolerance), "", (value) => (settings.tolerance = value)),
-            ...scene.parameters.map((parameter, index) =>
-                field(parameter.name, show(settings.values[index] ?? 0, parameter.is_angle), "", (value) => (settings.values[index] = value), parameter.is_angle),
-            ),
             ...about.inputs.map((input, index) =>
                 field(`${input.name}′`, show(settings.rates[index] ?? 0), input.is_angle ? "rad/s" : "/s", (value) => (settings.rates[index] = value)),
             ),
             h("button", { type: "submit", class: "primary", disabled: !scene.simulates }, word().run),
             h("p", { class: "soft" }, scene.simulates ? word().fromHere : word().notSimulated),
+            scene.parameters.length === 0
+                ? null
+                : h("details", {}, h("summary", {}, word().sceneParameters), h("div", { class: "values" }, ...sliders)),
         );
     }
 

@@ -99,6 +99,7 @@ export const en = {
     speed: "Speed",
     noScenes: "This mechanism has no scene: a scene names bodies and forces, as in the examples Door closer and Engine.",
     notSimulated: "This scene has no motion to compute.",
+    sceneParameters: "Parameters of the scene",
     fromHere: "From this position",
 
     // Work.

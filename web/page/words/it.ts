@@ -94,6 +94,7 @@ export const it: Words = {
     speed: "Rapidità",
     noScenes: "Questo meccanismo non ha scene: una scena nomina corpi e forze, come negli esempi Chiudiporta e Motore.",
     notSimulated: "Questa scena non ha un moto da calcolare.",
+    sceneParameters: "Parametri della scena",
     fromHere: "Da questa posizione",
 
     stop: "Ferma",
