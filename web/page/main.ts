@@ -19,6 +19,7 @@ import { PictureView } from "./picture";
 import { PositionsView } from "./positions";
 import { recall, remember } from "./preferences";
 import { rewrite } from "./rewrite";
+import { followFile, servedFile } from "./served";
 import { Session } from "./session";
 import { settled } from "./signal";
 import { SlidersView } from "./sliders";
@@ -253,7 +254,19 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
     void quick.ask("copy", null, () => ({ do: "words" })).then((words) => {
         if (words !== null && !isRefusal(words)) learn(words);
     });
-    void follow();
+    const file = servedFile();
+    if (file === null) {
+        void follow();
+    } else {
+        set(head, "data-file", file);
+        followFile(
+            (text) => {
+                if (text !== editor.text) load(text);
+                notice.say(word().followed(file));
+            },
+            (why) => notice.say(why ?? word().serverGone, true),
+        );
+    }
 }
 
 void begin();
