@@ -33,10 +33,8 @@ pub fn circuits(machine: &Machine, parameters: &[f64], inputs: &[f64], along: us
     let mechanism = moving(&prepared)?;
     let Some(&at) = inputs.get(along) else { return Err(Refusal::new("no input moves")) };
     let one = one_input(mechanism, inputs, along)?;
-    let options = CircuitOptions {
-        path: Options { longest_step: SMOOTH, ..Options::default() },
-        ..CircuitOptions::default()
-    };
+    let options =
+        CircuitOptions { path: Options { longest_step: SMOOTH, ..Options::default() }, ..CircuitOptions::default() };
     let found = Circuits::of(&one, at, options).map_err(Refusal::new)?;
     if let Some(failure) = prepared.failure() {
         return Err(Refusal::new(failure));
@@ -70,7 +68,9 @@ fn words(motion: &MotionCurve<AlongOne, f64, &str>, input: &str, is_angle: bool)
         (Some([least, largest]), false) => {
             format!("{input} from {} to {}, dead points at {}", shown(least), shown(largest), dead_points.join(", "))
         }
-        (Some([least, largest]), true) => format!("{input} from {} to {}, without dead points", shown(least), shown(largest)),
+        (Some([least, largest]), true) => {
+            format!("{input} from {} to {}, without dead points", shown(least), shown(largest))
+        }
         (None, _) => format!("{input} turns fully"),
     }
 }

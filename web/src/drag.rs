@@ -77,7 +77,10 @@ fn change(
     let moved = |by: f64| -> Result<[f64; 2], Refusal> {
         let mut inputs = q.inputs;
         inputs[along] += by;
-        let q = Coordinates { unknowns: q.unknowns + motion.unknowns * by, inputs: inputs_of(mechanism, inputs.as_slice())? };
+        let q = Coordinates {
+            unknowns: q.unknowns + motion.unknowns * by,
+            inputs: inputs_of(mechanism, inputs.as_slice())?,
+        };
         let all = joints(mechanism, &q);
         Ok([all[place].x, all[place].y])
     };
@@ -94,7 +97,9 @@ fn change(
 /// The pivot on the ground of the driven link with this joint.
 fn pivot(mechanism: &Moving<'_>, joint: usize) -> Option<usize> {
     mechanism.drawn_parts().iter().find_map(|part| match part {
-        Part::Bar { joints, is_driven: true } if joints.contains(&joint) => joints.first().copied().filter(|pivot| *pivot != joint),
+        Part::Bar { joints, is_driven: true } if joints.contains(&joint) => {
+            joints.first().copied().filter(|pivot| *pivot != joint)
+        }
         _ => None,
     })
 }

@@ -83,7 +83,9 @@ fn followed<'p>(
     match RangeOfMotion::of(one, start, whole) {
         Ok(found) if found.ends().contains(&MotionEnd::Open) => within().or(Ok(found)),
         Ok(found) => Ok(found),
-        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => Err(error),
+        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => {
+            Err(error)
+        }
         Err(error) => within().map_err(|_| error),
     }
 }

@@ -78,7 +78,10 @@ pub struct Film<'f> {
 pub fn joints(mechanism: &Moving<'_>, q: &Coordinates) -> Vec<Joint> {
     let places = mechanism.joints(&mechanism.pose_at(q));
     let names = mechanism.joint_names();
-    names.zip(places.as_slice().chunks_exact(2)).map(|(name, at)| Joint { name: name.to_owned(), x: at[0], y: at[1] }).collect()
+    names
+        .zip(places.as_slice().chunks_exact(2))
+        .map(|(name, at)| Joint { name: name.to_owned(), x: at[0], y: at[1] })
+        .collect()
 }
 
 /// A drawing of a position.

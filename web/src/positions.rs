@@ -121,8 +121,12 @@ fn at_inputs(
     };
     let is_far = |q: &Coordinates| {
         let each = q.unknowns.iter().zip(near.unwrap_or_default()).zip(mechanism.unknown_angles());
-        each.map(|((one, other), is_angle)| if *is_angle { ((one - other) / 2.0).sin().abs() } else { (one - other).abs() / size })
-            .fold(0.0, f64::max)
+        each.map(
+            |((one, other), is_angle)| {
+                if *is_angle { ((one - other) / 2.0).sin().abs() } else { (one - other).abs() / size }
+            },
+        )
+        .fold(0.0, f64::max)
     };
     let moves = |q: &&Coordinates| {
         let pose = mechanism.pose_at(q);

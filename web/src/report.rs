@@ -22,9 +22,10 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
     let mechanism = moving(&prepared)?;
     let q = coordinates(&mechanism, &at.place)?;
     let inputs = q.inputs;
-    let pictures = mechanism.all_positions(inputs).map_or_else(|_| Vec::new(), |all| {
-        all.filter_map(|(_, q)| drawing(&mechanism, &q).ok()?.to_svg().ok()).collect()
-    });
+    let pictures = mechanism.all_positions(inputs).map_or_else(
+        |_| Vec::new(),
+        |all| all.filter_map(|(_, q)| drawing(&mechanism, &q).ok()?.to_svg().ok()).collect(),
+    );
     let text = match whole(&prepared, &derivation, at) {
         Ok(report) => written(&report, &pictures),
         Err(why) => {

@@ -64,7 +64,8 @@ pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f6
         Cause::Motion(error) => Some(error),
         _ => None,
     });
-    let ended = error.filter(|_| reached != asked.to).map(|error| format!("the motion ends at {reached:.6} s: {error}"));
+    let ended =
+        error.filter(|_| reached != asked.to).map(|error| format!("the motion ends at {reached:.6} s: {error}"));
     let page = Page::of_simulation(&scene, &table, ended.as_deref()).map_err(Refusal::new)?;
     let mut lines = Vec::new();
     let mut sections = Vec::new();

@@ -3,10 +3,10 @@
 use linkage_compiler::graph::Number;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::lower::Code;
+use linkage_compiler::model::VECTOR_FUNCTIONS;
 use linkage_compiler::model::{Kind, Mechanism, Parameter as Declared, Request};
 use linkage_compiler::program::SceneProgram;
 use linkage_compiler::syntax::{EFFECTS, KEYWORDS, PROPERTIES};
-use linkage_compiler::model::VECTOR_FUNCTIONS;
 
 use linkage_compiler::text::Message;
 use linkage_compiler::{Lowered, emit};
@@ -56,7 +56,8 @@ pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
         let documents = Documents::of(&lowered);
         (About { paragraphs: documents.about().to_vec(), ..about(&lowered) }, documents)
     });
-    let compiled = compiled.map_err(|messages| messages.iter().map(|message| mistake(text, message)).collect::<Vec<_>>())?;
+    let compiled =
+        compiled.map_err(|messages| messages.iter().map(|message| mistake(text, message)).collect::<Vec<_>>())?;
     let machines = compiled.into_iter().map(|(mechanism, (about, documents))| {
         let mut machine = Machine { about, documents, mechanism };
         let refusal = || machine.mechanism.design().prepared().err().map(|error| error.to_string());
@@ -72,7 +73,8 @@ pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
 /// # Errors
 /// [`Refusal`] with the first mistake of the text.
 pub fn compiled(text: &str) -> Result<String, Refusal> {
-    let first = |mistakes: Vec<Mistake>| Refusal::new(mistakes.into_iter().next().map(|one| one.text).unwrap_or_default());
+    let first =
+        |mistakes: Vec<Mistake>| Refusal::new(mistakes.into_iter().next().map(|one| one.text).unwrap_or_default());
     Machine::written(compile(text).map_err(first)?)
 }
 
@@ -102,7 +104,8 @@ fn about(lowered: &Lowered<'_>) -> About {
         Quantity { name: of.name.text.clone(), is_angle: of.kind == Kind::Angle }
     };
     let function = mechanism.externals.iter().find_map(|of| Some(of.names.first()?.text.clone()));
-    let refusal = function.map(|function| format!("`{}` calls `{function}`, which a program in Rust has to give it", driver.name));
+    let refusal = function
+        .map(|function| format!("`{}` calls `{function}`, which a program in Rust has to give it", driver.name));
     About {
         name: driver.name.to_string(),
         paragraphs: Vec::new(),
@@ -110,7 +113,11 @@ fn about(lowered: &Lowered<'_>) -> About {
         inputs: driver.inputs.iter().map(coordinate).collect(),
         unknowns: driver.unknowns.iter().map(coordinate).collect(),
         points: mechanism.points.iter().map(|point| point.name.text.clone()).collect(),
-        outputs: mechanism.outputs.iter().map(|output| Quantity { name: output.name.text.clone(), is_angle: false }).collect(),
+        outputs: mechanism
+            .outputs
+            .iter()
+            .map(|output| Quantity { name: output.name.text.clone(), is_angle: false })
+            .collect(),
         scenes: lowered.program.scenes.iter().map(scene).collect(),
         refusal,
     }
@@ -125,7 +132,8 @@ fn scene(of: &SceneProgram<Code>) -> Scene {
 fn parameter(mechanism: &Mechanism, of: &Declared) -> Parameter {
     let is_in_degrees = of.default_text.as_deref().is_some_and(|text| text.ends_with("deg"));
     let graph = &mechanism.graph;
-    let default = of.default.and_then(|node| graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node)));
+    let default =
+        of.default.and_then(|node| graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node)));
     Parameter {
         name: of.name.text.clone(),
         is_angle: of.kind == Kind::Angle || is_in_degrees,

@@ -50,7 +50,8 @@ fn every_question_about_every_example() {
                 eprintln!("  refusal {}", about["refusal"]);
                 continue;
             }
-            let parameters: Vec<f64> = about["parameters"].as_array().unwrap().iter().map(|one| one["value"].as_f64().unwrap()).collect();
+            let parameters: Vec<f64> =
+                about["parameters"].as_array().unwrap().iter().map(|one| one["value"].as_f64().unwrap()).collect();
             let moved = page.ask(&json!({ "do": "begin", "mechanism": mechanism, "parameters": parameters }));
             assert!(moved["why"].is_null(), "{name} {moved}");
             let at = json!({ "mechanism": mechanism, "parameters": parameters, "place": moved["place"] });
@@ -58,7 +59,10 @@ fn every_question_about_every_example() {
             for question in [
                 json!({ "do": "positions", "mechanism": mechanism, "parameters": parameters, "inputs": at["place"]["inputs"] }),
                 merged(&at, json!({ "do": "motion", "along": 0, "rate": 1.0, "steps": 120 })),
-                merged(&at, json!({ "do": "picture", "show": { "traces": true, "velocities": true, "accelerations": true } })),
+                merged(
+                    &at,
+                    json!({ "do": "picture", "show": { "traces": true, "velocities": true, "accelerations": true } }),
+                ),
                 json!({ "do": "csv" }),
                 merged(&at, json!({ "do": "sheet", "rate": 1.0, "language": "en", "form": "html" })),
                 merged(&at, json!({ "do": "report" })),
@@ -66,7 +70,10 @@ fn every_question_about_every_example() {
                 json!({ "do": "circuits", "mechanism": mechanism, "parameters": parameters, "inputs": at["place"]["inputs"], "along": 0 }),
                 merged(&at, json!({ "do": "follow", "to": { "parameters": parameters, "inputs": [input + 0.01] } })),
                 merged(&at, json!({ "do": "follow", "to": { "parameters": parameters, "inputs": [input + 7.0] } })),
-                merged(&at, json!({ "do": "follow", "to": { "parameters": parameters.iter().map(|one| one * 1.05).collect::<Vec<f64>>(), "inputs": [input] } })),
+                merged(
+                    &at,
+                    json!({ "do": "follow", "to": { "parameters": parameters.iter().map(|one| one * 1.05).collect::<Vec<f64>>(), "inputs": [input] } }),
+                ),
             ] {
                 let answer = page.ask(&question);
                 if answer["why"].is_string() || answer["stopped"].is_string() {
@@ -74,7 +81,8 @@ fn every_question_about_every_example() {
                 }
             }
             for (scene, one) in about["scenes"].as_array().unwrap().iter().enumerate() {
-                let values: Vec<f64> = one["parameters"].as_array().unwrap().iter().map(|one| one["value"].as_f64().unwrap()).collect();
+                let values: Vec<f64> =
+                    one["parameters"].as_array().unwrap().iter().map(|one| one["value"].as_f64().unwrap()).collect();
                 let answer = page.ask(&merged(&at, json!({ "do": "simulate", "scene": scene, "values": values, "rates": [1.0], "to": 0.1, "tolerance": 1e-6, "steps": 100 })));
                 eprintln!("    {} {} {}", one["name"], answer["why"], answer["lines"]);
             }

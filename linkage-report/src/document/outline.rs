@@ -3,8 +3,7 @@
 use core::fmt;
 
 use linkage_runtime::derivation::{
-    Counts, Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Operations, Quantity, Root,
-    SceneDerivation,
+    Counts, Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Operations, Quantity, Root, SceneDerivation,
 };
 
 use crate::words::Words;

@@ -16,6 +16,7 @@
 mod at;
 mod html;
 mod lines;
+mod motion;
 mod numbers;
 mod page;
 mod properties;
@@ -28,11 +29,12 @@ use linkage_runtime::derivation::{Derivation, Formula, SceneDerivation, SheetDer
 use crate::words::Words;
 
 pub use crate::document::text_at;
+pub use crate::words::Language;
 pub(crate) use html::{escape, svg_address};
+pub use motion::{MotionNumbers, MovingCoordinate};
 pub(crate) use numbers::{latex, number};
 pub(crate) use page::document;
 pub use properties::{RatioNumber, RatioProperty, ratio_properties};
-pub use crate::words::Language;
 pub use values::Values;
 
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +47,10 @@ pub(crate) struct Table {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Caption {
     Parameters,
+    Position,
+    Degrees,
+    Velocities,
+    Accelerations,
     Given(String),
 }
 
@@ -52,6 +58,10 @@ impl Caption {
     pub(crate) fn text<'c>(&'c self, words: &Words) -> &'c str {
         match self {
             Self::Parameters => words.parameters,
+            Self::Position => words.position,
+            Self::Degrees => words.degrees,
+            Self::Velocities => words.velocities,
+            Self::Accelerations => words.accelerations,
             Self::Given(text) => text,
         }
     }
@@ -128,6 +138,14 @@ impl<'a> Sheet<'a> {
     /// Adds the number of each formula at a position, except those of the constraint equations, which are zero.
     pub fn at(&mut self, values: Values) -> &mut Self {
         self.values = Some(values);
+        self
+    }
+
+    /// Adds the numbers of a motion at one position: that of each formula, as [`at`](Self::at) does with those of parameters that
+    /// were [`given`](Self::given) before, and tables of the coordinates and, if it has rates, of velocities and accelerations.
+    pub fn motion(&mut self, motion: &MotionNumbers) -> &mut Self {
+        self.values = Some(motion.values(&self.given));
+        self.tables.extend(motion.tables());
         self
     }
 

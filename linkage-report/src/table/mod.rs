@@ -21,9 +21,9 @@ mod scene;
 mod simulation;
 mod write;
 
-pub(crate) use motion::names;
 pub use column::Units;
 pub use error::TableError;
+pub(crate) use motion::names;
 
 pub(crate) use column::{Column, Quantity};
 

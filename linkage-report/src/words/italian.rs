@@ -109,9 +109,7 @@ pub(super) const WORDS: Words = Words {
         1 => format!("Dall'equazione {equations} segue {unknowns}."),
         _ => format!("Dalle equazioni {equations} seguono {unknowns}."),
     },
-    branches: |root, [positive, negative]| {
-        format!("{root} è positivo sul ramo {positive}, negativo su {negative}.")
-    },
+    branches: |root, [positive, negative]| format!("{root} è positiva sul ramo {positive}, negativa su {negative}."),
     no_determinant: |inputs| format!("Se si muove {inputs}, il determinante non ha forma chiusa."),
     bearing: |joint| format!("con la reazione vincolare della {}:", names::joint(joint)),
     force_along: |contact| format!("La forza di «{}» è", names::effect(contact)),

@@ -144,6 +144,12 @@ impl Language {
             Self::Italian => &italian::WORDS,
         }
     }
+
+    /// The caption of a picture at these values of the inputs, in words.
+    #[must_use]
+    pub fn position_at(self, inputs: &str) -> String {
+        (self.words().position_at)(inputs)
+    }
 }
 
 impl Words {
@@ -184,4 +190,45 @@ impl Words {
 pub(crate) fn capitalised(words: &str) -> String {
     let mut letters = words.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use linkage_runtime::derivation::{FormulaNode, FormulaTable};
+
+    use super::*;
+    use crate::Notation;
+
+    #[test]
+    fn a_condition_ends_with_a_word() {
+        let nodes = [FormulaNode::Name(0), FormulaNode::Exists(1)];
+        let table = FormulaTable::checked(&nodes, &["f"], &[]).unwrap();
+        let (name, exists) = (table.get(1).unwrap(), table.get(2).unwrap());
+        let shown = |language: Language, of: Formula<'_>| {
+            let words = language.words();
+            [of.to_string(), of.to_latex(), of.to_mathml()].map(|notation| words.formula(&of, notation))
+        };
+        let english = shown(Language::English, exists);
+        assert_eq!(english, [exists.to_string(), exists.to_latex(), exists.to_mathml()]);
+        let italian = shown(Language::Italian, exists);
+        assert_eq!(italian, english.map(|notation| notation.replace("exists", "esiste")));
+        assert_ne!(italian[0], exists.to_string());
+        assert_eq!(shown(Language::Italian, name)[0], "f");
+    }
+
+    #[test]
+    fn statements_of_properties_are_translated() {
+        let [english, italian] = [Language::English, Language::Italian].map(Language::words);
+        for (one, other) in english.statements.iter().zip(italian.statements) {
+            assert_eq!((english.statement(one), italian.statement(one)), (*one, other));
+        }
+        assert_eq!(italian.statement("Another one."), "Another one.");
+    }
+
+    #[test]
+    fn no_number_has_words() {
+        let words = Language::Italian.words();
+        assert_eq!([words.number(f64::NAN), words.latex(f64::NAN)], ["non è un numero", "\\text{non è un numero}"]);
+        assert_eq!(words.number(-0.5), "−0.5");
+    }
 }

@@ -46,7 +46,7 @@ mod touches;
 pub use along::{Along, AlongCoordinates, AlongPose, AlongRates};
 pub use events::Event;
 pub use groups::Groups;
-pub use input_path::{InputPath, Line, OneInput, InputAt};
+pub use input_path::{InputAt, InputPath, Line, OneInput};
 pub use options::{AtChangePoint, Direction, Options};
 pub use path::{Path, PathStep};
 pub use tangents::Tangents;
