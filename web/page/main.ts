@@ -19,6 +19,7 @@ import { PictureView } from "./picture";
 import { PositionsView } from "./positions";
 import { recall, remember } from "./preferences";
 import { rewrite } from "./rewrite";
+import { followFile, isServed } from "./served";
 import { Session } from "./session";
 import { settled } from "./signal";
 import { SlidersView } from "./sliders";
@@ -182,7 +183,7 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
             else if (error instanceof DamagedLink) notice.say(word().damagedLink, true);
             else throw error;
         }
-        if (editor.text === "") load(examples[0]?.text ?? "");
+        if (editor.text === "" && !isServed()) load(examples[0]?.text ?? "");
     }
     addEventListener("hashchange", () => void follow());
 
@@ -254,6 +255,7 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
         if (words !== null && !isRefusal(words)) learn(words);
     });
     void follow();
+    followFile(load);
 }
 
 void begin();
