@@ -72,8 +72,13 @@ export async function paste(page, text) {
     await page.keyboard.down("Control");
     await page.keyboard.press("a");
     await page.keyboard.up("Control");
-    if (text === "") await page.keyboard.press("Delete");
-    else await page.keyboard.sendCharacter(text);
+    await page.keyboard.press("Delete");
+    await page.evaluate((pasted) => {
+        const data = new DataTransfer();
+        data.setData("text/plain", pasted);
+        const content = document.querySelector(".editor").shadowRoot.querySelector(".cm-content");
+        content.dispatchEvent(new ClipboardEvent("paste", { clipboardData: data, bubbles: true, cancelable: true }));
+    }, text);
 }
 
 export const focusText = (page) => page.evaluate(() => document.querySelector(".editor").shadowRoot.querySelector(".cm-content").focus());
@@ -90,13 +95,13 @@ export async function choose(page, name) {
 
 /** Writes into the field of a slider. */
 export async function setField(page, name, text) {
-    const field = await page.waitForSelector(`.slider input.number[aria-label^="${name},"]`);
+    const field = await page.waitForSelector(`.side .slider input.number[aria-label^="${name},"]`);
     await field.click({ count: 3 });
     await field.type(text);
     await page.keyboard.press("Enter");
 }
 
-export const fieldOf = (page, name) => page.$eval(`.slider input.number[aria-label^="${name},"]`, (field) => field.value);
+export const fieldOf = (page, name) => page.$eval(`.side .slider input.number[aria-label^="${name},"]`, (field) => field.value);
 
 /** The number of a text with a true minus sign, perhaps in degrees. */
 export const number = (text) => Number(text.replace("−", "-").replace("°", ""));

@@ -20,11 +20,11 @@ test("every control has a name, and tabs, sliders and menus take keys", async ()
     assert.equal(await page.evaluate(() => document.activeElement.id), "tab-sheet");
     assert.equal(await page.$eval("#panel-sheet", (panel) => panel.hidden), false);
     await page.keyboard.press("ArrowLeft");
-    await page.focus('.slider input[type="range"]');
-    const before = await page.$eval(".slider .number", (field) => field.value);
+    await page.focus('.side .slider input[type="range"]');
+    const before = await page.$eval(".side .slider .number", (field) => field.value);
     await page.keyboard.press("ArrowRight");
-    await until(page, (old) => document.querySelector(".slider .number").value !== old, before);
-    assert.match(await page.$eval('.slider input[type="range"]', (range) => range.getAttribute("aria-valuetext")), /°/u);
+    await until(page, (old) => document.querySelector(".side .slider .number").value !== old, before);
+    assert.match(await page.$eval('.side .slider input[type="range"]', (range) => range.getAttribute("aria-valuetext")), /°/u);
     await page.focus(".menu.wide > button");
     await page.keyboard.press("ArrowDown");
     await page.keyboard.press("ArrowDown");

@@ -139,7 +139,7 @@ test("every prefix of an example is read, and the last good picture stays", asyn
         assert.ok(state.isDrawn, `prefix of ${end}`);
         assert.doesNotMatch(state.words, /failed|cannot be loaded/u, `prefix of ${end}`);
     }
-    await until(page, () => document.querySelector(".slider .name")?.textContent === "phi");
+    await until(page, () => document.querySelector(".side .slider .name")?.textContent === "phi");
     await drawn(page);
     assert.deepEqual(errors, []);
     await close();
@@ -174,7 +174,7 @@ test("a megabyte of text and two hundred loops leave the keys free", async () =>
     await paste(page, `${FOUR_BAR}\n// ${"x".repeat(1_000_000)}`);
     await until(page, () => /1000 kB/u.test(document.querySelector(".notice").textContent));
     await paste(page, FOUR_BAR);
-    await until(page, () => document.querySelector(".slider .name")?.textContent === "t");
+    await until(page, () => document.querySelector(".side .slider .name")?.textContent === "t");
     await drawn(page);
     await close();
 });
@@ -188,7 +188,7 @@ test("a text too long for a link is offered as a file", async () => {
         noise += (x % 36).toString(36);
     }
     await paste(page, `// ${noise}\n${FOUR_BAR}`);
-    await until(page, () => document.querySelector(".slider .name")?.textContent === "t");
+    await until(page, () => document.querySelector(".side .slider .name")?.textContent === "t");
     await page.click("header .menu:nth-of-type(2) > button");
     await (await page.$$("header .menu:nth-of-type(2) .items button"))[2].click();
     const said = await page.waitForSelector("dialog[open] p");
