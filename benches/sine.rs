@@ -1,5 +1,5 @@
-//! The time of `Real::sine_cosine`, `sines_cosines`, `arctangent2` and `hypotenuse` compared with the library's
-//! functions, timed alternately.
+//! The time of the elementary functions of `Real` compared with those of the standard library, timed alternately. Those after
+//! the hypotenuse are `libm`'s.
 //!
 //! `cargo bench --bench sine`
 
@@ -129,6 +129,39 @@ fn pairs<T: Real>(a: &[T], b: &[T], values: &mut [T], of: impl Fn(T, T) -> T) {
     }
 }
 
+/// Latency and throughput of a function of one number, between `least` and `most`; a chain adds `small` times the last value.
+fn single_rows(name: &str, [least, most, small]: [f64; 3], ours: impl Fn(f64) -> f64, library: impl Fn(f64) -> f64) {
+    let arguments: Vec<f64> = angles::<f64>(0.5).iter().map(|part| least + (most - least) * (part + 0.5)).collect();
+    let mut values = vec![0.0; ANGLES];
+    let mut others = values.clone();
+    row(
+        &format!("{name}: chain"),
+        || {
+            black_box(single_chain(black_box(&arguments), small, &ours));
+        },
+        || {
+            black_box(single_chain(black_box(&arguments), small, &library));
+        },
+    );
+    row(
+        &format!("{name}: independent"),
+        || singles(black_box(&arguments), black_box(&mut values), &ours),
+        || singles(black_box(&arguments), black_box(&mut others), &library),
+    );
+}
+
+#[inline(always)]
+fn single_chain(arguments: &[f64], small: f64, of: impl Fn(f64) -> f64) -> f64 {
+    arguments.iter().fold(0.0, |last, &x| of(x + small * last))
+}
+
+#[inline(always)]
+fn singles(arguments: &[f64], values: &mut [f64], of: impl Fn(f64) -> f64) {
+    for (&x, value) in arguments.iter().zip(values) {
+        *value = of(x);
+    }
+}
+
 fn group_row<const N: usize>(range: f64) {
     let angles = angles::<f64>(range);
     let (mut s, mut c) = (vec![0.0; ANGLES], vec![0.0; ANGLES]);
@@ -159,4 +192,13 @@ fn main() {
     pair_rows::<f64>("f64, hypot", halved, |x, y| 0.5 * x.hypot(y));
     let halved = |x: f32, y: f32| 0.5 * x.hypotenuse(y);
     pair_rows::<f32>("f32, hypot", halved, |x, y| 0.5 * x.hypot(y));
+    single_rows("f64, tan", [-7.0, 7.0, 1e-9], Real::tangent, f64::tan);
+    single_rows("f64, asin", [-0.99, 0.99, 1e-9], Real::arcsine, f64::asin);
+    single_rows("f64, acos", [-0.99, 0.99, 1e-9], Real::arccosine, f64::acos);
+    single_rows("f64, atan", [-7.0, 7.0, 1e-9], Real::arctangent, f64::atan);
+    single_rows("f64, exp", [-7.0, 7.0, 1e-9], Real::exponential, f64::exp);
+    single_rows("f64, ln", [0.1, 100.0, 1e-9], Real::logarithm, f64::ln);
+    // As in the control of steps.
+    let power = |x: f64| (0.17 * x.logarithm()).exponential();
+    single_rows("f64, power", [1e-4, 1.0, 1e-9], power, |x| x.powf(0.17));
 }

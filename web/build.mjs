@@ -1,7 +1,9 @@
 // Builds the page: `dist/` as a folder of files and as one file, `dist/linkage.html`. Neither asks the network for anything.
 //
-// LINKAGE_WASM=path takes a module that is built already, LINKAGE_DRAFT=1 leaves out wasm-opt, which takes minutes, and
-// LINKAGE_FAKE=1 takes the few answers of test/fake.ts in place of the module.
+// `dist/live-head.html` and `dist/live-body.html` are the parts that `linkage sheet --live` adds to a sheet.
+//
+// LINKAGE_WASM=path and LINKAGE_LIVE_WASM=path take modules that are built already: that of the page, and that of live sheets.
+// LINKAGE_DRAFT=1 leaves out wasm-opt, which takes minutes. LINKAGE_FAKE=1 takes the answers of test/fake.ts in place of a module.
 
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -35,11 +37,10 @@ function examples() {
     return names.map((name) => ({ name, text: found.get(name) }));
 }
 
-/** The module, without names and as small as wasm-opt makes it. */
-function wasm() {
-    let path = process.env.LINKAGE_WASM;
+/** A module, without names and as small as wasm-opt makes it. */
+function wasm(path, ...options) {
     if (path === undefined) {
-        const target = ["--profile", "page", "--target", "wasm32-unknown-unknown"];
+        const target = ["--profile", "page", "--target", "wasm32-unknown-unknown", ...options];
         execFileSync("cargo", ["build", ...target, "-p", "linkage-page"], { cwd: root, stdio: "inherit" });
         const folder = process.env.CARGO_TARGET_DIR ?? join(root, "target");
         path = join(folder, "wasm32-unknown-unknown", "page", "linkage_page.wasm");
@@ -177,8 +178,10 @@ const script = inScript((await bundle("page/main.ts", modules)).text);
 // An escape outside of a string or a regular expression would be a mistake of syntax.
 await esbuild.transform(script, { loader: "js" });
 const css = (await esbuild.transform(readFileSync(join(here, "page", "page.css"), "utf8"), { loader: "css", minify: true })).code;
-const bytes = isFake ? Buffer.from("AGFzbQEAAAA=", "base64") : wasm();
-const module = `linkageModule="${deflateRawSync(bytes, { level: 9 }).toString("base64")}"`;
+const none = Buffer.from("AGFzbQEAAAA=", "base64");
+const bytes = isFake ? none : wasm(process.env.LINKAGE_WASM);
+const deflated = (bytes) => `linkageModule="${deflateRawSync(bytes, { level: 9 }).toString("base64")}"`;
+const module = deflated(bytes);
 const template = readFileSync(join(here, "page", "index.html"), "utf8");
 
 const folder = fill(template, {
@@ -191,7 +194,20 @@ const single = fill(template, {
     styles: `<style>${css}</style>`,
     scripts: `<script>${module}</script>\n<script>${script}</script>`,
 });
+// A live sheet: its own styles are those of a sheet, in a style element.
+const liveBytes = isFake ? none : wasm(process.env.LINKAGE_LIVE_WASM, "--no-default-features");
+const liveModule = deflated(liveBytes);
+const liveScript = inScript((await bundle("page/live.ts", { "linkage:worker": worker.text })).text);
+await esbuild.transform(liveScript, { loader: "js" });
+const besides = "<style>@media (min-width: 80rem) { body.has-live { padding-right: 22rem } }</style>";
+const liveBody = [
+    '<script type="application/json" id="linkage-data">LINKAGE_DATA</script>',
+    `<script>${liveModule}</script>`,
+    `<script>${liveScript}</script>`,
+].join("\n");
 const files = {
+    "live-head.html": `${policy({ script: `${hash(liveModule)} ${hash(liveScript)}`, style: "'unsafe-inline'" })}\n${besides}\n`,
+    "live-body.html": `${liveBody}\n`,
     "index.html": folder,
     "page.js": script,
     "module.js": module,
@@ -209,3 +225,4 @@ for (const [name, text] of Object.entries(files)) {
     if (!isDraft) report(name, Buffer.from(text));
 }
 if (!isDraft) report("(wasm)", bytes);
+if (!isDraft) report("(live wasm)", liveBytes);

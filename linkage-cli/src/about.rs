@@ -3,11 +3,10 @@
 use linkage_compiler::Lowered;
 use linkage_compiler::derivation::Derivation;
 use linkage_compiler::ids::CoordinateId;
-use linkage_compiler::model::{Kind, Name, Request};
+use linkage_compiler::model::{Kind, Name, OutputAngle, Request, output_angles};
 use linkage_compiler::program::Position;
 use linkage_interpreter::{Mechanism, Program};
 
-use crate::angles::{self, Angle};
 use crate::failure::Failure;
 use crate::mistakes::{Mistakes, Source};
 use crate::names::{listed, place};
@@ -22,7 +21,7 @@ pub struct About {
     pub unknowns: Vec<Coordinate>,
     pub points: Vec<Named>,
     pub outputs: Vec<Named>,
-    pub output_angles: Vec<Option<Angle>>,
+    pub output_angles: Vec<Option<OutputAngle>>,
     pub parameters: Vec<String>,
     /// The default of each parameter as written, and its kind.
     pub defaults: Vec<(Option<String>, Kind)>,
@@ -94,7 +93,7 @@ impl About {
             unknowns: driver.unknowns.iter().map(coordinate).collect(),
             points: mechanism.points.iter().map(|point| named(&point.name)).collect(),
             outputs: mechanism.outputs.iter().map(|output| named(&output.name)).collect(),
-            output_angles: angles::of_outputs(mechanism),
+            output_angles: output_angles(mechanism),
             parameters: mechanism.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
             defaults: mechanism.parameters.iter().map(|of| (of.default_text.clone(), of.kind)).collect(),
             functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),

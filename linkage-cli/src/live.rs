@@ -1,5 +1,7 @@
 //! Sheets whose numbers and picture follow sliders: a sheet with a module that runs the compiled mechanism, and its data.
 
+use std::collections::BTreeMap;
+
 use serde_json::json;
 
 use crate::arguments;
@@ -30,7 +32,7 @@ fn data(arguments: &arguments::Sheet) -> Result<String, Failure> {
     let data = json!({
         "written": linkage_page::compiled(&text).map_err(|refusal| Failure::Outside(refusal.why))?,
         "name": machine.about.name,
-        "parameters": machine.parameters().iter().map(|(_, value)| *value).collect::<Vec<f64>>(),
+        "parameters": machine.parameters().iter().cloned().collect::<BTreeMap<String, f64>>(),
         "place": { "inputs": inputs, "unknowns": unknowns },
         "rate": arguments.rate.map(|rate| rate.number),
     });

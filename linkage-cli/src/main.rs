@@ -5,7 +5,6 @@
 
 mod about;
 mod aligned;
-mod angles;
 mod arguments;
 mod columns;
 mod commands;

@@ -1,8 +1,10 @@
 //! The numbers and the picture of a sheet at one position.
 
 use linkage_lent::Documents;
-use linkage_report::sheet::{Sheet, Values};
+use linkage_report::sheet::{MotionNumbers, MovingCoordinate, Sheet};
+use linkage_runtime::{OutputMotion, PointMotion};
 
+use crate::about::About;
 use crate::arguments;
 use crate::commands::drawing;
 use crate::failure::Failure;
@@ -17,9 +19,7 @@ pub struct Position {
 }
 
 struct Numbers {
-    values: Values,
-    /// Numbers by name, with their captions.
-    tables: Vec<(&'static str, Vec<(String, f64)>)>,
+    motion: MotionNumbers,
     picture: Option<String>,
     caption: String,
 }
@@ -47,11 +47,8 @@ impl Position {
         for (name, value) in &self.given {
             sheet.given(name, *value);
         }
-        if let Some(Numbers { values, tables, picture, caption }) = &self.numbers {
-            sheet.at(values.clone());
-            for (caption, rows) in tables {
-                sheet.numbers(*caption, rows.iter().cloned());
-            }
+        if let Some(Numbers { motion, picture, caption }) = &self.numbers {
+            sheet.motion(motion);
             if let Some(picture) = picture {
                 sheet.picture(picture, caption);
             }
@@ -70,74 +67,44 @@ impl Numbers {
         }
         let motion = machine.motion(&inputs, &rates).map_err(Failure::Outside)?;
         let figure = Figure::of(machine)?;
-        let rates = rate.map(|_| rates.as_slice());
         Ok(Self {
-            values: values(machine, &motion, rates),
-            tables: tables(machine, &motion, rates),
+            motion: numbers(machine, &motion, &rates, rate.is_some()),
             picture: drawing(machine, &figure, &motion).to_svg().ok(),
-            caption: format!("The position at {}", machine.at(&inputs)),
+            caption: arguments.language.of_sheet().position_at(&machine.at(&inputs)),
         })
     }
 }
 
-/// The coordinates with their values.
-fn coordinates<'m>(machine: &'m Machine, motion: &'m Motion) -> impl Iterator<Item = (&'m Coordinate, f64)> {
-    let values = motion.inputs.iter().chain(&motion.unknowns);
-    machine.about.inputs.iter().chain(&machine.about.unknowns).zip(values.copied())
-}
-
-/// The numbers of all names in formulas; those of rates and accelerations if the inputs have rates.
-fn values(machine: &Machine, motion: &Motion, rates: Option<&[f64]>) -> Values {
-    let mut values = Values::default();
-    for (name, value) in machine.parameters() {
-        values.set(name, 0, *value);
+/// The numbers of all names, by their paths in the motion.
+fn numbers(machine: &Machine, motion: &Motion, rates: &[f64], has_rates: bool) -> MotionNumbers {
+    let About { inputs, unknowns, points, outputs, .. } = &machine.about;
+    let of = |path: String| motion.number(&path);
+    let coordinate = |of: &Coordinate, motion: [f64; 3]| {
+        let (name, is_angle) = (of.name.text.clone(), of.is_angle);
+        MovingCoordinate { name, is_angle, motion }
+    };
+    let of_inputs = inputs.iter().zip(&motion.inputs).zip(rates);
+    let of_unknowns = unknowns.iter().zip(&motion.unknowns).map(|(unknown, value)| {
+        let [rate, acceleration] = ["rates", "accelerations"].map(|kind| of(format!("{kind}.{}", unknown.name.field)));
+        coordinate(unknown, [*value, rate, acceleration])
+    });
+    let of_points = points.iter().map(|point| {
+        let vector = |kind: &str| ["x", "y"].map(|axis| of(format!("points.{}.{kind}.{axis}", point.field)));
+        let [position, velocity, acceleration] = ["position", "velocity", "acceleration"].map(vector);
+        let (velocity, acceleration) = (velocity.into(), acceleration.into());
+        (point.text.clone(), PointMotion { position: position.into(), velocity, acceleration })
+    });
+    let of_outputs = outputs.iter().map(|output| {
+        let number = |kind: &str| of(format!("outputs.{}.{kind}", output.field));
+        let [value, rate, acceleration] = ["value", "rate", "acceleration"].map(number);
+        (output.text.clone(), OutputMotion { value, rate, acceleration })
+    });
+    MotionNumbers {
+        inputs: of_inputs.map(|((input, value), rate)| coordinate(input, [*value, *rate, 0.0])).collect(),
+        unknowns: of_unknowns.collect(),
+        points: of_points.collect(),
+        outputs: of_outputs.collect(),
+        ratios: machine.ratios(motion).chunks(inputs.len().max(1)).map(<[f64]>::to_vec).collect(),
+        has_rates,
     }
-    for (of, value) in coordinates(machine, motion) {
-        values.set(&of.name.text, 0, value);
-    }
-    for (input, rate) in machine.about.inputs.iter().zip(rates.into_iter().flatten()) {
-        values.set(&input.name.text, 1, *rate).set(&input.name.text, 2, 0.0);
-    }
-    for unknown in machine.about.unknowns.iter().filter(|_| rates.is_some()) {
-        let of = |kind: &str| motion.number(&format!("{kind}.{}", unknown.name.field));
-        values.set(&unknown.name.text, 1, of("rates")).set(&unknown.name.text, 2, of("accelerations"));
-    }
-    let pairs = machine.about.unknowns.iter().flat_map(|of| machine.about.inputs.iter().map(move |by| (of, by)));
-    for ((of, by), ratio) in pairs.zip(machine.ratios(motion)) {
-        values.set_ratio(&of.name.text, &by.name.text, ratio);
-    }
-    values
-}
-
-/// The numbers that no equation has: coordinates, and with rates of the inputs all rates and accelerations.
-fn tables(machine: &Machine, motion: &Motion, rates: Option<&[f64]>) -> Vec<(&'static str, Vec<(String, f64)>)> {
-    let all = || coordinates(machine, motion).map(|(of, value)| (of, value, of.name.text.clone()));
-    let lengths = all().map(|(_, value, name)| (name, value)).collect();
-    let degrees = all().filter(|(of, ..)| of.is_angle).map(|(_, value, name)| (name, value.to_degrees())).collect();
-    let mut tables = vec![("Position", lengths), ("Angles in degrees", degrees)];
-    let orders = [
-        ("Velocities", "rates", "velocity", "rate"),
-        ("Accelerations", "accelerations", "acceleration", "acceleration"),
-    ];
-    for (caption, of_unknown, of_point, end) in orders {
-        let Some(rates) = rates else { break };
-        let of_inputs = machine.about.inputs.iter().zip(rates);
-        let inputs =
-            of_inputs.filter(|_| end == "rate").map(|(input, rate)| (format!("{}_rate", input.name.text), *rate));
-        let unknowns = machine.about.unknowns.iter().map(|unknown| {
-            (format!("{}_{end}", unknown.name.text), motion.number(&format!("{of_unknown}.{}", unknown.name.field)))
-        });
-        let points = machine.about.points.iter().flat_map(|point| {
-            ["x", "y"].map(|axis| {
-                let value = motion.number(&format!("points.{}.{of_point}.{axis}", point.field));
-                (format!("{axis}_{}_{end}", point.text), value)
-            })
-        });
-        let outputs = machine.about.outputs.iter().map(|output| {
-            (format!("{}_{end}", output.text), motion.number(&format!("outputs.{}.{end}", output.field)))
-        });
-        tables.push((caption, inputs.chain(unknowns).chain(points).chain(outputs).collect()));
-    }
-    tables.retain(|(_, rows): &(_, Vec<(String, f64)>)| !rows.is_empty());
-    tables
 }

@@ -1,8 +1,9 @@
-//! The elementary functions, each with a relative error of at most 2 ulp (2^-103).
+//! The elementary functions, each with a relative error of at most 2 ulp (2^-103). They begin with the value in doubles of
+//! `libm`, which has the same bits on every target.
 
 use core::f64::consts::{FRAC_2_PI, LN_2};
 
-use nalgebra::{ComplexField, RealField};
+use nalgebra::ComplexField;
 
 use super::DoubleDouble;
 
@@ -85,12 +86,12 @@ pub(super) fn sin_cos(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
 /// The angle computed in doubles, corrected by the tangent of the rotation from its direction to (x, y): the correction
 /// is so small that angle and tangent are equal.
 pub(super) fn atan2(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble {
-    let angle = DoubleDouble::from(RealField::atan2(y.high, x.high));
+    let angle = DoubleDouble::from(libm::atan2(y.high, x.high));
     if (y.high == 0.0 && x.high >= 0.0) || !angle.high.is_finite() {
         return angle;
     }
     // x and y are scaled to about 1, so that no product overflows or underflows.
-    let exponent = integer(-ComplexField::floor(ComplexField::log2(y.high.abs().max(x.high.abs())))).unwrap_or(0);
+    let exponent = integer(-ComplexField::floor(libm::log2(y.high.abs().max(x.high.abs())))).unwrap_or(0);
     let (y, x) = (scaled(y, exponent), scaled(x, exponent));
     let (sine, cosine) = sin_cos(angle);
     let tangent = (y * cosine - x * sine) / (x * cosine + y * sine);
@@ -141,7 +142,7 @@ fn logarithm(near: f64, remainder: impl FnOnce(DoubleDouble) -> DoubleDouble) ->
 }
 
 pub(super) fn ln_1p(x: DoubleDouble) -> DoubleDouble {
-    logarithm(ComplexField::ln_1p(x.high), |near| {
+    logarithm(libm::log1p(x.high), |near| {
         let m = exp_m1(near);
         (x - m) / (ONE + m)
     })
@@ -152,7 +153,7 @@ pub(super) fn ln(x: DoubleDouble) -> DoubleDouble {
     if (0.7..1.4).contains(&x.high) {
         return ln_1p(x - ONE);
     }
-    logarithm(ComplexField::ln(x.high), |near| x * exp(-near) - ONE)
+    logarithm(libm::log(x.high), |near| x * exp(-near) - ONE)
 }
 
 pub(super) fn powi(x: DoubleDouble, n: i32) -> DoubleDouble {
@@ -173,14 +174,14 @@ pub(super) fn powi(x: DoubleDouble, n: i32) -> DoubleDouble {
 pub(super) fn powf(x: DoubleDouble, exponent: DoubleDouble) -> DoubleDouble {
     match integer(exponent.high) {
         Some(n) if exponent.low == 0.0 => powi(x, n),
-        _ if x.high == 0.0 => ComplexField::powf(x.high, exponent.high).into(),
+        _ if x.high == 0.0 => libm::pow(x.high, exponent.high).into(),
         _ => exp(ln(x) * exponent),
     }
 }
 
 /// The cube root: one step of Newton's method from that of the nearest double.
 pub(super) fn cbrt(x: DoubleDouble) -> DoubleDouble {
-    let root = ComplexField::cbrt(x.high);
+    let root = libm::cbrt(x.high);
     if root == 0.0 || !root.is_finite() {
         return root.into();
     }
@@ -193,7 +194,7 @@ pub(super) fn hypot(x: DoubleDouble, y: DoubleDouble) -> DoubleDouble {
     if size == 0.0 || !size.is_finite() {
         return size.into();
     }
-    let exponent = integer(ComplexField::floor(ComplexField::log2(size))).unwrap_or(0);
+    let exponent = integer(ComplexField::floor(libm::log2(size))).unwrap_or(0);
     let (x, y) = (scaled(x, -exponent), scaled(y, -exponent));
     scaled((x * x + y * y).root(), exponent)
 }

@@ -132,38 +132,38 @@ impl<N: Number> Number for Series<N> {
         let by = N::exactly(0.5) / root;
         self.chain(root, by, -by / double(self.value))
     }
-    fn exp(self) -> Self {
-        let value = self.value.exp();
+    fn exponential(self) -> Self {
+        let value = self.value.exponential();
         self.chain(value, value, value)
     }
-    fn ln(self) -> Self {
+    fn logarithm(self) -> Self {
         let by = N::one() / self.value;
-        self.chain(self.value.ln(), by, -by.square())
+        self.chain(self.value.logarithm(), by, -by.square())
     }
     fn sine_cosine(self) -> (Self, Self) {
         let (sine, cosine) = self.value.sine_cosine();
         (self.chain(sine, cosine, -sine), self.chain(cosine, -sine, -cosine))
     }
     /// Over a pole nothing is known of its derivatives, not even that the first is positive.
-    fn tan(self) -> Self {
+    fn tangent(self) -> Self {
         let (_, cosine) = self.value.sine_cosine();
-        let value = self.value.tan();
+        let value = self.value.tangent();
         // Zero, or unknown.
         let pole = N::zero() / cosine;
         let by = N::one() + value.square() + pole;
         self.chain(value, by, double(value * by))
     }
-    fn asin(self) -> Self {
+    fn arcsine(self) -> Self {
         let by = N::one() / (N::one() - self.value.square()).sqrt();
-        self.chain(self.value.asin(), by, self.value * by.square() * by)
+        self.chain(self.value.arcsine(), by, self.value * by.square() * by)
     }
-    fn acos(self) -> Self {
+    fn arccosine(self) -> Self {
         let by = -(N::one() / (N::one() - self.value.square()).sqrt());
-        self.chain(self.value.acos(), by, self.value * by.square() * by)
+        self.chain(self.value.arccosine(), by, self.value * by.square() * by)
     }
-    fn atan(self) -> Self {
+    fn arctangent(self) -> Self {
         let by = N::one() / (N::one() + self.value.square());
-        self.chain(self.value.atan(), by, -double(self.value * by.square()))
+        self.chain(self.value.arctangent(), by, -double(self.value * by.square()))
     }
     /// theta' = (x y' - y x') / r^2, and its derivative. Over the negative x axis, where theta jumps, nothing is known of them:
     /// there the value reaches pi.

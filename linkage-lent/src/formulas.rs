@@ -137,6 +137,8 @@ fn form(kind: &GroupKind) -> GroupForm {
         GroupKind::SliderToCircle => GroupForm::LengthAndDistance,
         GroupKind::Angle => GroupForm::OneAngle,
         GroupKind::Linear => GroupForm::OneLinear,
-        GroupKind::Scalar | GroupKind::Pair | GroupKind::Loops(_) | GroupKind::Irreducible(..) => GroupForm::Other,
+        GroupKind::Loops(2) => GroupForm::TwoLoops,
+        GroupKind::Loops(_) => GroupForm::ThreeLoops,
+        GroupKind::Scalar | GroupKind::Pair | GroupKind::Irreducible(..) => GroupForm::Other,
     }
 }

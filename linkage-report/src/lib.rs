@@ -22,6 +22,7 @@ pub mod price;
 pub mod report;
 pub mod sheet;
 pub mod table;
+mod words;
 
 pub use document::Document;
 pub use fpcore::FpCore;

@@ -1,5 +1,5 @@
-//! The bounds of the elementary functions. The value is that of the function of `f64`: of the runtime's where it has its
-//! own, else of the platform's.
+//! The bounds of the elementary functions. The value is that of the function of `f64`: of the runtime's `Real` where it has
+//! one, else of the platform's.
 //!
 //! A differentiable function f of X, |X - x| <= e, obeys |f(X) - f(x)| <= e L, where L is the largest |f'| between x - e
 //! and x + e. If the interval leaves the domain, nothing is known.
@@ -14,9 +14,10 @@ use crate::Rounded;
 use crate::residual::{TINY, UNIT, of_length};
 use crate::rules::times;
 
-/// Relative error of the platform's functions, in u: 1 ulp. This is an assumption. For exp, ln, pow, tan, asin, acos, atan
-/// and their variants the libraries of the common platforms are found to be better: B. Gladman, V. Innocente, J. Mather,
-/// P. Zimmermann, "Accuracy of Mathematical Functions in Single, Double, Double Extended, and Quadruple Precision". For
+/// Relative error of `libm`'s and the platform's functions, in u: 1 ulp. This is an assumption. For exp, ln, pow, tan, asin,
+/// acos, atan and their variants they are found to be better: `linkage-runtime/tests/runtime/elementary.rs`, and B. Gladman,
+/// V. Innocente, J. Mather, P. Zimmermann, "Accuracy of Mathematical Functions in Single, Double, Double Extended, and
+/// Quadruple Precision". For
 /// the others, such as sinh, cbrt and log10, they are not, and nothing is known of the result.
 const PLATFORM: f64 = 2.0;
 
@@ -30,7 +31,7 @@ fn evaluated(value: f64, relative: f64, moved: f64) -> Rounded {
     Rounded::bounded(value, moved + (relative * UNIT * value.abs() + TINY))
 }
 
-/// A function of the platform with the largest slope over the argument's interval.
+/// A function of `libm` or of the platform with the largest slope over the argument's interval.
 fn sloped(x: Rounded, value: f64, slope: impl FnOnce(f64, f64) -> f64) -> Rounded {
     // An exact argument has no interval, and a slope may be infinite at the end of the domain.
     if x.error == 0.0 {
@@ -75,7 +76,7 @@ pub(crate) fn sine_cosine(x: Rounded) -> (Rounded, Rounded) {
 
 /// tan' = 1 / cos^2, and |cos X| >= |cos x| - e.
 pub(crate) fn tan(x: Rounded) -> Rounded {
-    sloped(x, ComplexField::tan(x.value), |x, e| {
+    sloped(x, Real::tangent(x.value), |x, e| {
         let least = inverse(ComplexField::cos(x).abs() - e * SLOPE_MARGIN - 4.0 * UNIT);
         least * least
     })
@@ -87,16 +88,16 @@ fn slope_of_asin(x: f64, e: f64) -> f64 {
 }
 
 pub(crate) fn asin(x: Rounded) -> Rounded {
-    sloped(x, ComplexField::asin(x.value), slope_of_asin)
+    sloped(x, Real::arcsine(x.value), slope_of_asin)
 }
 
 pub(crate) fn acos(x: Rounded) -> Rounded {
-    sloped(x, ComplexField::acos(x.value), slope_of_asin)
+    sloped(x, Real::arccosine(x.value), slope_of_asin)
 }
 
 /// atan' = 1 / (1 + x^2)
 pub(crate) fn atan(x: Rounded) -> Rounded {
-    sloped(x, ComplexField::atan(x.value), |x, e| {
+    sloped(x, Real::arctangent(x.value), |x, e| {
         let least = (x.abs() - e).max(0.0);
         (1.0 + least * least).recip()
     })
@@ -151,27 +152,27 @@ pub(crate) fn hypot(x: Rounded, y: Rounded) -> Rounded {
 }
 
 macro_rules! platform_functions {
-    ($($(#[$law:meta])* $name:ident |$x:ident, $e:ident| $slope:expr;)*) => {$(
+    ($($(#[$law:meta])* $name:ident $trait:ident::$of:ident |$x:ident, $e:ident| $slope:expr;)*) => {$(
         $(#[$law])*
         pub(crate) fn $name(x: Rounded) -> Rounded {
-            sloped(x, ComplexField::$name(x.value), |$x: f64, $e: f64| $slope)
+            sloped(x, $trait::$of(x.value), |$x: f64, $e: f64| $slope)
         }
     )*};
 }
 
 platform_functions! {
     /// exp' = exp
-    exp |x, e| ComplexField::exp(x + e);
+    exp Real::exponential |x, e| Real::exponential(x + e);
     /// (e^x - 1)' = e^x
-    exp_m1 |x, e| ComplexField::exp(x + e);
+    exp_m1 ComplexField::exp_m1 |x, e| Real::exponential(x + e);
     /// (2^x)' = 2^x ln 2
-    exp2 |x, e| ComplexField::exp2(x + e) * LN_2;
+    exp2 ComplexField::exp2 |x, e| ComplexField::exp2(x + e) * LN_2;
     /// ln' = 1 / x
-    ln |x, e| inverse(x - e);
+    ln Real::logarithm |x, e| inverse(x - e);
     /// ln(1 + x)' = 1 / (1 + x); 1 + x is rounded by at most half an ulp of the larger.
-    ln_1p |x, e| inverse((1.0 + x) - e - UNIT * (1.0 + x.abs()));
+    ln_1p ComplexField::ln_1p |x, e| inverse((1.0 + x) - e - UNIT * (1.0 + x.abs()));
     /// log2' = 1 / (x ln 2)
-    log2 |x, e| inverse((x - e) * LN_2);
+    log2 ComplexField::log2 |x, e| inverse((x - e) * LN_2);
 }
 
 /// X^Y = x^y e^t with t = y ln(X/x) + (Y - y) ln X, |ln(X/x)| <= e1 / (|x| - e1), and |e^t - 1| <= |t| + t^2 if

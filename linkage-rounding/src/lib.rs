@@ -11,7 +11,7 @@
 //! | sine and cosine up to 1e5 | 1.29, proved for `linkage_runtime` |
 //! | `atan2` of numbers that are not extreme | 1.25, proved for `linkage_runtime` |
 //! | `hypot` | computed, at most 2, proved |
-//! | exp, ln, powers, tan, asin, acos, atan; sine, cosine and `atan2` of other arguments | 2, one ulp: assumed of the platform |
+//! | exp, ln, powers, tan, asin, acos, atan; sine, cosine and `atan2` of other arguments | 2, one ulp: assumed of `libm` and, for powers, of the platform |
 //! | hyperbolic functions, cbrt, log10 | unknown |
 
 #![cfg_attr(not(feature = "std"), no_std)]

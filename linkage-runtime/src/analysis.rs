@@ -320,7 +320,7 @@ impl<T: Real> PolarVector<T> {
     #[must_use]
     pub fn matrix(&self) -> Matrix2<T> {
         let [length, angle] = self.value;
-        let (sine, cosine) = (angle.sin(), angle.cos());
+        let (sine, cosine) = angle.sine_cosine();
         Matrix2::new(cosine, -length * sine, sine, length * cosine)
     }
 

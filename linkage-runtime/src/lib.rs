@@ -37,6 +37,7 @@ pub mod continuation;
 mod dense;
 pub mod derivation;
 mod dim;
+mod elementary;
 mod error;
 pub mod extremes;
 mod formulas;

@@ -40,25 +40,25 @@ pub trait Number:
     fn sqrt(self) -> Self;
     /// The exponential function.
     #[must_use]
-    fn exp(self) -> Self;
+    fn exponential(self) -> Self;
     /// The natural logarithm.
     #[must_use]
-    fn ln(self) -> Self;
+    fn logarithm(self) -> Self;
     /// The sine and cosine of an angle in radians.
     #[must_use]
     fn sine_cosine(self) -> (Self, Self);
     /// The tangent of an angle in radians.
     #[must_use]
-    fn tan(self) -> Self;
+    fn tangent(self) -> Self;
     /// The angle between -pi/2 and pi/2 with this sine.
     #[must_use]
-    fn asin(self) -> Self;
+    fn arcsine(self) -> Self;
     /// The angle between 0 and pi with this cosine.
     #[must_use]
-    fn acos(self) -> Self;
+    fn arccosine(self) -> Self;
     /// The angle between -pi/2 and pi/2 with this tangent.
     #[must_use]
-    fn atan(self) -> Self;
+    fn arctangent(self) -> Self;
     /// The angle of (x, y) with the x axis, where `self` is y.
     #[must_use]
     fn arctangent2(self, x: Self) -> Self;
@@ -120,26 +120,26 @@ impl<T: Real> Number for T {
     fn sqrt(self) -> Self {
         T::sqrt(self)
     }
-    fn exp(self) -> Self {
-        T::exp(self)
+    fn exponential(self) -> Self {
+        Real::exponential(self)
     }
-    fn ln(self) -> Self {
-        T::ln(self)
+    fn logarithm(self) -> Self {
+        Real::logarithm(self)
     }
     fn sine_cosine(self) -> (Self, Self) {
         Real::sine_cosine(self)
     }
-    fn tan(self) -> Self {
-        T::tan(self)
+    fn tangent(self) -> Self {
+        Real::tangent(self)
     }
-    fn asin(self) -> Self {
-        T::asin(self)
+    fn arcsine(self) -> Self {
+        Real::arcsine(self)
     }
-    fn acos(self) -> Self {
-        T::acos(self)
+    fn arccosine(self) -> Self {
+        Real::arccosine(self)
     }
-    fn atan(self) -> Self {
-        T::atan(self)
+    fn arctangent(self) -> Self {
+        Real::arctangent(self)
     }
     fn arctangent2(self, x: Self) -> Self {
         Real::arctangent2(self, x)

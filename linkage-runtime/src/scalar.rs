@@ -3,7 +3,7 @@
 use nalgebra::{Complex, RealField, Unit, UnitComplex};
 
 use crate::native::{native, same};
-use crate::{hypotenuse, lane, sine};
+use crate::{elementary, hypotenuse, lane, sine};
 
 /// A real scalar that is `Copy`: `f32`, `f64`, dual numbers. It is implemented for all such types.
 #[diagnostic::on_unimplemented(
@@ -12,7 +12,7 @@ use crate::{hypotenuse, lane, sine};
 )]
 pub trait Real: RealField + Copy {
     /// The sine and cosine of an angle in radians: for `f64` up to 1e5 and every `f32` within 0.89 ulp, inlined up to
-    /// 1e5 and 1e4, else the scalar's own.
+    /// 1e5 and 1e4; other scalars have their own.
     #[inline(always)]
     #[must_use]
     fn sine_cosine(self) -> (Self, Self) {
@@ -50,7 +50,7 @@ pub trait Real: RealField + Copy {
     }
 
     /// The angle of (x, y) with the x axis, from -pi to pi, where `self` is y: for `f64` and `f32` inlined and within
-    /// 0.98 ulp (the largest error found is 0.73), else the scalar's own, which also serves zero and extreme arguments.
+    /// 0.98 ulp (the largest error found is 0.73), and a call for zero and extreme arguments; other scalars have their own.
     #[inline(always)]
     #[must_use]
     fn arctangent2(self, x: Self) -> Self {
@@ -65,6 +65,49 @@ pub trait Real: RealField + Copy {
         if lane::has_hypotenuse(self, y) { lane::hypotenuse(self, y) } else { extreme_length(self, y) }
     }
 
+    /// The tangent of an angle in radians: for `f64` and `f32` within 1 ulp, with the same bits on every target, else the
+    /// scalar's own. So are the functions below.
+    #[inline]
+    #[must_use]
+    fn tangent(self) -> Self {
+        native!(self => elementary::tangent; else self.tan())
+    }
+
+    /// The angle between -pi/2 and pi/2 with this sine.
+    #[inline]
+    #[must_use]
+    fn arcsine(self) -> Self {
+        native!(self => elementary::arcsine; else self.asin())
+    }
+
+    /// The angle between 0 and pi with this cosine.
+    #[inline]
+    #[must_use]
+    fn arccosine(self) -> Self {
+        native!(self => elementary::arccosine; else self.acos())
+    }
+
+    /// The angle between -pi/2 and pi/2 with this tangent.
+    #[inline]
+    #[must_use]
+    fn arctangent(self) -> Self {
+        native!(self => elementary::arctangent; else self.atan())
+    }
+
+    /// The exponential function.
+    #[inline]
+    #[must_use]
+    fn exponential(self) -> Self {
+        native!(self => elementary::exponential; else self.exp())
+    }
+
+    /// The natural logarithm.
+    #[inline]
+    #[must_use]
+    fn logarithm(self) -> Self {
+        native!(self => elementary::logarithm; else self.ln())
+    }
+
     /// `value`, or its limit where `self` is zero and the value may not be a number.
     #[inline(always)]
     #[must_use]
@@ -75,15 +118,11 @@ pub trait Real: RealField + Copy {
 
 impl<T: RealField + Copy> Real for T {}
 
-/// The sine and cosine of a large angle; for `f64` those of the standard library. It is not inlined: a vectorised loop
-/// would call them for every angle.
+/// The sine and cosine of a large angle. It is not inlined: a vectorised loop would call them for every angle.
 #[cold]
 #[inline(never)]
 fn beyond<T: Real>(angle: T) -> (T, T) {
-    match native!(angle => sine::beyond) {
-        Some(Some(pair)) => pair,
-        _ => angle.sin_cos(),
-    }
+    native!(angle => sine::beyond; else angle.sin_cos())
 }
 
 /// The sines and cosines of angles of which some are beyond this crate's range.
@@ -93,11 +132,11 @@ fn one_by_one<T: Real, const N: usize>(angles: [T; N]) -> [(T, T); N] {
     angles.map(T::sine_cosine)
 }
 
-/// The standard library's atan2.
+/// The angle of extreme arguments.
 #[cold]
 #[inline(never)]
 fn extreme_angle<T: Real>(y: T, x: T) -> T {
-    y.atan2(x)
+    native!((y, x) => elementary::arctangent2; else y.atan2(x))
 }
 
 /// The length of scaled sides, or the scalar's own.

@@ -30,8 +30,8 @@
 //!   counts once.
 //! - To that is added what the kernel leaves out: t r^4/24 and t^2/2 for the sine, t r^3/6 and t^2/2 for the cosine.
 //!
-//! Beyond 1e5 the functions are the platform's, of which nothing is proved. For `f32` every argument was tried, against the
-//! platform's doubles. Beyond 1e4 it is reduced in integers: the platform's sine of a float computes in doubles, which a
+//! Beyond 1e5 the functions are those of `libm` on every target, of which nothing is proved. For `f32` every argument was
+//! tried, against doubles. Beyond 1e4 it is reduced in integers: a library's sine of a float computes in doubles, which a
 //! small processor has no instructions for.
 //!
 //! | `f32`, every argument | sine | cosine |
@@ -46,7 +46,7 @@ use num_traits::{One, WrappingAdd, WrappingNeg, Zero};
 use crate::native::{Arithmetic, Native};
 
 /// An upper bound of the relative error of sine and cosine of an `f64` up to `LIMIT`, in 2^-53: 1.283 is proved as the
-/// module says. Beyond the limit they are the platform's, which have no bound here.
+/// module says. Beyond the limit they are `libm`'s, which have no bound here.
 pub const SINE_ERROR: f64 = 1.29;
 
 /// pi/2 of `f64` in three parts: the first two of 35 bits, so that k times them is exact for k < 2^18, the third the
@@ -80,7 +80,7 @@ pub const SINE_COEFFICIENTS: [[f64; 6]; 2] = [
 
 /// A scalar with a sine and cosine of this module.
 pub(crate) trait Angle: Native {
-    /// The largest |x| that is computed here; the standard library computes the others.
+    /// The largest |x| that is reduced by subtraction.
     const LIMIT: Self;
 
     const HALF: Self;
@@ -90,8 +90,8 @@ pub(crate) trait Angle: Native {
 
     fn reduced(self) -> Reduced<Self>;
 
-    /// The sine and cosine beyond `LIMIT`, if they are not left to the standard library.
-    fn beyond(self) -> Option<(Self, Self)>;
+    /// The sine and cosine beyond `LIMIT`.
+    fn beyond(self) -> (Self, Self);
 
     /// (r - sin r) / r^3 and (1 - r^2/2 - cos r) / r^4, where `z` is r^2 and `w` is r^4. Both use the same order of
     /// operations, so that each pair is one vector instruction.
@@ -129,8 +129,8 @@ impl Angle for f64 {
     }
 
     #[inline(always)]
-    fn beyond(self) -> Option<(Self, Self)> {
-        None
+    fn beyond(self) -> (Self, Self) {
+        libm::sincos(self)
     }
 
     #[inline(always)]
@@ -170,8 +170,8 @@ impl Angle for f32 {
     }
 
     #[inline(always)]
-    fn beyond(self) -> Option<(Self, Self)> {
-        Some(if self.is_finite() { turned(reduced_beyond(self)) } else { (Self::NAN, Self::NAN) })
+    fn beyond(self) -> (Self, Self) {
+        if self.is_finite() { turned(reduced_beyond(self)) } else { (Self::NAN, Self::NAN) }
     }
 
     #[inline(always)]
@@ -284,9 +284,9 @@ pub(crate) fn both<F: Angle>(x: F) -> (F, F) {
     turned(x.reduced())
 }
 
-/// sin x and cos x beyond `LIMIT`, unless they are left to the standard library.
+/// sin x and cos x beyond `LIMIT`.
 #[inline(always)]
-pub(crate) fn beyond<F: Angle>(x: F) -> Option<(F, F)> {
+pub(crate) fn beyond<F: Angle>(x: F) -> (F, F) {
     x.beyond()
 }
 

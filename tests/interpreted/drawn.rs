@@ -2,8 +2,6 @@
 
 use linkage_gallery::{cam_laws, source};
 use linkage_interpreter::{Data, Design, Mechanism, Program, Record, Shape};
-use rand::rngs::SmallRng;
-use rand::{Rng, SeedableRng};
 
 /// Numbers that functions must bear.
 const EXTREME: &[f64] = &[0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 1e-300, 1e17];
@@ -47,7 +45,9 @@ pub fn given(mechanism: Mechanism) -> Mechanism {
 
 /// Random numbers, kept in the order in which they are taken.
 pub struct Drawn {
-    random: SmallRng,
+    /// The state of a generator, by Steele, Lea and Flood, SplitMix: the same numbers on every target.
+    random: u64,
+    /// All numbers that were taken.
     pub all: Vec<f64>,
     /// Special numbers, and their share.
     special: (&'static [f64], f64),
@@ -56,7 +56,7 @@ pub struct Drawn {
 impl Drawn {
     /// Numbers of which this share is extreme.
     pub fn new(seed: u64, extreme: f64) -> Self {
-        Self { random: SmallRng::seed_from_u64(seed), all: Vec::new(), special: (EXTREME, extreme) }
+        Self { random: seed, all: Vec::new(), special: (EXTREME, extreme) }
     }
 
     /// Numbers of which this share is zero or near it.
@@ -64,12 +64,21 @@ impl Drawn {
         Self { special: (NEAR_ZERO, share), ..Self::new(seed, 0.0) }
     }
 
+    /// In [0, 1), evenly.
+    fn part(&mut self) -> f64 {
+        self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let bits = (self.random ^ (self.random >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        // 2^-53
+        ((bits ^ (bits >> 31)) >> 11) as f64 * (f64::EPSILON / 2.0)
+    }
+
     /// A number of the size of angles and rates, or a special one.
     pub fn number(&mut self) -> f64 {
         let (special, share) = self.special;
-        let number = match self.random.random_bool(share) {
-            true => special[self.random.random_range(0..special.len())],
-            false => self.random.random_range(-4.0..4.0),
+        let number = match self.part() < share {
+            true => special[(self.part() * special.len() as f64) as usize],
+            false => 8.0 * self.part() - 4.0,
         };
         self.all.push(number);
         number
@@ -91,7 +100,7 @@ impl Drawn {
     }
 
     pub fn count(&mut self, below: u32) -> u32 {
-        let count = self.random.random_range(0..below);
+        let count = (self.part() * f64::from(below)) as u32;
         self.all.push(f64::from(count));
         count
     }

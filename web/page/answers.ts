@@ -8,6 +8,7 @@ export type Compiled = { mistakes: Mistake[] } | { mechanisms: About[] };
 
 export type Answers = {
     compile: Compiled;
+    load: Compiled;
     words: { keywords: string[]; functions: string[] };
     begin: Moved;
     positions: { positions: Position[] };

@@ -19,7 +19,7 @@ import { PictureView } from "./picture";
 import { PositionsView } from "./positions";
 import { recall, remember } from "./preferences";
 import { rewrite } from "./rewrite";
-import { followFile, isServed } from "./served";
+import { followFile, servedFile } from "./served";
 import { Session } from "./session";
 import { settled } from "./signal";
 import { SlidersView } from "./sliders";
@@ -183,7 +183,7 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
             else if (error instanceof DamagedLink) notice.say(word().damagedLink, true);
             else throw error;
         }
-        if (editor.text === "" && !isServed()) load(examples[0]?.text ?? "");
+        if (editor.text === "") load(examples[0]?.text ?? "");
     }
     addEventListener("hashchange", () => void follow());
 
@@ -254,8 +254,19 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
     void quick.ask("copy", null, () => ({ do: "words" })).then((words) => {
         if (words !== null && !isRefusal(words)) learn(words);
     });
-    void follow();
-    followFile(load);
+    const file = servedFile();
+    if (file === null) {
+        void follow();
+    } else {
+        set(head, "data-file", file);
+        followFile(
+            (text) => {
+                if (text !== editor.text) load(text);
+                notice.say(word().followed(file));
+            },
+            (why) => notice.say(why ?? word().serverGone, true),
+        );
+    }
 }
 
 void begin();

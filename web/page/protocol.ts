@@ -36,6 +36,8 @@ export type Moved = At & { picture: Picture; numbers: Numbers; /** A word: the l
 export type Question =
     /** First of all, and after each change of the text. */
     | { do: "compile"; text: string }                              // { mistakes: Mistake[] } or { mechanisms: About[] }
+    /** Mechanisms that were compiled before, of a live sheet: the answer is that of a text. */
+    | { do: "load"; written: string }
     | { do: "words" }                                              // { keywords: string[]; functions: string[] } of the language, for colours and completion
     /** A first position, at 60 degrees of each input or the nearest inputs that have one. */
     | ({ do: "begin"; mechanism: number; parameters: number[]; near?: Place; show: Show }) // Moved; `near` is a position of the text before

@@ -1,30 +1,36 @@
-// `linkage serve` gives the page the name of a file: then, and only then, it asks that server for the file's text.
+// A page that `linkage serve` gives follows a file: its text is asked for again and again, and taken when it changed.
 
-const PERIOD = 1000;
+const INTERVAL = 700;
 
-function name(): string | null {
-    return document.querySelector<HTMLMetaElement>('meta[name="linkage-file"]')?.content ?? null;
+/** The name of the file, as the server wrote it into the page; null for a page that is no server's. */
+export function servedFile(): string | null {
+    const meta = document.querySelector('meta[name="linkage-file"]');
+    return meta?.getAttribute("content") ?? null;
 }
 
-export function isServed(): boolean {
-    return name() !== null;
-}
-
-/** Loads the text of the file now, and after each change. */
-export function followFile(load: (text: string) => void): void {
-    if (!isServed()) return;
-    let tag: string | null = null;
-    const ask = async (): Promise<void> => {
+/** Takes the text of the file now and after each change; says once why it cannot be read, or null if the server is gone. */
+export function followFile(take: (text: string) => void, say: (why: string | null) => void): void {
+    let tag = "";
+    let said: string | null = "";
+    async function look(): Promise<void> {
         try {
-            const response = await fetch("/text", { cache: "no-store", headers: tag === null ? {} : { "If-None-Match": tag } });
-            if (response.status === 200) {
-                tag = response.headers.get("ETag");
-                load(await response.text());
+            const headers: Record<string, string> = tag === "" ? {} : { "If-None-Match": tag };
+            const answer = await fetch("/text", { headers, cache: "no-store" });
+            if (answer.status === 200) {
+                tag = answer.headers.get("ETag") ?? "";
+                said = "";
+                take(await answer.text());
+            } else if (answer.status !== 304) {
+                tell(await answer.text());
             }
         } catch {
-            // The program was ended: the text stays as it is, and the next answer counts.
+            tell(null);
         }
-        setTimeout(() => void ask(), PERIOD);
-    };
-    void ask();
+        setTimeout(() => void look(), INTERVAL);
+    }
+    function tell(why: string | null): void {
+        if (said !== why) say(why);
+        said = why;
+    }
+    void look();
 }

@@ -14,6 +14,9 @@ export type Lane = (typeof LANES)[number];
 /** How long a more urgent question waits for the running one before that is stopped, in milliseconds and in compilations. */
 const PATIENCE = { milliseconds: 800, compilations: 2 };
 
+/** The first question of a worker. */
+type Reading = QuestionOf<"compile"> | QuestionOf<"load">;
+
 type Waiting = {
     /** The text that the question is about; null if it is about none. */
     text: string | null;
@@ -30,6 +33,7 @@ export class Session {
 
     #spawn: () => Worker;
     #module: WebAssembly.Module | BufferSource;
+    #reading: (text: string) => Reading;
     #worker: Worker | null = null;
     #ready = false;
     #loaded: string | null = null;
@@ -40,9 +44,15 @@ export class Session {
     #compiling = 0;
     #ids = 0;
 
-    constructor(spawn: () => Worker, module: WebAssembly.Module | BufferSource) {
+    /** `reading` is the question that gives the module a text, or mechanisms that were compiled before. */
+    constructor(
+        spawn: () => Worker,
+        module: WebAssembly.Module | BufferSource,
+        reading: (text: string) => Reading = (text) => ({ do: "compile", text }),
+    ) {
         this.#spawn = spawn;
         this.#module = module;
+        this.#reading = reading;
         this.#start();
     }
 
@@ -53,7 +63,7 @@ export class Session {
 
     /** Compiles a text; whatever runs about an older text is stopped. */
     compile(text: string): Promise<Compiled | Refusal | null> {
-        return this.ask("compile", text, () => ({ do: "compile", text }));
+        return this.ask("compile", text, () => this.#reading(text));
     }
 
     /**
@@ -124,7 +134,7 @@ export class Session {
         const { text } = waiting;
         const isPreparation = lane !== "compile" && text !== null && this.#loaded !== text;
         if (!isPreparation) this.#waiting.delete(lane);
-        const question: Question = isPreparation ? { do: "compile", text } : waiting.make();
+        const question: Question = isPreparation ? this.#reading(text) : waiting.make();
         this.#ids += 1;
         this.#running = { ...waiting, id: this.#ids, lane, since: performance.now(), isPreparation };
         if (isPreparation) this.#running.resolve = () => {};

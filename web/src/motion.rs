@@ -11,6 +11,7 @@ use linkage_runtime::{Mechanism as _, PathError};
 use serde::Serialize;
 
 use crate::Refusal;
+use crate::about::Quantity;
 use crate::at::{AlongOne, OneInput, coordinates, moving, one_input};
 use crate::machine::{Machine, prepared};
 use crate::question::At;
@@ -37,7 +38,7 @@ pub struct Range {
     /// Why it ends at its least and its largest input; none if it turns.
     ends: Vec<String>,
     turns: bool,
-    columns: Vec<String>,
+    columns: Vec<Quantity>,
 }
 
 /// The whole motion of the mechanism through a position.
@@ -63,7 +64,12 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
     let table = Table::over(&range, inputs, rate);
     let film = Animation::over(&range).ok();
     let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().map(words).collect() };
-    let columns = table.names().into_iter().map(str::to_owned).collect();
+    let coordinates = || machine.about.inputs.iter().chain(&machine.about.unknowns);
+    let column = |name: &str| Quantity {
+        name: name.to_owned(),
+        is_angle: coordinates().any(|one| one.is_angle && one.name == name),
+    };
+    let columns = table.names().into_iter().map(column).collect();
     let about = Range { least, largest, is_angle, ends, turns: range.is_closed(), columns };
     Ok((Followed { of: (at.mechanism, at.parameters.clone()), along, table, film }, about))
 }

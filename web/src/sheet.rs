@@ -1,28 +1,27 @@
 //! The sheet with the numbers of a position.
 
-use linkage_lent::Lender;
-use linkage_report::sheet::Values;
-use linkage_runtime::Mechanism as _;
-use linkage_runtime::analysis::Analysis;
+use linkage_report::sheet::{Language as OfSheet, MotionNumbers};
+use linkage_runtime::Kinematic as _;
 
 use crate::Refusal;
 use crate::at::{coordinates, moving, rates};
 use crate::machine::{Machine, prepared};
 use crate::question::{At, Form, Language};
 
-/// The sheet of a position; with a rate of the first input, also its velocities and accelerations.
+/// The sheet of a position; with a rate of the first input, also its velocities and accelerations. A mechanism that cannot be
+/// moved, or has no rates at the position, has a sheet without numbers.
 pub fn sheet(machine: &Machine, at: &At, rate: Option<f64>, language: Language, form: Form) -> Result<String, Refusal> {
-    let _ = language;
-    let lender = Lender::default();
-    let derivation = machine.documents.derivation(&lender).map_err(Refusal::new)?;
-    let Some(derivation) = derivation else { return Err(Refusal::new("it has no formulas")) };
-    let values = numbers(machine, at, rate, &derivation);
+    let numbers = numbers(machine, at, rate).ok();
     let written = machine.documents.sheet(|sheet| {
+        sheet.language(match language {
+            Language::English => OfSheet::English,
+            Language::Italian => OfSheet::Italian,
+        });
         for (parameter, value) in machine.about.parameters.iter().zip(&at.parameters) {
             sheet.given(&parameter.name, *value);
         }
-        if let Some(values) = values {
-            sheet.at(values);
+        if let Some(numbers) = numbers {
+            sheet.motion(&numbers);
         }
         match form {
             Form::Html => sheet.to_html_fragment(),
@@ -30,23 +29,17 @@ pub fn sheet(machine: &Machine, at: &At, rate: Option<f64>, language: Language, 
             Form::Text => sheet.to_text(),
         }
     });
-    written.map_err(Refusal::new).map(Option::unwrap_or_default)
+    written.map_err(Refusal::new)?.ok_or_else(|| Refusal::new("it has no formulas"))
 }
 
-/// The numbers of the formulas; none if the mechanism cannot be moved, or rates do not exist at the position.
-fn numbers(
-    machine: &Machine,
-    at: &At,
-    rate: Option<f64>,
-    derivation: &linkage_runtime::derivation::Derivation<'_>,
-) -> Option<Values> {
+/// The numbers of a position.
+fn numbers(machine: &Machine, at: &At, rate: Option<f64>) -> Result<MotionNumbers, Refusal> {
     let design = machine.design(&at.parameters);
-    let prepared = prepared(&design).ok()?;
-    let mechanism = moving(&prepared).ok()?;
-    let q = coordinates(&mechanism, &at.place).ok()?;
-    let parameters = machine.about.parameters.iter().map(|parameter| parameter.name.as_str());
-    let parameters = parameters.zip(at.parameters.iter().copied());
+    let prepared = prepared(&design)?;
+    let mechanism = moving(&prepared)?;
+    let q = coordinates(&mechanism, &at.place)?;
     let [moved, zero] = [rate.unwrap_or_default(), 0.0].map(|rate| rates(&mechanism, 0, rate));
-    let analysis = Analysis::of(&mechanism, &mechanism.pose_at(&q), moved, zero).ok()?;
-    Some(Values::of::<crate::at::Moving<'_>>(derivation, parameters, &q, &analysis))
+    let motion = mechanism.motion(&q, moved, zero).map_err(Refusal::new)?;
+    let numbers = MotionNumbers::of(&mechanism, &motion).map_err(Refusal::new)?;
+    Ok(MotionNumbers { has_rates: rate.is_some(), ..numbers })
 }

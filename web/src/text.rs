@@ -4,7 +4,7 @@ use linkage_compiler::graph::Number;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::lower::Code;
 use linkage_compiler::model::VECTOR_FUNCTIONS;
-use linkage_compiler::model::{Kind, Mechanism, Parameter as Declared, Request};
+use linkage_compiler::model::{Kind, Mechanism, Parameter as Declared, Request, output_angles};
 use linkage_compiler::program::SceneProgram;
 use linkage_compiler::syntax::{EFFECTS, KEYWORDS, PROPERTIES};
 
@@ -106,6 +106,11 @@ fn about(lowered: &Lowered<'_>) -> About {
     let function = mechanism.externals.iter().find_map(|of| Some(of.names.first()?.text.clone()));
     let refusal = function
         .map(|function| format!("`{}` calls `{function}`, which a program in Rust has to give it", driver.name));
+    let outputs = mechanism
+        .outputs
+        .iter()
+        .zip(output_angles(mechanism))
+        .map(|(output, angle)| Quantity { name: output.name.text.clone(), is_angle: angle.is_some() });
     About {
         name: driver.name.to_string(),
         paragraphs: Vec::new(),
@@ -113,11 +118,7 @@ fn about(lowered: &Lowered<'_>) -> About {
         inputs: driver.inputs.iter().map(coordinate).collect(),
         unknowns: driver.unknowns.iter().map(coordinate).collect(),
         points: mechanism.points.iter().map(|point| point.name.text.clone()).collect(),
-        outputs: mechanism
-            .outputs
-            .iter()
-            .map(|output| Quantity { name: output.name.text.clone(), is_angle: false })
-            .collect(),
+        outputs: outputs.collect(),
         scenes: lowered.program.scenes.iter().map(scene).collect(),
         refusal,
     }

@@ -72,6 +72,8 @@ function answer(question: Question): object {
     switch (question.do) {
         case "words":
             return { keywords: ["param"], functions: ["sin"] };
+        case "load":
+            return { mechanisms: [about()] };
         case "compile": {
             const from = question.text.indexOf("mistake");
             if (from < 0) return { mechanisms: [about()] };

@@ -9,7 +9,7 @@ type Law<T> = fn(T) -> [T; 4];
 /// y = x - sin(2 pi x) / (2 pi).
 fn cycloidal<T: Real>(x: T) -> [T; 4] {
     let turn = T::two_pi();
-    let (sine, cosine) = (turn * x).sin_cos();
+    let (sine, cosine) = (turn * x).sine_cosine();
     [x - sine / turn, T::one() - cosine, turn * sine, turn * turn * cosine]
 }
 
@@ -30,7 +30,7 @@ fn strokes<T: Real>(law: Law<T>, angle: T, height: T, rise: T) -> [T; 4] {
     let (half, turn) = (T::pi(), T::two_pi());
     // Beyond a turn: the same direction between 0 and a turn.
     let direction = || {
-        let angle = angle.sin().atan2(angle.cos());
+        let angle = angle.sine().arctangent2(angle.cosine());
         if angle < T::zero() { angle + turn } else { angle }
     };
     let angle = if angle < T::zero() || angle > turn { direction() } else { angle };

@@ -122,6 +122,9 @@ macro_rules! modules {
 
         /// The files of all mechanisms, without their endings.
         pub const FILES: &[&str] = &[$(stringify!($file)),*];
+
+        /// The text of each.
+        const TEXTS: &[&str] = &[$(include_str!(concat!("mechanisms/", stringify!($file), ".rs"))),*];
     };
 }
 

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use syn::{File, Item};
 
+use crate::{FILES, TEXTS};
+
 /// The folder of the mechanisms.
 #[must_use]
 pub fn folder() -> PathBuf {
@@ -16,9 +18,9 @@ pub fn folder() -> PathBuf {
 /// # Panics
 /// If there is no such file.
 #[must_use]
-pub fn text_of(file: &str) -> String {
-    let path = folder().join(file).with_extension("rs");
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+pub fn text_of(file: &str) -> &'static str {
+    let place = FILES.iter().position(|other| *other == file).unwrap_or_else(|| panic!("{file} is no mechanism"));
+    TEXTS[place]
 }
 
 /// The tokens between the braces of the one `linkage!` of a file.
@@ -27,7 +29,7 @@ pub fn text_of(file: &str) -> String {
 /// If there is no such file, or if it does not hold exactly one `linkage!`.
 #[must_use]
 pub fn tokens_of(file: &str) -> TokenStream {
-    let parsed = syn::parse_str(&text_of(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let parsed = syn::parse_str(text_of(file)).unwrap_or_else(|error| panic!("{file}: {error}"));
     tokens_in(&parsed).unwrap_or_else(|| panic!("{file} must hold exactly one linkage!"))
 }
 

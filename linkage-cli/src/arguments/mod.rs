@@ -8,6 +8,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use linkage_report::sheet;
 
 use crate::values::{Assignment, Choice, Value};
 pub use certify::Certify;
@@ -189,6 +190,9 @@ pub struct Sheet {
     /// The form of the sheet [default: that of the ending of OUT, else html]
     #[arg(long, value_enum)]
     pub format: Option<SheetFormat>,
+    /// The language of the sheet; names and doc comments are those of FILE
+    #[arg(long, value_enum, default_value_t = Language::En)]
+    pub language: Language,
     /// The file to write, .html, .tex or .txt; `-` for standard output [default: as FILE, with the ending of the form]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
@@ -205,6 +209,24 @@ pub struct Serve {
     /// The folder of the built page [default: web/dist of the project]
     #[arg(long, value_name = "DIR")]
     pub page: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Language {
+    /// English
+    En,
+    /// Italian
+    It,
+}
+
+impl Language {
+    /// The language of a sheet.
+    pub fn of_sheet(self) -> sheet::Language {
+        match self {
+            Self::En => sheet::Language::English,
+            Self::It => sheet::Language::Italian,
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -46,10 +46,13 @@ pub fn run(arguments: &arguments::Sheet) -> Result<(), Failure> {
 
 /// The sheets of all mechanisms that are meant, or of one with numbers.
 fn sheets(arguments: &arguments::Sheet, format: SheetFormat) -> Result<String, Failure> {
-    let written = |sheet: &mut Sheet<'_>| match format {
-        SheetFormat::Html => sheet.to_html(),
-        SheetFormat::Latex => sheet.to_latex(),
-        SheetFormat::Text => sheet.to_text(),
+    let written = |sheet: &mut Sheet<'_>| {
+        sheet.language(arguments.language.of_sheet());
+        match format {
+            SheetFormat::Html => sheet.to_html(),
+            SheetFormat::Latex => sheet.to_latex(),
+            SheetFormat::Text => sheet.to_text(),
+        }
     };
     let text = match Position::of(arguments)? {
         Some((position, documents)) => documents.sheet(|sheet| written(position.add_to(sheet)))?.unwrap_or_default(),

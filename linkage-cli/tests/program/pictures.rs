@@ -55,6 +55,31 @@ fn a_sheet_has_the_numbers_of_a_position() {
     folder.run("sheet slider.linkage --at phi=1").fails(2, message);
 }
 
+/// The words of a sheet are Italian, formulas and names are those of the file.
+#[test]
+fn a_sheet_is_in_italian() {
+    let folder = folder();
+    let command = "sheet four.linkage --at theta2=20deg --rate 400rpm --language it";
+    let text = folder.run(&format!("{command} --format text -o -")).works("");
+    for line in [
+        "\n  Dati       l₁ = 80, l₂ = 20, l₃ = 50, l₄ = 70\n",
+        "Gruppo 1, diade RRR: due angoli: equazioni (1), (2)\n",
+        "è positiva sul ramo Left, negativa su Right.\n",
+        "det J = −l₃·l₄·sin(θ₃ − θ₄)  ≈ −2999.56\n",
+        "\n  Velocità\n    theta2_rate  41.8879\n",
+        "\n  Angoli in gradi\n",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+    folder.run(command).works("wrote four.html\n");
+    let page = folder.read("four.html");
+    assert!(page.contains("<html lang=\"it\">"));
+    assert!(page.contains("<figcaption>La posizione per theta2 = 20°</figcaption>"));
+    folder.run(&format!("{command} -o four.tex")).works("wrote four.tex\n");
+    assert!(folder.read("four.tex").contains("\\subsection*{Equazioni di chiusura}"));
+    assert!(folder.run("sheet four.linkage --language fr").messages.contains("[possible values: en, it]"));
+}
+
 /// Sections and equations are counted through, and conditions are written once.
 #[test]
 fn a_sheet_as_text_is_one_document() {

@@ -398,7 +398,9 @@ impl Lists {
             GroupKind::SliderToCircle => quote!(LengthAndDistance),
             GroupKind::Angle => quote!(OneAngle),
             GroupKind::Linear => quote!(OneLinear),
-            GroupKind::Scalar | GroupKind::Pair | GroupKind::Loops(_) | GroupKind::Irreducible(..) => quote!(Other),
+            GroupKind::Loops(2) => quote!(TwoLoops),
+            GroupKind::Loops(_) => quote!(ThreeLoops),
+            GroupKind::Scalar | GroupKind::Pair | GroupKind::Irreducible(..) => quote!(Other),
         };
         let of_group = group.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
         let root = option(group.root.as_ref().map(|Root { formula, choice }| {

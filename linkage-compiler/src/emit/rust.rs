@@ -420,8 +420,14 @@ fn method(function: Function) -> &'static str {
         Function::Sin => "sine",
         Function::Cos => "cosine",
         Function::Atan2 => "arctangent2",
+        Function::Tan => "tangent",
+        Function::Asin => "arcsine",
+        Function::Acos => "arccosine",
+        Function::Atan => "arctangent",
+        Function::Exp => "exponential",
+        Function::Ln => "logarithm",
         Function::Hypot => "hypotenuse",
-        _ => function.operation().name,
+        Function::Sqrt | Function::Abs | Function::IfNonzero => function.operation().name,
     }
 }
 

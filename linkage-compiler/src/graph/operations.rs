@@ -48,7 +48,7 @@ pub struct Operation {
     /// The name in the `linkage!` language.
     pub name: &'static str,
     pub arity: usize,
-    /// The value, for the interpreter, of `arity` numbers.
+    /// The value of `arity` numbers, with the same bits on every host: constants of emitted code are such values.
     pub value: fn(&[f64]) -> f64,
     pub partials: Partials,
     /// The cuts, poles, kinks and edges of the domain, a place of each kind; of those that repeat, one. A function
@@ -63,7 +63,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Sin,
         name: "sin",
         arity: 1,
-        value: |x| x[0].sin(),
+        value: |x| libm::sin(x[0]),
         // d sin x = cos x
         partials: |g, x, _| vec![g.call(Function::Cos, &[x[0]])],
         places: &[],
@@ -73,7 +73,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Cos,
         name: "cos",
         arity: 1,
-        value: |x| x[0].cos(),
+        value: |x| libm::cos(x[0]),
         // d cos x = -sin x
         partials: |g, x, _| {
             let sine = g.call(Function::Sin, &[x[0]]);
@@ -86,7 +86,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Tan,
         name: "tan",
         arity: 1,
-        value: |x| x[0].tan(),
+        value: |x| libm::tan(x[0]),
         // d tan x = 1 + tan^2 x
         partials: |g, _, tan| {
             let square = g.power(tan, 2);
@@ -100,7 +100,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Asin,
         name: "asin",
         arity: 1,
-        value: |x| x[0].asin(),
+        value: |x| libm::asin(x[0]),
         // d asin x = 1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| vec![inverse_half_chord(g, x[0])],
         places: SINES,
@@ -110,7 +110,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Acos,
         name: "acos",
         arity: 1,
-        value: |x| x[0].acos(),
+        value: |x| libm::acos(x[0]),
         // d acos x = -1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| {
             let inverse = inverse_half_chord(g, x[0]);
@@ -123,7 +123,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Atan,
         name: "atan",
         arity: 1,
-        value: |x| x[0].atan(),
+        value: |x| libm::atan(x[0]),
         // d atan x = 1 / (1 + x^2)
         partials: |g, x, _| {
             let square = g.power(x[0], 2);
@@ -138,7 +138,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Atan2,
         name: "atan2",
         arity: 2,
-        value: |x| x[0].atan2(x[1]),
+        value: |x| libm::atan2(x[0], x[1]),
         // d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)
         partials: |g, yx, _| {
             let (y2, x2) = (g.power(yx[0], 2), g.power(yx[1], 2));
@@ -181,7 +181,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Exp,
         name: "exp",
         arity: 1,
-        value: |x| x[0].exp(),
+        value: |x| libm::exp(x[0]),
         // d e^x = e^x
         partials: |_, _, value| vec![value],
         places: &[],
@@ -191,7 +191,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Ln,
         name: "ln",
         arity: 1,
-        value: |x| x[0].ln(),
+        value: |x| libm::log(x[0]),
         // d ln x = 1 / x
         partials: |g, x, _| vec![g.power(x[0], -1)],
         places: &[place(Exception::Pole, &[0.0], &[-1.0]), place(Exception::Edge, &[0.0], &[-1.0])],
@@ -201,7 +201,7 @@ pub const OPERATIONS: [Operation; 13] = [
         function: Function::Hypot,
         name: "hypot",
         arity: 2,
-        value: |x| x[0].hypot(x[1]),
+        value: |x| libm::hypot(x[0], x[1]),
         // d hypot(x, y) = (x dx + y dy) / hypot(x, y)
         partials: |g, xy, modulus| vec![g.divide(xy[0], modulus), g.divide(xy[1], modulus)],
         places: &[Place { exception: Exception::Kink, at: &[0.0, 0.0], across: &[1.0, 2.0] }],

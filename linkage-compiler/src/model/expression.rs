@@ -156,7 +156,7 @@ impl Resolver<'_> {
 
     pub(super) fn number(&mut self, digits: &str, region: Region) -> Option<Number> {
         let number = Number::parse(digits)?;
-        let powers = number.to_f64().abs().log2().abs();
+        let powers = libm::log2(number.to_f64().abs()).abs();
         if powers.is_finite() && self.extreme.is_none_or(|extreme| powers > extreme.powers) {
             self.extreme = Some(Extreme { region, powers });
         }

@@ -19,6 +19,7 @@ mod mechanism;
 mod name;
 mod opened;
 mod opening;
+mod output_angles;
 mod power;
 mod range;
 mod redundant;
@@ -41,6 +42,7 @@ pub use mechanism::{
 };
 pub use name::{Name, TypeName};
 pub use opened::{Load, LoadKind, Opened};
+pub use output_angles::{OutputAngle, output_angles};
 pub use request::Request;
 pub use resolve::resolve;
 pub use scene::{Account, Body, Contact, ContactLaw, Drive, Law, Scene, SceneRequest};

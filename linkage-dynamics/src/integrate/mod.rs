@@ -56,9 +56,8 @@
 //! **Reproducibility.** The same calls give the same bits: no random numbers and no clock are used. A rate may have
 //! internal state, such as the last position as the guess for the next; this state must depend only on the calls, and
 //! may change the returned rate only within rounding error, because the rate is also called for rejected steps and for
-//! dense output, and other output times change the calls. [`dop853`] itself uses only the four operations and square
-//! roots except for its first step: with a given [first step](Integration::first_step) and such a rate the bits are the
-//! same on every machine.
+//! dense output, and other output times change the calls. With such a rate the bits are the same on every machine: the
+//! integrators use the four operations, square roots, and `libm`'s exponential function and logarithm.
 //!
 //! **Units.** Tolerances are relative to scales that the caller gives; no length, time or mass is built in.
 //!

@@ -34,14 +34,14 @@ impl<N: Number> Registers<N> {
             Unary::Square => of.square(),
             Unary::Sine => of.sine(),
             Unary::Cosine => of.cosine(),
-            Unary::Tangent => of.tan(),
-            Unary::Arcsine => of.asin(),
-            Unary::Arccosine => of.acos(),
-            Unary::Arctangent => of.atan(),
+            Unary::Tangent => of.tangent(),
+            Unary::Arcsine => of.arcsine(),
+            Unary::Arccosine => of.arccosine(),
+            Unary::Arctangent => of.arctangent(),
             Unary::SquareRoot => of.sqrt(),
             Unary::Magnitude => of.abs(),
-            Unary::Exponential => of.exp(),
-            Unary::Logarithm => of.ln(),
+            Unary::Exponential => of.exponential(),
+            Unary::Logarithm => of.logarithm(),
         }
     }
 

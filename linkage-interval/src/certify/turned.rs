@@ -182,25 +182,25 @@ impl Number for Turned {
     fn sqrt(self) -> Self {
         Self::function(&[self])
     }
-    fn exp(self) -> Self {
+    fn exponential(self) -> Self {
         Self::function(&[self])
     }
-    fn ln(self) -> Self {
+    fn logarithm(self) -> Self {
         Self::function(&[self])
     }
     fn sine_cosine(self) -> (Self, Self) {
         (self.periodic(1.0), self.periodic(1.0))
     }
-    fn tan(self) -> Self {
+    fn tangent(self) -> Self {
         self.periodic(2.0)
     }
-    fn asin(self) -> Self {
+    fn arcsine(self) -> Self {
         Self::function(&[self])
     }
-    fn acos(self) -> Self {
+    fn arccosine(self) -> Self {
         Self::function(&[self])
     }
-    fn atan(self) -> Self {
+    fn arctangent(self) -> Self {
         Self::function(&[self])
     }
     fn arctangent2(self, x: Self) -> Self {

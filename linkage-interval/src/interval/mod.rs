@@ -24,7 +24,7 @@ use rounding::sum;
 /// // The coupler angle's law of cosines, with lengths to a tenth.
 /// let [a, b, c] = [4.0, 5.0, 6.0].map(|length| Interval::around(length, 0.1).unwrap());
 /// let cosine = (a.square() + b.square() - c.square()) / (a * b * 2.0.into());
-/// let angle = cosine.acos();
+/// let angle = cosine.arccosine();
 /// assert!(angle.contains((0.125_f64).acos()) && angle.width() < 0.17);
 /// ```
 ///

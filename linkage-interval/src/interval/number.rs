@@ -39,11 +39,11 @@ impl Number for Interval {
         self.root()
     }
 
-    fn exp(self) -> Self {
+    fn exponential(self) -> Self {
         self.exponential()
     }
 
-    fn ln(self) -> Self {
+    fn logarithm(self) -> Self {
         self.logarithm()
     }
 
@@ -59,19 +59,19 @@ impl Number for Interval {
         self.cosine_of()
     }
 
-    fn tan(self) -> Self {
+    fn tangent(self) -> Self {
         self.tangent()
     }
 
-    fn asin(self) -> Self {
+    fn arcsine(self) -> Self {
         self.arcsine()
     }
 
-    fn acos(self) -> Self {
+    fn arccosine(self) -> Self {
         self.arccosine()
     }
 
-    fn atan(self) -> Self {
+    fn arctangent(self) -> Self {
         self.arctangent()
     }
 

@@ -2,9 +2,10 @@
 
 use core::fmt::{self, Write};
 
-use super::outline::{GeneralEquation, Lines, Pen, words};
+use super::outline::{GeneralEquation, Lines, Pen, counts};
 use crate::Notation;
-use crate::sheet::{Values, latex};
+use crate::sheet::Values;
+use crate::words::{Words, capitalised};
 use linkage_runtime::derivation::{Counts, Equation, Formula, FormulaMatrix, Group, Kernel, Root};
 
 /// A matrix with more rows or columns than this is written as a list of its entries.
@@ -12,13 +13,14 @@ const LARGEST_MATRIX: usize = 6;
 
 pub(super) struct Latex<'a> {
     out: &'a mut String,
+    words: &'static Words,
     /// The numbers after formulas.
     values: Option<Values>,
 }
 
 impl<'a> Latex<'a> {
-    pub(super) fn new(out: &'a mut String) -> Self {
-        Self { out, values: None }
+    pub(super) fn new(out: &'a mut String, words: &'static Words) -> Self {
+        Self { out, words, values: None }
     }
 
     /// With numbers after formulas.
@@ -45,6 +47,10 @@ fn escape(text: &str) -> String {
 }
 
 impl Lines for Latex<'_> {
+    fn words(&self) -> &'static Words {
+        self.words
+    }
+
     fn heading(&mut self, heading: &str) -> fmt::Result {
         writeln!(self.out, "\n\\subsection*{{{heading}}}")
     }
@@ -58,12 +64,12 @@ impl Lines for Latex<'_> {
     }
 
     fn display(&mut self, formula: &Formula<'_>) -> fmt::Result {
-        writeln!(self.out, "\\[ {} \\]", formula.to_latex())
+        writeln!(self.out, "\\[ {} \\]", self.words.formula(formula, formula.to_latex()))
     }
 
     fn equation(&mut self, number: usize, equation: &Equation<'_>) -> fmt::Result {
         let value = self.values.as_mut().and_then(|values| values.define(equation));
-        let about = value.map_or_else(String::new, |value| format!(" \\approx {}", latex(value)));
+        let about = value.map_or_else(String::new, |value| format!(" \\approx {}", self.words.latex(value)));
         self.numbered(number, equation, &about)
     }
 
@@ -102,7 +108,7 @@ impl Pen for Latex<'_> {
 
     fn list(&mut self, role: &str, formulas: &mut dyn Iterator<Item = (Formula<'_>, Option<f64>)>) -> fmt::Result {
         let formulas = formulas.map(|(formula, value)| {
-            let value = value.map_or_else(String::new, |value| format!(" = {}", latex(value)));
+            let value = value.map_or_else(String::new, |value| format!(" = {}", self.words.latex(value)));
             format!("${}{value}$", formula.to_latex())
         });
         let formulas: Vec<_> = formulas.collect();
@@ -112,7 +118,7 @@ impl Pen for Latex<'_> {
     fn table(&mut self, caption: &str, rows: &[(String, f64)]) -> fmt::Result {
         writeln!(self.out, "{}\\par\n\\begin{{tabular}}{{lr}}", escape(caption))?;
         for (name, value) in rows {
-            writeln!(self.out, "\\texttt{{{}}} & ${}$ \\\\", escape(name), latex(*value))?;
+            writeln!(self.out, "\\texttt{{{}}} & ${}$ \\\\", escape(name), self.words.latex(*value))?;
         }
         writeln!(self.out, "\\end{{tabular}}\\par")
     }
@@ -120,36 +126,30 @@ impl Pen for Latex<'_> {
     fn counts(&mut self, counts: Counts) -> fmt::Result {
         let Counts { coordinates, equations } = counts;
         let freedom = counts.freedom();
-        writeln!(self.out, "{}: $n = {coordinates}$, $p = {equations}$, $F = n - p = {freedom}$\\par", words::COUNTS)
+        let words = self.words.counts;
+        writeln!(self.out, "{words}: $n = {coordinates}$, $p = {equations}$, $F = n - p = {freedom}$\\par")
     }
 
     fn group(&mut self, n: usize, group: &Group<'_>) -> fmt::Result {
         let equations: Vec<_> = group.equations.iter().map(|equation| format!("({})", equation + 1)).collect();
-        let equations = equations.join(", ");
-        writeln!(self.out, "\\paragraph{{Group {n}, {}}} Equations {equations}.\\par", group.kind)
+        let (words, equations) = (self.words, equations.join(", "));
+        let (kind, several) = ((words.kind)(group), capitalised(words.equations));
+        writeln!(self.out, "\\paragraph{{{} {n}, {kind}}} {several} {equations}.\\par", words.group)
     }
 
-    fn branches(&mut self, Root { formula, branches: [positive, negative] }: &Root<'_>) -> fmt::Result {
-        let root = formula.to_latex();
-        writeln!(
-            self.out,
-            "${root}$ is positive on the branch \\texttt{{{positive}}}, negative on \\texttt{{{negative}}}.\\par"
-        )
+    fn branches(&mut self, Root { formula, branches }: &Root<'_>) -> fmt::Result {
+        let [positive, negative] = branches.map(|branch| format!("\\texttt{{{branch}}}"));
+        let root = format!("${}$", formula.to_latex());
+        writeln!(self.out, "{}\\par", (self.words.branches)(&root, [&positive, &negative]))
     }
 
     fn kernels(&mut self, kernels: &[Kernel<'_>]) -> fmt::Result {
         writeln!(self.out, "\\begin{{tabular}}{{lrrrr}}")?;
-        writeln!(self.out, "Function & functions & divisions & multiplications & additions \\\\ \\hline")?;
+        let columns = self.words.operation_counts().join(" & ");
+        writeln!(self.out, "{} & {columns} \\\\ \\hline", self.words.function)?;
         for Kernel { function, operations, .. } in kernels {
-            writeln!(
-                self.out,
-                "\\texttt{{{}}} & {} & {} & {} & {} \\\\",
-                escape(function),
-                operations.functions,
-                operations.divisions,
-                operations.multiplications,
-                operations.additions
-            )?;
+            let counts = counts(operations).map(|count| count.to_string()).join(" & ");
+            writeln!(self.out, "\\texttt{{{}}} & {counts} \\\\", escape(function))?;
         }
         writeln!(self.out, "\\end{{tabular}}")
     }

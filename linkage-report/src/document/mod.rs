@@ -8,9 +8,13 @@ mod whole;
 
 use crate::FpCore;
 use crate::sheet::{Sheet, Values};
+use crate::words::{Language, Words};
 use linkage_runtime::derivation::{Derivation, SceneDerivation, SheetDerivation};
 
-/// A derivation that can be written as a document.
+/// The words of documents; a [`Sheet`] has a language.
+const ENGLISH: &Words = Language::English.words();
+
+/// A derivation that can be written as a document, in English.
 ///
 /// ```
 /// use linkage::Document;
@@ -38,11 +42,11 @@ pub trait Document {
 
 impl Document for Derivation<'_> {
     fn to_text(&self) -> String {
-        written(|text| whole::write_whole(&Sheet::new(self), &mut text::Text::new(text)))
+        written(|text| whole::write_whole(&Sheet::new(self), &mut text::Text::new(text, ENGLISH)))
     }
 
     fn to_latex(&self) -> String {
-        written(|text| whole::write_whole(&Sheet::new(self), &mut latex::Latex::new(text)))
+        written(|text| whole::write_whole(&Sheet::new(self), &mut latex::Latex::new(text, ENGLISH)))
     }
 
     fn fpcore(&self) -> Vec<FpCore<'_>> {
@@ -52,11 +56,11 @@ impl Document for Derivation<'_> {
 
 impl Document for SceneDerivation<'_> {
     fn to_text(&self) -> String {
-        written(|text| outline::write_scene(self, &mut text::Text::new(text), &mut 0))
+        written(|text| outline::write_scene(self, &mut text::Text::new(text, ENGLISH), &mut 0))
     }
 
     fn to_latex(&self) -> String {
-        written(|text| outline::write_scene(self, &mut latex::Latex::new(text), &mut 0))
+        written(|text| outline::write_scene(self, &mut latex::Latex::new(text, ENGLISH), &mut 0))
     }
 
     fn fpcore(&self) -> Vec<FpCore<'_>> {
@@ -67,11 +71,11 @@ impl Document for SceneDerivation<'_> {
 /// The analysis by hand of a mechanism; it has no functions.
 impl Document for SheetDerivation<'_> {
     fn to_text(&self) -> String {
-        written(|text| write_sheet(self, &mut text::Text::new(text)))
+        written(|text| write_sheet(self, &mut text::Text::new(text, ENGLISH)))
     }
 
     fn to_latex(&self) -> String {
-        written(|text| write_sheet(self, &mut latex::Latex::new(text)))
+        written(|text| write_sheet(self, &mut latex::Latex::new(text, ENGLISH)))
     }
 
     fn fpcore(&self) -> Vec<FpCore<'_>> {
@@ -82,7 +86,7 @@ impl Document for SheetDerivation<'_> {
 /// Writes an analysis by hand as plain text, with the number of each formula at a position.
 #[must_use]
 pub fn text_at(sheet: &SheetDerivation<'_>, values: &Values) -> String {
-    written(|text| write_sheet(sheet, &mut text::Text::new(text).at(values)))
+    written(|text| write_sheet(sheet, &mut text::Text::new(text, ENGLISH).at(values)))
 }
 
 fn write_sheet<P: outline::Pen>(sheet: &SheetDerivation<'_>, pen: &mut P) -> core::fmt::Result {
@@ -94,7 +98,7 @@ fn write_sheet<P: outline::Pen>(sheet: &SheetDerivation<'_>, pen: &mut P) -> cor
 /// Writes a sheet as plain text.
 pub(crate) fn text_of(sheet: &Sheet<'_>) -> String {
     written(|text| {
-        let pen = text::Text::new(text);
+        let pen = text::Text::new(text, sheet.language.words());
         match &sheet.values {
             Some(values) => whole::write_whole(sheet, &mut pen.at(values)),
             None => whole::write_whole(sheet, &mut { pen }),
@@ -104,7 +108,10 @@ pub(crate) fn text_of(sheet: &Sheet<'_>) -> String {
 
 /// Writes a sheet as LaTeX.
 pub(crate) fn latex_of(sheet: &Sheet<'_>) -> String {
-    written(|text| whole::write_whole(sheet, &mut latex::Latex::new(text).at(sheet.values.as_ref())))
+    written(|text| {
+        let pen = latex::Latex::new(text, sheet.language.words());
+        whole::write_whole(sheet, &mut pen.at(sheet.values.as_ref()))
+    })
 }
 
 fn written(write: impl FnOnce(&mut String) -> core::fmt::Result) -> String {

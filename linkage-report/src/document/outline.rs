@@ -3,8 +3,10 @@
 use core::fmt;
 
 use linkage_runtime::derivation::{
-    Counts, Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Quantity, Root, SceneDerivation, Symbol,
+    Counts, Derivation, Equation, Formula, FormulaMatrix, Group, Kernel, Operations, Quantity, Root, SceneDerivation,
 };
+
+use crate::words::Words;
 
 /// An equation of matrices that holds for every mechanism, in all notations.
 pub(crate) struct GeneralEquation {
@@ -94,71 +96,10 @@ pub(crate) const MULTIPLIERS: GeneralEquation = GeneralEquation {
              <mo>=</mo><mi>F</mi></mrow>",
 };
 
-/// The headings and introductory sentences of the sections.
-pub(crate) mod words {
-    pub(crate) const COORDINATES: &str = "Coordinates";
-    pub(crate) const OPEN_CHAIN: &str = "Open chain";
-    pub(crate) const CONSTRAINTS: &str = "Constraint equations";
-    pub(crate) const JACOBIAN: &str = "Jacobian";
-    pub(crate) const STRUCTURE: &str = "Order of solution";
-    pub(crate) const RATIOS: &str = "Velocity ratios";
-    pub(crate) const ACCELERATION: &str = "Acceleration";
-    pub(crate) const RATIO_DERIVATIVES: &str = "Derivatives of the velocity ratios";
-    pub(crate) const JERK: &str = "Jerk";
-    pub(crate) const SENSITIVITY: &str = "Sensitivity";
-    pub(crate) const POINTS: &str = "Points";
-    pub(crate) const OUTPUTS: &str = "Outputs";
-    pub(crate) const MOTION: &str = "Equations of motion";
-    pub(crate) const JOINTS: &str = "Forces in joints";
-    pub(crate) const POTENTIAL: &str = "Potential energy";
-    pub(crate) const OPERATIONS: &str = "Operations";
-    pub(crate) const CONDITIONS: &str = "Conditions";
-    pub(crate) const NUMBERS: &str = "Numbers";
-
-    pub(crate) const GIVEN: &str = "Given";
-    pub(crate) const DRIVEN: &str = "Driven";
-    pub(crate) const UNKNOWN: &str = "Unknown";
-    pub(crate) const COUNTS: &str = "Counts";
-
-    pub(crate) const LEAD_OPEN_CHAIN: &str =
-        "The driven coordinates determine the position, and no equation is solved.";
-    pub(crate) const LEAD_CONSTRAINTS: &str = "The mechanism is assembled where";
-    pub(crate) const LEAD_IMPLIED: &str = "These equations follow, and are checked at each position:";
-    pub(crate) const LEAD_JACOBIAN: &str =
-        "The derivatives of the constraint equations with respect to the unknowns and the inputs:";
-    pub(crate) const LEAD_DETERMINANT: &str = "All groups together:";
-    pub(crate) const LEAD_POSITION: &str = "The position, each formula in terms of those before it:";
-    pub(crate) const LEAD_NEWTON: &str = "The position has no closed form: Newton's method finds it from a guess, and the list of branches has all positions of loops of links.";
-    pub(crate) const LEAD_RATIOS: &str = "Differentiated once, the constraint equations give";
-    pub(crate) const LEAD_VELOCITY: &str = "so that";
-    pub(crate) const LEAD_TRANSMISSION: &str =
-        "With one input they are the transmission ratios, each the rate of an unknown divided by that of the input:";
-    pub(crate) const LEAD_ACCELERATION: &str = "Differentiated twice, the constraint equations give";
-    pub(crate) const LEAD_GAMMA: &str = "with the terms that contain no acceleration:";
-    pub(crate) const LEAD_RATIO_DERIVATIVES: &str = "The derivatives of the velocity ratios follow from the rates of all coordinates at a unit rate of each input, and from the quadratic velocity term as a bilinear form of two of them:";
-    pub(crate) const LEAD_JERK: &str = "Differentiated three times, the constraint equations give";
-    pub(crate) const LEAD_ETA: &str = "with the terms that contain no jerk:";
-    pub(crate) const LEAD_SENSITIVITY: &str = "With fixed inputs, the unknowns depend on the parameters p by";
-    pub(crate) const LEAD_PARAMETERS: &str =
-        "with the nonzero derivatives of the constraint equations with respect to the parameters:";
-    pub(crate) const LEAD_MOTION: &str = "The velocity ratios reduce all inertia and all forces to the inputs:";
-    pub(crate) const LEAD_MASS_MATRIX: &str = "with the reduced mass matrix";
-    pub(crate) const LEAD_FORCES: &str = "and the generalised forces, the sum of the following; the bias of an unknown is its acceleration if no input accelerates:";
-    pub(crate) const LEAD_ONLY_CONTACTS: &str = "and the generalised forces of frictions and stops only.";
-    pub(crate) const LEAD_NO_FORCES: &str = "and no generalised forces.";
-    pub(crate) const LEAD_CONTACTS: &str =
-        "Frictions and stops act along scalars s. Their laws determine their forces f, which add to Q:";
-    pub(crate) const LEAD_REBOUND: &str = "At an impact the rate of s is multiplied by";
-    pub(crate) const LEAD_DRIVES: &str = "The driven inputs move by";
-    pub(crate) const LEAD_JOINTS: &str =
-        "The force of each joint on a link along x and y; of a guide the normal force and the moment.";
-    pub(crate) const LEAD_MULTIPLIERS: &str =
-        "There is one multiplier for each constraint equation. In all coordinates";
-    pub(crate) const LEAD_CONDITIONS: &str = "The formulas assume that";
-}
-
 /// The writer of headings, sentences and formulas in one format.
 pub(crate) trait Lines {
+    /// The words of its language.
+    fn words(&self) -> &'static Words;
     fn heading(&mut self, heading: &str) -> fmt::Result;
     fn lead(&mut self, words: &str) -> fmt::Result;
     fn general_equation(&mut self, general: &GeneralEquation) -> fmt::Result;
@@ -196,29 +137,31 @@ pub(super) fn conditions<'a>(
     pen: &mut dyn Pen,
     conditions: impl ExactSizeIterator<Item = &'a Formula<'a>>,
 ) -> fmt::Result {
+    let words = pen.words();
     if conditions.len() > 0 {
-        pen.heading(words::CONDITIONS)?;
-        pen.lead(words::LEAD_CONDITIONS)?;
+        pen.heading(words.conditions)?;
+        pen.lead(words.lead_conditions)?;
     }
     conditions.into_iter().try_for_each(|condition| pen.display(condition))
 }
 
 /// Writes the constraint equations, and the solutions for position, velocity and acceleration.
 pub(super) fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
-    pen.heading(words::CONSTRAINTS)?;
-    pen.lead(words::LEAD_CONSTRAINTS)?;
+    let words = pen.words();
+    pen.heading(words.constraints)?;
+    pen.lead(words.lead_constraints)?;
     pen.general_equation(&CONSTRAINTS)?;
     for equation in derivation.residual {
         *number += 1;
         pen.zero(*number, equation)?;
     }
     if !derivation.implied.is_empty() {
-        pen.lead(words::LEAD_IMPLIED)?;
+        pen.lead(words.lead_implied)?;
         equations(pen, number, derivation.implied)?;
     }
 
-    pen.heading(words::JACOBIAN)?;
-    pen.lead(words::LEAD_JACOBIAN)?;
+    pen.heading(words.jacobian)?;
+    pen.lead(words.lead_jacobian)?;
     for (general, matrix) in
         [(JACOBIAN_UNKNOWNS, derivation.jacobian_unknowns), (JACOBIAN_INPUTS, derivation.jacobian_inputs)]
     {
@@ -227,17 +170,17 @@ pub(super) fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mu
     }
 
     if !derivation.groups.is_empty() {
-        pen.heading(words::STRUCTURE)?;
+        pen.heading(words.structure)?;
     }
     for (index, group) in derivation.groups.iter().enumerate() {
         pen.group(index + 1, group)?;
-        pen.list(words::UNKNOWN, &mut group.unknowns.iter().map(|unknown| (*unknown, None)))?;
-        pen.lead(if group.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION })?;
+        pen.list(words.unknown, &mut group.unknowns.iter().map(|unknown| (*unknown, None)))?;
+        pen.lead(if group.position.is_empty() { words.lead_newton } else { words.lead_position })?;
         equations(pen, number, group.position)?;
         if let Some(root) = &group.root {
             pen.branches(root)?;
         }
-        pen.lead(&system(group))?;
+        pen.lead(&(words.system)(group.method))?;
         if let Some(determinant) = group.determinant {
             equations(pen, number, &[determinant])?;
         }
@@ -247,46 +190,46 @@ pub(super) fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mu
     }
 
     if let (Some(determinant), [_, _, ..]) = (derivation.determinant, derivation.groups) {
-        pen.lead(words::LEAD_DETERMINANT)?;
+        pen.lead(words.lead_determinant)?;
         equations(pen, number, &[determinant])?;
     }
 
-    pen.heading(words::RATIOS)?;
-    pen.lead(words::LEAD_RATIOS)?;
+    pen.heading(words.ratios)?;
+    pen.lead(words.lead_ratios)?;
     pen.general_equation(&RATIOS)?;
-    pen.lead(words::LEAD_VELOCITY)?;
+    pen.lead(words.lead_velocity)?;
     pen.general_equation(&VELOCITY)?;
     if derivation.inputs.len() == 1 {
-        pen.lead(words::LEAD_TRANSMISSION)?;
+        pen.lead(words.lead_transmission)?;
     }
     equations(pen, number, derivation.ratios)?;
 
-    pen.heading(words::ACCELERATION)?;
-    pen.lead(words::LEAD_ACCELERATION)?;
+    pen.heading(words.acceleration)?;
+    pen.lead(words.lead_acceleration)?;
     pen.general_equation(&ACCELERATION)?;
     if !derivation.gamma.is_empty() {
-        pen.lead(words::LEAD_GAMMA)?;
+        pen.lead(words.lead_gamma)?;
     }
     equations(pen, number, derivation.gamma)?;
 
     if let Some(formulas) = derivation.ratio_derivatives {
-        pen.heading(words::RATIO_DERIVATIVES)?;
-        pen.lead(words::LEAD_RATIO_DERIVATIVES)?;
+        pen.heading(words.ratio_derivatives)?;
+        pen.lead(words.lead_ratio_derivatives)?;
         pen.general_equation(&RATIO_DERIVATIVES)?;
         equations(pen, number, formulas)?;
     }
     if let Some(eta) = derivation.jerk {
-        pen.heading(words::JERK)?;
-        pen.lead(words::LEAD_JERK)?;
+        pen.heading(words.jerk)?;
+        pen.lead(words.lead_jerk)?;
         pen.general_equation(&JERK)?;
-        pen.lead(words::LEAD_ETA)?;
+        pen.lead(words.lead_eta)?;
         equations(pen, number, eta)?;
     }
     if let Some(sensitivity) = derivation.sensitivity {
-        pen.heading(words::SENSITIVITY)?;
-        pen.lead(words::LEAD_SENSITIVITY)?;
+        pen.heading(words.sensitivity)?;
+        pen.lead(words.lead_sensitivity)?;
         pen.general_equation(&SENSITIVITY)?;
-        pen.lead(words::LEAD_PARAMETERS)?;
+        pen.lead(words.lead_parameters)?;
         pen.matrix(&sensitivity.jacobian)?;
         equations(pen, number, sensitivity.formulas)?;
     }
@@ -295,92 +238,83 @@ pub(super) fn solved(derivation: &Derivation<'_>, pen: &mut dyn Pen, number: &mu
 
 /// Writes the equations of motion of a scene; `number` is that of the equation before them.
 pub(super) fn write_scene(scene: &SceneDerivation<'_>, pen: &mut dyn Pen, number: &mut usize) -> fmt::Result {
+    let words = pen.words();
     pen.title(scene.scene)?;
     if !scene.parameters.is_empty() {
-        pen.list(words::GIVEN, &mut scene.parameters.iter().map(|symbol| (symbol.formula, None)))?;
+        pen.list(words.given, &mut scene.parameters.iter().map(|symbol| (symbol.formula, None)))?;
     }
-    pen.heading(words::MOTION)?;
-    pen.lead(words::LEAD_MOTION)?;
+    pen.heading(words.motion)?;
+    pen.lead(words.lead_motion)?;
     pen.general_equation(&MOTION)?;
     if !scene.mass_matrix.is_empty() {
-        pen.lead(words::LEAD_MASS_MATRIX)?;
+        pen.lead(words.lead_mass_matrix)?;
         equations(pen, number, scene.mass_matrix)?;
     }
-    pen.lead(lead_of_forces(scene))?;
+    pen.lead(lead_of_forces(words, scene))?;
     for effect in scene.forces {
-        pen.lead(effect.name)?;
+        pen.lead(&(words.name)(effect.name))?;
         equations(pen, number, effect.forces)?;
     }
     if !scene.frictions_and_stops.is_empty() {
-        pen.lead(words::LEAD_CONTACTS)?;
+        pen.lead(words.lead_contacts)?;
     }
     for contact in scene.frictions_and_stops {
-        pen.lead(contact.name)?;
+        pen.lead(&(words.name)(contact.name))?;
         equations(pen, number, &[contact.along])?;
         pen.display(&contact.bound)?;
         if let Some(joint) = &contact.bearing {
-            pen.lead(&bearing(joint))?;
+            pen.lead(&(words.bearing)(joint.name))?;
             pen.display(&joint.formula)?;
         }
         if let Some(factor) = &contact.rebound {
-            pen.lead(words::LEAD_REBOUND)?;
+            pen.lead(words.lead_rebound)?;
             pen.display(factor)?;
         }
         equations(pen, number, contact.forces)?;
     }
     if !scene.drives.is_empty() {
-        pen.lead(words::LEAD_DRIVES)?;
+        pen.lead(words.lead_drives)?;
         equations(pen, number, scene.drives)?;
     }
     if let Some(potential) = scene.potential {
-        pen.heading(words::POTENTIAL)?;
+        pen.heading(words.potential)?;
         equations(pen, number, &[potential])?;
     }
     if !scene.joints.is_empty() {
-        pen.heading(words::JOINTS)?;
-        pen.lead(words::LEAD_JOINTS)?;
+        pen.heading(words.joints)?;
+        pen.lead(words.lead_joints)?;
         if !scene.multipliers.is_empty() {
-            pen.lead(words::LEAD_MULTIPLIERS)?;
+            pen.lead(words.lead_multipliers)?;
             pen.general_equation(&MULTIPLIERS)?;
         }
         for contact in scene.contacts {
-            pen.lead(&force_along(contact))?;
+            pen.lead(&(words.force_along)(contact.name))?;
             pen.display(&contact.formula)?;
         }
     }
     for joint in scene.joints {
-        pen.lead(joint.name)?;
+        pen.lead(&(words.name)(joint.name))?;
         equations(pen, number, &joint.components)?;
     }
     if !scene.kernels.is_empty() {
-        pen.heading(words::OPERATIONS)?;
+        pen.heading(words.operations)?;
         pen.kernels(scene.kernels)?;
     }
     Ok(())
 }
 
+/// The counts of operations in the order of their columns.
+pub(crate) fn counts(of: &Operations) -> [usize; 4] {
+    [of.functions, of.divisions, of.multiplications, of.additions]
+}
+
 /// The sentence before the generalised forces.
-pub(crate) fn lead_of_forces(scene: &SceneDerivation<'_>) -> &'static str {
+pub(crate) fn lead_of_forces(words: &Words, scene: &SceneDerivation<'_>) -> &'static str {
     match scene.forces {
-        [] if scene.frictions_and_stops.is_empty() => words::LEAD_NO_FORCES,
-        [] => words::LEAD_ONLY_CONTACTS,
-        _ => words::LEAD_FORCES,
+        [] if scene.frictions_and_stops.is_empty() => words.lead_no_forces,
+        [] => words.lead_only_contacts,
+        _ => words.lead_forces,
     }
-}
-
-/// The sentence before the force in the joint that limits a friction.
-pub(crate) fn bearing(joint: &Symbol<'_>) -> String {
-    format!("with the force of {}:", joint.name)
-}
-
-/// The name of the force of a friction or a stop.
-pub(crate) fn force_along(contact: &Symbol<'_>) -> String {
-    format!("The force of {} is", contact.name)
-}
-
-/// The sentence about velocities and accelerations of a group.
-pub(crate) fn system(group: &Group<'_>) -> String {
-    format!("Velocities and accelerations solve a linear system, {}.", group.method.words())
 }
 
 pub(super) fn equations<P: Lines + ?Sized>(pen: &mut P, number: &mut usize, equations: &[Equation<'_>]) -> fmt::Result {

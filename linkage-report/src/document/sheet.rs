@@ -4,7 +4,7 @@ use core::fmt;
 
 use linkage_runtime::derivation::{ChainVector, DriverChoice, FormulaMatrix, PointVectors, SheetDerivation, Turning};
 
-use super::outline::{GeneralEquation, Lines, equations, words};
+use super::outline::{GeneralEquation, Lines, equations};
 
 macro_rules! mi {
     ($letter:literal) => {
@@ -242,37 +242,38 @@ const SINGULAR: GeneralEquation = GeneralEquation {
 
 /// Writes an analysis by hand without its conditions; `number` is that of the equation before it.
 pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &mut usize) -> fmt::Result {
+    let words = pen.words();
     let [jacobian_rate, input_rate] = &sheet.jacobian_rates;
     if jacobian_rate.rows > 0 {
-        pen.heading("Derivatives of the Jacobian")?;
-        pen.lead(words::LEAD_ACCELERATION)?;
+        pen.heading(words.jacobian_rates)?;
+        pen.lead(words.lead_acceleration)?;
         pen.general_equation(&SECOND_DERIVATIVE)?;
-        pen.lead("with the derivatives of J and A with respect to time:")?;
+        pen.lead(words.lead_jacobian_rates)?;
         pen.matrix(jacobian_rate)?;
         pen.matrix(input_rate)?;
-        pen.lead("By the chain rule")?;
+        pen.lead(words.lead_chain_rule)?;
         pen.general_equation(&UNKNOWNS_RATE)?;
         pen.general_equation(&INPUTS_RATE)?;
-        pen.lead("Of these the first and the last are")?;
+        pen.lead(words.lead_first_and_last)?;
         let [of_unknowns, of_inputs] = &sheet.jacobians_of_rates;
         pen.matrix(of_unknowns)?;
         pen.matrix(of_inputs)?;
         pen.lead(match of_unknowns.entries == jacobian_rate.entries && of_inputs.entries == input_rate.entries {
-            true => "They are the derivatives of J and A themselves: J does not depend on the inputs, nor A on the unknowns.",
-            false => "They are not the derivatives of J and A: J depends on the inputs, or A on the unknowns.",
+            true => words.are_jacobian_rates,
+            false => words.are_no_jacobian_rates,
         })?;
 
-        pen.heading("The quadratic velocity terms by parts")?;
+        pen.heading(words.gamma)?;
         pen.general_equation(&GAMMA)?;
         let [by_unknowns, by_inputs, mixed] = &sheet.gamma;
         pen.matrix(by_unknowns)?;
         pen.matrix(by_inputs)?;
         match mixed.entries {
-            [] => pen.lead("No term has the rate of an unknown and that of an input: the last part is zero.")?,
+            [] => pen.lead(words.no_mixed_gamma)?,
             _ => pen.matrix(mixed)?,
         }
 
-        pen.heading("Acceleration from the derivatives of J and A")?;
+        pen.heading(words.acceleration_by_jacobians)?;
         pen.general_equation(&TERMS)?;
         for term in &sheet.terms {
             pen.matrix(term)?;
@@ -281,29 +282,29 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
         let [first, second] = sheet.accelerations;
         equations(pen, number, first)?;
 
-        pen.heading("Acceleration from the quadratic velocity terms")?;
+        pen.heading(words.acceleration_by_gamma)?;
         pen.general_equation(&SECOND)?;
         equations(pen, number, second)?;
-        pen.lead("Both are equal, since")?;
+        pen.lead(words.lead_both_equal)?;
         pen.general_equation(&DIFFERENCE)?;
     }
     if !sheet.choices.is_empty() && jacobian_rate.rows > 0 {
-        pen.heading("Singular for each choice of inputs")?;
-        pen.lead("J has the columns of the coordinates that do not drive. The mechanism is singular where")?;
+        pen.heading(words.choices)?;
+        pen.lead(words.lead_choices)?;
         pen.general_equation(&SINGULAR)?;
         for DriverChoice { inputs, determinant } in sheet.choices {
             match determinant {
                 Some(determinant) => equations(pen, number, &[*determinant])?,
                 None => {
                     let names: Vec<String> = inputs.iter().map(ToString::to_string).collect();
-                    pen.lead(&format!("Driven by {}, the determinant has no closed form.", names.join(", ")))?;
+                    pen.lead(&(words.no_determinant)(&names.join(", ")))?;
                 }
             }
         }
     }
     if !sheet.turning.is_empty() {
-        pen.heading("Links that turn")?;
-        pen.lead("A point of a link at r from another one of it moves by")?;
+        pen.heading(words.turning)?;
+        pen.lead(words.lead_turning)?;
         pen.general_equation(&RIGID)?;
         for Turning { rate, acceleration, .. } in sheet.turning {
             pen.matrix(rate)?;
@@ -311,8 +312,8 @@ pub(crate) fn write(sheet: &SheetDerivation<'_>, pen: &mut dyn Lines, number: &m
         }
     }
     if !sheet.points.is_empty() {
-        pen.heading("Points as sums of vectors")?;
-        pen.lead("The velocity of a point is a sum of matrices times rates of lengths and angles:")?;
+        pen.heading(words.vectors)?;
+        pen.lead(words.lead_vectors)?;
         pen.general_equation(&SUM)?;
         for ChainVector { vector, matrix, rates, velocity, acceleration } in sheet.vectors {
             for part in [vector, matrix, rates, velocity, acceleration] {

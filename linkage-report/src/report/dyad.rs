@@ -4,8 +4,8 @@
 //! direction of its line, so that the angle between the columns is that between two links, between a link and the normal
 //! of a guide, or between an arm and its slot. Of a point at two distances the rows are the directions of the links.
 
-use linkage_runtime::OutputMotion;
 use linkage_runtime::derivation::GroupForm;
+use linkage_runtime::{OutputMotion, Real};
 
 use super::local::{Local, Vector};
 
@@ -118,7 +118,7 @@ impl Dyad {
         let ([p, q], [p_rate, q_rate]) = (sides(columns), sides(derivatives));
         let (sine, cosine) = (cross(p, q), dot(p, q));
         let turning = cross(q, q_rate) / dot(q, q) - cross(p, p_rate) / dot(p, p);
-        let (angle, rate) = (sine.abs().atan2(cosine), turning * sine.signum());
+        let (angle, rate) = (sine.abs().arctangent2(cosine), turning * sine.signum());
         let acceleration = f64::NAN;
         // Of a normals' angle the links have the supplement where they meet: one ends there, the other begins.
         match self.has_sides() {

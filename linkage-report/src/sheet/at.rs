@@ -4,11 +4,11 @@ use crate::Notation;
 use linkage_runtime::derivation::FormulaMatrix;
 
 use super::html::LARGEST_MATRIX;
-use super::numbers::number;
 use super::values::Values;
+use crate::words::Words;
 
 /// The numbers of a matrix at a position; none if it is large, or if one of its entries has no number.
-pub(super) fn matrix(matrix: &FormulaMatrix<'_>, values: &Values) -> Option<String> {
+pub(super) fn matrix(words: &Words, matrix: &FormulaMatrix<'_>, values: &Values) -> Option<String> {
     let FormulaMatrix { name, rows, columns, .. } = matrix;
     if *rows.max(columns) > LARGEST_MATRIX || matrix.factor.is_some() {
         return None;
@@ -18,7 +18,7 @@ pub(super) fn matrix(matrix: &FormulaMatrix<'_>, values: &Values) -> Option<Stri
         mathml.push_str("<mtr>");
         for column in 0..*columns {
             let value = matrix.entry(row, column).map_or(Some(0.0), |entry| values.value(entry))?;
-            mathml.push_str(&format!("<mtd><mn>{}</mn></mtd>", number(value)));
+            mathml.push_str(&format!("<mtd><mn>{}</mn></mtd>", words.number(value)));
         }
         mathml.push_str("</mtr>");
     }

@@ -16,6 +16,7 @@
 mod at;
 mod html;
 mod lines;
+mod motion;
 mod numbers;
 mod page;
 mod properties;
@@ -25,10 +26,12 @@ use std::collections::BTreeSet;
 
 use linkage_runtime::derivation::{Derivation, Formula, SceneDerivation, SheetDerivation, Symbol};
 
-use crate::document::outline::words;
+use crate::words::Words;
 
 pub use crate::document::text_at;
+pub use crate::words::Language;
 pub(crate) use html::{escape, svg_address};
+pub use motion::{MotionNumbers, MovingCoordinate};
 pub(crate) use numbers::{latex, number};
 pub(crate) use page::document;
 pub use properties::{RatioNumber, RatioProperty, ratio_properties};
@@ -36,8 +39,32 @@ pub use values::Values;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Table {
-    pub(crate) caption: String,
+    pub(crate) caption: Caption,
     pub(crate) rows: Vec<(String, f64)>,
+}
+
+/// The caption of a table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Caption {
+    Parameters,
+    Position,
+    Degrees,
+    Velocities,
+    Accelerations,
+    Given(String),
+}
+
+impl Caption {
+    pub(crate) fn text<'c>(&'c self, words: &Words) -> &'c str {
+        match self {
+            Self::Parameters => words.parameters,
+            Self::Position => words.position,
+            Self::Degrees => words.degrees,
+            Self::Velocities => words.velocities,
+            Self::Accelerations => words.accelerations,
+            Self::Given(text) => text,
+        }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -53,6 +80,7 @@ type Symbols<'a> = Vec<(Formula<'a>, Option<f64>)>;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet<'a> {
     pub(crate) derivation: &'a Derivation<'a>,
+    pub(crate) language: Language,
     pub(crate) title: Option<String>,
     pub(crate) scenes: Vec<&'a SceneDerivation<'a>>,
     pub(crate) by_hand: Option<&'a SheetDerivation<'a>>,
@@ -70,6 +98,7 @@ impl<'a> Sheet<'a> {
     pub fn new(derivation: &'a Derivation<'a>) -> Self {
         Self {
             derivation,
+            language: Language::default(),
             title: None,
             scenes: Vec::new(),
             by_hand: None,
@@ -85,6 +114,12 @@ impl<'a> Sheet<'a> {
     /// Sets the heading; the default is the name of the mechanism.
     pub fn title(&mut self, title: impl Into<String>) -> &mut Self {
         self.title = Some(title.into());
+        self
+    }
+
+    /// Sets the language; the default is English.
+    pub fn language(&mut self, language: Language) -> &mut Self {
+        self.language = language;
         self
     }
 
@@ -106,6 +141,14 @@ impl<'a> Sheet<'a> {
         self
     }
 
+    /// Adds the numbers of a motion at one position: that of each formula, as [`at`](Self::at) does with those of parameters that
+    /// were [`given`](Self::given) before, and tables of the coordinates and, if it has rates, of velocities and accelerations.
+    pub fn motion(&mut self, motion: &MotionNumbers) -> &mut Self {
+        self.values = Some(motion.values(&self.given));
+        self.tables.extend(motion.tables());
+        self
+    }
+
     /// Adds the properties of the velocity ratios with their numbers, as [`ratio_properties`] finds them.
     pub fn properties(&mut self, properties: impl IntoIterator<Item = RatioProperty>) -> &mut Self {
         self.properties.extend(properties);
@@ -124,13 +167,12 @@ impl<'a> Sheet<'a> {
         self
     }
 
-    /// Adds a row to the table "Parameters".
+    /// Adds a row to the table "Parameters", which has its name in the language of the sheet.
     pub fn parameter(&mut self, name: impl Into<String>, value: f64) -> &mut Self {
-        const CAPTION: &str = "Parameters";
         let row = (name.into(), value);
-        match self.tables.iter_mut().find(|table| table.caption == CAPTION) {
+        match self.tables.iter_mut().find(|table| table.caption == Caption::Parameters) {
             Some(table) => table.rows.push(row),
-            None => self.tables.push(Table { caption: CAPTION.to_owned(), rows: vec![row] }),
+            None => self.tables.push(Table { caption: Caption::Parameters, rows: vec![row] }),
         }
         self
     }
@@ -146,7 +188,7 @@ impl<'a> Sheet<'a> {
         rows: impl IntoIterator<Item = (N, f64)>,
     ) -> &mut Self {
         let rows = rows.into_iter().map(|(name, value)| (name.into(), value)).collect();
-        self.tables.push(Table { caption: caption.into(), rows });
+        self.tables.push(Table { caption: Caption::Given(caption.into()), rows });
         self
     }
 
@@ -171,9 +213,9 @@ impl<'a> Sheet<'a> {
 
     /// The parameters with their values, the inputs and the unknowns, each kind with its heading.
     pub(crate) fn roles(&self) -> Vec<(&'static str, Symbols<'a>)> {
-        let Derivation { parameters, inputs, unknowns, .. } = *self.derivation;
+        let (words, Derivation { parameters, inputs, unknowns, .. }) = (self.language.words(), *self.derivation);
         let value = |name: &str| self.given.iter().rfind(|(other, _)| other == name).map(|(_, value)| *value);
-        let roles = [(words::GIVEN, parameters), (words::DRIVEN, inputs), (words::UNKNOWN, unknowns)];
+        let roles = [(words.given, parameters), (words.driven, inputs), (words.unknown, unknowns)];
         let listed = roles.into_iter().filter(|(_, symbols)| !symbols.is_empty());
         let valued = |symbols: &[Symbol<'a>]| symbols.iter().map(|of| (of.formula, value(of.name))).collect();
         listed.map(|(role, symbols)| (role, valued(symbols))).collect()

@@ -3,12 +3,14 @@
 use std::fmt;
 
 use crate::Notation;
-use crate::document::outline::{self, GeneralEquation, Lines, words};
+use crate::document::outline::{self, GeneralEquation, Lines, counts};
 use crate::document::sheet;
 use linkage_runtime::derivation::{
     ContactEffect, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation,
     SheetDerivation, Symbol,
 };
+
+use crate::words::{Words, capitalised};
 
 use super::html::{display, escape, inline, matrix, svg_address};
 use super::{Picture, RatioNumber, RatioProperty, Sheet, Table, Values, at, lines, numbers};
@@ -16,8 +18,8 @@ use super::{Picture, RatioNumber, RatioProperty, Sheet, Table, Values, at, lines
 const STYLE: &str = include_str!("style.css");
 
 /// The body of the page and the number of the last equation.
-#[derive(Default)]
 struct Page {
+    words: &'static Words,
     body: String,
     equations: usize,
     /// The numbers below formulas.
@@ -26,16 +28,17 @@ struct Page {
 
 pub(super) fn html(sheet: &Sheet<'_>) -> String {
     let title = escape(sheet.title.as_deref().unwrap_or(sheet.derivation.mechanism));
-    document(&title, &body(sheet))
+    document_in(sheet.language.words().tag, &title, &body(sheet))
 }
 
 /// The content of the page.
 pub(super) fn body(sheet: &Sheet<'_>) -> String {
     let derivation = sheet.derivation;
-    let mut page = Page { values: sheet.values.clone(), ..Page::default() };
+    let words = sheet.language.words();
+    let mut page = Page { words, body: String::new(), equations: 0, values: sheet.values.clone() };
     page.header(sheet);
     if derivation.unknowns.is_empty() {
-        page.section(words::OPEN_CHAIN, |page| page.lead(words::LEAD_OPEN_CHAIN));
+        page.section(words.open_chain, |page| page.lead(words.lead_open_chain));
     } else {
         page.constraints(derivation);
         page.jacobian(derivation);
@@ -48,8 +51,8 @@ pub(super) fn body(sheet: &Sheet<'_>) -> String {
     if let Some(by_hand) = sheet.by_hand {
         page.by_hand(by_hand);
     }
-    page.quantities(words::POINTS, derivation.points);
-    page.quantities(words::OUTPUTS, derivation.outputs);
+    page.quantities(words.points, derivation.points);
+    page.quantities(words.outputs, derivation.outputs);
     for scene in &sheet.scenes {
         page.scene(scene);
     }
@@ -63,10 +66,14 @@ pub(super) fn body(sheet: &Sheet<'_>) -> String {
     page.body
 }
 
-/// A page with this title and this body, both HTML.
+/// An English page with this title and this body, both HTML.
 pub(crate) fn document(title: &str, body: &str) -> String {
+    document_in("en", title, body)
+}
+
+fn document_in(language: &str, title: &str, body: &str) -> String {
     format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+        "<!DOCTYPE html>\n<html lang=\"{language}\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n\
          </head>\n<body>\n<main>\n{body}</main>\n</body>\n</html>\n"
@@ -97,7 +104,7 @@ impl Page {
     fn equations(&mut self, equations: &[Equation<'_>]) {
         self.numbered(equations, |page, equation| {
             if let Some(value) = page.values.as_mut().and_then(|values| values.define(equation)) {
-                page.at(&equation.left, &format!("<mn>{}</mn>", numbers::number(value)));
+                page.at(&equation.left, &format!("<mn>{}</mn>", page.words.number(value)));
             }
         });
     }
@@ -129,7 +136,7 @@ impl Page {
     fn matrix(&mut self, which: &FormulaMatrix<'_>, general: Option<&GeneralEquation>) {
         let lines: String = matrix(which, general).iter().map(|(mathml, latex)| display(mathml, latex)).collect();
         self.push(&format!("<div class=\"law\">{lines}</div>"));
-        if let Some(numbers) = self.values.as_ref().and_then(|values| at::matrix(which, values)) {
+        if let Some(numbers) = self.values.as_ref().and_then(|values| at::matrix(self.words, which, values)) {
             self.push(&format!("<div class=\"at\">{numbers}</div>"));
         }
     }
@@ -138,7 +145,7 @@ impl Page {
         let derivation = sheet.derivation;
         let (over, title) = match &sheet.title {
             Some(title) => (escape(derivation.mechanism), escape(title)),
-            None => ("Kinematics".to_owned(), escape(derivation.mechanism)),
+            None => (self.words.kinematics.to_owned(), escape(derivation.mechanism)),
         };
         self.push(&format!("<header>\n<p class=\"over\">{over}</p>\n<h1>{title}</h1>"));
         for paragraph in &sheet.about {
@@ -148,32 +155,32 @@ impl Page {
         for (role, symbols) in sheet.roles() {
             let symbols = symbols.iter().map(|(formula, value)| {
                 let value =
-                    value.map_or_else(String::new, |value| format!("<mo>=</mo><mn>{}</mn>", numbers::number(value)));
+                    value.map_or_else(String::new, |value| format!("<mo>=</mo><mn>{}</mn>", self.words.number(value)));
                 format!("<math>{}{value}</math>", formula.to_mathml())
             });
             let symbols = symbols.collect::<Vec<_>>().join(", ");
             self.push(&format!("<div><dt>{role}</dt><dd>{symbols}</dd></div>"));
         }
         let counts = derivation.counts();
-        self.push(&format!("<div><dt>{}</dt><dd>{counts}</dd></div>", words::COUNTS));
+        self.push(&format!("<div><dt>{}</dt><dd>{counts}</dd></div>", self.words.counts));
         self.push("</dl>\n</header>");
     }
 
     fn constraints(&mut self, derivation: &Derivation<'_>) {
-        self.section(words::CONSTRAINTS, |page| {
-            page.lead(words::LEAD_CONSTRAINTS);
+        self.section(self.words.constraints, |page| {
+            page.lead(page.words.lead_constraints);
             page.general_equation(&outline::CONSTRAINTS);
             page.numbered(derivation.residual, |_, _| ());
             if !derivation.implied.is_empty() {
-                page.lead(words::LEAD_IMPLIED);
+                page.lead(page.words.lead_implied);
                 page.equations(derivation.implied);
             }
         });
     }
 
     fn jacobian(&mut self, derivation: &Derivation<'_>) {
-        self.section(words::JACOBIAN, |page| {
-            page.lead(words::LEAD_JACOBIAN);
+        self.section(self.words.jacobian, |page| {
+            page.lead(page.words.lead_jacobian);
             page.matrix(&derivation.jacobian_unknowns, Some(&outline::JACOBIAN_UNKNOWNS));
             page.matrix(&derivation.jacobian_inputs, Some(&outline::JACOBIAN_INPUTS));
         });
@@ -184,29 +191,24 @@ impl Page {
         if groups.is_empty() {
             return;
         }
-        self.section(words::STRUCTURE, |page| {
+        self.section(self.words.structure, |page| {
             for (index, group) in groups.iter().enumerate() {
                 let links = group.equations.iter().map(|row| format!("<a href=\"#equation-{0}\">({0})</a>", row + 1));
                 let links = links.collect::<Vec<_>>().join(", ");
                 page.push("<article class=\"group\">");
                 if groups.len() > 1 {
-                    page.push(&format!("<h3>Group {}</h3>", index + 1));
+                    page.push(&format!("<h3>{} {}</h3>", page.words.group, index + 1));
                 }
-                let (several, verb) = if group.equations.len() == 1 { ("", "gives") } else { ("s", "give") };
-                page.push(&format!(
-                    "<p class=\"kind\">{}</p><p>Equation{several} {links} {verb} {}.</p>",
-                    escape(&sentence(group.kind)),
-                    list(group.unknowns.iter()),
-                ));
-                page.lead(if group.position.is_empty() { words::LEAD_NEWTON } else { words::LEAD_POSITION });
+                let kind = escape(&capitalised(&(page.words.kind)(group)));
+                let solved = (page.words.solved)(group.equations.len(), &links, &list(group.unknowns.iter()));
+                page.push(&format!("<p class=\"kind\">{kind}</p><p>{solved}</p>"));
+                page.lead(if group.position.is_empty() { page.words.lead_newton } else { page.words.lead_position });
                 page.equations(group.position);
-                if let Some(Root { formula, branches: [positive, negative] }) = &group.root {
-                    page.lead(&format!(
-                        "{} is positive on the branch <code>{positive}</code>, negative on <code>{negative}</code>.",
-                        inline(formula)
-                    ));
+                if let Some(Root { formula, branches }) = &group.root {
+                    let [positive, negative] = branches.map(|branch| format!("<code>{}</code>", escape(branch)));
+                    page.lead(&(page.words.branches)(&inline(formula), [&positive, &negative]));
                 }
-                page.lead(&outline::system(group));
+                page.lead(&(page.words.system)(group.method));
                 page.equations(group.determinant.as_slice());
                 if let Some(inverse) = &group.inverse {
                     page.matrix(inverse, None);
@@ -214,20 +216,20 @@ impl Page {
                 page.push("</article>");
             }
             if let (Some(determinant), [_, _, ..]) = (derivation.determinant, groups) {
-                page.lead(words::LEAD_DETERMINANT);
+                page.lead(page.words.lead_determinant);
                 page.equations(&[determinant]);
             }
         });
     }
 
     fn ratios(&mut self, derivation: &Derivation<'_>) {
-        self.section(words::RATIOS, |page| {
-            page.lead(words::LEAD_RATIOS);
+        self.section(self.words.ratios, |page| {
+            page.lead(page.words.lead_ratios);
             page.general_equation(&outline::RATIOS);
-            page.lead(words::LEAD_VELOCITY);
+            page.lead(page.words.lead_velocity);
             page.general_equation(&outline::VELOCITY);
             if derivation.inputs.len() == 1 {
-                page.lead(words::LEAD_TRANSMISSION);
+                page.lead(page.words.lead_transmission);
             }
             page.equations(derivation.ratios);
         });
@@ -238,17 +240,18 @@ impl Page {
         if properties.is_empty() {
             return;
         }
-        self.section("Properties of the velocity ratios", |page| {
+        self.section(self.words.properties, |page| {
             for (index, RatioProperty { statement, numbers: all }) in properties.iter().enumerate() {
-                page.push(&format!("<article>\n<p>{}. {}</p>", index + 1, escape(statement)));
+                page.push(&format!("<article>\n<p>{}. {}</p>", index + 1, escape(page.words.statement(statement))));
                 if !all.is_empty() {
-                    page.push(
-                        "<div class=\"scroll\">\n<table class=\"operations\">\n<thead><tr><th></th><th scope=\"col\">by W</th>\
-                         <th scope=\"col\">otherwise</th></tr></thead>\n<tbody>",
-                    );
+                    let Words { by_ratios, otherwise, .. } = page.words;
+                    page.push(&format!(
+                        "<div class=\"scroll\">\n<table class=\"operations\">\n<thead><tr><th></th>\
+                         <th scope=\"col\">{by_ratios}</th><th scope=\"col\">{otherwise}</th></tr></thead>\n<tbody>",
+                    ));
                     for RatioNumber { name, by_ratios, otherwise } in all {
                         let name = numbers::name(derivation, name);
-                        let [by_ratios, otherwise] = [by_ratios, otherwise].map(|value| numbers::number(*value));
+                        let [by_ratios, otherwise] = [by_ratios, otherwise].map(|value| page.words.number(*value));
                         page.push(&format!(
                             "<tr><th scope=\"row\">{name}</th><td>{by_ratios}</td><td>{otherwise}</td></tr>"
                         ));
@@ -271,11 +274,11 @@ impl Page {
     }
 
     fn acceleration(&mut self, derivation: &Derivation<'_>) {
-        self.section(words::ACCELERATION, |page| {
-            page.lead(words::LEAD_ACCELERATION);
+        self.section(self.words.acceleration, |page| {
+            page.lead(page.words.lead_acceleration);
             page.general_equation(&outline::ACCELERATION);
             if !derivation.gamma.is_empty() {
-                page.lead(words::LEAD_GAMMA);
+                page.lead(page.words.lead_gamma);
             }
             page.equations(derivation.gamma);
         });
@@ -284,25 +287,25 @@ impl Page {
     /// The derivatives that the mechanism requests beyond acceleration.
     fn requests(&mut self, derivation: &Derivation<'_>) {
         if let Some(formulas) = derivation.ratio_derivatives {
-            self.section(words::RATIO_DERIVATIVES, |page| {
-                page.lead(words::LEAD_RATIO_DERIVATIVES);
+            self.section(self.words.ratio_derivatives, |page| {
+                page.lead(page.words.lead_ratio_derivatives);
                 page.general_equation(&outline::RATIO_DERIVATIVES);
                 page.equations(formulas);
             });
         }
         if let Some(eta) = derivation.jerk {
-            self.section(words::JERK, |page| {
-                page.lead(words::LEAD_JERK);
+            self.section(self.words.jerk, |page| {
+                page.lead(page.words.lead_jerk);
                 page.general_equation(&outline::JERK);
-                page.lead(words::LEAD_ETA);
+                page.lead(page.words.lead_eta);
                 page.equations(eta);
             });
         }
         if let Some(sensitivity) = derivation.sensitivity {
-            self.section(words::SENSITIVITY, |page| {
-                page.lead(words::LEAD_SENSITIVITY);
+            self.section(self.words.sensitivity, |page| {
+                page.lead(page.words.lead_sensitivity);
                 page.general_equation(&outline::SENSITIVITY);
-                page.lead(words::LEAD_PARAMETERS);
+                page.lead(page.words.lead_parameters);
                 page.matrix(&sensitivity.jacobian, None);
                 page.equations(sensitivity.formulas);
             });
@@ -329,12 +332,12 @@ impl Page {
         if tables.is_empty() {
             return;
         }
-        self.section(words::NUMBERS, |page| {
+        self.section(self.words.numbers, |page| {
             page.push("<div class=\"tables\">");
             for Table { caption, rows } in tables {
                 let values: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
-                page.push(&format!("<table>\n<caption>{}</caption>\n<tbody>", escape(caption)));
-                for ((name, _), value) in rows.iter().zip(numbers::column(&values)) {
+                page.push(&format!("<table>\n<caption>{}</caption>\n<tbody>", escape(caption.text(page.words))));
+                for ((name, _), value) in rows.iter().zip(numbers::column(page.words, &values)) {
                     let name = numbers::name(derivation, name);
                     page.push(&format!("<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>"));
                 }
@@ -348,7 +351,7 @@ impl Page {
         if pictures.is_empty() {
             return;
         }
-        self.section(if pictures.len() == 1 { "Picture" } else { "Pictures" }, |page| {
+        self.section(if pictures.len() == 1 { self.words.picture } else { self.words.pictures }, |page| {
             for Picture { svg, caption } in pictures {
                 let (address, caption) = (svg_address(svg), escape(caption));
                 page.push(&format!(
@@ -359,30 +362,30 @@ impl Page {
     }
 
     fn scene(&mut self, scene: &SceneDerivation<'_>) {
-        self.section(&format!("{}: <code>{}</code>", words::MOTION, escape(scene.scene)), |page| {
+        self.section(&format!("{}: <code>{}</code>", self.words.motion, escape(scene.scene)), |page| {
             if !scene.parameters.is_empty() {
                 let given = list(scene.parameters.iter().map(|Symbol { formula, .. }| formula));
-                page.push(&format!("<p>{}: {given}</p>", words::GIVEN));
+                page.push(&format!("<p>{}: {given}</p>", page.words.given));
             }
-            page.lead(words::LEAD_MOTION);
+            page.lead(page.words.lead_motion);
             page.general_equation(&outline::MOTION);
             if !scene.mass_matrix.is_empty() {
-                page.lead(words::LEAD_MASS_MATRIX);
+                page.lead(page.words.lead_mass_matrix);
                 page.equations(scene.mass_matrix);
             }
-            page.lead(outline::lead_of_forces(scene));
+            page.lead(outline::lead_of_forces(page.words, scene));
             for effect in scene.forces {
-                page.push(&format!("<article>\n<h3>{}</h3>", escape(effect.name)));
+                page.push(&format!("<article>\n<h3>{}</h3>", escape(&(page.words.name)(effect.name))));
                 page.equations(effect.forces);
                 page.push("</article>");
             }
             page.frictions_and_stops(scene.frictions_and_stops);
             if !scene.drives.is_empty() {
-                page.lead(words::LEAD_DRIVES);
+                page.lead(page.words.lead_drives);
                 page.equations(scene.drives);
             }
             if let Some(potential) = scene.potential {
-                page.lead(words::POTENTIAL);
+                page.lead(page.words.potential);
                 page.equations(&[potential]);
             }
         });
@@ -393,18 +396,18 @@ impl Page {
 
     fn frictions_and_stops(&mut self, all: &[ContactEffect<'_>]) {
         if !all.is_empty() {
-            self.lead(words::LEAD_CONTACTS);
+            self.lead(self.words.lead_contacts);
         }
         for contact in all {
-            self.push(&format!("<article>\n<h3>{}</h3>", escape(contact.name)));
+            self.push(&format!("<article>\n<h3>{}</h3>", escape(&(self.words.name)(contact.name))));
             self.equations(&[contact.along]);
             let joint = contact
                 .bearing
                 .as_ref()
-                .map(|joint| format!(", {} {}", escape(&outline::bearing(joint)), inline(&joint.formula)));
+                .map(|joint| format!(", {} {}", escape(&(self.words.bearing)(joint.name)), inline(&joint.formula)));
             self.push(&format!("<p>{}{}</p>", inline(&contact.bound), joint.unwrap_or_default()));
             if let Some(factor) = &contact.rebound {
-                self.push(&format!("<p>{} {}.</p>", words::LEAD_REBOUND, inline(factor)));
+                self.push(&format!("<p>{} {}.</p>", self.words.lead_rebound, inline(factor)));
             }
             self.equations(contact.forces);
             self.push("</article>");
@@ -412,17 +415,18 @@ impl Page {
     }
 
     fn joints(&mut self, scene: &SceneDerivation<'_>) {
-        self.section(&format!("{}: <code>{}</code>", words::JOINTS, escape(scene.scene)), |page| {
-            page.lead(words::LEAD_JOINTS);
+        self.section(&format!("{}: <code>{}</code>", self.words.joints, escape(scene.scene)), |page| {
+            page.lead(page.words.lead_joints);
             if !scene.multipliers.is_empty() {
-                page.lead(words::LEAD_MULTIPLIERS);
+                page.lead(page.words.lead_multipliers);
                 page.general_equation(&outline::MULTIPLIERS);
             }
             for contact in scene.contacts {
-                page.push(&format!("<p>{} {}.</p>", escape(&outline::force_along(contact)), inline(&contact.formula)));
+                let force = escape(&(page.words.force_along)(contact.name));
+                page.push(&format!("<p>{force} {}.</p>", inline(&contact.formula)));
             }
             for joint in scene.joints {
-                page.push(&format!("<article>\n<h3>{}</h3>", escape(joint.name)));
+                page.push(&format!("<article>\n<h3>{}</h3>", escape(&(page.words.name)(joint.name))));
                 page.equations(&joint.components);
                 page.push("</article>");
             }
@@ -434,24 +438,22 @@ impl Page {
             return;
         }
         let of = scene.map_or_else(String::new, |scene| format!(": <code>{}</code>", escape(scene)));
-        self.section(&format!("{}{of}", words::OPERATIONS), |page| {
-            page.lead("The operations of one call of each function:");
+        self.section(&format!("{}{of}", self.words.operations), |page| {
+            page.lead(page.words.lead_operations);
             let mut rows = String::new();
             for kernel in kernels {
-                let counts = kernel.operations;
-                let counts = [counts.functions, counts.divisions, counts.multiplications, counts.additions];
-                let cells: String = counts.iter().map(|count| format!("<td>{count}</td>")).collect();
+                let cells: String = counts(&kernel.operations).iter().map(|count| format!("<td>{count}</td>")).collect();
                 let function = escape(kernel.function);
                 rows.push_str(&format!("<tr><th scope=\"row\"><code>{function}</code></th>{cells}</tr>\n"));
             }
-            let columns = [("sin, cos, √", "functions"), ("÷", "divisions"), ("×", "multiplications"), ("±", "additions")];
+            let columns = ["sin, cos, √", "÷", "×", "±"].into_iter().zip(page.words.operation_counts());
             let head: String = columns
-                .iter()
                 .map(|(sign, name)| format!("<th scope=\"col\"><abbr title=\"{name}\">{sign}</abbr></th>"))
                 .collect();
             page.push(&format!(
-                "<div class=\"scroll\">\n<table class=\"operations\">\n<thead><tr><th scope=\"col\">Function</th>{head}</tr></thead>\n\
-                 <tbody>\n{rows}</tbody>\n</table>\n</div>"
+                "<div class=\"scroll\">\n<table class=\"operations\">\n<thead><tr><th scope=\"col\">{}</th>{head}</tr></thead>\n\
+                 <tbody>\n{rows}</tbody>\n</table>\n</div>",
+                page.words.function
             ));
         });
     }
@@ -460,9 +462,10 @@ impl Page {
         if conditions.is_empty() {
             return;
         }
-        self.section(words::CONDITIONS, |page| {
-            let conditions = list(conditions.iter().copied());
-            page.push(&format!("<p>{} {conditions}.</p>", words::LEAD_CONDITIONS));
+        self.section(self.words.conditions, |page| {
+            let condition = |condition: &&Formula<'_>| page.words.formula(condition, inline(condition));
+            let conditions = conditions.iter().map(condition).collect::<Vec<_>>().join(", ");
+            page.push(&format!("<p>{} {conditions}.</p>", page.words.lead_conditions));
         });
     }
 }
@@ -474,6 +477,10 @@ struct Sections<'p> {
 }
 
 impl Lines for Sections<'_> {
+    fn words(&self) -> &'static Words {
+        self.page.words
+    }
+
     fn heading(&mut self, heading: &str) -> fmt::Result {
         if self.is_open {
             self.page.push("</section>");
@@ -506,7 +513,7 @@ impl Lines for Sections<'_> {
     fn sum(&mut self, _: usize, equation: &Equation<'_>, of: &[&FormulaMatrix<'_>]) -> fmt::Result {
         self.page.numbered(&[*equation], |_, _| ());
         if let Some(sum) = self.page.values.as_ref().and_then(|values| values.sum(of)) {
-            let [x, y] = sum.map(numbers::number);
+            let [x, y] = sum.map(|value| self.page.words.number(value));
             self.page.at(&equation.left, &format!("<mo>(</mo><mn>{x}</mn><mo>,</mo><mn>{y}</mn><mo>)</mo>"));
         }
         Ok(())
@@ -521,10 +528,4 @@ impl Lines for Sections<'_> {
 /// Formulas in a line, separated by commas.
 fn list<'a>(formulas: impl Iterator<Item = &'a Formula<'a>>) -> String {
     formulas.map(inline).collect::<Vec<_>>().join(", ")
-}
-
-/// The text with a capital at the start.
-fn sentence(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

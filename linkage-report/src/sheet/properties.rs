@@ -6,12 +6,12 @@ use linkage_runtime::derivation::Derivation;
 use linkage_runtime::jacobian::Scales;
 use linkage_runtime::{Build, Kinematic, PerInput, PerUnknown, PositionErrorOf, position};
 
-use super::number;
+use super::{Language, number};
 
 /// A property of the velocity ratios, with numbers that show it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RatioProperty {
-    /// The property as a sentence.
+    /// The property as a sentence in English, which a sheet in another language translates.
     pub statement: &'static str,
     /// The numbers.
     pub numbers: Vec<RatioNumber>,
@@ -130,14 +130,7 @@ pub fn ratio_properties<M: Kinematic<Scalar = f64>>(
         }
         _ => Vec::new(),
     };
-    let statements = [
-        "An entry is the rate of an unknown if one input has the rate 1 and the others rest.",
-        "An entry is the derivative of an unknown by an input: the limit of difference quotients.",
-        "They depend on the position only: at twice the rates of the inputs the unknowns are twice as fast.",
-        "They give small displacements as well, up to terms of second order.",
-        "Points and outputs have velocity ratios too.",
-        "With one input they are transmission ratios: quotients of two rates.",
-    ];
+    let statements = Language::English.words().statements;
     let all = [single, derivatives, independent, displacements, quantities, transmission];
     let mut all = all.into_iter();
     Ok(statements.map(|statement| RatioProperty { statement, numbers: all.next().unwrap_or_default() }))

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use linkage_runtime::Mechanism;
 use linkage_runtime::analysis::AnalysisOf;
 use linkage_runtime::derivation::notation::Name;
 use linkage_runtime::derivation::{
     Derivation, ElementaryFunction, Equation, Formula, FormulaList, FormulaMatrix, FormulaView,
 };
+use linkage_runtime::{Mechanism, Real};
 
 /// Numbers for the names in the formulas of a mechanism: those of a position, with its rates and accelerations.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -137,18 +137,18 @@ impl Values {
 fn called(function: ElementaryFunction, arguments: &[f64]) -> Option<f64> {
     use ElementaryFunction as F;
     Some(match (function, arguments) {
-        (F::Sin, [x]) => x.sin(),
-        (F::Cos, [x]) => x.cos(),
-        (F::Tan, [x]) => x.tan(),
-        (F::Asin, [x]) => x.asin(),
-        (F::Acos, [x]) => x.acos(),
-        (F::Atan, [x]) => x.atan(),
-        (F::Atan2, [y, x]) => y.atan2(*x),
+        (F::Sin, [x]) => x.sine(),
+        (F::Cos, [x]) => x.cosine(),
+        (F::Tan, [x]) => x.tangent(),
+        (F::Asin, [x]) => x.arcsine(),
+        (F::Acos, [x]) => x.arccosine(),
+        (F::Atan, [x]) => x.arctangent(),
+        (F::Atan2, [y, x]) => y.arctangent2(*x),
         (F::Sqrt, [x]) => x.sqrt(),
         (F::Abs, [x]) => x.abs(),
-        (F::Exp, [x]) => x.exp(),
-        (F::Ln, [x]) => x.ln(),
-        (F::Hypot, [x, y]) => x.hypot(*y),
+        (F::Exp, [x]) => x.exponential(),
+        (F::Ln, [x]) => x.logarithm(),
+        (F::Hypot, [x, y]) => x.hypotenuse(*y),
         (F::IfNonzero, [a, v, w]) => {
             if *a == 0.0 {
                 *w

@@ -4,7 +4,7 @@ use linkage_dynamics::simulation::Loads;
 use linkage_dynamics::{Energy, Inputs, MotionErrorOf, NameOf, Scene};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, RangeOfMotion};
-use linkage_runtime::{Assembly, Dim as _, Joint, JointForces, Kinematic, Mechanism, PathErrorOf, PerInput};
+use linkage_runtime::{Assembly, Dim as _, Joint, JointForces, Kinematic, Mechanism, PathErrorOf, PerInput, Real};
 
 use super::motion::{Clock, columns, on_branch, row, turn};
 use super::{Cause, Quantity, Table};
@@ -232,7 +232,7 @@ pub(super) fn numbers<S: Scene<Scalar = f64>>(
     all.extend(loads.contacts.iter());
     for (joint, [first, second]) in scene.joints().zip(loads.joints.each()) {
         all.extend([first, second]);
-        all.extend(matches!(joint, Joint::Pin { .. }).then(|| first.hypot(second)));
+        all.extend(matches!(joint, Joint::Pin { .. }).then(|| Real::hypotenuse(first, second)));
     }
     all
 }

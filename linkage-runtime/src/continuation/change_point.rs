@@ -21,7 +21,7 @@ use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero, ulps};
 use crate::jacobian::{Cholesky, EliminationOf as Elimination, VectorOf as Vector};
 use crate::scalar::arithmetic::*;
 use crate::scalar::largest;
-use crate::{Build, Column, D, Dim, Matrix, Mechanism, PathErrorOf, PerUnknown, real};
+use crate::{Build, Column, D, Dim, Matrix, Mechanism, PathErrorOf, PerUnknown, Real, real};
 
 /// The most Newton steps; a search from the path takes three to five.
 const MOST_ITERATIONS: usize = 12;
@@ -215,7 +215,7 @@ where
         let weights = u.column(|row| elimination.left_null_product(&u.unit(row)).sum().abs());
         let mut rows = weights.map(|weight| weight > weights.largest() * real(LEAST_WEIGHT));
         // At an irregular position nearby no entry is zero by chance.
-        let apart = |place: usize| real::<M::Scalar>(f64::sin(1.0 + place as f64));
+        let apart = |place: usize| real::<M::Scalar>(Real::sine(1.0 + place as f64));
         let aside = Vector::<M> { unknowns: u.column(apart), inputs: v.column(|_| apart(u.count())) };
         // Some equations have no value there.
         let Ok(at) = self.linear(&self.moved(q, &aside)) else { return Ok(None) };

@@ -222,7 +222,7 @@ impl<T: Real> Space<T> {
     /// Replaces one of the first two forms, in three coordinates, by a degenerate combination of both.
     fn degenerate(&mut self) -> bool {
         let [one, two] = [self.forms[0], self.forms[1]];
-        let combination = |angle: T| one * angle.cos() + two * angle.sin();
+        let combination = |angle: T| one * angle.cosine() + two * angle.sine();
         let determinant = |angle: T| of_three(&combination(angle));
         // The determinant changes its sign over half a turn.
         let interval = [T::zero(), T::pi()];
@@ -231,7 +231,7 @@ impl<T: Real> Space<T> {
             root(interval, ends, T::default_epsilon(), |angle| Ok(Some(determinant(angle))));
         let Ok(Some(angle)) = found else { return false };
         let form = combination(angle);
-        self.forms[usize::from(angle.sin().abs() > angle.cos().abs())] = form;
+        self.forms[usize::from(angle.sine().abs() > angle.cosine().abs())] = form;
         let squares = Squares::of(&form, self.size);
         squares.rank <= 2
     }

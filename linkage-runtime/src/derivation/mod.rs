@@ -101,6 +101,10 @@ pub enum GroupForm {
     OneAngle,
     /// One unknown that enters linearly: a gear, a belt, or a slider whose link is known.
     OneLinear,
+    /// The angles and lengths of the links of two loops, whose positions are listed by number.
+    TwoLoops,
+    /// Those of three loops.
+    ThreeLoops,
     /// Any other.
     Other,
 }
@@ -125,7 +129,7 @@ pub struct Group<'a> {
     pub equations: &'a [usize],
     /// The kind of group: the Assur group, or a description of any other.
     pub kind: &'a str,
-    /// The kind as data, with one case for all that are no dyad and no part of one.
+    /// The kind as data, with one case for all whose positions Newton's method finds.
     pub form: GroupForm,
     /// The position in closed form, each equation in terms of those before it; empty if Newton's method finds it.
     pub position: &'a [Equation<'a>],

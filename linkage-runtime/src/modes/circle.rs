@@ -4,7 +4,7 @@
 //! the basis of Bernstein bound the number of its roots on the arc: their changes of sign exceed it by an even number.
 //! Arcs are halved until there is none or one. J. M. Lane and R. F. Riesenfeld, "Bounds on a polynomial", BIT 21, 1981.
 
-use nalgebra::{Complex, ComplexField};
+use nalgebra::Complex;
 
 use super::number::Number;
 use crate::Real;
@@ -199,7 +199,7 @@ struct Arc<const TERMS: usize> {
 impl<const TERMS: usize> Arc<TERMS> {
     fn new(polynomial: &TrigonometricPolynomial<TERMS>, middle: f64, width: f64) -> Self {
         let degree = polynomial.degree;
-        let tangent = ComplexField::tan(0.25 * width);
+        let tangent = (0.25 * width).tangent();
         // e^(i k phi) (1 + t^2)^d = u^(d + k) v^(d - k), u = 1 + i t = conj v; both are linear in s, t = T (2 s - 1). The
         // homogeneous polynomial in u and v by Horner's rule, with coefficients of s^j (1 - s)^(m - j).
         let ends = [Complex::new(1.0, -tangent), Complex::new(1.0, tangent)];
@@ -239,7 +239,7 @@ impl<const TERMS: usize> Arc<TERMS> {
     }
 
     fn angle(&self, s: f64) -> f64 {
-        self.middle + 2.0 * ComplexField::atan(self.tangent * (2.0 * s - 1.0))
+        self.middle + 2.0 * (self.tangent * (2.0 * s - 1.0)).arctangent()
     }
 
     fn roots(&self, degree: usize, noise: f64, roots: &mut Roots) {

@@ -48,7 +48,7 @@ pub fn close(row: &[Number; COLUMNS], cell: &mut Cell, angles: usize) -> bool {
         if square >= 1.0 {
             continue;
         }
-        let within = 2.0 * nalgebra::ComplexField::asin(nalgebra::ComplexField::sqrt(square.max(0.0))) + MARGIN;
+        let within = 2.0 * nalgebra::ComplexField::sqrt(square.max(0.0)).arcsine() + MARGIN;
         let to = rest * factors[place].conj();
         let (middle, half) = (cell.middle[place], cell.half[place]);
         let away = around(to.im.arctangent2(to.re) - middle);

@@ -3,6 +3,8 @@
 #[cfg(feature = "std")]
 mod arctangent;
 #[cfg(feature = "std")]
+mod elementary;
+#[cfg(feature = "std")]
 mod lane;
 mod modes;
 #[cfg(feature = "std")]

@@ -26,6 +26,6 @@ fn what_is_missing_is_named() {
 
 #[test]
 fn a_complete_mechanism_lacks_nothing() {
-    assert_eq!(check::missing("four_bar.rs", &source::text_of("four_bar")), [""; 0]);
+    assert_eq!(check::missing("four_bar.rs", source::text_of("four_bar")), [""; 0]);
     assert_eq!(check::of_folder(&source::folder()), [""; 0]);
 }

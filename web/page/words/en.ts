@@ -112,6 +112,10 @@ export const en = {
 
     // Failures, a sentence each.
     noWebAssembly: "This browser has no WebAssembly, which the page computes with: a browser of 2023 or later has it.",
+    followed: (file: string): string => `This page follows ${file}.`,
+    serverGone: "The program that serves this page has ended: the file is not followed any more.",
+    liveFailed: "The sliders of this sheet cannot be loaded: its file may be incomplete. The numbers are those of the position with which it was written.",
+    liveFold: "Sliders and picture",
     moduleFailed: "The part of the page that computes cannot be loaded: the file may be incomplete.",
     trap: "The computation failed on this text, and was started again; the text is as it was.",
     noLongerCompiles: "The text no longer compiles.",

@@ -140,11 +140,11 @@ impl Law {
         let amplified = self.amplified.iter().map(|(kind, angle, factor)| {
             let x = sum(angle, value);
             let amplifier = match kind {
-                Amplifier::Cotangent => x / x.tan(),
-                Amplifier::Tangent => x * x.tan(),
+                Amplifier::Cotangent => x / libm::tan(x),
+                Amplifier::Tangent => x * libm::tan(x),
                 Amplifier::Size => x,
-                Amplifier::Cosecant => x.sin().recip(),
-                Amplifier::Secant => x.cos().recip(),
+                Amplifier::Cosecant => libm::sin(x).recip(),
+                Amplifier::Secant => libm::cos(x).recip(),
             };
             factor * amplifier.abs()
         });
@@ -157,8 +157,8 @@ impl Product {
         let factors = self.factors.iter().map(|(base, exponent)| {
             let base = match base {
                 Base::Named(name) => value(name),
-                Base::Sine(angle) => sum(angle, value).sin(),
-                Base::Cosine(angle) => sum(angle, value).cos(),
+                Base::Sine(angle) => libm::sin(sum(angle, value)),
+                Base::Cosine(angle) => libm::cos(sum(angle, value)),
             };
             base.abs().powi(*exponent)
         });

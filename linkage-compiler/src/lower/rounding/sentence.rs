@@ -340,10 +340,10 @@ fn up(number: f64) -> String {
     if !number.is_normal() {
         return number.to_string();
     }
-    let digit = 10.0_f64.powf(number.log10().floor() - 1.0).min(0.1);
+    let digit = libm::pow(10.0, libm::log10(number).floor() - 1.0).min(0.1);
     // A number with fewer digits may be a bit above itself in binary.
     let rounded = (number / digit - 1e-9).ceil() * digit;
-    let digits = (-digit.log10()).round().max(1.0) as usize;
+    let digits = (-libm::log10(digit)).round().max(1.0) as usize;
     let text = format!("{rounded:.digits$}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -87,10 +87,10 @@ impl Number for Operations {
     fn sqrt(self) -> Self {
         made(("sqrt", self))
     }
-    fn exp(self) -> Self {
+    fn exponential(self) -> Self {
         made(("exp", self))
     }
-    fn ln(self) -> Self {
+    fn logarithm(self) -> Self {
         made(("ln", self))
     }
     fn sine_cosine(self) -> (Self, Self) {
@@ -102,16 +102,16 @@ impl Number for Operations {
     fn cosine(self) -> Self {
         made(("cosine", self))
     }
-    fn tan(self) -> Self {
+    fn tangent(self) -> Self {
         made(("tan", self))
     }
-    fn asin(self) -> Self {
+    fn arcsine(self) -> Self {
         made(("asin", self))
     }
-    fn acos(self) -> Self {
+    fn arccosine(self) -> Self {
         made(("acos", self))
     }
-    fn atan(self) -> Self {
+    fn arctangent(self) -> Self {
         made(("atan", self))
     }
     fn arctangent2(self, x: Self) -> Self {

@@ -7,18 +7,19 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use linkage_compiler::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use linkage_compiler::model::{Kind, Mechanism};
+use super::{Kind, Mechanism};
+use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
 /// An output that is an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Angle {
+pub struct OutputAngle {
     /// The jump of its formula where an `atan2` in it goes from pi to -pi.
     pub jump: Option<f64>,
 }
 
-/// The outputs that are angles.
-pub fn of_outputs(mechanism: &Mechanism) -> Vec<Option<Angle>> {
+/// The outputs that are angles, in their order.
+#[must_use]
+pub fn output_angles(mechanism: &Mechanism) -> Vec<Option<OutputAngle>> {
     let parameters = mechanism.parameters.iter().map(|of| (of.symbol, of.kind));
     let coordinates = mechanism.coordinates.iter().map(|of| (of.symbol, of.kind));
     let kinds: BTreeMap<SymbolId, Kind> = coordinates.chain(parameters).collect();
@@ -34,7 +35,7 @@ enum Term {
     Other,
 }
 
-fn angle(graph: &Graph, sum: NodeId, kinds: &BTreeMap<SymbolId, Kind>) -> Option<Angle> {
+fn angle(graph: &Graph, sum: NodeId, kinds: &BTreeMap<SymbolId, Kind>) -> Option<OutputAngle> {
     let term = |number: Number, of: NodeId| match graph.node(of) {
         Node::Symbol(symbol) => match kinds.get(symbol) {
             Some(Kind::Angle) => Term::Angle,
@@ -65,5 +66,5 @@ fn angle(graph: &Graph, sum: NodeId, kinds: &BTreeMap<SymbolId, Kind>) -> Option
     let jump = jumps.reduce(f64::min);
     let is_one = terms.iter().all(|term| !matches!(term, Term::Length))
         && terms.iter().any(|term| matches!(term, Term::Angle | Term::Jumping(_)));
-    is_one.then_some(Angle { jump })
+    is_one.then_some(OutputAngle { jump })
 }
