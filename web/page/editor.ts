@@ -24,7 +24,8 @@ const look = EditorView.theme({
     "&.cm-focused": { outline: "none" },
     ".cm-scroller": { fontFamily: "var(--code)", lineHeight: "1.6", overflow: "auto" },
     ".cm-content": { padding: ".75rem 0 3rem", caretColor: "var(--accent)" },
-    ".cm-line": { padding: "0 .75rem 0 .25rem" },
+    // The rest of a long line stands in.
+    ".cm-line": { padding: "0 .75rem 0 calc(.25rem + 6ch)", textIndent: "-6ch" },
     ".cm-cursor": { borderLeftColor: "var(--accent)", borderLeftWidth: "2px" },
     ".cm-gutters": { backgroundColor: "transparent", border: "none", color: "var(--faint)" },
     ".cm-lineNumbers .cm-gutterElement": { padding: "0 .4rem 0 .75rem" },

@@ -101,6 +101,19 @@ export class Machine {
             show: this.show,
         }));
         this.#accept(answer, isDesign, asked === this.#asked);
+        if (isDesign && answer !== null && !isRefusal(answer) && answer.stopped !== null && asked === this.#asked) {
+            await this.#explain(text, target.parameters);
+        }
+    }
+
+    /** Parameters were followed up to where no position has them: the reason is that of their own position. */
+    async #explain(text: string, parameters: number[]): Promise<void> {
+        const { index, show } = this;
+        const asked = this.#asked;
+        const answer = await this.#session.ask("draw", text, () => ({ do: "begin", mechanism: index, parameters, show }));
+        if (answer === null || !isRefusal(answer) || asked !== this.#asked) return;
+        this.note = answer.why;
+        this.moved.emit();
     }
 
     /** Moves the input that leads a joint nearest to a place of the plane. */
@@ -139,8 +152,9 @@ export class Machine {
     async #redraw(): Promise<void> {
         const { text } = this;
         if (text === null || this.at === null) return;
-        const answer = await this.#session.ask("move", text, () => ({ do: "picture", ...(this.at as At), show: this.show }));
-        if (answer !== null && !isRefusal(answer)) this.#accept(answer, false);
+        const asked = this.#asked;
+        const answer = await this.#session.ask("draw", text, () => ({ do: "picture", ...(this.at as At), show: this.show }));
+        if (answer !== null && !isRefusal(answer)) this.#accept(answer, false, asked === this.#asked);
     }
 
     #take(text: string, mechanisms: About[], wanted: Wanted): void {

@@ -26,9 +26,9 @@ export class NumbersView {
                 "tr",
                 {},
                 h("th", { scope: "row" }, name),
-                h("td", {}, show(value, is_angle)),
-                h("td", {}, show(rate, false, 5)),
-                h("td", {}, show(acceleration, false, 5)),
+                h("td", {}, show(value, is_angle, 5)),
+                h("td", {}, show(rate, false, 4)),
+                h("td", {}, show(acceleration, false, 4)),
             ),
         );
         const table = h("table", {}, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows));

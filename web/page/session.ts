@@ -8,7 +8,7 @@ import type { FromWorker, ToWorker } from "./worker";
 import { word } from "./words";
 
 /** Lanes, the most urgent first. */
-const LANES = ["compile", "move", "motion", "positions", "chart", "tab", "copy"] as const;
+const LANES = ["compile", "move", "draw", "motion", "positions", "chart", "tab", "copy"] as const;
 export type Lane = (typeof LANES)[number];
 
 /** How long a more urgent question waits for the running one before that is stopped, in milliseconds and in compilations. */
@@ -172,7 +172,8 @@ export class Session {
             if (running.isPreparation && !isGood) this.#drop(running.lane, { why: word().noLongerCompiles });
         }
         running.resolve(answer);
-        this.#next();
+        // Whoever asked takes the answer first: the next question starts from it.
+        queueMicrotask(() => this.#next());
     }
 
     /** A panic ended the instance. */

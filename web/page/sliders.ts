@@ -18,6 +18,8 @@ export class Slider {
     #isAngle: boolean;
     #bounds: Range = { least: 0, largest: 1 };
     #value = 0;
+    /** Somebody writes in the field. */
+    #isEdited = false;
 
     constructor(quantity: Quantity, set_: (value: number) => void) {
         this.#isAngle = quantity.is_angle;
@@ -29,16 +31,21 @@ export class Slider {
         this.range.addEventListener("input", () => set_(this.#clamp(Number(this.range.value))));
         this.range.addEventListener("change", () => this.show(this.#value));
         const take = (): void => {
+            this.#isEdited = false;
             const value = read(this.field.value, this.#isAngle);
             set(this.field, "aria-invalid", value === null ? "true" : null);
             this.field.title = value === null ? word().notNumber : "";
             if (value !== null && show(value, this.#isAngle) !== show(this.#value, this.#isAngle)) set_(value);
         };
+        this.field.addEventListener("input", () => (this.#isEdited = true));
         this.field.addEventListener("change", take);
         this.field.addEventListener("focus", () => this.field.select());
         this.field.addEventListener("keydown", (event) => {
             if (event.key === "Enter") take();
-            if (event.key === "Escape") this.show(this.#value, true);
+            if (event.key === "Escape") {
+                this.#isEdited = false;
+                this.show(this.#value);
+            }
         });
     }
 
@@ -53,12 +60,12 @@ export class Slider {
         this.show(this.#value);
     }
 
-    show(value: number, isForced = false): void {
+    show(value: number): void {
         this.#value = value;
         // A thumb that somebody holds stays where it is.
         if (!this.range.matches(":active")) this.range.value = String(value);
         const text = show(value, this.#isAngle);
-        if (isForced || !this.field.matches(":focus")) {
+        if (!this.#isEdited) {
             this.field.value = text;
             set(this.field, "aria-invalid", null);
         }

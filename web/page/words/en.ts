@@ -107,7 +107,7 @@ export const en = {
     stopped: "Stopped.",
     replaced: "A newer question took its place.",
     again: "Compute again",
-    working: { compile: "Reading the text", move: "Moving", motion: "Following the motion", positions: "Finding positions", chart: "Drawing charts", tab: "Computing", copy: "Computing" },
+    working: { compile: "Reading the text", move: "Moving", draw: "Drawing", motion: "Following the motion", positions: "Finding positions", chart: "Drawing charts", tab: "Computing", copy: "Computing" },
     loading: "Loading…",
 
     // Failures, a sentence each.

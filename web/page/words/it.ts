@@ -101,7 +101,7 @@ export const it: Words = {
     stopped: "Fermato.",
     replaced: "Una domanda più recente ha preso il suo posto.",
     again: "Calcola di nuovo",
-    working: { compile: "Lettura del testo", move: "Spostamento", motion: "Il moto viene seguito", positions: "Ricerca delle posizioni", chart: "Disegno dei grafici", tab: "Calcolo", copy: "Calcolo" },
+    working: { compile: "Lettura del testo", move: "Spostamento", draw: "Disegno", motion: "Il moto viene seguito", positions: "Ricerca delle posizioni", chart: "Disegno dei grafici", tab: "Calcolo", copy: "Calcolo" },
     loading: "Caricamento…",
 
     noWebAssembly: "Questo browser non ha WebAssembly, con cui la pagina calcola: un browser dal 2023 in poi lo ha.",

@@ -1,0 +1,106 @@
+// Keyboard, screen reader, contrast, phone, dark, reduced motion, Italian.
+
+import assert from "node:assert/strict";
+import { after, test } from "node:test";
+import { choose, drawn, open, quit, until } from "./browser.mjs";
+
+after(quit);
+
+test("every control has a name, and tabs, sliders and menus take keys", async () => {
+    const { page, close } = await open();
+    await drawn(page);
+    const nameless = await page.evaluate(() => {
+        const controls = [...document.querySelectorAll("button, input, select, textarea, [tabindex]")].filter((control) => control.checkVisibility());
+        const name = (control) => control.getAttribute("aria-label") || control.getAttribute("aria-labelledby") || control.textContent.trim() || control.closest("label")?.textContent.trim();
+        return controls.filter((control) => !name(control)).map((control) => control.outerHTML.slice(0, 90));
+    });
+    assert.deepEqual(nameless.filter((html) => !html.startsWith("<main")), []);
+    await page.focus("#tab-picture");
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "tab-sheet");
+    assert.equal(await page.$eval("#panel-sheet", (panel) => panel.hidden), false);
+    await page.keyboard.press("ArrowLeft");
+    await page.focus('.side .slider input[type="range"]');
+    const before = await page.$eval(".side .slider .number", (field) => field.value);
+    await page.keyboard.press("ArrowRight");
+    await until(page, (old) => document.querySelector(".side .slider .number").value !== old, before);
+    assert.match(await page.$eval('.side .slider input[type="range"]', (range) => range.getAttribute("aria-valuetext")), /°/u);
+    await page.focus(".menu.wide > button");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    await until(page, () => document.querySelector("select.mechanism").checkVisibility());
+    assert.deepEqual(await page.$$eval("select.mechanism option", (options) => options.map((option) => option.textContent)), ["Engine", "Compressor"]);
+    // The focus is seen.
+    await page.focus("#tab-picture");
+    await page.keyboard.press("Tab");
+    const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+    assert.notEqual(outline, "none");
+    await close();
+});
+
+test("texts have contrast, light and dark", async () => {
+    for (const theme of ["light", "dark"]) {
+        const { page, close } = await open({ theme });
+        await drawn(page);
+        const ratios = await page.evaluate(() => {
+            const probe = document.body.appendChild(document.createElement("i"));
+            const canvas = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
+            const luminance = (name) => {
+                probe.style.color = `var(${name})`;
+                canvas.fillStyle = getComputedStyle(probe).color;
+                canvas.fillRect(0, 0, 1, 1);
+                const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3).map((part) => (part / 255 <= 0.04045 ? part / 255 / 12.92 : ((part / 255 + 0.055) / 1.055) ** 2.4));
+                return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+            };
+            const pairs = [["--ink", "--paper"], ["--soft", "--paper"], ["--soft", "--card"], ["--accent", "--paper"], ["--accent", "--tint"], ["--on-accent", "--accent"], ["--bad", "--paper"], ["--warn", "--warn-back"], ["--doc", "--paper"], ["--number", "--paper"], ["--function", "--paper"]];
+            return pairs.map(([text, back]) => {
+                const [a, b] = [luminance(text), luminance(back)].sort((x, y) => y - x);
+                return [`${text} on ${back}`, (a + 0.05) / (b + 0.05)];
+            });
+        });
+        for (const [pair, ratio] of ratios) assert.ok(ratio >= 4.5, `${theme}: ${pair} has ${ratio.toFixed(2)}`);
+        await close();
+    }
+});
+
+test("on a phone nothing is wider than the screen, and the text is a tab", async () => {
+    const { page, close } = await open({ width: 390, height: 844, isPhone: true });
+    await drawn(page);
+    for (const tab of ["text", "picture", "sheet", "charts", "circuits", "simulation", "report", "rust"]) {
+        await page.tap(`#tab-${tab}`);
+        await new Promise((resolve) => setTimeout(resolve, 400));
+        const [width, screen] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+        assert.ok(width <= 390 && screen <= 390, `${tab}: ${width} of ${screen}`);
+    }
+    await page.tap("#tab-text");
+    assert.ok(await page.$eval(".editor", (editor) => editor.checkVisibility()));
+    await close();
+});
+
+test("Italian: interface and sheet", async () => {
+    const { page, close } = await open({ language: "it" });
+    await drawn(page);
+    assert.equal(await page.$eval("#tab-sheet", (tab) => tab.textContent), "Foglio");
+    assert.equal(await page.evaluate(() => document.documentElement.lang), "it");
+    await choose(page, "sheet");
+    await until(page, () => /Equazioni di vincolo|vincolo/u.test(document.querySelector("#panel-sheet .island").shadowRoot.querySelector("h2")?.textContent ?? ""));
+    await page.click(".menu.language > button");
+    await (await page.$$(".menu.language .items button"))[0].click();
+    assert.equal(await page.$eval("#tab-sheet", (tab) => tab.textContent), "Sheet");
+    await until(page, () => /Constraint/u.test(document.querySelector("#panel-sheet .island").shadowRoot.textContent));
+    await close();
+});
+
+test("colours are the system's, or chosen; motion is reduced where it is asked for", async () => {
+    const { page, close } = await open({ theme: "dark" });
+    await drawn(page);
+    const back = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    assert.equal(await back(), "rgb(21, 23, 27)");
+    await page.click("header .menu:nth-of-type(4) > button");
+    await (await page.$$("header .menu:nth-of-type(4) .items button"))[1].click();
+    assert.equal(await back(), "rgb(253, 252, 248)");
+    await page.emulateMediaFeatures([{ name: "prefers-reduced-motion", value: "reduce" }]);
+    assert.match(await page.$eval(".stage .island", (island) => getComputedStyle(island).transitionDuration), /^0s/u);
+    await close();
+});
