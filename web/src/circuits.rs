@@ -1,7 +1,7 @@
 //! The circuits of a mechanism.
 
 use linkage_report::drawing::CircuitChart;
-use linkage_runtime::circuits::{CircuitOptions, Circuits, MotionCurve};
+use linkage_runtime::circuits::{CircuitOptions, Circuits, CurveEnd, MotionCurve};
 use linkage_runtime::continuation::Options;
 use serde::Serialize;
 
@@ -63,14 +63,15 @@ pub fn circuits(machine: &Machine, parameters: &[f64], inputs: &[f64], along: us
 /// The range of a motion in words.
 fn words(motion: &MotionCurve<AlongOne, f64, &str>, input: &str, is_angle: bool) -> String {
     let shown = |value: f64| if is_angle { format!("{:.4}°", value.to_degrees()) } else { format!("{value:.6}") };
-    let dead_points = motion.dead_points().map(|event| shown(event.point.input)).collect::<Vec<_>>();
-    match (motion.range(), dead_points.is_empty()) {
-        (Some([least, largest]), false) => {
-            format!("{input} from {} to {}, dead points at {}", shown(least), shown(largest), dead_points.join(", "))
-        }
-        (Some([least, largest]), true) => {
-            format!("{input} from {} to {}, without dead points", shown(least), shown(largest))
-        }
-        (None, _) => format!("{input} turns fully"),
+    let [least, largest] = motion.range().unwrap_or([f64::NAN; 2]).map(shown);
+    let has_dead_points = motion.dead_points().next().is_some();
+    match motion.end {
+        CurveEnd::Closed { turns } if turns != 0 && !has_dead_points => match turns.unsigned_abs() {
+            1 => format!("{input} turns fully"),
+            turns => format!("{input} turns fully; the motion closes after {turns} turns"),
+        },
+        CurveEnd::Closed { .. } => format!("{input} goes to and fro between {least} and {largest}"),
+        CurveEnd::Limits => format!("{input} from {least} to {largest}, at the ends of ranges"),
+        CurveEnd::Open => format!("{input} from {least} to {largest} and on: the motion does not close"),
     }
 }
