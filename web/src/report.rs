@@ -2,12 +2,12 @@
 
 use linkage_interpreter::Prepared;
 use linkage_lent::Lender;
-use linkage_report::report::{Report, ReportOptions};
+use linkage_report::report::{Report, ReportOptions, ReportedModes};
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::{BorrowedName, Branches as _, Column, D};
 
 use crate::Refusal;
-use crate::at::{coordinates, moving};
+use crate::at::{Coordinates, coordinates, moving};
 use crate::machine::{Machine, prepared};
 use crate::picture::drawing;
 use crate::question::At;
@@ -21,16 +21,17 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
     let prepared = prepared(&design)?;
     let mechanism = moving(&prepared)?;
     let q = coordinates(&mechanism, &at.place)?;
-    let inputs = q.inputs;
-    let pictures = mechanism.all_positions(inputs).map_or_else(
-        |_| Vec::new(),
-        |all| all.filter_map(|(_, q)| drawing(&mechanism, &q).ok()?.to_svg().ok()).collect(),
-    );
+    // Each with its branch in the words of the program, not as the value in Rust.
+    let listed: Vec<(String, Coordinates)> = match mechanism.all_positions(q.inputs) {
+        Ok(all) => all.map(|(branch, q)| (branch.to_string(), q)).collect(),
+        Err(_) => Vec::new(),
+    };
+    let pictures = listed.iter().filter_map(|(_, q)| drawing(&mechanism, q).ok()?.to_svg().ok()).collect::<Vec<_>>();
     let text = match whole(&prepared, &derivation, at) {
-        Ok(report) => written(&report, &pictures),
+        Ok(report) => written(report, &listed, &pictures),
         Err(why) => {
             let part = Report::at(&mechanism, &derivation, &q);
-            written(&Report { no_motion: Some(why.why), ..part }, &pictures)
+            written(Report { no_motion: Some(why.why), ..part }, &listed, &pictures)
         }
     };
     match prepared.failure() {
@@ -50,6 +51,13 @@ fn whole<'p>(prepared: &'p Prepared<'p>, derivation: &Derivation<'_>, at: &At) -
     Report::of(&mechanism, derivation, &start, &ReportOptions::default()).map_err(Refusal::new)
 }
 
-fn written<N: BorrowedName>(report: &Report<N>, pictures: &[String]) -> String {
+fn written<N: BorrowedName>(
+    mut report: Report<N>,
+    listed: &[(String, Coordinates)],
+    pictures: &[String],
+) -> String {
+    if let ReportedModes::Listed(modes) = &mut report.modes {
+        modes.modes.iter_mut().zip(listed).for_each(|(mode, (branch, _))| mode.branch.clone_from(branch));
+    }
     report.to_html_fragment_with(pictures)
 }
