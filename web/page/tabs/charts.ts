@@ -111,12 +111,15 @@ export class ChartsTab extends Tab {
     /** Columns of one kind share a chart: they have one scale. */
     #groups(): string[][] {
         const groups = new Map<string, string[][]>();
-        const kinds = new Set(this.machine.about?.points);
+        const points = new Set(this.machine.about?.points);
+        // Outputs may be of any unit: each has its own charts.
+        const outputs = new Set(this.machine.about?.outputs.map((output) => output.name));
         for (const name of this.#chosen ?? []) {
             const column = this.#columns.find((candidate) => candidate.name === name);
             if (column === undefined) continue;
-            const kind = kinds.has(column.of) ? column.part.replace(/_?[xy]$|speed$/u, "") || "place" : `${column.part}`;
-            const key = `${kinds.has(column.of)} ${column.is_angle} ${kind === "speed" ? "velocity" : kind}`;
+            const isPoint = points.has(column.of);
+            const kind = isPoint ? column.part.replace(/^speed$/u, "velocity").replace(/_?[xy]$/u, "") : column.part;
+            const key = JSON.stringify([isPoint, kind, column.is_angle, outputs.has(column.of) ? column.of : ""]);
             const charts = groups.get(key) ?? [[]];
             if (charts.at(-1)?.length === CURVES) charts.push([]);
             charts.at(-1)?.push(name);
