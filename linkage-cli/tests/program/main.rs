@@ -7,6 +7,7 @@ mod folder;
 mod interrupts;
 mod motions;
 mod numbers;
+mod pages;
 mod pictures;
 mod simulations;
 mod tables;

@@ -10,7 +10,8 @@ use linkage_report::sheet::{Language, Sheet};
 use proc_macro2::{TokenStream, TokenTree};
 
 /// Words of both languages.
-const COMMON: [&str; 11] = ["in", "In", "formula", "cos", "Newton", "bias", "RRR", "RRP", "RPR", "PRP", "RPP"];
+const COMMON: [&str; 12] =
+    ["in", "In", "formula", "cos", "pivoting", "Newton", "bias", "RRR", "RRP", "RPR", "PRP", "RPP"];
 
 /// Words of the `linkage!` language that are also those of a sheet.
 const KEYWORDS: [&str; 14] = [

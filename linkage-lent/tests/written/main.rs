@@ -78,7 +78,7 @@ fn damaged_documents_do_not_panic() {
     let mut written = serde_json::to_value(&documents(TEXT)[0]).unwrap();
     let mut all = Vec::new();
     places(&written, "", &mut all);
-    let (mut refused, mut unsound, mut written_all) = (0, 0, 0);
+    let (mut rejected, mut unsound, mut written_all) = (0, 0, 0);
     // A prime number of places apart, so that all kinds of numbers come.
     for (step, at) in all.iter().enumerate().step_by(13) {
         let number = written.pointer(at).unwrap().clone();
@@ -86,7 +86,7 @@ fn damaged_documents_do_not_panic() {
         let others = [0, 1, value / 2, value.saturating_add(1), 1 << 31, u64::MAX];
         *written.pointer_mut(at).unwrap() = others[step % others.len()].into();
         match serde_json::from_value::<Documents>(written.clone()) {
-            Err(_) => refused += 1,
+            Err(_) => rejected += 1,
             Ok(read) => match sheets(&read) {
                 Err(_) => unsound += 1,
                 Ok(_) => written_all += 1,
@@ -94,7 +94,7 @@ fn damaged_documents_do_not_panic() {
         }
         *written.pointer_mut(at).unwrap() = number;
     }
-    assert!(refused > 10 && unsound > 10 && written_all > 10, "{refused} {unsound} {written_all} of {}", all.len());
+    assert!(rejected > 10 && unsound > 10 && written_all > 10, "{rejected} {unsound} {written_all} of {}", all.len());
 }
 
 fn is_read(nodes: &str) -> bool {
@@ -102,7 +102,7 @@ fn is_read(nodes: &str) -> bool {
 }
 
 #[test]
-fn tables_with_nodes_out_of_order_are_refused() {
+fn tables_with_nodes_out_of_order_are_rejected() {
     assert!(is_read(r#"["Pi", {"Power": [1, 2]}]"#));
     assert!(!is_read(r#"["Pi", {"Power": [0, 2]}]"#));
     assert!(!is_read(r#"["Pi", {"Power": [2, 2]}]"#));
@@ -111,7 +111,7 @@ fn tables_with_nodes_out_of_order_are_refused() {
 
 /// Each node twice in the next one is a short file and a formula without end; one in one, a formula of any depth.
 #[test]
-fn tables_of_formulas_without_end_are_refused() {
+fn tables_of_formulas_without_end_are_rejected() {
     let nested = |count: usize, of: &dyn Fn(usize) -> String| {
         let nodes: Vec<String> = (1..count).map(of).collect();
         format!(r#"["Pi", {}]"#, nodes.join(", "))

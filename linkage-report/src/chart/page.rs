@@ -40,7 +40,7 @@ pub struct Section {
 /// A chart of a section.
 #[derive(Debug, Clone, PartialEq)]
 enum Drawn {
-    Chart(Chart),
+    Chart(Box<Chart>),
     Polar(Polar),
 }
 
@@ -73,7 +73,7 @@ impl Page {
 impl Section {
     /// Adds a chart.
     pub fn chart(&mut self, chart: &Chart) {
-        self.charts.push(Drawn::Chart(chart.clone()));
+        self.charts.push(Drawn::Chart(Box::new(chart.clone())));
     }
 
     /// Adds a chart of vectors.

@@ -20,6 +20,7 @@ mod motion;
 mod numbers;
 mod page;
 mod properties;
+mod scene;
 mod values;
 
 use std::collections::BTreeSet;

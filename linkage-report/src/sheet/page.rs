@@ -6,8 +6,7 @@ use crate::Notation;
 use crate::document::outline::{self, GeneralEquation, Lines, counts};
 use crate::document::sheet;
 use linkage_runtime::derivation::{
-    ContactEffect, Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SceneDerivation,
-    SheetDerivation, Symbol,
+    Derivation, Equation, Formula, FormulaMatrix, Kernel, Quantity, Root, SheetDerivation,
 };
 
 use crate::words::{Words, capitalised};
@@ -18,8 +17,8 @@ use super::{Picture, RatioNumber, RatioProperty, Sheet, Table, Values, at, lines
 const STYLE: &str = include_str!("style.css");
 
 /// The body of the page and the number of the last equation.
-struct Page {
-    words: &'static Words,
+pub(super) struct Page {
+    pub(super) words: &'static Words,
     body: String,
     equations: usize,
     /// The numbers below formulas.
@@ -81,27 +80,27 @@ fn document_in(language: &str, title: &str, body: &str) -> String {
 }
 
 impl Page {
-    fn push(&mut self, html: &str) {
+    pub(super) fn push(&mut self, html: &str) {
         self.body.push_str(html);
         self.body.push('\n');
     }
 
-    fn section(&mut self, heading: &str, write: impl FnOnce(&mut Self)) {
+    pub(super) fn section(&mut self, heading: &str, write: impl FnOnce(&mut Self)) {
         self.push(&format!("<section>\n<h2>{heading}</h2>"));
         write(self);
         self.push("</section>");
     }
 
-    fn lead(&mut self, words: &str) {
+    pub(super) fn lead(&mut self, words: &str) {
         self.push(&format!("<p>{words}</p>"));
     }
 
     /// An equation without a number.
-    fn general_equation(&mut self, general: &GeneralEquation) {
+    pub(super) fn general_equation(&mut self, general: &GeneralEquation) {
         self.push(&format!("<div class=\"law\">{}</div>", display(general.mathml, general.latex)));
     }
 
-    fn equations(&mut self, equations: &[Equation<'_>]) {
+    pub(super) fn equations(&mut self, equations: &[Equation<'_>]) {
         self.numbered(equations, |page, equation| {
             if let Some(value) = page.values.as_mut().and_then(|values| values.define(equation)) {
                 page.at(&equation.left, &format!("<mn>{}</mn>", page.words.number(value)));
@@ -335,9 +334,9 @@ impl Page {
         self.section(self.words.numbers, |page| {
             page.push("<div class=\"tables\">");
             for Table { caption, rows } in tables {
-                let values: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
+                let values = rows.iter().map(|(_, value)| page.words.number(*value)).collect();
                 page.push(&format!("<table>\n<caption>{}</caption>\n<tbody>", escape(caption.text(page.words))));
-                for ((name, _), value) in rows.iter().zip(numbers::column(page.words, &values)) {
+                for ((name, _), value) in rows.iter().zip(numbers::column(values)) {
                     let name = numbers::name(derivation, name);
                     page.push(&format!("<tr><th scope=\"row\">{name}</th><td>{value}</td></tr>"));
                 }
@@ -357,78 +356,6 @@ impl Page {
                 page.push(&format!(
                     "<figure>\n<img alt=\"{caption}\" src=\"{address}\">\n<figcaption>{caption}</figcaption>\n</figure>"
                 ));
-            }
-        });
-    }
-
-    fn scene(&mut self, scene: &SceneDerivation<'_>) {
-        self.section(&format!("{}: <code>{}</code>", self.words.motion, escape(scene.scene)), |page| {
-            if !scene.parameters.is_empty() {
-                let given = list(scene.parameters.iter().map(|Symbol { formula, .. }| formula));
-                page.push(&format!("<p>{}: {given}</p>", page.words.given));
-            }
-            page.lead(page.words.lead_motion);
-            page.general_equation(&outline::MOTION);
-            if !scene.mass_matrix.is_empty() {
-                page.lead(page.words.lead_mass_matrix);
-                page.equations(scene.mass_matrix);
-            }
-            page.lead(outline::lead_of_forces(page.words, scene));
-            for effect in scene.forces {
-                page.push(&format!("<article>\n<h3>{}</h3>", escape(&(page.words.name)(effect.name))));
-                page.equations(effect.forces);
-                page.push("</article>");
-            }
-            page.frictions_and_stops(scene.frictions_and_stops);
-            if !scene.drives.is_empty() {
-                page.lead(page.words.lead_drives);
-                page.equations(scene.drives);
-            }
-            if let Some(potential) = scene.potential {
-                page.lead(page.words.potential);
-                page.equations(&[potential]);
-            }
-        });
-        if !scene.joints.is_empty() {
-            self.joints(scene);
-        }
-    }
-
-    fn frictions_and_stops(&mut self, all: &[ContactEffect<'_>]) {
-        if !all.is_empty() {
-            self.lead(self.words.lead_contacts);
-        }
-        for contact in all {
-            self.push(&format!("<article>\n<h3>{}</h3>", escape(&(self.words.name)(contact.name))));
-            self.equations(&[contact.along]);
-            let joint = contact
-                .bearing
-                .as_ref()
-                .map(|joint| format!(", {} {}", escape(&(self.words.bearing)(joint.name)), inline(&joint.formula)));
-            self.push(&format!("<p>{}{}</p>", inline(&contact.bound), joint.unwrap_or_default()));
-            if let Some(factor) = &contact.rebound {
-                self.push(&format!("<p>{} {}.</p>", self.words.lead_rebound, inline(factor)));
-            }
-            self.equations(contact.forces);
-            self.push("</article>");
-        }
-    }
-
-    fn joints(&mut self, scene: &SceneDerivation<'_>) {
-        self.section(&format!("{}: <code>{}</code>", self.words.joints, escape(scene.scene)), |page| {
-            page.lead(page.words.lead_joints);
-            if !scene.multipliers.is_empty() {
-                page.lead(page.words.lead_multipliers);
-                page.general_equation(&outline::MULTIPLIERS);
-            }
-            for contact in scene.contacts {
-                let force = escape(&(page.words.force_along)(contact.name));
-                page.push(&format!("<p>{force} {}.</p>", inline(&contact.formula)));
-            }
-            for joint in scene.joints {
-                page.push(&format!("<article>\n<h3>{}</h3>", escape(&(page.words.name)(joint.name))));
-                page.equations(&joint.components);
-                page.push("</article>");
             }
         });
     }
@@ -526,6 +453,6 @@ impl Lines for Sections<'_> {
 }
 
 /// Formulas in a line, separated by commas.
-fn list<'a>(formulas: impl Iterator<Item = &'a Formula<'a>>) -> String {
+pub(super) fn list<'a>(formulas: impl Iterator<Item = &'a Formula<'a>>) -> String {
     formulas.map(inline).collect::<Vec<_>>().join(", ")
 }

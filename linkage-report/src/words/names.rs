@@ -38,7 +38,7 @@ pub(super) fn effect(name: &str) -> String {
     words.join(" ")
 }
 
-/// What an effect acts on, by its name or its formula if it has a short one.
+/// The scalar or the point on which an effect acts, by its name or its formula if that is short.
 fn operand(text: &str) -> &str {
     match text {
         "an expression" => "un'espressione",
