@@ -1,9 +1,9 @@
 // The answer to each question of the protocol.
 
-import type { About, Mistake, Moved, Question, Refusal, Simulated } from "./protocol";
+import type { About, Mistake, Moved, Quantity, Question, Refusal, Simulated } from "./protocol";
 
 export type Position = { branch: string; unknowns: number[]; svg: string };
-export type Motion = { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: string[] };
+export type Motion = { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: Quantity[] };
 export type Compiled = { mistakes: Mistake[] } | { mechanisms: About[] };
 
 export type Answers = {

@@ -51,7 +51,7 @@ function token(stream: StringStream, state: State): string | null {
     const name = stream.match(NAME) as RegExpMatchArray | null;
     if (name) {
         if (keywords.has(name[0])) return "keyword";
-        if (functions.has(name[0])) return "function";
+        if (functions.has(name[0]) && (name[0] === "pi" || stream.match(/^\s*\(/u, false))) return "function";
         return "name";
     }
     return stream.next() === "@" ? "at" : null;

@@ -25,6 +25,12 @@ export class PictureView {
         this.element = h("div", { class: "stage" }, this.#island.element, this.#grip, this.#banner, this.#hint);
         const { element } = this.#island;
         element.addEventListener("pointerdown", (event) => this.#down(event));
+        // A finger on a joint drags it; elsewhere it scrolls the page.
+        const touch = (event: TouchEvent): void => {
+            const finger = event.touches[0];
+            if (event.touches.length === 1 && finger && this.#nearest(finger) !== null) event.preventDefault();
+        };
+        element.addEventListener("touchstart", touch, { passive: false });
         element.addEventListener("pointermove", (event) => this.#move(event));
         for (const end of ["pointerup", "pointercancel"]) element.addEventListener(end, () => this.#up());
         element.addEventListener("pointerleave", () => this.#hover(null));
@@ -91,7 +97,7 @@ export class PictureView {
         };
     }
 
-    #nearest(event: PointerEvent): string | null {
+    #nearest(event: { clientX: number; clientY: number }): string | null {
         let best: { name: string; distance: number } | null = null;
         for (const joint of this.#picture?.joints ?? []) {
             const at = this.#onScreen(joint);

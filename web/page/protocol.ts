@@ -48,7 +48,7 @@ export type Question =
     /** Moves an input so that a joint comes near a place of the plane. */
     | ({ do: "drag"; joint: string; to: [number, number]; show: Show } & At)            // Moved
     /** Follows the whole motion: its range, and the traces of points, which pictures show from then on. */
-    | ({ do: "motion"; along: number; rate: number; steps: number } & At)               // { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: string[] }
+    | ({ do: "motion"; along: number; rate: number; steps: number } & At)               // { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: Quantity[] }
     /** A chart over the motion that was followed last; of at most five columns. */
     | { do: "chart"; columns: string[] }                           // { svg: string }
     | { do: "csv" }                                                // { text: string } of the motion that was followed last

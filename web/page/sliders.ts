@@ -49,6 +49,12 @@ export class Slider {
         });
     }
 
+    /** The value is within the range, or somebody holds the thumb. */
+    holds(value: number): boolean {
+        const { min, max } = this.range;
+        return max !== "" && ((Number(min) < value && value < Number(max)) || this.range.matches(":active"));
+    }
+
     bound(bounds: Range): void {
         const { least, largest } = bounds;
         if (!(largest > least)) return;
@@ -164,8 +170,8 @@ export class SlidersView {
                 const isEnd = Math.abs(value - TURN * turns) < 1e-9 && Number(slider.range.max) > value - 1e-9 && turns > 0 && Number(slider.range.min) < value - 1;
                 const base = TURN * (isEnd ? turns - 1 : turns);
                 slider.bound({ least: base, largest: base + TURN });
-            } else if (slider.range.max === "") {
-                const size = Math.max(Math.abs(value), scale(about.parameters) / 2);
+            } else if (at !== null && !slider.holds(value)) {
+                const size = Math.max(Math.abs(value), scale(about.parameters));
                 slider.bound({ least: value - size, largest: value + size });
             }
             slider.badge.textContent = input.is_angle && !isLimited && turns !== 0 ? word().turn(turns > 0 ? turns + 1 : turns) : "";
@@ -187,6 +193,7 @@ export class SlidersView {
         });
         this.#ends.replaceChildren(...ends.map((end) => h("span", {}, end)));
         this.#ends.hidden = ends.length === 0;
+        this.#inputs[this.#machine.show.along]?.element.after(this.#ends);
     }
 }
 

@@ -78,13 +78,38 @@ test("on a phone nothing is wider than the screen, and the text is a tab", async
     await close();
 });
 
+test("a finger drags a joint", async () => {
+    const { page, close } = await open({ width: 390, height: 844, isPhone: true });
+    await drawn(page);
+    await until(page, () => document.querySelector(".stage .island").shadowRoot.querySelector(".curve"));
+    const places = await page.evaluate(() => {
+        const svg = document.querySelector(".stage .island").shadowRoot.querySelector("svg");
+        return ["O", "B"].map((name) => {
+            const group = [...svg.querySelectorAll("g[transform]")].find((one) => one.querySelector("text")?.textContent.trim() === name);
+            const box = group.querySelector("path,circle").getBoundingClientRect();
+            return [box.x + box.width / 2, box.y + box.height / 2];
+        });
+    });
+    const [[ox, oy], [bx, by]] = places;
+    const radius = Math.hypot(bx - ox, by - oy);
+    await page.touchscreen.touchStart(bx, by);
+    for (const angle of [80, 100, 120]) {
+        const at = (angle * Math.PI) / 180;
+        await page.touchscreen.touchMove(ox + radius * Math.cos(at), oy - radius * Math.sin(at));
+        await until(page, (wanted) => Math.abs(Number.parseFloat(document.querySelector(".side .slider .number").value) - wanted) < 12, angle);
+    }
+    await page.touchscreen.touchEnd();
+    assert.equal(await page.evaluate(() => scrollY), 0);
+    await close();
+});
+
 test("Italian: interface and sheet", async () => {
     const { page, close } = await open({ language: "it" });
     await drawn(page);
     assert.equal(await page.$eval("#tab-sheet", (tab) => tab.textContent), "Foglio");
     assert.equal(await page.evaluate(() => document.documentElement.lang), "it");
     await choose(page, "sheet");
-    await until(page, () => /Equazioni di vincolo|vincolo/u.test(document.querySelector("#panel-sheet .island").shadowRoot.querySelector("h2")?.textContent ?? ""));
+    await until(page, () => /^Equazioni/u.test(document.querySelector("#panel-sheet .island").shadowRoot.querySelector("h2")?.textContent ?? ""));
     await page.click(".menu.language > button");
     await (await page.$$(".menu.language .items button"))[0].click();
     assert.equal(await page.$eval("#tab-sheet", (tab) => tab.textContent), "Sheet");

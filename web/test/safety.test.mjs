@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { after, test } from "node:test";
@@ -32,14 +33,24 @@ const suspects = (page) =>
     });
 
 test("the page asks the network for nothing, in any view", async () => {
-    for (const name of ["linkage.html", "index.html"]) {
-        const { page, asked, errors, close } = await open({ url: pathToFileURL(join(dist, name)).href });
+    const types = { html: "text/html", js: "text/javascript", css: "text/css" };
+    const server = createServer((request, response) => {
+        const name = request.url.slice(1);
+        const isThere = /^[a-z]+\.(html|js|css)$/u.test(name);
+        response.writeHead(isThere ? 200 : 404, { "Content-Type": types[name.split(".")[1]] ?? "text/plain" });
+        response.end(isThere ? readFileSync(join(dist, name)) : "");
+    });
+    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+    const served = `http://127.0.0.1:${server.address().port}/`;
+    const folder = pathToFileURL(`${dist}/`).href;
+    for (const [base, name] of [[folder, "linkage.html"], [folder, "index.html"], [served, "index.html"]]) {
+        const { page, asked, errors, close } = await open({ url: `${base}${name}` });
         await drawn(page);
         for (const tab of ["sheet", "charts", "circuits", "report", "rust", "simulation", "picture"]) {
             await choose(page, tab);
             await new Promise((resolve) => setTimeout(resolve, 700));
         }
-        const own = ["linkage.html", "index.html", "page.js", "module.js", "style.css"].map((file) => pathToFileURL(join(dist, file)).href);
+        const own = ["linkage.html", "index.html", "page.js", "module.js", "style.css"].map((file) => `${base}${file}`);
         assert.deepEqual(asked.filter((url) => !own.includes(url.split("#")[0]) && !/^(blob|data):/u.test(url)), []);
         assert.deepEqual(errors, []);
         const policy = await page.$eval("meta[http-equiv]", (meta) => meta.content);
@@ -50,6 +61,7 @@ test("the page asks the network for nothing, in any view", async () => {
         assert.ok(isBlocked);
         await close();
     }
+    server.close();
 });
 
 test("hostile comments and links are text", async () => {

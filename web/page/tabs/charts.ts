@@ -64,7 +64,7 @@ export class ChartsTab extends Tab {
         const motion = await this.ask<"motion">(() => ({ do: "motion", ...at, along, rate, steps: STEPS }));
         if (!motion) return motion === null;
         this.#title.textContent = word().overMotion(about.inputs[along]?.name ?? "");
-        this.#columns = motion.columns.map((name) => this.#column(name));
+        this.#columns = motion.columns.map((column) => this.#column(column));
         const known = new Set(this.#columns.map(({ name }) => name));
         const chosen = this.#chosen?.filter((name) => known.has(name)) ?? [];
         this.#chosen = chosen.length > 0 || this.#chosen?.length === 0 ? chosen : this.#first();
@@ -93,15 +93,12 @@ export class ChartsTab extends Tab {
     }
 
     /** `C_velocity_x` is `velocity_x` of `C`. */
-    #column(name: string): Column {
+    #column({ name, is_angle }: Quantity): Column {
         const { about } = this.machine;
-        const quantities: Quantity[] = about ? [...about.inputs, ...about.unknowns, ...about.outputs] : [];
-        const points = (about?.points ?? []).map((point) => ({ name: point, is_angle: false }));
-        const owners = [...quantities, ...points].filter((owner) => name === owner.name || name.startsWith(`${owner.name}_`));
-        const owner = owners.sort((a, b) => b.name.length - a.name.length)[0];
-        if (owner === undefined) return { name, is_angle: false, of: name, part: "" };
-        const part = name.slice(owner.name.length + 1);
-        return { name, is_angle: owner.is_angle, of: owner.name, part };
+        const quantities = about ? [...about.inputs, ...about.unknowns, ...about.outputs].map((quantity) => quantity.name) : [];
+        const owners = [...quantities, ...(about?.points ?? [])].filter((of) => name === of || name.startsWith(`${of}_`));
+        const of = owners.sort((a, b) => b.length - a.length)[0];
+        return of === undefined ? { name, is_angle, of: name, part: "" } : { name, is_angle, of, part: name.slice(of.length + 1) };
     }
 
     /** The outputs and the unknowns, if there is nothing chosen. */
@@ -114,12 +111,15 @@ export class ChartsTab extends Tab {
     /** Columns of one kind share a chart: they have one scale. */
     #groups(): string[][] {
         const groups = new Map<string, string[][]>();
-        const kinds = new Set(this.machine.about?.points);
+        const points = new Set(this.machine.about?.points);
+        // Outputs may be of any unit: each has its own charts.
+        const outputs = new Set(this.machine.about?.outputs.map((output) => output.name));
         for (const name of this.#chosen ?? []) {
             const column = this.#columns.find((candidate) => candidate.name === name);
             if (column === undefined) continue;
-            const kind = kinds.has(column.of) ? column.part.replace(/_?[xy]$|speed$/u, "") || "place" : `${column.part}`;
-            const key = `${kinds.has(column.of)} ${column.is_angle} ${kind === "speed" ? "velocity" : kind}`;
+            const isPoint = points.has(column.of);
+            const kind = isPoint ? column.part.replace(/^speed$/u, "velocity").replace(/_?[xy]$/u, "") : column.part;
+            const key = JSON.stringify([isPoint, kind, column.is_angle, outputs.has(column.of) ? column.of : ""]);
             const charts = groups.get(key) ?? [[]];
             if (charts.at(-1)?.length === CURVES) charts.push([]);
             charts.at(-1)?.push(name);

@@ -8,6 +8,7 @@ import { languageOf } from "../words";
 import { Tab } from "./tab";
 
 export class SheetTab extends Tab {
+    protected override readonly isLive = true;
     #island = new Island("sheet", sheetStyles);
 
     constructor(machine: Machine, session: Session) {

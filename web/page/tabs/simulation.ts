@@ -35,6 +35,8 @@ export class SimulationTab extends Tab {
     #simulated: Simulated | null = null;
     /** The position that the simulation began at. */
     #base: { mechanism: number; parameters: number[] } | null = null;
+    #text: string | null = null;
+    #earlier = h("p", { class: "stale", hidden: true }, say((w) => w.old));
     #time = 0;
     #isPlaying = false;
     #frame = -1;
@@ -46,7 +48,7 @@ export class SimulationTab extends Tab {
         for (const speed of SPEEDS) this.#speed.append(h("option", { value: speed, selected: speed === 1 }, `× ${speed}`));
         const speed = h("label", {}, h("span", {}, say((w) => w.speed)), this.#speed);
         this.#player = h("div", { class: "player" }, this.#button, this.#scrub, this.#clock, speed);
-        this.#results.append(h("div", { class: "film" }, this.#island.element), this.#player, this.#lines, this.#charts);
+        this.#results.append(this.#earlier, h("div", { class: "film" }, this.#island.element), this.#player, this.#lines, this.#charts);
         this.#results.hidden = true;
         this.element.append(h("div", { class: "page wide" }, this.#none, this.#form, this.why, this.#results));
         this.#scrub.addEventListener("input", () => {
@@ -58,6 +60,7 @@ export class SimulationTab extends Tab {
             void this.#run();
         });
         machine.compiled.on(() => this.#build());
+        machine.moved.on(() => this.#age());
         onLanguage((words) => {
             this.#shape = "";
             set(this.#scrub, "aria-label", words.time);
@@ -160,12 +163,23 @@ export class SimulationTab extends Tab {
             return;
         }
         this.#base = { mechanism: at.mechanism, parameters: at.parameters };
+        this.#text = this.machine.text;
         this.#take(answer);
+    }
+
+    /** The results may be of an earlier text, or of other parameters. */
+    #age(): void {
+        const { at, text, isOld } = this.machine;
+        const isOther = JSON.stringify([at?.mechanism, at?.parameters]) !== JSON.stringify([this.#base?.mechanism, this.#base?.parameters]);
+        const isEarlier = isOld || text !== this.#text || isOther;
+        this.#earlier.hidden = !isEarlier;
+        set(this.#results, "data-old", isEarlier);
     }
 
     #take(simulated: Simulated): void {
         this.#simulated = simulated;
         this.#results.hidden = false;
+        this.#age();
         this.#lines.replaceChildren(...simulated.lines.map((line) => h("li", {}, line)));
         this.#charts.replaceChildren(
             ...simulated.sections.map(({ heading, charts }) =>
@@ -246,7 +260,7 @@ export class SimulationTab extends Tab {
         const place = simulated.places[frame];
         const base = this.#base;
         if (place === undefined || base === null) return;
-        const text = this.machine.text ?? "";
+        const text = this.#text ?? "";
         const question = { do: "picture", ...base, place, show: this.machine.show } as const;
         const answer: Answers["picture"] | { why: string } | null = await this.#pictures.ask("move", text, () => question);
         if (answer !== null && !isRefusal(answer) && simulated === this.#simulated) this.#island.svg(answer.picture.svg);

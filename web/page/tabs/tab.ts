@@ -7,7 +7,7 @@ import type { Machine } from "../machine";
 import type { Lane, Session } from "../session";
 import { onLanguage, say } from "../words";
 
-/** A result that took longer, in milliseconds, is not computed anew by itself at each move. */
+/** A result that took the module longer, in milliseconds, is not computed anew by itself at each move, unless it is live. */
 const SLOW = 1500;
 
 export abstract class Tab {
@@ -16,6 +16,7 @@ export abstract class Tab {
     protected readonly session: Session;
     protected readonly why = h("p", { class: "why", role: "status", hidden: true });
     protected readonly stale = h("p", { class: "stale", hidden: true });
+    protected readonly isLive: boolean = false;
     #isSeen = false;
     #key = "";
     #wanted = "";
@@ -49,20 +50,20 @@ export abstract class Tab {
         if (key === null || text === null) return;
         this.#wanted = JSON.stringify([text, key]);
         const isStale = this.#wanted !== this.#key;
-        set(this.element, "data-old", (isStale && this.#key !== "" && this.#took > SLOW) || isOld);
-        this.stale.hidden = !(isStale && this.#key !== "" && this.#took > SLOW);
-        if (this.#isSeen && isStale && !this.#isRunning && (this.#took <= SLOW || this.#key === "")) void this.#compute();
+        const isLeft = isStale && this.#key !== "" && this.#took > SLOW && !this.isLive;
+        set(this.element, "data-old", isLeft || isOld);
+        this.stale.hidden = !isLeft;
+        if (this.#isSeen && isStale && !isLeft && !this.#isRunning) void this.#compute();
     }
 
     async #compute(): Promise<void> {
         if (this.#isRunning) return;
         this.#isRunning = true;
         const key = this.#wanted;
-        const since = performance.now();
         const isDone = await this.compute();
         this.#isRunning = false;
         if (!isDone) return;
-        this.#took = performance.now() - since;
+        this.#took = this.session.milliseconds;
         this.#key = key;
         this.refresh();
     }
