@@ -3,7 +3,7 @@
 // `dist/live-head.html` and `dist/live-body.html` are the parts that `linkage sheet --live` adds to a sheet.
 //
 // LINKAGE_WASM=path and LINKAGE_LIVE_WASM=path take modules that are built already: that of the page, and that of live sheets.
-// LINKAGE_DRAFT=1 leaves out wasm-opt, which takes minutes. LINKAGE_FAKE=1 takes the answers of test/fake.ts in place of a module.
+// LINKAGE_DRAFT=1 makes larger and slower modules, in less time. LINKAGE_FAKE=1 takes the answers of test/fake.ts in place of a module.
 
 import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
@@ -37,13 +37,16 @@ function examples() {
     return names.map((name) => ({ name, text: found.get(name) }));
 }
 
+/** The settings of a draft, which are those of dev/wasm/run: the crates that both need are built once. */
+const DRAFT = { CARGO_PROFILE_DEV_DEBUG: "false", CARGO_PROFILE_DEV_OPT_LEVEL: "1", CARGO_PROFILE_DEV_BUILD_OVERRIDE_OPT_LEVEL: "0" };
+
 /** A module, without names and as small as wasm-opt makes it. */
 function wasm(path, ...options) {
     if (path === undefined) {
-        const target = ["--profile", "page", "--target", "wasm32-unknown-unknown", ...options];
-        execFileSync("cargo", ["build", ...target, "-p", "linkage-page"], { cwd: root, stdio: "inherit" });
+        const target = [...(isDraft ? [] : ["--profile", "page"]), "--target", "wasm32-unknown-unknown", ...options];
+        execFileSync("cargo", ["build", ...target, "-p", "linkage-page"], { cwd: root, stdio: "inherit", env: { ...process.env, ...(isDraft ? DRAFT : {}) } });
         const folder = process.env.CARGO_TARGET_DIR ?? join(root, "target");
-        path = join(folder, "wasm32-unknown-unknown", "page", "linkage_page.wasm");
+        path = join(folder, "wasm32-unknown-unknown", isDraft ? "debug" : "page", "linkage_page.wasm");
     }
     if (isDraft) return readFileSync(path);
     const small = join(dist, "linkage.wasm");
