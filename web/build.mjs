@@ -202,9 +202,9 @@ const liveBytes = isFake ? none : wasm(process.env.LINKAGE_LIVE_WASM, "--no-defa
 const liveModule = deflated(liveBytes);
 const liveScript = inScript((await bundle("page/live.ts", { "linkage:worker": worker.text })).text);
 await esbuild.transform(liveScript, { loader: "js" });
-const besides = "<style>@media (min-width: 80rem) { body.has-live { padding-right: 22rem } }</style>";
+const besides = "<style>@media (min-width: 80rem) { body.has-live { padding-right: 22rem } } @media (max-width: 80rem) { body.has-live { padding-bottom: 55vh } }</style>";
 const liveBody = [
-    '<script type="application/json" id="linkage-data">LINKAGE_DATA</script>',
+    '<script type="text/plain" id="linkage-data">LINKAGE_DATA</script>',
     `<script>${liveModule}</script>`,
     `<script>${liveScript}</script>`,
 ].join("\n");

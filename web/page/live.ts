@@ -13,7 +13,7 @@ import { PictureView } from "./picture";
 import { Session } from "./session";
 import { SlidersView } from "./sliders";
 import { sheetOf } from "./theme";
-import { loadModule, NoWebAssembly } from "./wasm";
+import { fromBase64, inflate, loadModule, NoWebAssembly } from "./wasm";
 import { onLanguage, say, setLanguage, word, type Language } from "./words";
 
 /** What the program writes into a live sheet. */
@@ -37,7 +37,8 @@ async function begin(): Promise<void> {
     root.append(dock);
     document.body.append(host);
     try {
-        const data = JSON.parse(text) as Data;
+        const bytes = await inflate(fromBase64(text), 2 ** 28);
+        const data = JSON.parse(new TextDecoder().decode(bytes)) as Data;
         const module = await loadModule();
         const address = URL.createObjectURL(new Blob([worker], { type: "text/javascript" }));
         live(dock, data, new Session(() => new Worker(address), module, (written) => ({ do: "load", written })));

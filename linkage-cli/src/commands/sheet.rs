@@ -41,7 +41,11 @@ pub fn run(arguments: &arguments::Sheet) -> Result<(), Failure> {
     let output = arguments.output.clone().unwrap_or_else(|| next_to(file, ending));
     let text = sheets(arguments, FORMATS[place])?;
     let text = if arguments.live { live(&text, arguments)? } else { text };
-    output::write(&output, text.as_bytes(), file)
+    output::write(&output, text.as_bytes(), file)?;
+    if arguments.live {
+        anstream::eprintln!("the live sheet has {:.1} MB", text.len() as f64 / 1e6);
+    }
+    Ok(())
 }
 
 /// The sheets of all mechanisms that are meant, or of one with numbers.
