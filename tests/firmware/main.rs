@@ -4,7 +4,8 @@
 //! tests, compiled at the levels that firmware uses. In its object files, and in those of all libraries under it and of
 //! `core`, no call leads from an emitted function to a function that panics.
 //!
-//! In `f32`, no double is computed with either: `single_precision`.
+//! In `f32`, no double is computed with either: `single_precision`. Numbers have the bits that they have with the standard
+//! library: `without_std`.
 //!
 //! ```text
 //! cargo test --test firmware                                          for this machine
@@ -14,7 +15,9 @@
 #![cfg(target_os = "linux")]
 
 mod graph;
+mod numbers;
 mod single_precision;
+mod without_std;
 mod wrappers;
 
 use std::path::{Path, PathBuf};
