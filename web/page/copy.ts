@@ -29,7 +29,7 @@ export function copyItems(
             return;
         }
         const name = `${machine.about?.name ?? "mechanism"}.${ending}`;
-        dialog(word().notCopied, text, [{ label: (w) => w.save, act: () => download(name, text) }]);
+        dialog(word().notCopied, text, [{ label: (w) => w.save, act: () => download(name, text) }], true);
     }
     async function ask<K extends Kind>(make: () => QuestionOf<K>): Promise<string | null> {
         const answer = await session.ask<K>("copy", machine.text ?? "", make);

@@ -45,15 +45,17 @@ export async function toClipboard(text: string): Promise<boolean> {
     }
 }
 
-/** A dialog with a sentence, perhaps a text to copy by hand, and actions. */
-export function dialog(sentence: string, text: string | null, actions: { label: (words: Words) => string; act: () => void }[] = []): void {
+type Action = { label: (words: Words) => string; act: () => void };
+
+/** A dialog with a sentence, perhaps a text, to read or to copy by hand, and actions. */
+export function dialog(sentence: string, text: string | null, actions: Action[] = [], isToCopy = false): void {
     const box = h("dialog", { "aria-label": sentence });
     box.append(h("p", {}, sentence));
     if (text !== null) {
         const area = h("textarea", { readonly: true, rows: 12, "aria-label": sentence });
         area.value = text;
         box.append(area);
-        area.addEventListener("focus", () => area.select());
+        if (isToCopy) area.addEventListener("focus", () => area.select());
     }
     const close = (): void => box.close();
     const row = h("div", { class: "actions" });

@@ -168,7 +168,7 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
         }
         const address = `${location.href.split("#")[0]}${next}`;
         if (await toClipboard(address)) notice.say(word().copied(word().linkItem));
-        else dialog(word().notCopied, address);
+        else dialog(word().notCopied, address, [], true);
     }
     async function follow(): Promise<void> {
         if (location.hash === fragment && fragment !== "") return;
@@ -232,6 +232,7 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
                 },
             })),
             "language",
+        (w) => w.language,
         ),
     );
     const left = h("section", { class: "left" }, editor.element, mistakes.element);

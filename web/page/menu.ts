@@ -5,7 +5,7 @@ import { onLanguage, say, type Words } from "./words";
 
 export type Item = { label: (words: Words) => string; more?: (words: Words) => string; isChosen?: () => boolean; act: () => void };
 
-export function menu(label: (words: Words) => string, items: Item[], kind = ""): HTMLElement {
+export function menu(label: (words: Words) => string, items: Item[], kind = "", name = label): HTMLElement {
     const id = freshId("menu");
     const list = h("div", { class: "items", role: "menu", id, hidden: true });
     const button = h("button", { type: "button", class: "quiet", "aria-haspopup": "menu", "aria-expanded": "false", "aria-controls": id }, say(label));
@@ -20,7 +20,10 @@ export function menu(label: (words: Words) => string, items: Item[], kind = ""):
         return row;
     });
     list.append(...buttons);
-    onLanguage((words) => set(list, "aria-label", label(words)));
+    onLanguage((words) => {
+        set(list, "aria-label", name(words));
+        set(button, "aria-label", name === label ? null : `${name(words)}: ${label(words)}`);
+    });
 
     function outside(event: Event): void {
         if (!element.contains(event.target as Node)) close(false);

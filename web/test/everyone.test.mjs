@@ -73,6 +73,10 @@ test("on a phone nothing is wider than the screen, and the text is a tab", async
         const [width, screen] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
         assert.ok(width <= 390 && screen <= 390, `${tab}: ${width} of ${screen}`);
     }
+    await page.tap("#tab-picture");
+    await page.evaluate(() => scrollTo(0, 700));
+    const top = await page.$eval(".stage", (stage) => stage.getBoundingClientRect().top);
+    assert.ok(top >= 0 && top < 60, `the picture is ${top} pixels below the top while sliders are seen`);
     await page.tap("#tab-text");
     assert.ok(await page.$eval(".editor", (editor) => editor.checkVisibility()));
     await close();
