@@ -50,7 +50,7 @@ pub struct Table {
     lengths: Vec<usize>,
 }
 
-/// The largest length of a formula that is read, in bytes; the longest of the gallery has 2359.
+/// The largest length of a formula that is read, in bytes and in nodes; the longest of the gallery has 2359 bytes.
 #[cfg(feature = "serde")]
 const LONGEST: usize = 1 << 14;
 
@@ -105,17 +105,24 @@ impl Table {
     #[cfg(feature = "serde")]
     pub(super) fn of(nodes: Vec<Node>) -> Option<Self> {
         let mut table = Self::default();
-        let mut depths: Vec<usize> = Vec::new();
+        // Of each node how deep it is, and how many nodes it has, with a power as that many factors.
+        let mut sizes: Vec<[usize; 2]> = Vec::new();
         for mut node in nodes {
-            let (mut is_sound, mut depth, mut parts) = (true, 0, 0);
+            let (mut is_sound, mut depth, mut count) = (true, 0, 1_usize);
             node.each(&mut |part| {
-                let inside = (part.0 as usize).checked_sub(1).and_then(|index| depths.get(index));
+                let inside = (part.0 as usize).checked_sub(1).and_then(|index| sizes.get(index));
                 is_sound &= inside.is_some();
-                depth = depth.max(inside.map_or(0, |inside| inside + 1));
-                parts += 1;
+                let [deep, many] = inside.copied().unwrap_or_default();
+                (depth, count) = (depth.max(deep + 1), count.saturating_add(many));
             });
-            let order = if let Node::External(_, order, _) = &node { *order } else { 0 };
-            if !is_sound || depth > DEEPEST || parts > LONGEST || order > LONGEST {
+            count = match node {
+                Node::Power(_, exponent) => {
+                    count.saturating_mul(usize::try_from(exponent).unwrap_or(usize::MAX).max(1))
+                }
+                Node::External(_, order, _) => count.saturating_add(order),
+                _ => count,
+            };
+            if !is_sound || depth > DEEPEST || count > LONGEST {
                 return None;
             }
             let length = table.length_of(&node);
@@ -124,7 +131,7 @@ impl Table {
             }
             table.nodes.push(node);
             table.lengths.push(length);
-            depths.push(depth);
+            sizes.push([depth, count]);
         }
         Some(table)
     }

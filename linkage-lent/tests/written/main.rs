@@ -9,6 +9,7 @@ use linkage_compiler::text;
 use linkage_lent::{Documents, Unsound};
 use linkage_report::Document;
 use linkage_report::report::Mobility;
+use linkage_report::sheet::Language;
 use serde_json::Value;
 
 /// A mechanism with every kind of document: groups, points, outputs, a scene with friction and a stop, forces in joints.
@@ -35,7 +36,7 @@ fn documents(text: &str) -> Vec<Documents> {
 fn sheets(documents: &Documents) -> Result<Vec<String>, Unsound> {
     let mut all = Vec::new();
     documents.sheet(|sheet| {
-        all.extend([sheet.to_html(), sheet.to_latex(), sheet.to_text()]);
+        all.extend([sheet.to_html(), sheet.to_latex(), sheet.to_text(), sheet.language(Language::Italian).to_text()]);
     })?;
     documents.each(|document| all.extend(document.fpcore().iter().map(ToString::to_string)))?;
     if let Some(derivation) = documents.derivation(&linkage_lent::Lender::default())? {
@@ -61,10 +62,10 @@ fn documents_that_were_read_make_the_same_sheets() {
     }
 }
 
-/// The places of all numbers.
+/// The places of all numbers and texts.
 fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     match value {
-        Value::Number(_) => found.push(at.to_owned()),
+        Value::Number(_) | Value::String(_) => found.push(at.to_owned()),
         Value::Array(items) => {
             items.iter().enumerate().for_each(|(index, item)| places(item, &format!("{at}/{index}"), found));
         }
@@ -79,12 +80,14 @@ fn damaged_documents_do_not_panic() {
     let mut all = Vec::new();
     places(&written, "", &mut all);
     let (mut rejected, mut unsound, mut written_all) = (0, 0, 0);
-    // A prime number of places apart, so that all kinds of numbers come.
-    for (step, at) in all.iter().enumerate().step_by(13) {
-        let number = written.pointer(at).unwrap().clone();
-        let value = number.as_u64().unwrap_or(0);
-        let others = [0, 1, value / 2, value.saturating_add(1), 1 << 31, u64::MAX];
-        *written.pointer_mut(at).unwrap() = others[step % others.len()].into();
+    // A prime number of places apart, so that each other value comes at all kinds of places.
+    for (step, at) in all.iter().enumerate().step_by(23) {
+        let original = written.pointer(at).unwrap().clone();
+        let value = original.as_u64().unwrap_or(0);
+        *written.pointer_mut(at).unwrap() = match original {
+            Value::Number(_) => [0, 1, value / 2, value.saturating_add(1), 1 << 31, u64::MAX][step % 6].into(),
+            _ => ["", "_", "é_9", "the ", "body"][step % 5].into(),
+        };
         match serde_json::from_value::<Documents>(written.clone()) {
             Err(_) => rejected += 1,
             Ok(read) => match sheets(&read) {
@@ -92,7 +95,7 @@ fn damaged_documents_do_not_panic() {
                 Ok(_) => written_all += 1,
             },
         }
-        *written.pointer_mut(at).unwrap() = number;
+        *written.pointer_mut(at).unwrap() = original;
     }
     assert!(rejected > 10 && unsound > 10 && written_all > 10, "{rejected} {unsound} {written_all} of {}", all.len());
 }
@@ -122,5 +125,9 @@ fn tables_of_formulas_without_end_are_rejected() {
     let single = |number: usize| format!(r#"{{"Product": [{number}]}}"#);
     assert!(is_read(&nested(200, &single)));
     assert!(!is_read(&nested(100_000, &single)));
+    let squared = |number: usize| format!(r#"{{"Power": [{number}, 2]}}"#);
+    assert!(is_read(&nested(8, &squared)));
+    assert!(!is_read(&nested(64, &squared)));
+    assert!(!is_read(r#"["Pi", {"Power": [1, 4294967295]}]"#));
     assert!(!is_read(r#"["Pi", {"External": ["f", 18446744073709551615, [1]]}]"#));
 }
