@@ -4,7 +4,7 @@ use linkage_compiler::document::{self, Document};
 use linkage_runtime::derivation::{ChainJoint, ChainLink, Derivation, KinematicChain, Sensitivity};
 
 use crate::arena::Arena;
-use crate::error::Unsound;
+use crate::error::{Unsound, places};
 use crate::formulas::Formulas;
 
 pub(crate) fn lent<'a>(arena: &'a Arena, document: &Document) -> Result<Derivation<'a>, Unsound> {
@@ -38,12 +38,6 @@ pub(crate) fn lent<'a>(arena: &'a Arena, document: &Document) -> Result<Derivati
         chain: document.chain.as_ref().map(|chain| chained(arena, chain)).transpose()?,
         kernels: arena.list(&document.kernels, |kernel| formulas.kernel(kernel))?,
     })
-}
-
-/// An error if a list of this length has not all of these places.
-pub(crate) fn places(list: &'static str, places: &[usize], length: usize) -> Result<(), Unsound> {
-    let outside = places.iter().copied().find(|place| *place >= length);
-    outside.map_or(Ok(()), |place| Err(Unsound::Place { list, place }))
 }
 
 fn of_parameters<'a>(

@@ -38,3 +38,9 @@ impl fmt::Display for Unsound {
 }
 
 impl std::error::Error for Unsound {}
+
+/// An error if a list of this length has not all of these places.
+pub(crate) fn places(list: &'static str, places: &[usize], length: usize) -> Result<(), Unsound> {
+    let outside = places.iter().copied().find(|place| *place >= length);
+    outside.map_or(Ok(()), |place| Err(Unsound::Place { list, place }))
+}

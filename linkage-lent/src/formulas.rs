@@ -9,8 +9,7 @@ use linkage_runtime::derivation::{
 };
 
 use crate::arena::Arena;
-use crate::derivation::places;
-use crate::error::Unsound;
+use crate::error::{Unsound, places};
 use crate::nodes;
 
 /// The formulas of a table, by their numbers.

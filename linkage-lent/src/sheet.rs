@@ -4,8 +4,7 @@ use linkage_compiler::document::{self, SheetDocument};
 use linkage_runtime::derivation::{ChainVector, DriverChoice, FormulaMatrix, PointVectors, SheetDerivation, Turning};
 
 use crate::arena::Arena;
-use crate::derivation::places;
-use crate::error::Unsound;
+use crate::error::{Unsound, places};
 use crate::formulas::Formulas;
 
 pub(crate) fn lent<'a>(arena: &'a Arena, document: &SheetDocument) -> Result<SheetDerivation<'a>, Unsound> {

@@ -14,6 +14,7 @@
 //! ```
 
 mod at;
+mod digits;
 mod html;
 mod lines;
 mod motion;
@@ -31,9 +32,9 @@ use crate::words::Words;
 
 pub use crate::document::text_at;
 pub use crate::words::Language;
+pub(crate) use digits::{latex, number};
 pub(crate) use html::{escape, svg_address};
 pub use motion::{MotionNumbers, MovingCoordinate};
-pub(crate) use numbers::{latex, number};
 pub(crate) use page::document;
 pub use properties::{RatioNumber, RatioProperty, ratio_properties};
 pub use values::Values;

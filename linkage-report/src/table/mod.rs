@@ -23,6 +23,7 @@ mod write;
 
 pub use column::Units;
 pub use error::TableError;
+#[cfg(feature = "dynamics")]
 pub(crate) use motion::names;
 
 pub(crate) use column::{Column, Quantity};
