@@ -62,7 +62,7 @@ const look = EditorView.theme({
 
 export class Editor {
     readonly element = h("div", { class: "editor" });
-    /** The text after a change by whoever types. */
+    /** The text after each change by typing. */
     readonly changed = new Signal<string>();
     #view: EditorView;
     #labels = new Compartment();

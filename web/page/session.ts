@@ -172,7 +172,7 @@ export class Session {
             if (running.isPreparation && !isGood) this.#drop(running.lane, { why: word().noLongerCompiles });
         }
         running.resolve(answer);
-        // Whoever asked takes the answer first: the next question starts from it.
+        // The asker takes the answer first: the next question starts from it.
         queueMicrotask(() => this.#next());
     }
 

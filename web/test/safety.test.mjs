@@ -1,9 +1,10 @@
 // Texts of strangers, bad links, browsers that lack something.
 
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
+import { tmpdir } from "node:os";
 import { pathToFileURL } from "node:url";
 import { after, test } from "node:test";
 import { address, choose, dist, drawn, example, FOUR_BAR, linkOf, open, paste, quit, readText, setField, until } from "./browser.mjs";
@@ -109,7 +110,7 @@ test("damaged, newer and swollen links are one sentence each", async () => {
 
 test("a module that cannot be loaded, and a browser without WebAssembly, are one sentence each", async () => {
     const html = readFileSync(join(dist, "linkage.html"), "utf8");
-    const file = join(dist, "incomplete.html");
+    const file = join(mkdtempSync(join(tmpdir(), "linkage-")), "incomplete.html");
     writeFileSync(file, html.replace(/linkageModule="[^"]*"/u, (module) => `${module.slice(0, module.length / 2)}"`));
     for (const [options, said] of [
         [{ url: pathToFileURL(file).href }, /cannot be loaded/u],

@@ -290,3 +290,26 @@ test("values of sliders are written into the text", async () => {
     await focusText(page);
     await close();
 });
+
+test("every example has a sentence in each language, and is drawn", async () => {
+    const { page, errors, close } = await open();
+    await drawn(page);
+    const sentences = () => page.$$eval(".menu.wide .items button", (items) => items.map((item) => item.querySelector("span").textContent));
+    const english = await sentences();
+    assert.ok(english.length >= 12 && english.every((sentence) => sentence.endsWith(".")), english.join("\n"));
+    for (let index = 0; index < english.length; index += 1) {
+        await page.evaluate(() => (globalThis.before = document.title));
+        await page.evaluate((at) => document.querySelectorAll(".menu.wide .items button")[at].click(), index);
+        if (index > 0) await until(page, () => document.title !== globalThis.before);
+        await drawn(page);
+        await until(page, () => document.querySelectorAll(".positions button").length > 0);
+        assert.equal(await page.$eval(".status", (status) => status.textContent), "No mistakes");
+        assert.equal(await page.$eval(".banner", (banner) => banner.textContent), "", await page.title());
+    }
+    await page.click(".menu.language > button");
+    await (await page.$$(".menu.language .items button"))[1].click();
+    const italian = await sentences();
+    assert.ok(italian.every((sentence, index) => sentence.endsWith(".") && sentence !== english[index]));
+    assert.deepEqual(errors, []);
+    await close();
+});

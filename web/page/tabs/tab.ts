@@ -5,7 +5,10 @@ import { isRefusal } from "../answers";
 import { h, set } from "../dom";
 import type { Machine } from "../machine";
 import type { Lane, Session } from "../session";
-import { onLanguage, say } from "../words";
+import { onLanguage, say, word } from "../words";
+
+/** How long a computation about an earlier text goes on, in milliseconds: to start anew costs a compilation. */
+const PATIENCE = 1000;
 
 /** A result that took the module longer, in milliseconds, is not computed anew by itself at each move, unless it is live. */
 const SLOW = 1500;
@@ -21,6 +24,8 @@ export abstract class Tab {
     #key = "";
     #wanted = "";
     #isRunning = false;
+    /** The text that is computed. */
+    #text: string | null = null;
     #took = 0;
 
     constructor(machine: Machine, session: Session) {
@@ -53,12 +58,23 @@ export abstract class Tab {
         const isLeft = isStale && this.#key !== "" && this.#took > SLOW && !this.isLive;
         set(this.element, "data-old", isLeft || isOld);
         this.stale.hidden = !isLeft;
+        if (this.#isRunning && this.#text !== text) this.#hurry();
         if (this.#isSeen && isStale && !isLeft && !this.#isRunning) void this.#compute();
+    }
+
+    #hurry(): void {
+        setTimeout(() => {
+            const since = this.session.running?.since ?? Infinity;
+            if (!this.#isRunning || this.#text === this.machine.text) return;
+            if (performance.now() - since >= PATIENCE) this.session.stop(word().replaced);
+            else this.#hurry();
+        }, PATIENCE);
     }
 
     async #compute(): Promise<void> {
         if (this.#isRunning) return;
         this.#isRunning = true;
+        this.#text = this.machine.text;
         const key = this.#wanted;
         const isDone = await this.compute();
         this.#isRunning = false;
