@@ -84,7 +84,7 @@ impl Calls<'_> {
     fn count(&mut self, name: &str) {
         let name = if name == "elbow_chord" { "chord" } else { name };
         let circular = ["sines_cosines", "sine", "cosine", "sin", "cos", "sin_cos"];
-        let others = ["arctangent2", "sqrt", "hypotenuse", "acos"];
+        let others = ["arctangent2", "sqrt", "hypotenuse", "arccosine"];
         let known: Vec<&str> = ["sine_cosine", "chord"].into_iter().chain(circular).chain(others).collect();
         match known.iter().position(|known| *known == name) {
             Some(place) if self.within => self.calls[place.min(2)] += 1,

@@ -53,7 +53,7 @@ fn moving(
     Ok([numbers(full), numbers(built.moving_by_parts(q, branch, rates, given)?)])
 }
 
-/// What a mechanism computes at its coordinates.
+/// Results of a mechanism at its coordinates.
 fn posed(at: &dyn Posed<f64>, [rates, input_rates, given]: [&[f64]; 3]) -> Result<Vec<Vec<f64>>, PositionError> {
     let bent = at.acceleration(rates, given)?;
     let ratios = [vec![at.velocity_ratios()?], at.point_ratios()?, at.output_ratios()?].concat();
