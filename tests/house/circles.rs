@@ -215,7 +215,7 @@ fn roots(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        if path.is_dir() && name != "target" && !name.starts_with('.') {
+        if path.is_dir() && name != "target" && name != "node_modules" && !name.starts_with('.') {
             roots(&path, found);
         } else if folder.ends_with("src") && (name == "lib.rs" || name == "main.rs") {
             found.push(path);

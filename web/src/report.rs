@@ -51,11 +51,7 @@ fn whole<'p>(prepared: &'p Prepared<'p>, derivation: &Derivation<'_>, at: &At) -
     Report::of(&mechanism, derivation, &start, &ReportOptions::default()).map_err(Refusal::new)
 }
 
-fn written<N: BorrowedName>(
-    mut report: Report<N>,
-    listed: &[(String, Coordinates)],
-    pictures: &[String],
-) -> String {
+fn written<N: BorrowedName>(mut report: Report<N>, listed: &[(String, Coordinates)], pictures: &[String]) -> String {
     if let ReportedModes::Listed(modes) = &mut report.modes {
         modes.modes.iter_mut().zip(listed).for_each(|(mode, (branch, _))| mode.branch.clone_from(branch));
     }

@@ -33,7 +33,7 @@ impl Session {
             Ok(answer) => serde_json::to_string(&answer),
             Err(refusal) => serde_json::to_string(&refusal),
         };
-        // Values and refusals have texts as keys.
+        // All keys are texts.
         written.unwrap_or_default()
     }
 

@@ -71,7 +71,7 @@ pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
 /// [`Question::Load`](crate::Question::Load).
 ///
 /// # Errors
-/// [`Refusal`] with the first mistake of the text.
+/// The first mistake of the text.
 pub fn compiled(text: &str) -> Result<String, Refusal> {
     let first =
         |mistakes: Vec<Mistake>| Refusal::new(mistakes.into_iter().next().map(|one| one.text).unwrap_or_default());

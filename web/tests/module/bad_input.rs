@@ -1,4 +1,4 @@
-//! Texts that are half typed, too long or hostile, and questions that have no answer.
+//! Texts that are half typed or too long, those of strangers, and questions that have no answer.
 
 use serde_json::{Value, json};
 
@@ -42,9 +42,9 @@ fn long_texts_are_refused_in_a_sentence() {
     let loops: String = (0..200).map(|k| format!("unknown a{k}, b{k}; loop l@a{k} + l@b{k} = 1.5 l@phi;\n")).collect();
     let many = format!("mechanism Many {{ param l = 1; input phi; {loops} }}");
     let answer = page.ask(&json!({ "do": "compile", "text": many }));
-    let refusal = answer["mechanisms"][0]["refusal"].as_str();
+    let why = answer["mechanisms"][0]["refusal"].as_str();
     let mistake = answer["mistakes"][0]["text"].as_str();
-    assert!(refusal.or(mistake).is_some_and(|words| !words.is_empty()), "{answer}");
+    assert!(why.or(mistake).is_some_and(|words| !words.is_empty()), "{answer}");
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn a_position_that_does_not_exist_names_the_group_and_the_gap() {
 }
 
 #[test]
-fn hostile_words_are_text_in_every_answer() {
+fn words_of_strangers_are_text_in_every_answer() {
     let text = "
         /// </script><script>alert(1)</script> <img src=x onerror=alert(2)>
         mechanism FourBar {
@@ -106,7 +106,7 @@ fn questions_without_sense_are_refused() {
         json!({ "do": "begin", "mechanism": 7, "parameters": [] }),
         json!({ "do": "picture", "mechanism": 0, "parameters": [1.0], "place": { "inputs": [], "unknowns": [1.0] } }),
         super::merged(&at, &json!({ "do": "motion", "along": 3, "rate": 1.0, "steps": 10 })),
-        super::merged(&at, &json!({ "do": "drag", "joint": "nobody", "to": [1.0, 1.0] })),
+        super::merged(&at, &json!({ "do": "drag", "joint": "Z", "to": [1.0, 1.0] })),
         super::merged(
             &at,
             &json!({ "do": "simulate", "scene": 0, "values": [], "rates": [0.0], "to": 1.0, "tolerance": 1e-6, "steps": 10 }),
