@@ -1,10 +1,10 @@
 // The text: CodeMirror in a shadow root, whose styles are then adopted sheets, which a strict policy of styles lets pass.
 
 import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { bracketMatching, indentOnInput, indentUnit } from "@codemirror/language";
 import { type Diagnostic, lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
-import { Compartment, EditorState, Prec } from "@codemirror/state";
+import { Compartment, EditorState } from "@codemirror/state";
 import {
     drawSelection,
     EditorView,
@@ -97,7 +97,6 @@ export class Editor {
                     look,
                     this.#labels.of([]),
                     // Tab indents; Escape and then Tab leaves the text.
-                    Prec.low(keymap.of([indentWithTab])),
                     keymap.of([...closeBracketsKeymap, ...completionKeymap, ...historyKeymap, ...lintKeymap, ...defaultKeymap]),
                     EditorView.updateListener.of((update: ViewUpdate) => {
                         if (update.docChanged && !this.#isQuiet) this.changed.emit(this.text);

@@ -154,7 +154,10 @@ export class Machine {
         if (text === null || this.at === null) return;
         const asked = this.#asked;
         const answer = await this.#session.ask("draw", text, () => ({ do: "picture", ...(this.at as At), show: this.show }));
-        if (answer !== null && !isRefusal(answer)) this.#accept(answer, false, asked === this.#asked);
+        if (answer === null || isRefusal(answer)) return;
+        // The word about the last motion holds for its other drawings too.
+        const isSame = asked === this.#asked;
+        this.#accept(isSame ? { ...answer, stopped: this.note } : answer, false, isSame);
     }
 
     #take(text: string, mechanisms: About[], wanted: Wanted): void {
@@ -225,14 +228,26 @@ export class Machine {
         }
     }
 
-    /** The text changed, but not its coordinates: the position goes along if the loops still close. */
+    /**
+     * The text changed, but not its coordinates: the position goes along. Where it does not reach the values of the text, another
+     * one is taken that has them, and a word says so: the page shows the mechanism of the text, or none.
+     */
     async #goOn(from: At, to: Target): Promise<void> {
         const { text, show } = this;
         if (text === null) return;
         this.target = to;
         const answer = await this.#session.ask("move", text, () => ({ do: "follow", ...from, to, show }));
-        if (answer !== null && isRefusal(answer)) await this.#beginAt(to.parameters, from.place);
-        else this.#accept(answer, true);
+        if (answer === null) return;
+        const isThere = !isRefusal(answer) && answer.parameters.every((value, at) => value === to.parameters[at]);
+        if (isThere) {
+            this.#accept(answer, true);
+            return;
+        }
+        this.target = to;
+        await this.#beginAt(to.parameters, from.place);
+        if (this.why !== null || this.text !== text) return;
+        this.note = word().jumped;
+        this.moved.emit();
     }
 
     /** `isNew` if another motion goes through the position; `isNewest` if nothing else is asked for meanwhile. */

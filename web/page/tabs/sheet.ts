@@ -2,6 +2,7 @@
 
 import { Island } from "../island";
 import type { Machine } from "../machine";
+import type { At } from "../protocol";
 import type { Session } from "../session";
 import { sheetStyles } from "../styles";
 import { languageOf } from "../words";
@@ -17,12 +18,14 @@ export class SheetTab extends Tab {
     }
 
     protected key(): unknown[] | null {
-        const { at, show } = this.machine;
+        const { show } = this.machine;
+        const at = this.#at();
         return at && [at, show.rate, languageOf()];
     }
 
     protected async compute(): Promise<boolean> {
-        const { at, show } = this.machine;
+        const { show } = this.machine;
+        const at = this.#at();
         if (at === null) return false;
         const language = languageOf();
         const answer = await this.ask<"sheet">(() => ({ do: "sheet", ...at, rate: show.rate, language, form: "html" }));
@@ -33,5 +36,11 @@ export class SheetTab extends Tab {
             this.#island.clear();
         }
         return answer !== undefined;
+    }
+
+    /** The position, or none of a mechanism that has none: its sheet is without numbers then. */
+    #at(): At | null {
+        const { at, about, index, target } = this.machine;
+        return at ?? (about && { mechanism: index, parameters: target.parameters, place: { inputs: [], unknowns: [] } });
     }
 }

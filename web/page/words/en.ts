@@ -114,6 +114,7 @@ export const en = {
     noWebAssembly: "This browser has no WebAssembly, which the page computes with: a browser of 2023 or later has it.",
     followed: (file: string): string => `This page follows ${file}.`,
     serverGone: "The program that serves this page has ended: the file is not followed any more.",
+    jumped: "No motion leads here from the position before: this is the nearest position with the values of the text.",
     liveFailed: "The sliders of this sheet cannot be loaded: its file may be incomplete. The numbers are those of the position with which it was written.",
     liveFold: "Sliders and picture",
     moduleFailed: "The part of the page that computes cannot be loaded: the file may be incomplete.",

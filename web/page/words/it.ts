@@ -107,6 +107,7 @@ export const it: Words = {
     noWebAssembly: "Questo browser non ha WebAssembly, con cui la pagina calcola: un browser dal 2023 in poi lo ha.",
     followed: (file: string): string => `Questa pagina segue ${file}.`,
     serverGone: "Il programma che serve questa pagina è terminato: il file non è più seguito.",
+    jumped: "Nessun moto porta qui dalla posizione di prima: questa è la posizione più vicina con i valori del testo.",
     liveFailed: "I cursori di questa scheda non si caricano: il file può essere incompleto. I numeri sono quelli della posizione con cui è stata scritta.",
     liveFold: "Cursori e figura",
     moduleFailed: "La parte della pagina che calcola non si carica: il file può essere incompleto.",
