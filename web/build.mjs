@@ -198,7 +198,9 @@ const single = fill(template, {
     scripts: `<script>${module}</script>\n<script>${script}</script>`,
 });
 // A live sheet: its own styles are those of a sheet, in a style element.
-const liveBytes = isFake ? none : wasm(process.env.LINKAGE_LIVE_WASM, "--no-default-features");
+// In a draft it has the module of the page, which can do the same and more.
+const isShared = isDraft && process.env.LINKAGE_LIVE_WASM === undefined;
+const liveBytes = isFake ? none : isShared ? bytes : wasm(process.env.LINKAGE_LIVE_WASM, "--no-default-features");
 const liveModule = deflated(liveBytes);
 const liveScript = inScript((await bundle("page/live.ts", { "linkage:worker": worker.text })).text);
 await esbuild.transform(liveScript, { loader: "js" });

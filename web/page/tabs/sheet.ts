@@ -19,13 +19,13 @@ export class SheetTab extends Tab {
 
     protected key(): unknown[] | null {
         const { show } = this.machine;
-        const at = this.#at();
+        const at = positionOf(this.machine);
         return at && [at, show.rate, languageOf()];
     }
 
     protected async compute(): Promise<boolean> {
         const { show } = this.machine;
-        const at = this.#at();
+        const at = positionOf(this.machine);
         if (at === null) return false;
         const language = languageOf();
         const answer = await this.ask<"sheet">(() => ({ do: "sheet", ...at, rate: show.rate, language, form: "html" }));
@@ -37,10 +37,9 @@ export class SheetTab extends Tab {
         }
         return answer !== undefined;
     }
+}
 
-    /** The position, or none of a mechanism that has none: its sheet is without numbers then. */
-    #at(): At | null {
-        const { at, about, index, target } = this.machine;
-        return at ?? (about && { mechanism: index, parameters: target.parameters, place: { inputs: [], unknowns: [] } });
-    }
+/** The position, or none of a mechanism that has none: its sheet is without numbers then. */
+function positionOf({ at, about, index, target }: Machine): At | null {
+    return at ?? (about && { mechanism: index, parameters: target.parameters, place: { inputs: [], unknowns: [] } });
 }
