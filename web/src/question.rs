@@ -87,7 +87,7 @@ pub enum Question {
     },
     /// Take mechanisms that were compiled before: the answer is that of a text.
     Load {
-        /// They, as [`Session::written`](crate::Session::written) wrote them.
+        /// They, as [`compiled`](crate::compiled) wrote them.
         written: String,
     },
     /// The words of the language.
