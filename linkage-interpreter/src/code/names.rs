@@ -90,6 +90,7 @@ impl Default for Names {
 
 impl Names {
     /// The number of a name, a new one if it has none.
+    #[cfg(feature = "compiler")]
     pub(crate) fn of(&mut self, text: &str) -> Name {
         let found = self.find(text);
         found.unwrap_or_else(|| {
