@@ -19,7 +19,7 @@ const MOST_STEPS: usize = 20_000;
 /// not be known on which side it goes on.
 const BEFORE: f64 = 1e-6;
 
-/// The distances from that place, as a part of it, that are rounding errors: the motion is there already.
+/// A motion that begins within this part of that distance from its stop is there already: the rest is a rounding error.
 const SAME: f64 = 1e-3;
 
 /// The most steps of a motion to other parameters, and the least part of the way of a step.
