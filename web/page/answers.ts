@@ -1,9 +1,9 @@
 // The answer to each question of the protocol.
 
-import type { About, Mistake, Moved, Quantity, Question, Refusal, Simulated } from "./protocol";
+import type { About, Circuits, Limit, Mistake, Moved, Quantity, Question, Refusal, Simulated } from "./protocol";
 
 export type Position = { branch: string; unknowns: number[]; svg: string };
-export type Motion = { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: Quantity[] };
+export type Motion = { least: number; largest: number; is_angle: boolean; ends: (Limit | null)[]; turns: boolean; columns: Quantity[] };
 export type Compiled = { mistakes: Mistake[] } | { mechanisms: About[] };
 
 export type Answers = {
@@ -19,7 +19,7 @@ export type Answers = {
     chart: { svg: string };
     csv: { text: string };
     sheet: { text: string };
-    circuits: { text: string; charts: { name: string; svg: string }[] };
+    circuits: Circuits;
     report: { html: string };
     rust: { text: string };
     simulate: Simulated;

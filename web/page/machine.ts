@@ -2,10 +2,11 @@
 
 import type { Motion } from "./answers";
 import { isRefusal } from "./answers";
+import { show as shown } from "./format";
 import type { About, At, Mistake, Moved, Place, Refusal, Show } from "./protocol";
 import type { Session } from "./session";
 import { Signal, settled } from "./signal";
-import { word } from "./words";
+import { languageOf, onLanguage, word } from "./words";
 
 /** Values by name, as a link has them. */
 export type Wanted = {
@@ -39,9 +40,9 @@ export class Machine {
     /** Why there is no picture of the target. */
     why: string | null = null;
     /** Where the motion stopped, or a word about the link. */
-    note: string | null = null;
+    note: (() => string) | null = null;
     motion: Motion | null = null;
-    show: Show = { traces: true, velocities: false, accelerations: false, along: 0, rate: 1 };
+    show: Show = { traces: true, velocities: false, accelerations: false, along: 0, rate: 1, language: languageOf() };
     /** True while the text has mistakes. */
     isOld = false;
 
@@ -51,6 +52,9 @@ export class Machine {
 
     constructor(session: Session) {
         this.#session = session;
+        onLanguage(({ code }) => {
+            if (code !== this.show.language) void this.draw({ language: code });
+        });
     }
 
     get about(): About | null {
@@ -112,7 +116,7 @@ export class Machine {
         const asked = this.#asked;
         const answer = await this.#session.ask("draw", text, () => ({ do: "begin", mechanism: index, parameters, show }));
         if (answer === null || !isRefusal(answer) || asked !== this.#asked) return;
-        this.note = answer.why;
+        this.note = () => answer.why;
         this.moved.emit();
     }
 
@@ -157,7 +161,7 @@ export class Machine {
         if (answer === null || isRefusal(answer)) return;
         // The word about the last motion holds for its other drawings too.
         const isSame = asked === this.#asked;
-        this.#accept(isSame ? { ...answer, stopped: this.note } : answer, false, isSame);
+        this.#accept(answer, false, isSame, isSame ? this.note : null);
     }
 
     #take(text: string, mechanisms: About[], wanted: Wanted): void {
@@ -221,7 +225,7 @@ export class Machine {
         const answer = await this.#session.ask("move", text, () => question);
         if (answer !== null && isRefusal(answer)) {
             await this.#beginAt(parameters);
-            this.note = word().linkPlace;
+            this.note = () => word().linkPlace;
             this.moved.emit();
         } else {
             this.#accept(answer, true);
@@ -246,25 +250,34 @@ export class Machine {
         this.target = to;
         await this.#beginAt(to.parameters, from.place);
         if (this.why !== null || this.text !== text) return;
-        this.note = word().jumped;
+        this.note = () => word().jumped;
         this.moved.emit();
     }
 
     /** `isNew` if another motion goes through the position; `isNewest` if nothing else is asked for meanwhile. */
-    #accept(answer: Moved | Refusal | null, isNew: boolean, isNewest = true): void {
+    #accept(answer: Moved | Refusal | null, isNew: boolean, isNewest = true, note: Machine["note"] = null): void {
         if (answer === null) return;
         if (isRefusal(answer)) {
             this.why = answer.why;
             this.note = null;
         } else {
             this.why = null;
-            this.note = answer.stopped;
+            this.note = this.#words(answer) ?? note;
             this.last = answer;
             this.at = { mechanism: answer.mechanism, parameters: answer.parameters, place: answer.place };
             if (isNewest) this.target = { parameters: answer.parameters, inputs: answer.place.inputs };
             if (isNew || this.motion === null) this.#follow.soon();
         }
         this.moved.emit();
+    }
+
+    /** Where and why a motion stopped, in words; null if it did not. */
+    #words({ stopped, place }: Moved): (() => string) | null {
+        if (stopped === null) return null;
+        const input = stopped.input === null ? undefined : this.about?.inputs[stopped.input];
+        if (input === undefined) return () => word().parametersStop(word().limit(stopped));
+        const value = shown(place.inputs[stopped.input ?? 0] ?? NaN, input.is_angle);
+        return () => word().inputStops(input.name, value, word().limit(stopped));
     }
 
     #forget(): void {

@@ -94,6 +94,7 @@ function page(root: HTMLElement, spawn: () => Worker, module: WebAssembly.Module
         editor.replace(text);
         if (linked.along !== undefined || linked.rate !== undefined || linked.shown !== undefined) {
             machine.show = {
+                ...machine.show,
                 traces: linked.shown?.includes("t") ?? machine.show.traces,
                 velocities: linked.shown?.includes("v") ?? false,
                 accelerations: linked.shown?.includes("a") ?? false,

@@ -63,7 +63,7 @@ export class PictureView {
         const words: string[] = [];
         if (isOld && last !== null) words.push(word().oldText);
         if (why !== null) words.push(why);
-        else if (note !== null) words.push(note);
+        else if (note !== null) words.push(note());
         this.#banner.textContent = words.join(" ");
         this.#banner.hidden = words.length === 0;
         this.#hint.hidden = this.#picture === null || words.length > 0;

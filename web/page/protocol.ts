@@ -25,13 +25,22 @@ export type About = {
 
 export type Place = { inputs: number[]; unknowns: number[] };
 export type At = { mechanism: number; parameters: number[]; place: Place };
-/** What the picture shows; `along` is the place of the input that moves, `rate` its rate (others rest). */
-export type Show = { traces: boolean; velocities: boolean; accelerations: boolean; along: number; rate: number };
+/** What the picture shows; `along` is the place of the input that moves, `rate` its rate (others rest); `language` that of its legend. */
+export type Show = { traces: boolean; velocities: boolean; accelerations: boolean; along: number; rate: number; language: "en" | "it" };
 
 /** A picture: x in pixels of its viewBox is origin[0] + scale * x, y is origin[1] - scale * y. */
 export type Picture = { svg: string; origin: [number, number]; scale: number; joints: { name: string; x: number; y: number }[] };
 export type Numbers = { name: string; is_angle: boolean; value: number; rate: number; acceleration: number }[];
-export type Moved = At & { picture: Picture; numbers: Numbers; /** A word: the limit at which the motion stopped. */ stopped: string | null };
+/** Why a motion goes no further: a group at a dead point, a coordinate at an end of its range, no position of its own near. */
+export type Limit =
+    | { is: "dead_point" | "change_point"; group: string }
+    | { is: "least" | "largest"; of: string }
+    | { is: "no_direction" | "too_near" | "no_position" }
+    | { is: "too_long"; steps: number }
+    | { is: "error"; why: string };
+/** `input` is the place of the input that moved; none if it was a motion to other parameters. */
+export type Stop = Limit & { input: number | null };
+export type Moved = At & { picture: Picture; numbers: Numbers; /** The limit at which the motion stopped. */ stopped: Stop | null };
 
 export type Question =
     /** First of all, and after each change of the text. */
@@ -48,16 +57,24 @@ export type Question =
     /** Moves an input so that a joint comes near a place of the plane. */
     | ({ do: "drag"; joint: string; to: [number, number]; show: Show } & At)            // Moved
     /** Follows the whole motion: its range, and the traces of points, which pictures show from then on. */
-    | ({ do: "motion"; along: number; rate: number; steps: number } & At)               // { least: number; largest: number; is_angle: boolean; ends: string[]; turns: boolean; columns: Quantity[] }
+    | ({ do: "motion"; along: number; rate: number; steps: number } & At)               // { least: number; largest: number; is_angle: boolean; ends: (Limit | null)[]; turns: boolean; columns: Quantity[] }
     /** A chart over the motion that was followed last; of at most five columns. */
     | { do: "chart"; columns: string[] }                           // { svg: string }
     | { do: "csv" }                                                // { text: string } of the motion that was followed last
     /** rate: null for a sheet without velocities and accelerations. form: html is the content of <main>. */
     | ({ do: "sheet"; rate: number | null; language: "en" | "it"; form: "html" | "latex" | "text" } & At)   // { text: string }
-    | ({ do: "circuits"; mechanism: number; parameters: number[]; inputs: number[]; along: number })        // { text: string; charts: { name: string; svg: string }[] }
+    | ({ do: "circuits"; mechanism: number; parameters: number[]; inputs: number[]; along: number })        // Circuits
     | ({ do: "report" } & At)                                      // { html: string }
     | ({ do: "rust"; mechanism: number })                          // { text: string }
     | ({ do: "simulate"; scene: number; values: number[]; rates: number[]; to: number; tolerance: number; steps: number } & At) // Simulated
+
+/** The circuits; motions are numbered in their charts, circuits here, both from 1. */
+export type Circuits = {
+    positions: number;
+    circuits: number;
+    motions: { circuit: number; least: number | null; largest: number | null; way: "turns" | "to_and_fro" | "ends" | "open"; turns: number }[];
+    charts: { name: string; svg: string }[];
+};
 
 export type Simulated = {
     /** Events, and why it ended before its end. */

@@ -186,10 +186,9 @@ export class SlidersView {
         const isMoved = about.parameters.some(({ value }, index) => value !== target.parameters[index]);
         this.#actions.hidden = !isMoved;
         const limits = motion !== null && at !== null && !motion.turns ? [motion.least, motion.largest] : [];
-        // The module says that a range goes on where nothing ends it.
         const ends = limits.flatMap((limit, index) => {
             const why = motion?.ends[index];
-            return why === undefined || why === "it goes on" ? [] : [`${show(limit, motion?.is_angle)}: ${why}`];
+            return why ? [`${show(limit, motion?.is_angle)}: ${word().limit(why)}`] : [];
         });
         this.#ends.replaceChildren(...ends.map((end) => h("span", {}, end)));
         this.#ends.hidden = ends.length === 0;

@@ -12,11 +12,42 @@ use crate::machine::{Machine, prepared};
 /// The longest step of a motion in a chart.
 const SMOOTH: f64 = 0.1;
 
-/// The circuits in words, and a chart of each unknown.
+/// The circuits, and a chart of each unknown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Found {
-    text: String,
+    /// The number of positions at the inputs.
+    positions: usize,
+    /// The number of circuits.
+    circuits: usize,
+    /// The motions, in the order of their numbers in the charts.
+    motions: Vec<Motion>,
     charts: Vec<Named>,
+}
+
+/// A motion of a circuit.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+struct Motion {
+    /// The number of its circuit, from 1.
+    circuit: usize,
+    least: f64,
+    largest: f64,
+    way: Way,
+    /// The turns of the input after which it is at its start again.
+    turns: u32,
+}
+
+/// The way of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum Way {
+    /// The input turns in one direction.
+    Turns,
+    /// The input goes to and fro.
+    ToAndFro,
+    /// It ends at ends of ranges.
+    Ends,
+    /// It does not close.
+    Open,
 }
 
 /// A chart of an unknown.
@@ -42,36 +73,28 @@ pub fn circuits(machine: &Machine, parameters: &[f64], inputs: &[f64], along: us
     let input = machine.about.inputs.get(along).map_or("", |input| &input.name);
     let charts = machine.about.unknowns.iter().map(|unknown| {
         let chart = CircuitChart::of(&one, &found, &unknown.name).map_err(Refusal::new)?;
-        let chart = chart.title(format!("{} over {input}", unknown.name)).numbered_from(1);
+        let chart = chart.title(format!("{}({input})", unknown.name)).numbered_from(1);
         Ok(Named { name: unknown.name.clone(), svg: chart.to_svg() })
     });
     let charts = charts.collect::<Result<_, Refusal>>()?;
-    let is_angle = machine.about.inputs.get(along).is_some_and(|input| input.is_angle);
-    let motions = found.motions.iter().zip(1..).map(|(motion, number)| {
-        let circuit = found.circuits.iter().position(|motions| motions.contains(&(number - 1))).unwrap_or_default();
-        format!("motion {number}, circuit {}: {}\n", circuit + 1, words(motion, input, is_angle))
+    let motions = found.motions.iter().enumerate().map(|(place, motion)| {
+        let circuit = found.circuits.iter().position(|motions| motions.contains(&place)).unwrap_or_default();
+        Motion::of(motion, circuit + 1)
     });
-    let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
-    let head = [
-        count(found.modes.len(), "position"),
-        count(found.motions.len(), "motion"),
-        count(found.circuits.len(), "circuit"),
-    ];
-    Ok(Found { text: format!("{}\n{}", head.join(", "), motions.collect::<String>()), charts })
+    let motions = motions.collect();
+    Ok(Found { positions: found.modes.len(), circuits: found.circuits.len(), motions, charts })
 }
 
-/// The range of a motion in words.
-fn words(motion: &MotionCurve<AlongOne, f64, &str>, input: &str, is_angle: bool) -> String {
-    let shown = |value: f64| if is_angle { format!("{:.4}°", value.to_degrees()) } else { format!("{value:.6}") };
-    let [least, largest] = motion.range().unwrap_or([f64::NAN; 2]).map(shown);
-    let has_dead_points = motion.dead_points().next().is_some();
-    match motion.end {
-        CurveEnd::Closed { turns } if turns != 0 && !has_dead_points => match turns.unsigned_abs() {
-            1 => format!("{input} turns fully"),
-            turns => format!("{input} turns fully; the motion closes after {turns} turns"),
-        },
-        CurveEnd::Closed { .. } => format!("{input} goes to and fro between {least} and {largest}"),
-        CurveEnd::Limits => format!("{input} from {least} to {largest}, at the ends of ranges"),
-        CurveEnd::Open => format!("{input} from {least} to {largest} and on: the motion does not close"),
+impl Motion {
+    fn of(motion: &MotionCurve<AlongOne, f64, &str>, circuit: usize) -> Self {
+        let [least, largest] = motion.range().unwrap_or([f64::NAN; 2]);
+        let has_dead_points = motion.dead_points().next().is_some();
+        let (way, turns) = match motion.end {
+            CurveEnd::Closed { turns } if turns != 0 && !has_dead_points => (Way::Turns, turns.unsigned_abs()),
+            CurveEnd::Closed { .. } => (Way::ToAndFro, 0),
+            CurveEnd::Limits => (Way::Ends, 0),
+            CurveEnd::Open => (Way::Open, 0),
+        };
+        Self { circuit, least, largest, way, turns }
     }
 }

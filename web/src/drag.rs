@@ -8,6 +8,7 @@ use linkage_runtime::{Kinematic as _, Mechanism as _};
 use crate::Refusal;
 use crate::at::{Coordinates, Moving, coordinates, inputs_of, rates};
 use crate::follow::drive;
+use crate::limit::Stop;
 use crate::picture::joints;
 use crate::question::Place;
 
@@ -28,7 +29,7 @@ pub fn drag(
     along: usize,
     joint: &str,
     to: [f64; 2],
-) -> Result<(Place, Option<String>), Refusal> {
+) -> Result<(Place, Option<Stop>), Refusal> {
     let mut place = from.clone();
     let mut last = f64::INFINITY;
     for _ in 0..MOST_STEPS {

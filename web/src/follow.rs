@@ -7,6 +7,7 @@ use linkage_runtime::{Mechanism as _, PathError};
 
 use crate::Refusal;
 use crate::at::{Coordinates, Moving, coordinates, moving, one_input, place};
+use crate::limit::{Limit, Stop};
 use crate::machine::{Machine, prepared};
 use crate::picture::joints;
 use crate::positions::why_not;
@@ -31,8 +32,8 @@ const LEAST_CHANGE: f64 = 1e-6;
 const LARGEST_CHANGE: f64 = 0.3;
 const OFF_LINE: f64 = 0.1;
 
-/// A position, and the reason why the motion to it stopped.
-pub type Reached = (At, Option<String>);
+/// A position, and the limit at which the motion to it stopped.
+pub type Reached = (At, Option<Stop>);
 
 /// Follows the motion to an aim: first the parameters change, then the inputs one after the other.
 pub fn follow(machine: &Machine, at: At, to: &Aim) -> Result<Reached, Refusal> {
@@ -47,7 +48,7 @@ pub fn follow(machine: &Machine, at: At, to: &Aim) -> Result<Reached, Refusal> {
 }
 
 /// Moves the inputs one after the other.
-pub fn drive(mechanism: &Moving<'_>, from: &Place, to: &[f64]) -> Result<(Place, Option<String>), Refusal> {
+pub fn drive(mechanism: &Moving<'_>, from: &Place, to: &[f64]) -> Result<(Place, Option<Stop>), Refusal> {
     let mut q = coordinates(mechanism, from)?;
     for (input, &value) in to.iter().enumerate().take(q.inputs.as_slice().len()) {
         if q.inputs[input] == value {
@@ -56,10 +57,10 @@ pub fn drive(mechanism: &Moving<'_>, from: &Place, to: &[f64]) -> Result<(Place,
         if !value.is_finite() {
             return Err(Refusal::new("an input is no number"));
         }
-        let (reached, stopped) = drive_one(mechanism, q, input, value)?;
+        let (reached, limit) = drive_one(mechanism, q, input, value)?;
         q = reached;
-        if stopped.is_some() {
-            return Ok((place(&q), stopped));
+        if let Some(limit) = limit {
+            return Ok((place(&q), Some(Stop { input: Some(input), limit })));
         }
     }
     Ok((place(&q), None))
@@ -71,7 +72,7 @@ fn drive_one(
     q: Coordinates,
     input: usize,
     to: f64,
-) -> Result<(Coordinates, Option<String>), Refusal> {
+) -> Result<(Coordinates, Option<Limit>), Refusal> {
     let one = one_input(*mechanism, q.inputs.as_slice(), input)?;
     let from = q.inputs[input];
     let start = AlongCoordinates { q, parameter: from };
@@ -87,7 +88,7 @@ fn drive_one(
     };
     let gap = match &error {
         PathError::DeadPoint { gap, .. } | PathError::JointRange { gap, .. } => *gap,
-        _ => return Ok((q, Some(error.to_string()))),
+        _ => return Ok((q, Some(Limit::from(&error)))),
     };
     let is_angle = mechanism.input_angles().get(input).copied().unwrap_or_default();
     let scale = if is_angle { 1.0 } else { mechanism.length_scale(&mechanism.pose_at(&q)) };
@@ -96,14 +97,15 @@ fn drive_one(
     // Already at the limit.
     let is_ahead = (last - from).signum() == (to - from).signum() && (last - from).abs() > BEFORE * scale * SAME;
     let reached = if is_ahead { reach(last).unwrap_or(q) } else { q };
-    Ok((reached, Some(error.to_string())))
+    Ok((reached, Some(Limit::from(&error))))
 }
 
 /// Changes the values of parameters. The position goes along: steps are so short that it is near the line through the last two,
 /// and that no determinant of a group changes its sign, as it does between two branches.
 fn reshape(machine: &Machine, from: At, to: &Aim) -> Result<Reached, Refusal> {
+    let stop = |limit| Some(Stop { input: None, limit });
     let Some(mut last) = Shape::of(machine.design(&from.parameters), &from.place)? else {
-        return Ok((from, Some("the position is none of these parameters".to_owned())));
+        return Ok((from, stop(Limit::NoPosition)));
     };
     let (mut before, mut done, mut step) = (None, 0.0, 1.0);
     let mut at = from.clone();
@@ -114,7 +116,7 @@ fn reshape(machine: &Machine, from: At, to: &Aim) -> Result<Reached, Refusal> {
         let guess = guess(&last, before.as_ref(), next - done);
         let found = Shape::near(machine.design(&parameters), &guess, &from.place.inputs)?;
         let reached = found.and_then(|shape| {
-            if shape.continues(&last, &guess) { Ok(shape) } else { Err("other positions are too near".to_owned()) }
+            if shape.continues(&last, &guess) { Ok(shape) } else { Err(Limit::TooNear) }
         });
         match reached {
             Ok(shape) => {
@@ -126,17 +128,17 @@ fn reshape(machine: &Machine, from: At, to: &Aim) -> Result<Reached, Refusal> {
                 }
                 step = (2.0 * step).min(1.0 - done);
             }
-            Err(why) => {
+            Err(limit) => {
                 step /= 2.0;
                 if step < LEAST_CHANGE {
                     let there = machine.design(&to.parameters);
-                    let why = why_not(&there, &from.place.inputs).map_or(why, |refusal| refusal.why);
-                    return Ok((at, Some(why)));
+                    let limit = why_not(&there, &from.place.inputs).map_or(limit, |Refusal { why }| Limit::Error { why });
+                    return Ok((at, stop(limit)));
                 }
             }
         }
     }
-    Ok((at, Some(format!("the position is not followed in {MOST_CHANGES} steps"))))
+    Ok((at, stop(Limit::TooLong { steps: MOST_CHANGES })))
 }
 
 /// The unknowns on the line through the last two positions.
@@ -170,12 +172,12 @@ impl Shape {
     }
 
     /// The shape at the position that Newton's method finds, or why it finds none.
-    fn near(design: Design, unknowns: &[f64], inputs: &[f64]) -> Result<Result<Self, String>, Refusal> {
+    fn near(design: Design, unknowns: &[f64], inputs: &[f64]) -> Result<Result<Self, Limit>, Refusal> {
         let prepared = prepared(&design)?;
         let mechanism = moving(&prepared)?;
         let guess = Place { inputs: inputs.to_vec(), unknowns: unknowns.to_vec() };
         let found = newton(&mechanism, &coordinates(&mechanism, &guess)?);
-        Ok(found.map(|found| Self::at(&mechanism, &found.coordinates)).map_err(|error| error.to_string()))
+        Ok(found.map(|found| Self::at(&mechanism, &found.coordinates)).map_err(|error| Limit::Error { why: error.to_string() }))
     }
 
     fn at(mechanism: &Moving<'_>, q: &Coordinates) -> Self {

@@ -10,6 +10,7 @@ mod drag;
 #[cfg(target_family = "wasm")]
 mod exports;
 mod follow;
+mod limit;
 mod machine;
 mod motion;
 mod picture;

@@ -13,6 +13,7 @@ use serde::Serialize;
 use crate::Refusal;
 use crate::about::Quantity;
 use crate::at::{AlongOne, OneInput, coordinates, moving, one_input};
+use crate::limit::Limit;
 use crate::machine::{Machine, prepared};
 use crate::question::At;
 
@@ -35,8 +36,8 @@ pub struct Range {
     least: f64,
     largest: f64,
     is_angle: bool,
-    /// Why it ends at its least and its largest input; none if it turns.
-    ends: Vec<String>,
+    /// Why it ends at its least and its largest input, if something ends it there; nothing if it turns.
+    ends: Vec<Option<Limit>>,
     turns: bool,
     columns: Vec<Quantity>,
 }
@@ -63,7 +64,7 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
     });
     let table = Table::over(&range, inputs, rate);
     let film = Animation::over(&range).ok();
-    let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().map(words).collect() };
+    let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().map(limit).collect() };
     let coordinates = || machine.about.inputs.iter().chain(&machine.about.unknowns);
     let column = |name: &str| Quantity {
         name: name.to_owned(),
@@ -96,15 +97,13 @@ fn followed<'p>(
     }
 }
 
-fn words(end: MotionEnd<&str>) -> String {
+/// The limit at an end; none if the motion goes on there.
+fn limit(end: MotionEnd<&str>) -> Option<Limit> {
     match end {
-        MotionEnd::DeadPoint { group } => format!("dead point of {group}"),
-        MotionEnd::ChangePoint { groups } => format!("change point of {}", groups.first()),
-        MotionEnd::JointRange { of, end } => {
-            format!("the {} value of {of}", if end == linkage_runtime::RangeEnd::Least { "least" } else { "largest" })
-        }
-        MotionEnd::Range | MotionEnd::Open => "it goes on".to_owned(),
-        MotionEnd::Closed { .. } => "it turns".to_owned(),
+        MotionEnd::DeadPoint { group } => Some(Limit::DeadPoint { group: group.to_owned() }),
+        MotionEnd::ChangePoint { groups } => Some(Limit::ChangePoint { group: groups.first().to_owned() }),
+        MotionEnd::JointRange { of, end } => Some(Limit::range(of, end)),
+        MotionEnd::Range | MotionEnd::Open | MotionEnd::Closed { .. } => None,
     }
 }
 

@@ -9,6 +9,7 @@ use serde::Serialize;
 use crate::Refusal;
 use crate::about::{About, Quantity};
 use crate::at::{Coordinates, Moving, rates};
+use crate::limit::Stop;
 use crate::question::{At, Show};
 
 /// A picture, and the place of the plane in it: x is `origin[0] + scale x`, y is `origin[1] - scale y`.
@@ -45,8 +46,8 @@ pub struct Moved {
     pub at: At,
     picture: Picture,
     numbers: Vec<Numbers>,
-    /// The reason why the motion stopped here.
-    pub stopped: Option<String>,
+    /// The limit at which the motion stopped here.
+    pub stopped: Option<Stop>,
 }
 
 impl Moved {
@@ -98,6 +99,7 @@ fn picture(
     film: Option<Film<'_>>,
 ) -> Result<Picture, Refusal> {
     let mut drawing = drawing(mechanism, q)?;
+    drawing.language(show.language.of_sheet());
     if let Some(Film { frames, is_current }) = film {
         drawing.room(frames);
         if show.traces && is_current {

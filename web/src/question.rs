@@ -1,5 +1,6 @@
 //! The questions of the page.
 
+use linkage_report::sheet::Language as OfSheet;
 use serde::{Deserialize, Serialize};
 
 /// A position: the inputs and the unknowns, in the order of their declaration; angles count turns.
@@ -36,11 +37,13 @@ pub struct Show {
     pub along: usize,
     /// Its rate.
     pub rate: f64,
+    /// The language of the legend.
+    pub language: Language,
 }
 
 impl Default for Show {
     fn default() -> Self {
-        Self { traces: false, velocities: false, accelerations: false, along: 0, rate: 1.0 }
+        Self { traces: false, velocities: false, accelerations: false, along: 0, rate: 1.0, language: Language::English }
     }
 }
 
@@ -65,7 +68,7 @@ pub enum Form {
     Text,
 }
 
-/// The language of a sheet.
+/// The language of a sheet or a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Language {
     /// English.
@@ -74,6 +77,16 @@ pub enum Language {
     /// Italian.
     #[serde(rename = "it")]
     Italian,
+}
+
+impl Language {
+    /// The same one of the library.
+    pub fn of_sheet(self) -> OfSheet {
+        match self {
+            Self::English => OfSheet::English,
+            Self::Italian => OfSheet::Italian,
+        }
+    }
 }
 
 /// A question of the page.

@@ -7,6 +7,7 @@ use crate::Refusal;
 use crate::about::About;
 use crate::at::{coordinates, moving, place};
 use crate::follow::follow;
+use crate::limit::Stop;
 use crate::machine::{Machine, prepared};
 use crate::motion::Followed;
 use crate::picture::{Film, Moved};
@@ -125,7 +126,7 @@ impl Session {
     }
 
     /// The picture of a position.
-    fn moved(&self, at: At, show: Show, stopped: Option<String>) -> Result<Value, Refusal> {
+    fn moved(&self, at: At, show: Show, stopped: Option<Stop>) -> Result<Value, Refusal> {
         let machine = self.machine(at.mechanism)?;
         let design = machine.design(&at.parameters);
         let prepared = prepared(&design)?;

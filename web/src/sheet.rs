@@ -1,6 +1,6 @@
 //! The sheet with the numbers of a position.
 
-use linkage_report::sheet::{Language as OfSheet, MotionNumbers};
+use linkage_report::sheet::MotionNumbers;
 use linkage_runtime::Kinematic as _;
 
 use crate::Refusal;
@@ -13,10 +13,7 @@ use crate::question::{At, Form, Language};
 pub fn sheet(machine: &Machine, at: &At, rate: Option<f64>, language: Language, form: Form) -> Result<String, Refusal> {
     let numbers = numbers(machine, at, rate).ok();
     let written = machine.documents.sheet(|sheet| {
-        sheet.language(match language {
-            Language::English => OfSheet::English,
-            Language::Italian => OfSheet::Italian,
-        });
+        sheet.language(language.of_sheet());
         for (parameter, value) in machine.about.parameters.iter().zip(&at.parameters) {
             sheet.given(&parameter.name, *value);
         }

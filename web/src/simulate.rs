@@ -88,7 +88,10 @@ fn start(scene: &SceneAtRunTime<'_, Inputs>, asked: &Simulate) -> Result<(Place,
     }
     match drive(scene.mechanism(), &asked.at.place, &inputs)? {
         (place, None) => Ok((place, rates)),
-        (_, Some(why)) => Err(Refusal::new(format!("the motion to the start of the law stops: {why}"))),
+        (reached, Some(_)) => Err(Refusal::new(format!(
+            "the laws begin at inputs {inputs:?}; the motion from this position stops at {:?}",
+            reached.inputs
+        ))),
     }
 }
 

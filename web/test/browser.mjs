@@ -1,6 +1,6 @@
 // A browser with the page, for tests: LINKAGE_DIST is the folder of the build, CHROMIUM the browser.
 
-import { existsSync, readFileSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
@@ -15,6 +15,9 @@ export const address = pathToFileURL(join(dist, "linkage.html")).href;
 /** How long a test waits for what the page computes. */
 export const PATIENCE = 60_000;
 
+export const examples = ["linkages", "machines"].flatMap((folder) =>
+    readdirSync(join(root, "examples", folder)).filter((file) => file.endsWith(".linkage")).map((file) => `${folder}/${file.slice(0, -".linkage".length)}`),
+);
 export const example = (name) => readFileSync(join(root, "examples", `${name}.linkage`), "utf8");
 
 let browser;

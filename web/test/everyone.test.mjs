@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { after, test } from "node:test";
-import { choose, drawn, open, quit, until } from "./browser.mjs";
+import { choose, drawn, open, quit, setField, until } from "./browser.mjs";
 
 after(quit);
 
@@ -107,16 +107,29 @@ test("a finger drags a joint", async () => {
     await close();
 });
 
-test("Italian: interface and sheet", async () => {
+test("Italian: interface, limits, legend, circuits and sheet", async () => {
     const { page, close } = await open({ language: "it" });
     await drawn(page);
     assert.equal(await page.$eval("#tab-sheet", (tab) => tab.textContent), "Foglio");
     assert.equal(await page.evaluate(() => document.documentElement.lang), "it");
+    // With this crank the coupler and the rocker come into line, and the motion ends.
+    await setField(page, "l2", "50");
+    await setField(page, "theta2", "170");
+    await page.click(".chip.velocities");
+    const said = (selector, pattern) => until(page, (at, wanted) => new RegExp(wanted, "u").test(document.querySelector(at).textContent), selector, pattern);
+    const legend = (name) => until(page, (word) => document.querySelector(".stage .island").shadowRoot.textContent.includes(`${word} × `), name);
+    await said(".banner", "^theta2 si ferma a .*°: punto morto di theta3, theta4\\.$");
+    await said(".side .ends", "°: punto morto di theta3, theta4");
+    await legend("velocità");
+    await choose(page, "circuits");
+    await said("#panel-circuits .lines", "^2 posizioni, 1 moto, 1 circuito\nmoto 1, circuito 1: theta2 va e viene tra");
     await choose(page, "sheet");
     await until(page, () => /^Equazioni/u.test(document.querySelector("#panel-sheet .island").shadowRoot.querySelector("h2")?.textContent ?? ""));
     await page.click(".menu.language > button");
     await (await page.$$(".menu.language .items button"))[0].click();
     assert.equal(await page.$eval("#tab-sheet", (tab) => tab.textContent), "Sheet");
+    await said(".banner", "^theta2 stops at .*°: dead point of theta3, theta4\\.$");
+    await legend("velocity");
     await until(page, () => /Constraint/u.test(document.querySelector("#panel-sheet .island").shadowRoot.textContent));
     await close();
 });

@@ -36,7 +36,7 @@ const X = (x: number): string => (frame.origin[0] + frame.scale * x).toFixed(2);
 const Y = (y: number): string => (frame.origin[1] - frame.scale * y).toFixed(2);
 let traced: string | null = null;
 
-function picture(parameters: number[], place: Place, show: Show, side: number, stopped: string | null = null): Moved | { why: string } {
+function picture(parameters: number[], place: Place, show: Show, side: number): Moved | { why: string } {
     const theta2 = place.inputs[0] ?? 0;
     const found = solve(parameters, theta2, side);
     if (found === null) return { why: "group theta3, theta4 does not close by a relative gap of 1.1e0" };
@@ -60,7 +60,7 @@ function picture(parameters: number[], place: Place, show: Show, side: number, s
             { name: "theta3", is_angle: true, value: found.unknowns[0] ?? 0, rate: 0.3, acceleration: -1 },
             { name: "theta4", is_angle: true, value: found.unknowns[1] ?? 0, rate: 0.1, acceleration: 12345 },
         ],
-        stopped,
+        stopped: null,
     };
 }
 
@@ -94,7 +94,7 @@ function answer(question: Question): object {
         case "positions":
             return {
                 positions: [1, -1].map((side) => {
-                    const shown = picture(question.parameters, { inputs: question.inputs, unknowns: [] }, { traces: false, velocities: false, accelerations: false, along: 0, rate: 1 }, side);
+                    const shown = picture(question.parameters, { inputs: question.inputs, unknowns: [] }, { traces: false, velocities: false, accelerations: false, along: 0, rate: 1, language: "en" }, side);
                     return "why" in shown ? null : { branch: side > 0 ? "theta3_theta4=left" : "theta3_theta4=right", unknowns: shown.place.unknowns, svg: shown.picture.svg };
                 }).filter((position) => position !== null),
             };
@@ -112,7 +112,7 @@ function answer(question: Question): object {
         case "sheet":
             return { text: `<header><p class="over">Kinematics</p><h1>FourBar</h1></header><section><h2>Constraint equations</h2><p>${question.language}</p><p id="value">theta2 = ${question.place.inputs[0]}</p><math display="block"><mi>x</mi><mo>=</mo><mfrac><mn>1</mn><mi>l</mi></mfrac></math></section>` };
         case "circuits":
-            return { text: "Circuit 1: mode 1.\nCircuit 2: mode 2.", charts: [] };
+            return { positions: 2, circuits: 2, motions: [1, 2].map((circuit) => ({ circuit, least: 0, largest: TURN, way: "turns", turns: 1 })), charts: [] };
         case "report":
             return { html: "<header><p class=over>Report</p><h1>FourBar</h1></header><section><h2>Mobility</h2><p>4 links.</p></section>" };
         case "rust":

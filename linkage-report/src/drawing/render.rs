@@ -166,6 +166,7 @@ fn longest(drawing: &Drawing, of: Quantity) -> f64 {
 
 fn legend(drawing: &Drawing) -> Vec<(&'static str, String)> {
     let units = drawing.units.as_ref();
+    let names = drawing.language.words().vectors_drawn;
     let shown = Quantity::ALL.into_iter().filter(|of| drawing.arrows.iter().any(|arrow| arrow.quantity == *of));
     let words = |of: Quantity| {
         let unit = match of {
@@ -176,7 +177,7 @@ fn legend(drawing: &Drawing) -> Vec<(&'static str, String)> {
             }
         };
         let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
-        (of.name(), format!("{} × {}{unit}", of.name(), scale(drawing, of)))
+        (of.name(), format!("{} × {}{unit}", names[of as usize], scale(drawing, of)))
     };
     shown.map(words).collect()
 }
@@ -204,7 +205,7 @@ fn labelled(arrow: Group, label: &str, [from, to]: [Vector2<f64>; 2]) -> Group {
 
 fn describe(drawing: &Drawing) -> String {
     let names: Vec<&str> = drawing.figure.frames.iter().flatten().map(|(name, _)| name.as_str()).collect();
-    format!("Linkage with the points {}", names.join(", "))
+    format!("{} {}", drawing.language.words().points_drawn, names.join(", "))
 }
 
 fn text(words: &str, class: &str, at: Vector2<f64>, anchor: &str) -> Text {
@@ -283,6 +284,7 @@ fn vector(ends: [Vector2<f64>; 2], quantity: Quantity) -> Group {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sheet::Language;
 
     #[test]
     fn plain_styles_have_no_variables() {
@@ -305,6 +307,8 @@ mod tests {
         for text in ["80 mm", "mm", "velocity × 0.02 s", "acceleration × 0.001 s²"] {
             assert_eq!(texts.iter().filter(|found| **found == text).count(), 1, "{text}: {texts:?}");
         }
+        let italian = drawing.language(Language::Italian).to_svg().unwrap_or_default();
+        assert!(["velocità × 0.02 s", "accelerazione × 0.001 s²"].iter().all(|text| italian.contains(text)), "{italian}");
         assert!(["40", "60"].iter().all(|tick| texts.contains(tick)), "only the last tick has the unit: {texts:?}");
     }
 

@@ -8,6 +8,7 @@ use super::Animation;
 use super::arrows::{Arrow, Quantity, Scale, Tail};
 use super::figure::Figure;
 use super::part::Part;
+use crate::sheet::Language;
 
 /// A builder for a drawing. Lengths are those of the mechanism; y points up.
 ///
@@ -32,6 +33,7 @@ pub struct Drawing {
     pub(super) scales: [Scale; 3],
     pub(super) units: Option<Units>,
     pub(super) force_unit: Option<String>,
+    pub(super) language: Language,
 }
 
 #[derive(Debug, Clone)]
@@ -61,6 +63,7 @@ impl Drawing {
             scales: [Scale::Default; 3],
             units: None,
             force_unit: None,
+            language: Language::default(),
         }
     }
 
@@ -177,6 +180,12 @@ impl Drawing {
     /// of accelerations its square.
     pub fn units(&mut self, length: impl Into<String>, time: impl Into<String>) -> &mut Self {
         self.units = Some(Units { length: length.into(), time: time.into() });
+        self
+    }
+
+    /// Sets the language of the legend and of the description; English by default.
+    pub fn language(&mut self, language: Language) -> &mut Self {
+        self.language = language;
         self
     }
 

@@ -71,6 +71,8 @@ pub(super) const WORDS: Words = Words {
     degrees: "Angles in degrees",
     velocities: "Velocities",
     accelerations: "Accelerations",
+    vectors_drawn: ["velocity", "acceleration", "force"],
+    points_drawn: "Linkage with the points",
     properties: "Properties of the velocity ratios",
     by_ratios: "by W",
     otherwise: "otherwise",

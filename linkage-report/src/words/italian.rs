@@ -73,6 +73,8 @@ pub(super) const WORDS: Words = Words {
     degrees: "Angoli in gradi",
     velocities: "Velocità",
     accelerations: "Accelerazioni",
+    vectors_drawn: ["velocità", "accelerazione", "forza"],
+    points_drawn: "Meccanismo con i punti",
     properties: "Proprietà dei rapporti di velocità",
     by_ratios: "con W",
     otherwise: "altrimenti",

@@ -1,14 +1,17 @@
 // The circuits: which positions are connected by motion.
 
 import { h } from "../dom";
+import { show as shown } from "../format";
 import { Island } from "../island";
 import type { Machine } from "../machine";
+import type { Circuits, Quantity } from "../protocol";
 import type { Session } from "../session";
 import { chartStyles } from "../styles";
+import { languageOf, word } from "../words";
 import { Tab } from "./tab";
 
 export class CircuitsTab extends Tab {
-    #text = h("pre", { class: "lines", lang: "en" });
+    #text = h("pre", { class: "lines" });
     #charts = h("div", { class: "charts" });
 
     constructor(machine: Machine, session: Session) {
@@ -19,17 +22,17 @@ export class CircuitsTab extends Tab {
     protected key(): unknown[] | null {
         const { at, show } = this.machine;
         // The circuits do not depend on the input that moves.
-        return at && [at.mechanism, at.parameters, at.place.inputs.with(show.along, 0), show.along];
+        return at && [at.mechanism, at.parameters, at.place.inputs.with(show.along, 0), show.along, languageOf()];
     }
 
     protected async compute(): Promise<boolean> {
-        const { at, show } = this.machine;
-        if (at === null) return false;
+        const { at, show, about } = this.machine;
+        if (at === null || about === null) return false;
         const { mechanism, parameters, place } = at;
         const question = { do: "circuits", mechanism, parameters, inputs: place.inputs, along: show.along } as const;
         const answer = await this.ask<"circuits">(() => question);
         if (answer === undefined) return false;
-        this.#text.textContent = answer?.text.trimEnd() ?? "";
+        this.#text.textContent = answer === null ? "" : inWords(answer, about.inputs[show.along]);
         this.#charts.replaceChildren(
             ...(answer?.charts ?? []).map(({ svg }) => {
                 const island = new Island("chart", chartStyles);
@@ -39,4 +42,12 @@ export class CircuitsTab extends Tab {
         );
         return true;
     }
+}
+
+function inWords({ positions, circuits, motions }: Circuits, input: Quantity | undefined): string {
+    const each = motions.map((motion, index) => {
+        const [least, largest] = [motion.least, motion.largest].map((end) => shown(end ?? NaN, input?.is_angle));
+        return `${word().motionOfCircuit(index + 1, motion.circuit)}: ${word().way(motion, input?.name ?? "", least ?? "", largest ?? "")}`;
+    });
+    return [word().circuitsHead(positions, motions.length, circuits), ...each].join("\n");
 }

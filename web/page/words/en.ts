@@ -1,7 +1,9 @@
 // The words of the page in English. The other languages have the same ones, or do not compile.
 
+import type { Circuits, Limit } from "../protocol";
+
 export const en = {
-    code: "en",
+    code: "en" as "en" | "it",
     ownName: "English",
     title: "linkage: planar mechanisms from loop equations",
     slogan: "Planar mechanisms from loop equations",
@@ -80,11 +82,54 @@ export const en = {
     accelerationHead: "Acceleration",
     ends: "Limits",
     hide: "Hide",
+    limit: (limit: Limit): string => {
+        switch (limit.is) {
+            case "dead_point":
+                return `dead point of ${limit.group}`;
+            case "change_point":
+                return `change point of ${limit.group}, where motions cross`;
+            case "no_direction":
+                return "dead point or change point";
+            case "least":
+                return `least value of ${limit.of}`;
+            case "largest":
+                return `largest value of ${limit.of}`;
+            case "too_near":
+                return "other positions are too near to know which one goes on";
+            case "no_position":
+                return "the loops do not close here";
+            case "too_long":
+                return `more than ${limit.steps} steps`;
+            case "error":
+                return limit.why;
+        }
+    },
+    inputStops: (input: string, value: string, limit: string): string => `${input} stops at ${value}: ${limit}.`,
+    parametersStop: (limit: string): string => `The parameters go no further: ${limit}.`,
 
     // Charts.
     choose: "Columns",
     chooseHint: "Choose columns: each kind of quantity has a chart.",
     overMotion: (name: string): string => `Over the motion of ${name}`,
+
+    // Circuits.
+    circuitsHead: (positions: number, motions: number, circuits: number): string => {
+        const count = (count: number, of: string): string => `${count} ${of}${count === 1 ? "" : "s"}`;
+        return `${count(positions, "position")}, ${count(motions, "motion")}, ${count(circuits, "circuit")}`;
+    },
+    motionOfCircuit: (motion: number, circuit: number): string => `motion ${motion}, circuit ${circuit}`,
+    way: ({ way, turns }: Circuits["motions"][number], input: string, least: string, largest: string): string => {
+        switch (way) {
+            case "turns":
+                return `${input} turns fully${turns === 1 ? "" : `; the motion closes after ${turns} turns`}`;
+            case "to_and_fro":
+                return `${input} goes to and fro between ${least} and ${largest}`;
+            case "ends":
+                return `${input} from ${least} to ${largest}, at the ends of ranges`;
+            case "open":
+                return `${input} from ${least} to ${largest} and on: the motion does not close`;
+        }
+    },
 
     // Simulation.
     scene: "Scene",

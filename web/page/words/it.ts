@@ -77,10 +77,52 @@ export const it: Words = {
     accelerationHead: "Accelerazione",
     ends: "Limiti",
     hide: "Nascondi",
+    limit: (limit) => {
+        switch (limit.is) {
+            case "dead_point":
+                return `punto morto di ${limit.group}`;
+            case "change_point":
+                return `punto di biforcazione di ${limit.group}, dove si incrociano moti`;
+            case "no_direction":
+                return "punto morto o di biforcazione";
+            case "least":
+                return `valore minimo di ${limit.of}`;
+            case "largest":
+                return `valore massimo di ${limit.of}`;
+            case "too_near":
+                return "altre posizioni sono troppo vicine per sapere quale prosegue";
+            case "no_position":
+                return "qui le maglie non si chiudono";
+            case "too_long":
+                return `più di ${limit.steps} passi`;
+            case "error":
+                return limit.why;
+        }
+    },
+    inputStops: (input, value, limit) => `${input} si ferma a ${value}: ${limit}.`,
+    parametersStop: (limit) => `I parametri non vanno oltre: ${limit}.`,
 
     choose: "Colonne",
     chooseHint: "Si scelgano le colonne: ogni specie di grandezza ha un grafico.",
     overMotion: (name) => `Lungo il moto di ${name}`,
+
+    circuitsHead: (positions, motions, circuits) => {
+        const count = (count: number, one: string, more: string): string => `${count} ${count === 1 ? one : more}`;
+        return `${count(positions, "posizione", "posizioni")}, ${count(motions, "moto", "moti")}, ${count(circuits, "circuito", "circuiti")}`;
+    },
+    motionOfCircuit: (motion, circuit) => `moto ${motion}, circuito ${circuit}`,
+    way: ({ way, turns }, input, least, largest) => {
+        switch (way) {
+            case "turns":
+                return `${input} fa giri interi${turns === 1 ? "" : `; il moto si chiude dopo ${turns} giri`}`;
+            case "to_and_fro":
+                return `${input} va e viene tra ${least} e ${largest}`;
+            case "ends":
+                return `${input} da ${least} a ${largest}, gli estremi di intervalli`;
+            case "open":
+                return `${input} da ${least} a ${largest} e oltre: il moto non si chiude`;
+        }
+    },
 
     scene: "Scena",
     until: "fino a",

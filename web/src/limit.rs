@@ -1,0 +1,58 @@
+//! The reasons why a motion goes no further. The page has their words, one table for each language.
+
+use linkage_runtime::{PathError, RangeEnd};
+use serde::Serialize;
+
+/// The limit of a motion.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(tag = "is", rename_all = "snake_case")]
+pub enum Limit {
+    /// A group locks.
+    DeadPoint { group: String },
+    /// Motions cross where a group is singular.
+    ChangePoint { group: String },
+    /// It begins at a dead point or at a change point.
+    NoDirection,
+    /// A coordinate or an output has the least value of its range.
+    Least { of: String },
+    /// A coordinate or an output has the largest value of its range.
+    Largest { of: String },
+    /// Other positions are too near to know which one goes on.
+    TooNear,
+    /// The loops do not close at its start.
+    NoPosition,
+    /// It takes more than this number of steps.
+    TooLong { steps: usize },
+    /// Another error, in the words of the library.
+    Error { why: String },
+}
+
+/// A limit at which a motion stopped.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Stop {
+    /// The place of the input that moved; none if it was a motion to other values of parameters.
+    pub input: Option<usize>,
+    /// The limit.
+    #[serde(flatten)]
+    pub limit: Limit,
+}
+
+impl Limit {
+    pub fn range(of: &str, end: RangeEnd) -> Self {
+        let of = of.to_owned();
+        if end == RangeEnd::Least { Self::Least { of } } else { Self::Largest { of } }
+    }
+}
+
+impl From<&PathError<&str>> for Limit {
+    fn from(error: &PathError<&str>) -> Self {
+        match *error {
+            PathError::DeadPoint { group, .. } => Self::DeadPoint { group: group.to_owned() },
+            PathError::ChangePoint { group, .. } => Self::ChangePoint { group: group.to_owned() },
+            PathError::JointRange { of, end, .. } => Self::range(of, end),
+            PathError::NoDirection { .. } => Self::NoDirection,
+            PathError::TooManySteps { steps, .. } => Self::TooLong { steps },
+            PathError::Lost { .. } | PathError::Position(_) | PathError::Input(_) => Self::Error { why: error.to_string() },
+        }
+    }
+}
