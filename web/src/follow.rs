@@ -115,9 +115,8 @@ fn reshape(machine: &Machine, from: At, to: &Aim) -> Result<Reached, Refusal> {
         let parameters: Vec<f64> = from.parameters.iter().zip(&to.parameters).map(between).collect();
         let guess = guess(&last, before.as_ref(), next - done);
         let found = Shape::near(machine.design(&parameters), &guess, &from.place.inputs)?;
-        let reached = found.and_then(|shape| {
-            if shape.continues(&last, &guess) { Ok(shape) } else { Err(Limit::TooNear) }
-        });
+        let reached =
+            found.and_then(|shape| if shape.continues(&last, &guess) { Ok(shape) } else { Err(Limit::TooNear) });
         match reached {
             Ok(shape) => {
                 before = Some((std::mem::replace(&mut last, shape), next - done));
@@ -132,7 +131,8 @@ fn reshape(machine: &Machine, from: At, to: &Aim) -> Result<Reached, Refusal> {
                 step /= 2.0;
                 if step < LEAST_CHANGE {
                     let there = machine.design(&to.parameters);
-                    let limit = why_not(&there, &from.place.inputs).map_or(limit, |Refusal { why }| Limit::Error { why });
+                    let limit =
+                        why_not(&there, &from.place.inputs).map_or(limit, |Refusal { why }| Limit::Error { why });
                     return Ok((at, stop(limit)));
                 }
             }
@@ -177,7 +177,9 @@ impl Shape {
         let mechanism = moving(&prepared)?;
         let guess = Place { inputs: inputs.to_vec(), unknowns: unknowns.to_vec() };
         let found = newton(&mechanism, &coordinates(&mechanism, &guess)?);
-        Ok(found.map(|found| Self::at(&mechanism, &found.coordinates)).map_err(|error| Limit::Error { why: error.to_string() }))
+        Ok(found
+            .map(|found| Self::at(&mechanism, &found.coordinates))
+            .map_err(|error| Limit::Error { why: error.to_string() }))
     }
 
     fn at(mechanism: &Moving<'_>, q: &Coordinates) -> Self {

@@ -52,7 +52,7 @@ impl From<&PathError<&str>> for Limit {
             PathError::JointRange { of, end, .. } => Self::range(of, end),
             PathError::NoDirection { .. } => Self::NoDirection,
             PathError::TooManySteps { steps, .. } => Self::TooLong { steps },
-            PathError::Lost { .. } | PathError::Position(_) | PathError::Input(_) => Self::Error { why: error.to_string() },
+            _ => Self::Error { why: error.to_string() },
         }
     }
 }

@@ -43,7 +43,14 @@ pub struct Show {
 
 impl Default for Show {
     fn default() -> Self {
-        Self { traces: false, velocities: false, accelerations: false, along: 0, rate: 1.0, language: Language::English }
+        Self {
+            traces: false,
+            velocities: false,
+            accelerations: false,
+            along: 0,
+            rate: 1.0,
+            language: Language::English,
+        }
     }
 }
 

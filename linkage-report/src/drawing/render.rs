@@ -308,7 +308,10 @@ mod tests {
             assert_eq!(texts.iter().filter(|found| **found == text).count(), 1, "{text}: {texts:?}");
         }
         let italian = drawing.language(Language::Italian).to_svg().unwrap_or_default();
-        assert!(["velocità × 0.02 s", "accelerazione × 0.001 s²"].iter().all(|text| italian.contains(text)), "{italian}");
+        assert!(
+            ["velocità × 0.02 s", "accelerazione × 0.001 s²"].iter().all(|text| italian.contains(text)),
+            "{italian}"
+        );
         assert!(["40", "60"].iter().all(|tick| texts.contains(tick)), "only the last tick has the unit: {texts:?}");
     }
 
