@@ -40,6 +40,14 @@ linkage! {
         point Ram = (x, height);
         derive drawing;
     }
+    /// A four-bar with the frame on the side of its links.
+    pub mechanism Closed {
+        param l1 = 80, l2 = 20, l3 = 50, l4 = 70;
+        input theta2;
+        unknown theta3, theta4;
+        loop l2@theta2 + l3@theta3 + l4@theta4 - l1@0 = 0;
+        derive drawing;
+    }
     /// An arm through a block on a crank: the arm has no other joint.
     pub mechanism Inverted {
         param a = 1, d = 2.5;
@@ -99,6 +107,9 @@ fn loops_and_points_become_parts() {
     let mut found = parts::<Rocker>();
     found.sort_unstable();
     assert_eq!(found, ["bar 1-2", "bar O-1", "crank D-2", "ground D", "ground O"]);
+    let mut found = parts::<Closed>();
+    found.sort_unstable();
+    assert_eq!(found, ["bar 2-1", "bar 3-2", "crank O-1", "ground 3", "ground O"]);
     let mut found = parts::<Shaper>();
     found.sort_unstable();
     assert_eq!(

@@ -210,7 +210,9 @@ impl Tracer<'_> {
     }
 
     /// Merges joints that the vectors show to be one: a position at the end of a vector from any formula of its start, such
-    /// as `D - l4@theta4` and the joint C of the loop `B + l3@theta3 = C`, `C + l4@theta4 = D`.
+    /// as `D - l4@theta4` and the joint C of the loop `B + l3@theta3 = C`, `C + l4@theta4 = D`. A position at rest need not be
+    /// that of a joint: in `a@t + b@p + c@q - d@0 = 0` the end of c is at d@0, the other end of a vector that begins at the
+    /// origin.
     fn merge(&mut self) {
         let mut is_changed = true;
         while is_changed {
@@ -221,9 +223,9 @@ impl Tracer<'_> {
                     let formulas: Vec<[NodeId; 2]> = self.joints.formulas(self.joints.find(start)).collect();
                     for at in formulas {
                         let moved = moved(self.graph, at, &link, sign);
-                        if let Some(known) = self.joints.known(moved)
-                            && known != self.joints.find(end)
-                        {
+                        let rests = !self.moves(&moved) && !self.rests(end);
+                        let known = self.joints.known(moved).or_else(|| rests.then(|| self.joints.add(moved)));
+                        if let Some(known) = known.filter(|&known| self.joints.find(known) != self.joints.find(end)) {
                             self.joints.merge(known, end);
                             is_changed = true;
                         }
@@ -231,6 +233,11 @@ impl Tracer<'_> {
                 }
             }
         }
+    }
+
+    /// True if a formula of a joint has no coordinates.
+    fn rests(&self, joint: usize) -> bool {
+        self.joints.formulas(self.joints.find(joint)).any(|formula| !self.moves(&formula))
     }
 
     fn moves(&self, nodes: &[NodeId]) -> bool {
@@ -294,9 +301,7 @@ impl Tracer<'_> {
 
     fn finish(mut self, driving: &BTreeSet<SymbolId>) -> Skeleton {
         let bodies = self.bodies();
-        let is_fixed: Vec<bool> = (0..self.joints.len())
-            .map(|joint| self.joints.formulas(joint).any(|formula| !self.moves(&formula)))
-            .collect();
+        let is_fixed: Vec<bool> = (0..self.joints.len()).map(|joint| self.rests(joint)).collect();
         let (mut parts, mut guides) = (Vec::new(), Vec::new());
         let mut pivots: BTreeSet<usize> = BTreeSet::new();
         for body in &bodies {
