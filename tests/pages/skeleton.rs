@@ -109,7 +109,7 @@ fn loops_and_points_become_parts() {
     assert_eq!(found, ["bar 1-2", "bar O-1", "crank D-2", "ground D", "ground O"]);
     let mut found = parts::<Closed>();
     found.sort_unstable();
-    assert_eq!(found, ["bar 2-1", "bar 3-2", "crank O-1", "ground 3", "ground O"]);
+    assert_eq!(found, ["bar 1-2", "bar 3-2", "crank O-1", "ground 3", "ground O"]);
     let mut found = parts::<Shaper>();
     found.sort_unstable();
     assert_eq!(
