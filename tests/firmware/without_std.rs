@@ -2,24 +2,7 @@
 
 use std::process::Command;
 
-use crate::{built, numbers, package};
-
-const MANIFEST: &str = r#"
-[package]
-name = "without_std"
-version = "0.0.0"
-edition = "2024"
-
-[dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["libm", "dynamics"] }
-
-[profile.three]
-inherits = "release"
-opt-level = 3
-panic = "abort"
-
-[workspace]
-"#;
+use crate::{MANIFEST, built, numbers, package};
 
 const PROGRAM: &str = r#"
 mod numbers;
@@ -33,7 +16,8 @@ fn main() {
 fn numbers_have_the_same_bits_without_std() {
     let files = [("main.rs", PROGRAM), ("numbers.rs", include_str!("numbers.rs"))];
     let files = files.map(|(name, text)| (name.to_owned(), text.to_owned()));
-    let folder = package("without_std", MANIFEST, files.to_vec());
+    let manifest = MANIFEST.replace("name = \"firmware\"", "name = \"without_std\"");
+    let folder = package("without_std", &manifest, files.to_vec());
     let [program] = &built(&folder, "three", None, |file| file.ends_with("without_std"))[..] else {
         panic!("one program");
     };
