@@ -87,7 +87,7 @@ pub enum Language {
 }
 
 impl Language {
-    /// The same one of the library.
+    /// This language, as the library names it.
     pub fn of_sheet(self) -> OfSheet {
         match self {
             Self::English => OfSheet::English,
