@@ -190,3 +190,42 @@ fn a_picture_has_the_joints_where_it_says() {
         assert!(svg.contains(&format!("translate({x} {y})")), "{joint} {x} {y}");
     }
 }
+
+/// The numbers next to the sliders, and the places of joints in the picture.
+#[test]
+fn numbers_and_joints_are_those_of_emitted_code() {
+    let mut page = Page::with(TEXT);
+    let parameters = page.defaults(0);
+    let at = page.begin(0, &parameters);
+    let four_bar = FourBar::default();
+    for input in [0.3, 1.9, 4.0] {
+        let show = json!({ "velocities": true, "rate": 2.0 });
+        let to = json!({ "parameters": parameters, "inputs": [input] });
+        let moved = page.at(&at, &json!({ "do": "follow", "to": to, "show": show }));
+        let [theta3, theta4] = numbers(&moved["place"]["unknowns"])[..] else { panic!("{moved}") };
+        let motion = four_bar.motion(&FourBarCoordinates { theta2: input, theta3, theta4 }, 2.0, 0.0).unwrap();
+        let (rates, accelerations) = (motion.rates, motion.accelerations);
+        let expected = [
+            ("theta2", [input, 2.0, 0.0]),
+            ("theta3", [theta3, rates.theta3, accelerations.theta3]),
+            ("theta4", [theta4, rates.theta4, accelerations.theta4]),
+        ];
+        let rows = moved["numbers"].as_array().unwrap();
+        assert_eq!(rows.len(), expected.len());
+        for (row, (name, numbers)) in rows.iter().zip(expected) {
+            assert_eq!(row["name"], name);
+            for (key, number) in ["value", "rate", "acceleration"].into_iter().zip(numbers) {
+                let found = row[key].as_f64().unwrap();
+                // A number as text and back.
+                assert!((found - number).abs() <= f64::EPSILON * number.abs(), "{name} {key}: {found} {number}");
+            }
+        }
+        let joint = |name: &str| -> [f64; 2] {
+            let joints = moved["picture"]["joints"].as_array().unwrap();
+            let joint = joints.iter().find(|joint| joint["name"] == name).unwrap();
+            ["x", "y"].map(|axis| joint[axis].as_f64().unwrap())
+        };
+        let (found, c) = (joint("C"), motion.points.c.position);
+        assert!((found[0] - c.x).hypot(found[1] - c.y) < 1e-13 * parameters[0], "{found:?} {c}");
+    }
+}
