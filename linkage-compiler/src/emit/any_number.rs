@@ -5,7 +5,7 @@ use quote::quote;
 
 use super::functions;
 use super::names::{ident, string};
-use super::rust::literal;
+use super::numbers::literal;
 use super::types::other_scalar;
 use crate::lower::Code;
 use crate::program::{Family, Program};

@@ -5,7 +5,7 @@ use quote::quote;
 use syn::ext::IdentExt;
 
 use super::names::ident;
-use super::rust::literal;
+use super::numbers::literal;
 use super::types::{field, mark};
 use crate::ids::CoordinateId;
 use crate::model::{Driver, Mechanism};

@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::names::string;
-use super::rust::{separated, separated_integer};
+use super::numbers::{separated, separated_integer};
 use crate::document::{
     Chain, ContactEffect, Document, DriverChoice, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix,
     Method, Node, Number, PointVectors, Quantity, Root, SceneDocument, Sensitivity, SheetDocument, Symbol, Table,

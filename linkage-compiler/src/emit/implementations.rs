@@ -5,7 +5,7 @@ use quote::{ToTokens, quote};
 
 use super::functions;
 use super::names::{ident, string};
-use super::rust::literal;
+use super::numbers::literal;
 use crate::lower::Code;
 use crate::model::TypeName;
 use crate::program::{Associated, ConstantValue, Group, Implementation, Implemented, Kink, Part};

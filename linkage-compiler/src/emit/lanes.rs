@@ -5,7 +5,8 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::names::{comment, ident};
-use super::rust::{argument, literal};
+use super::numbers::literal;
+use super::rust::argument;
 use super::types::{field, mark, other_scalar};
 use crate::lower::Code;
 use crate::model::Name;

@@ -17,6 +17,7 @@ mod items;
 mod kernels;
 mod lanes;
 mod names;
+mod numbers;
 mod printer;
 mod reactions;
 mod rust;
@@ -36,7 +37,7 @@ use crate::program::{self, Access, Function, Functions, Implemented, Operations,
 use fpcore::Straight;
 use kernels::kernels;
 use names::string;
-pub use rust::parts_of_pi;
+pub use numbers::parts_of_pi;
 pub use text::{function_as_text, text};
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.

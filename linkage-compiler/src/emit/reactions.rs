@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::names::{comment, ident};
-use super::rust::literal;
+use super::numbers::literal;
 use super::types::derives;
 use crate::model::LoadKind;
 use crate::program::{MULTIPLIERS, SceneSignatures};

@@ -5,7 +5,7 @@ use quote::quote;
 use syn::Attribute;
 
 use super::names::ident;
-use super::rust::literal;
+use super::numbers::literal;
 use super::types::{MOST_ARGUMENTS, default_of, docs, docs_of_parameter, field, other_scalar, serde_of_parameters};
 use crate::model::Parameter;
 use crate::program::SceneSignatures;

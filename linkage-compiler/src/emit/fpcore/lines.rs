@@ -4,7 +4,7 @@ use super::name::{ascii, reserved, symbol};
 use super::operations::{Check, Operations};
 use super::value::{Role, Value};
 use crate::document::{KernelCode, Node, Number, Table};
-use crate::emit::rust::parts_of_pi;
+use crate::emit::numbers::parts_of_pi;
 use crate::graph;
 use crate::ids::Id;
 use crate::lower::{self, ValueId};

@@ -5,7 +5,8 @@ use quote::quote;
 use syn::Attribute;
 
 use crate::emit::names::comment;
-use crate::emit::rust::{self, literal};
+use crate::emit::numbers::literal;
+use crate::emit::rust;
 use crate::model::Name;
 
 /// A field name with the user's span, so that editors link the field to its declaration.

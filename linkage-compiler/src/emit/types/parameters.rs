@@ -7,7 +7,7 @@ use syn::Attribute;
 use super::derives::serde_of_parameters;
 use super::fields::{Fields, docs};
 use crate::emit::names::{comment, ident};
-use crate::emit::rust;
+use crate::emit::numbers;
 use crate::graph::Number;
 use crate::model::{Mechanism, Parameter, TypeName};
 
@@ -104,7 +104,7 @@ pub(in crate::emit) fn default_of(mechanism: &Mechanism, parameter: &Parameter) 
     let node = parameter.default?;
     let graph = &mechanism.graph;
     let number = graph.as_number(node).or_else(|| graph.constant_value(node).map(Number::Float))?;
-    Some(rust::plain(number))
+    Some(numbers::plain(number))
 }
 
 /// The name of a second scalar type parameter; it differs from all types of the user.
