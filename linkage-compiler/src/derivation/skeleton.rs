@@ -223,9 +223,13 @@ impl Tracer<'_> {
                     let formulas: Vec<[NodeId; 2]> = self.joints.formulas(self.joints.find(start)).collect();
                     for at in formulas {
                         let moved = moved(self.graph, at, &link, sign);
-                        let rests = !self.moves(&moved) && !self.rests(end);
-                        let known = self.joints.known(moved).or_else(|| rests.then(|| self.joints.add(moved)));
-                        if let Some(known) = known.filter(|&known| self.joints.find(known) != self.joints.find(end)) {
+                        let known = self.joints.known(moved).or_else(|| {
+                            let is_new = !self.moves(&moved) && !self.rests(end);
+                            is_new.then(|| self.joints.add(moved))
+                        });
+                        if let Some(known) = known
+                            && known != self.joints.find(end)
+                        {
                             self.joints.merge(known, end);
                             is_changed = true;
                         }
