@@ -71,7 +71,9 @@ pub(super) const WORDS: Words = Words {
     degrees: "Angles in degrees",
     velocities: "Velocities",
     accelerations: "Accelerations",
+    #[cfg(feature = "drawing")]
     vectors_drawn: ["velocity", "acceleration", "force"],
+    #[cfg(feature = "drawing")]
     points_drawn: "Linkage with the points",
     properties: "Properties of the velocity ratios",
     by_ratios: "by W",

@@ -73,7 +73,9 @@ pub(super) const WORDS: Words = Words {
     degrees: "Angoli in gradi",
     velocities: "Velocità",
     accelerations: "Accelerazioni",
+    #[cfg(feature = "drawing")]
     vectors_drawn: ["velocità", "accelerazione", "forza"],
+    #[cfg(feature = "drawing")]
     points_drawn: "Meccanismo con i punti",
     properties: "Proprietà dei rapporti di velocità",
     by_ratios: "con W",

@@ -8,7 +8,8 @@ use linkage_runtime::derivation::{Formula, FormulaView, Group, GroupMethod};
 
 use crate::sheet::{latex, number};
 
-/// The language of a sheet or a drawing. Names and doc comments of a mechanism are not translated, and numbers keep the decimal point.
+/// The language of a sheet or a drawing. Names and doc comments of a mechanism are not translated, and numbers keep the decimal
+/// point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Language {
     /// English, the default.
@@ -92,8 +93,10 @@ pub(crate) struct Words {
     pub(crate) velocities: &'static str,
     pub(crate) accelerations: &'static str,
     /// The kinds of vectors in the legend of a drawing: velocity, acceleration, force.
+    #[cfg(feature = "drawing")]
     pub(crate) vectors_drawn: [&'static str; 3],
     /// Before the points of a drawing.
+    #[cfg(feature = "drawing")]
     pub(crate) points_drawn: &'static str,
     pub(crate) properties: &'static str,
     pub(crate) by_ratios: &'static str,
