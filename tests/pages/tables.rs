@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use linkage::range_of_motion::{RangeOfMotion, RangeOptions};
 use linkage::simulation::{Start, Then, simulate};
 use linkage::table::{Cause, TableError, Units};
-use linkage::{Elbow, MotionError, PathError, Scene, Table, linkage};
+use linkage::{Elbow, MotionError, PathError, Real, Scene, Table, linkage};
 use linkage_oracle::close;
 use serde_json::Value;
 
@@ -227,6 +227,7 @@ fn a_simulation_by_rows() {
         assert_eq!([time[row], psi[row], rate[row]], [state.t, state.q.psi, state.rates.psi]);
         assert_eq!([torque[row], drag[row]], [loads.drives.theta, loads.contacts[0]]);
         let force = loads.joints.a_on_rod;
+        assert_eq!(pin[row], Real::hypotenuse(force.x, force.y));
         close("pin", pin[row], force.x.hypot(force.y), 2.0 * f64::EPSILON * pin[row]);
         let motion = scene.mechanism.motion(&state.q, state.rates.theta, 0.0).unwrap();
         let scale = motion.accelerations.psi.abs() + RATE * RATE;

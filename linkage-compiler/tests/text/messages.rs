@@ -100,7 +100,9 @@ fn help_is_the_rest_of_a_message() {
 /// Words that Rust alone understands are read and have no effect, except `cfg`.
 #[test]
 fn words_for_rust_have_no_effect() {
-    let of_rust = format!("/// A crank.\n#[derive(Debug, Clone)]\n#[allow(dead_code)]\npub(crate) {CRANK}");
+    let of_rust = format!(
+        "/// A crank.\n#[derive(Debug, Clone)]\n#[allow(dead_code, reason = \"an example\")]\npub(crate) {CRANK}"
+    );
     let of_rust = of_rust.replace("param", "derive serde, limits; param");
     assert_eq!(compiled(&of_rust), Ok(vec!["Crank".to_owned()]));
     let found = message(&format!("#[cfg(test)]\n{CRANK}"));

@@ -175,11 +175,12 @@ fn steps_over_change_points_keep_the_tolerance() {
 }
 
 /// Computed independently with an event loop for one rotor: 16 impacts and a rest lie within 0.2 rad of the change
-/// point. Each rate is half of the one before; how many more there are before the rest is left to rounding errors.
+/// point. Each impact has half of the rate of the one before. At the last ones the stop is left by less than a rounding error of
+/// the angle, so that their number depends on the tolerance, here by one.
 #[test]
 fn stops_next_to_a_change_point_act() {
     let scene = Stopped { p: 5.592_030_199_999_999, ..Stopped::default() };
-    for tolerance in [1e-6, 1e-9, 1e-12] {
+    for (tolerance, all_impacts) in [(1e-6, 23), (1e-9, 24), (1e-12, 24)] {
         let start = Start { t: 0.0, q: CranksCoordinates { th: 3.256, ph: 0.0, ps: 3.256 }, input_rates: 0.516 };
         let mut motion = simulate(&scene, start, 10.0, tolerance).unwrap();
         let mut changes = Vec::new();
@@ -194,7 +195,7 @@ fn stops_next_to_a_change_point_act() {
         assert_eq!(others, [Change::Rests, Change::LetsGo], "{tolerance:e}");
         // The 20th has the rate 1.92e-6, the next one half of it.
         let count = impacts.iter().filter(|(_, rate)| *rate > 1.4e-6).count();
-        assert!(count == 20 && (23..=24).contains(&impacts.len()), "{tolerance:e}: {impacts:?}");
+        assert_eq!((count, impacts.len()), (20, all_impacts), "{tolerance:e}: {impacts:?}");
         assert!((motion.state().q.th + 6.0732).abs() < 1e-5, "{tolerance:e}: {:?}", motion.state().q);
     }
 }
