@@ -96,7 +96,7 @@ export class Editor {
                     colours,
                     look,
                     this.#labels.of([]),
-                    // Tab indents; Escape and then Tab leaves the text.
+                    // Tab leaves the text.
                     keymap.of([...closeBracketsKeymap, ...completionKeymap, ...historyKeymap, ...lintKeymap, ...defaultKeymap]),
                     EditorView.updateListener.of((update: ViewUpdate) => {
                         if (update.docChanged && !this.#isQuiet) this.changed.emit(this.text);

@@ -20,7 +20,8 @@ const MOST_STEPS: usize = 20_000;
 /// not be known on which side it goes on.
 const BEFORE: f64 = 1e-6;
 
-/// A motion that begins within this part of that distance from its stop is there already: the rest is a rounding error.
+/// A motion has already reached its stop where the distance that is left is less than this part of `BEFORE`: such a distance may
+/// be a rounding error.
 const SAME: f64 = 1e-3;
 
 /// The most steps of a motion to other parameters, and the least part of the way of a step.

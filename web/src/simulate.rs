@@ -88,10 +88,17 @@ fn start(scene: &SceneAtRunTime<'_, Inputs>, asked: &Simulate) -> Result<(Place,
     }
     match drive(scene.mechanism(), &asked.at.place, &inputs)? {
         (place, None) => Ok((place, rates)),
-        (reached, Some(_)) => Err(Refusal::new(format!(
-            "the laws begin at inputs {inputs:?}; the motion from this position stops at {:?}",
-            reached.inputs
-        ))),
+        (reached, Some(_)) => {
+            let named = |values: &[f64]| -> String {
+                let each = values.iter().enumerate();
+                let each = each.map(|(place, value)| format!("{} = {value:.6}", scene.mechanism().input_name(place)));
+                each.collect::<Vec<_>>().join(", ")
+            };
+            let (from, stop) = (named(&inputs), named(&reached.inputs));
+            Err(Refusal::new(format!(
+                "the laws of the scene begin at {from}; the motion to this position stops at {stop}"
+            )))
+        }
     }
 }
 

@@ -28,7 +28,7 @@ export const en = {
     skip: "Skip to the picture",
 
     // The text.
-    textLabel: "The mechanism, as text; Escape and then Tab leaves it",
+    textLabel: "The mechanism, as text",
     text: "Text",
     mistakes: (count: number): string => (count === 1 ? "1 mistake" : `${count} mistakes`),
     noMistakes: "No mistakes",

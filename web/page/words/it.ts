@@ -26,7 +26,7 @@ export const it: Words = {
     close: "Chiudi",
     skip: "Vai alla figura",
 
-    textLabel: "Il meccanismo, come testo; Esc e poi Tab per uscirne",
+    textLabel: "Il meccanismo, come testo",
     text: "Testo",
     mistakes: (count) => (count === 1 ? "1 errore" : `${count} errori`),
     noMistakes: "Nessun errore",

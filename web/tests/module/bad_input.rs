@@ -116,3 +116,27 @@ fn questions_without_sense_are_refused() {
     let answer: Value = serde_json::from_str(&page.session.ask("no JSON", &mut |_| ())).unwrap();
     assert!(answer["why"].is_string());
 }
+
+#[test]
+fn a_law_that_begins_where_no_motion_leads_says_where_it_stops() {
+    let mut page = Page::with(
+        "mechanism Rocking {
+            param l1 = 80, l2 = 50, l3 = 50, l4 = 70;
+            input theta2;
+            unknown theta3, theta4;
+            loop l2@theta2 + l3@theta3 + l4@theta4 = l1@0;
+            body crank { inertia 1; angle theta2; }
+            scene Driven { inertia; drive theta2 = 3 + t; }
+        }",
+    );
+    let parameters = page.defaults(0);
+    let at = page.begin(0, &parameters);
+    let asked = json!({ "do": "simulate", "scene": 0, "values": [], "rates": [0.0], "to": 1.0, "tolerance": 1e-6, "steps": 10 });
+    let answer = page.at(&at, &asked);
+    let why = answer["why"].as_str().unwrap();
+    let (before, stop) = why.split_once("; the motion to this position stops at theta2 = ").unwrap();
+    assert_eq!(before, "the laws of the scene begin at theta2 = 3.000000");
+    // The coupler and the rocker are in line: l3 + l4 from the end of the frame.
+    let limit = ((80.0_f64.powi(2) + 50.0_f64.powi(2) - 120.0_f64.powi(2)) / (2.0 * 80.0 * 50.0)).acos();
+    assert!((stop.parse::<f64>().unwrap() - limit).abs() < 3e-6, "{why}");
+}
