@@ -6,6 +6,7 @@ use linkage_interpreter::SceneAtRunTime;
 use linkage_report::Table;
 use linkage_report::chart::Page;
 use linkage_report::table::Cause;
+use linkage_runtime::Mechanism as _;
 use serde::Serialize;
 
 use crate::Refusal;
