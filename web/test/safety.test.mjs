@@ -161,7 +161,7 @@ test("the prefixes of every example are read, and the last good picture stays", 
             assert.ok(state.isDrawn, `${name}: prefix of ${end}`);
             assert.doesNotMatch(state.words, /failed|cannot be loaded/u, `${name}: prefix of ${end}`);
         }
-        const [, input] = /^\s*input\s+(\w+)/mu.exec(text);
+        const [, input] = /^\s*(?:input|drive \w+ by) (\w+)/mu.exec(text);
         await until(page, (wanted) => document.querySelector(".side .slider .name")?.textContent === wanted, input);
     }
     await drawn(page);
