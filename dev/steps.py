@@ -53,8 +53,9 @@ def passed_on(command, environment, seen=lambda line: None, silence=None, hung=l
             sys.stdout.flush()
             if FULL.search(line):
                 ended()
-                free = shutil.disk_usage(ROOT).free >> 20
-                sys.exit(f"\nThe disk is full: {free} MiB are free for {ROOT}. `cargo clean` makes room.")
+                folder = environment.get("CARGO_TARGET_DIR", ROOT)
+                free = shutil.disk_usage(folder).free >> 20
+                sys.exit(f"\nThe disk is full: {free} MiB are free for {folder}. `cargo clean` makes room.")
             seen(line)
         return process.wait()
     except KeyboardInterrupt:
