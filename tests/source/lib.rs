@@ -4,6 +4,8 @@ pub mod calls;
 pub mod every;
 pub mod expanded;
 pub mod mutants;
+pub mod programs;
+pub mod turn;
 pub mod work;
 
 /// The folder of the workspace.
