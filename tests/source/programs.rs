@@ -82,16 +82,19 @@ pub struct Libraries {
 }
 
 impl Libraries {
-    /// Those that the tests are linked with.
+    /// Those that the tests are linked with, if these were built with all features of the workspace, or of other `PACKAGES`:
+    /// arguments such as `-p linkage -p linkage-tests`.
     pub fn of_tests() -> &'static Self {
         static BUILT: OnceLock<Libraries> = OnceLock::new();
         BUILT.get_or_init(|| {
             let (target, built) = places();
             let profile = built.file_name().expect("a name").to_string_lossy().replace("debug", "dev");
-            // With the wrappers and flags of the caller: nothing is built again. A test, since those for tests have features
-            // of their own.
+            // As the caller built them, with its packages, wrappers and flags: nothing is built again. A test, since libraries
+            // of tests have features of their own.
+            let packages = env::var("PACKAGES").unwrap_or_else(|_| "--workspace".to_owned());
             let mut command = Command::new(of_variable("cargo"));
-            command.args(["build", "--workspace", "--all-features", "--test", "hygiene", "--profile", &profile]);
+            command.args(["build", "--all-features", "--test", "hygiene", "--profile", &profile]);
+            command.args(packages.split_whitespace());
             Self::built(command.arg("--target-dir").arg(target), None)
         })
     }
