@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use linkage_called::{ALL, Call, Called, Numbers};
+use linkage_called::{ALL, Call, Called, Listed};
 use linkage_interpreter::{CallError, Data, Design, Error, Mechanism, SceneDesign};
 
 use crate::drawn::{Drawn, mechanisms};
@@ -105,7 +105,7 @@ fn called(
     if function.starts_with("branch_") && drawn.all.iter().any(|number| !number.is_finite()) {
         return;
     }
-    let emitted = run(&mut Numbers(&drawn.all));
+    let emitted = run(&mut Listed(&drawn.all));
     let difference = match &own {
         Ok(own) => difference("", &read(&emitted), own),
         Err(error) => {
