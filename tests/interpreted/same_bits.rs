@@ -11,9 +11,6 @@ use linkage_interpreter::{CallError, Data, Design, Error, Mechanism, SceneDesign
 use crate::drawn::{Drawn, mechanisms};
 use crate::printed::{Printed, read};
 
-/// The calls of each function.
-const CALLS: usize = 50;
-
 /// The share of extreme numbers in the second half of the calls.
 const EXTREME: f64 = 0.02;
 
@@ -47,7 +44,7 @@ struct Found {
 
 #[test]
 fn every_function_of_the_gallery() {
-    let calls = std::env::var("CALLS").ok().and_then(|text| text.parse().ok()).unwrap_or(CALLS);
+    let calls = linkage_trials::count("CALLS", 10, 50);
     let mut found = Found::default();
     let mut last: (&str, Vec<Mechanism>) = ("", Vec::new());
     for one in ALL {

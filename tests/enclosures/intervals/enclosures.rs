@@ -38,7 +38,7 @@ pub fn of_boxes(of: &dyn Enclosable) {
     let mut oracle = Oracle::of(of);
     let nodes = nodes(&mut oracle);
     let tape = oracle.tape(&nodes);
-    let mut random = SmallRng::seed_from_u64(20_091_122);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(20_091_122));
     oracle.at_samples(poses(), |_, sample| {
         let radius = 10_f64.powf(random.random_range(-6.0..0.5));
         let of_parameters = if random.random() { 1e-3 * radius } else { 0.0 };
