@@ -21,15 +21,15 @@ use linkage_tests::subjects;
 /// Calls of each function in an ordinary run of the tests.
 const TRIALS: &str = "40";
 
-/// One mechanism of each kind: with laws of the user, a group of two loops, two inputs and contacts, all functions of the
-/// language, effects of scenes, a slider as a guide, an open chain.
+/// One mechanism of each kind, with eight scenes: laws of the user, a group of two loops, all functions of the language, two
+/// inputs, a slider as a guide, an open chain, frictions, a stop.
 const OF_ALGORITHMS: [&str; 8] = [
     "cam_follower",
     "double_butterfly",
     "every_function",
-    "five_bar_contacts",
-    "four_bar_effects",
+    "five_bar_scenes",
     "inverted_slider_crank",
+    "one_window",
     "pendulum",
     "slider_crank_contacts",
 ];
