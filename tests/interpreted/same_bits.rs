@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use linkage_called::{ALL, Call, Called, Numbers};
 use linkage_interpreter::{CallError, Data, Design, Error, Mechanism, SceneDesign};
 
-use crate::drawn::{Drawn, mechanisms};
+use crate::at_run_time::mechanisms;
+use crate::drawn::Drawn;
 use crate::printed::{Printed, read};
 
 /// The calls of each function.

@@ -9,9 +9,10 @@ use linkage_compiler::derivation::{Derivation, Row};
 use linkage_compiler::graph::{Node, NodeId};
 use linkage_compiler::ids::Id;
 use linkage_gallery::listed::{self, Listed, Named};
-use linkage_gallery::source;
-use linkage_interpreter::{CertifiableAtRunTime, Design, Mechanism, Program};
+use linkage_interpreter::{CertifiableAtRunTime, Design, Mechanism};
 use linkage_oracle::{Oracle, Sample};
+
+use crate::at_run_time;
 
 /// The number of inputs, at most six as in every mechanism at run time.
 type Inputs = UpTo<6>;
@@ -51,18 +52,10 @@ impl From<EncloseError<&str>> for Unproved {
 /// All mechanisms of the gallery.
 pub fn all() -> Vec<&'static Enclosable> {
     static ALL: LazyLock<Vec<Enclosable>> = LazyLock::new(|| {
-        let of = |listed: &&'static dyn Listed<f64>| {
-            let (file, name) = (listed.file(), listed.name());
-            let program = Program::compile(&source::tokens_of(file).to_string());
-            let program = program.unwrap_or_else(|messages| panic!("{file}: {messages:?}"));
-            let compiled = program.mechanism(name).expect("the mechanism").clone();
-            // Nothing is known of a user function.
-            let users = [("CamFollower", "lift", 4), ("CamRocker", "turn", 3)];
-            let compiled = match users.into_iter().find(|(of, ..)| *of == name) {
-                Some((_, function, count)) => compiled.with_function(function, move |_| vec![f64::NAN; count]).unwrap(),
-                None => compiled,
-            };
-            Enclosable { file, name, compiled }
+        let of = |listed: &&'static dyn Listed<f64>| Enclosable {
+            file: listed.file(),
+            name: listed.name(),
+            compiled: at_run_time::of(listed.file(), listed.name()),
         };
         listed::all().iter().map(of).collect()
     });

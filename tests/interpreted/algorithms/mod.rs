@@ -52,8 +52,6 @@ use linkage_interpreter::{AtRunTime, Mechanism as Compiled, Program};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use crate::drawn::mechanisms;
-
 /// The unknowns and the inputs of a position.
 pub type Numbers = [Vec<f64>; 2];
 
@@ -81,8 +79,7 @@ pub fn coordinates<M: Mechanism<Scalar = f64>>([unknowns, inputs]: &Numbers) -> 
 
 /// The mechanism of the gallery as it is compiled at run time.
 pub fn compiled<M: Fixture>() -> Compiled {
-    let mut all = mechanisms(M::FILE).into_iter();
-    all.find(|mechanism| mechanism.name() == M::NAME).expect("the mechanism")
+    crate::at_run_time::of(M::FILE, M::NAME)
 }
 
 /// A mechanism of a text.

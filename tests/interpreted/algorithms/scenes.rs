@@ -9,10 +9,10 @@ use linkage::{
 };
 use linkage_gallery::slider_crank_contacts::{Machine, MachineBranch};
 use linkage_gallery::{cart_pendulum, four_bar_effects, slider_crank_contacts, slider_crank_scenes};
-use linkage_interpreter::{Mechanism as Compiled, Program};
+use linkage_interpreter::Mechanism as Compiled;
 
-use super::{Numbers, bits, coordinates};
-use crate::drawn::mechanisms;
+use super::{Numbers, bits, coordinates, of_text};
+use crate::at_run_time;
 
 with_text! {
     // Laws with kinks: of time and of the state.
@@ -183,11 +183,10 @@ impl Named {
     }
 
     fn compiled(&self) -> Compiled {
-        let all = match self.file {
-            "" => Program::compile(OF_THIS_FILE).expect("it compiles").mechanisms().to_vec(),
-            file => mechanisms(file),
-        };
-        all.into_iter().find(|one| one.name() == self.mechanism).expect("the mechanism")
+        match self.file {
+            "" => of_text(OF_THIS_FILE, self.mechanism),
+            file => at_run_time::of(file, self.mechanism),
+        }
     }
 }
 

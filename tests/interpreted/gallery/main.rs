@@ -2,8 +2,8 @@
 
 #[path = "../algorithms/mod.rs"]
 mod algorithms;
-#[path = "../drawn.rs"]
-mod drawn;
+#[path = "../../at_run_time.rs"]
+mod at_run_time;
 mod every_scene;
 mod mechanisms;
 mod scenes;
