@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 use linkage_called::{ALL, Call, Called, Listed};
 use linkage_interpreter::{CallError, Data, Design, Error, Mechanism, SceneDesign};
 
-use crate::drawn::{Drawn, mechanisms};
+use crate::at_run_time::mechanisms;
+use crate::drawn::Drawn;
 use crate::printed::{Printed, read};
 
 /// The share of extreme numbers in the second half of the calls.

@@ -5,7 +5,8 @@ use linkage_interpreter::{Data, Program};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use crate::drawn::{Drawn, given, text_of};
+use crate::at_run_time::{given, text_of};
+use crate::drawn::Drawn;
 
 #[test]
 fn what_is_read_is_what_was_written() {
