@@ -200,11 +200,13 @@ impl<'p, 'm> Values<'p, 'm> {
 
     /// The statement that gives the numbers of a result, by which later calls may be made, to be kept.
     pub fn kept(&self, result: &Type) -> Option<TokenStream> {
-        let (of, value) = match result {
-            Type::Own(name) if *name == self.types.pose => (&self.types.coordinates, quote!(kept.coordinates())),
-            Type::Own(name) => (name, quote!(kept)),
+        let (of, found) = match result {
+            Type::Own(name) if *name == self.types.pose => {
+                (&self.types.coordinates, quote!(found.as_ref().map(|pose| pose.coordinates())))
+            }
+            Type::Own(name) => (name, quote!(&found)),
             Type::Around("Solution" | "AnyBranch", of) => match &**of {
-                Type::Own(name) => (name, quote!(kept.coordinates)),
+                Type::Own(name) => (name, quote!(found.as_ref().map(|found| found.coordinates))),
                 _ => return None,
             },
             _ => return None,
@@ -212,8 +214,7 @@ impl<'p, 'm> Values<'p, 'm> {
         let kind = ident(self.kind(of)?);
         let order = self.mechanism.coordinate_order(self.driver);
         let fields = order.iter().map(|&id| self.field(id));
-        let list = quote!(&[#(kept.#fields),*]);
-        Some(quote!(if let Ok(kept) = &found { let kept = #value; n.keep(Kind::#kind, #list); }))
+        Some(quote!(if let Ok(found) = #found { n.keep(Kind::#kind, &[#(found.#fields),*]); }))
     }
 }
 
