@@ -13,7 +13,7 @@ fn columns_have_the_bits_of_one_position() {
     let (mut compared, mut rejected) = (0, 0);
     for (seed, file) in FILES.iter().enumerate() {
         for mechanism in mechanisms(file) {
-            let seed = linkage_trials::seed(seed as u64);
+            let seed = seed as u64;
             let all =
                 [(Drawn::new(seed, 0.0), false), (Drawn::new(seed, 0.02), true), (Drawn::near_zero(seed, 0.8), true)];
             for (mut drawn, has_columns_of_parameters) in all {
