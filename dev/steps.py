@@ -12,6 +12,8 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+# How cargo counts the warnings of a crate.
+LINTED = re.compile(r"warning: (`.*) generated \d+ warning")
 # What cargo, rustc and the linker say when the disk is full.
 FULL = re.compile(r"No space left on device|os error 28|signal: 7, SIGBUS")
 
@@ -70,12 +72,16 @@ class Steps:
         self.start, self.rows, self.failed, self.left_out = time.monotonic(), [], [], []
 
     def run(self, name, command, **environment):
-        """Runs lines of bash, which end with the first that fails; returns whether all succeeded."""
+        """Runs lines of bash, which end with the first that fails; returns whether all succeeded, without a warning of a lint."""
         print(f"\n=== {name}", flush=True)
         start, used = time.monotonic(), processor_seconds()
         arguments = ["bash", "-euo", "pipefail", "-c", command]
 
+        linted = []
+
         def seen(line):
+            if found := LINTED.match(line):
+                linted.append(found[1])
             if line.startswith("left out: "):
                 self.left_out.append(line.removeprefix("left out: ").strip())
 
@@ -83,7 +89,8 @@ class Steps:
         self.rows.append((time.monotonic() - start, processor_seconds() - used, name))
         if status:
             self.failed.append(name)
-        return status == 0
+        self.failed += [f"{name}: lints of {crate}" for crate in dict.fromkeys(linted)]
+        return status == 0 and not linted
 
     def end(self):
         """Prints the times, what was left out and what failed, and ends the program."""

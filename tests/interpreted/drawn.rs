@@ -21,7 +21,7 @@ pub struct Drawn {
 impl Drawn {
     /// Numbers of which this share is extreme.
     pub fn new(seed: u64, extreme: f64) -> Self {
-        Self { random: linkage_trials::seed(seed), all: Vec::new(), special: (EXTREME, extreme) }
+        Self { random: seed, all: Vec::new(), special: (EXTREME, extreme) }
     }
 
     /// Numbers of which this share is zero or near it.

@@ -74,10 +74,11 @@ fn called(
     (call, calls): (usize, usize),
     found: &mut Found,
 ) {
+    let seed = linkage_trials::seed(call as u64);
     let mut drawn = match call {
-        _ if call >= calls => Drawn::near_zero(call as u64, NEAR_ZERO),
-        _ if 2 * call >= calls => Drawn::new(call as u64, EXTREME),
-        _ => Drawn::new(call as u64, 0.0),
+        _ if call >= calls => Drawn::near_zero(seed, NEAR_ZERO),
+        _ if 2 * call >= calls => Drawn::new(seed, EXTREME),
+        _ => Drawn::new(seed, 0.0),
     };
     let parameters: Vec<f64> = mechanism.design().parameters().iter().map(|value| drawn.near(*value)).collect();
     let design = mechanism.design().with_parameters(&parameters);

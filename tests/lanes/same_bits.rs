@@ -22,7 +22,7 @@ const LANES: usize = 1003;
 
 /// Batches of each kind for each mechanism and scalar. `LANE_BATCHES=930` is the full size: 1e8 lanes, half of them in `f32`.
 fn batches() -> usize {
-    linkage_trials::count("LANE_BATCHES", 1, 4)
+    linkage_trials::count("LANE_BATCHES", 4, 4)
 }
 
 const EXTREME: [f64; 14] = [
@@ -156,13 +156,15 @@ where
     S<M>: Bits,
 {
     let name = <M as Lanes>::NAME;
-    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(18));
+    let mut of_commit = SmallRng::seed_from_u64(linkage_trials::seed(18));
+    // How many differences of plain numbers vanish depends on a few lengths.
+    let mut random = SmallRng::seed_from_u64(18);
     let [mut usual, mut extreme, mut plain] =
         [const { Tally { accepted: 0, rejected: 0, partly: 0, zeros: 0, negative_zeros: 0 } }; 3];
     // Newton's method takes much longer where there is no position.
     for _ in 0..batches().div_ceil(if name == "StephensonII" { 4 } else { 1 }) {
-        compare(design, branch, &mut random, Numbers::Usual, &mut usual);
-        compare(design, branch, &mut random, Numbers::Extreme, &mut extreme);
+        compare(design, branch, &mut of_commit, Numbers::Usual, &mut usual);
+        compare(design, branch, &mut of_commit, Numbers::Extreme, &mut extreme);
         compare(design, branch, &mut random, Numbers::Plain, &mut plain);
     }
     println!("{name}: {usual:?}, with extreme numbers {extreme:?}, with plain numbers {plain:?}");

@@ -231,7 +231,7 @@ fn round<M: Mechanism<Scalar = f64>>(m: &M, scale: f64, s: f64) -> [PerInput<M>;
 /// `cam_follower` is lost at times on the return: the law there is a difference of nearly equal numbers and has fewer
 /// digits than its scale suggests, which the follower does not take for rounding error.
 fn gallery(steps: usize) -> Count {
-    let random = &mut SmallRng::seed_from_u64(linkage_trials::seed(7));
+    let random = &mut SmallRng::seed_from_u64(7);
     let mut count = Count::default();
     for listed in listed::all() {
         let design = at_run_time::of(listed.file(), listed.name()).design();
@@ -299,7 +299,7 @@ fn four_bars(steps: usize) -> Count {
 /// times as many with four-bars: 2.1 million in a minute.
 #[test]
 fn no_silent_change() {
-    let steps = linkage_trials::count("STEPS", 30, 100);
+    let steps = linkage_trials::count("STEPS", 50, 100);
     let mut count = gallery(steps);
     count += four_bars(40 * steps);
     println!("{count:?}");
