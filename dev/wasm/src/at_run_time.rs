@@ -4,7 +4,8 @@ use linkage_gallery::FILES;
 use linkage_interpreter::{Data, Mechanism};
 
 use crate::checksum::Checksum;
-use crate::drawn::{Drawn, mechanisms};
+use crate::drawn::Drawn;
+use crate::gallery::mechanisms;
 
 /// Calls of each function at plain, extreme and nearly singular arguments.
 const CALLS: [u64; 3] = [3, 1, 1];

@@ -6,7 +6,7 @@ use linkage::{Column, Coordinates, D, Inputs, Kinematic, Mechanism, PerInput, Sc
 use linkage_gallery::{four_bar_effects, slider_crank_scenes};
 
 use crate::checksum::Checksum;
-use crate::drawn::mechanisms;
+use crate::gallery::mechanisms;
 
 /// The number of simulations.
 pub const COUNT: usize = 2;
