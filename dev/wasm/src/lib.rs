@@ -10,9 +10,9 @@ mod checksum;
 #[path = "../../../tests/interpreted/drawn.rs"]
 mod drawn;
 mod elementary;
-// The mechanisms of the gallery, as the tests of the interpreter have them.
 mod emitted;
 mod export;
+// The mechanisms of the gallery, as the tests of the interpreter have them.
 #[path = "../../../tests/at_run_time.rs"]
 pub mod gallery;
 mod simulated;
