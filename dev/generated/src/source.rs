@@ -26,7 +26,7 @@ pub struct Source {
     tokens: TokenStream,
 }
 
-/// What is written about the types of a file.
+/// The texts about the types of a file.
 #[derive(Default)]
 pub struct Calls {
     /// Entries of a list of `Called`.
