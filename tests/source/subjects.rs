@@ -16,7 +16,7 @@ pub const MAIN: &str =
 pub fn of_gallery(root: &Path, chosen: &[&str]) -> Vec<(String, String)> {
     let folder = root.join("dev/gallery/src/mechanisms");
     let chosen = chosen.iter().map(|file| source(&folder.join(file).with_extension("rs")));
-    let algorithms = chosen.flat_map(|one| one.algorithms(&module(quote!(::linkage_gallery), &one)));
+    let algorithms = chosen.flat_map(|one| one.calls(&module(quote!(::linkage_gallery), &one)).algorithms);
     vec![(
         "subjects.rs".to_owned(),
         subjects(
@@ -36,10 +36,10 @@ pub fn emitted(root: &Path, chosen: Option<&[&str]>) -> Vec<(String, String)> {
     let (mut files, mut modules) = (Vec::new(), Vec::new());
     let (mut types, mut values, mut algorithms) = (Vec::new(), Vec::new(), Vec::new());
     for one in sources(root, chosen) {
-        let path = module(quote!(crate), &one);
-        types.extend(one.calls(&path));
-        values.push(one.values(&path));
-        algorithms.extend(one.algorithms(&path));
+        let calls = one.calls(&module(quote!(crate), &one));
+        types.extend(calls.types);
+        values.push(calls.values);
+        algorithms.extend(calls.algorithms);
         let name = format_ident!("{}", one.file);
         // This program looks at numbers.
         modules.push(quote!(#[allow(warnings, reason = "the test `emitted_source` looks at them")] mod #name;));

@@ -19,8 +19,9 @@ fn main() {
         let source = source(Path::new(&path));
         let file = format_ident!("{}", source.file);
         let module = quote!(::linkage_gallery::#file);
-        types.extend(source.calls(&module));
-        values.push(source.values(&module));
+        let calls = source.calls(&module);
+        types.extend(calls.types);
+        values.push(calls.values);
     }
     let all = quote! {
         /// The types of the gallery with their functions.

@@ -9,7 +9,7 @@ mod wrappers;
 
 use proc_macro2::{Ident, Span};
 
-pub use source::{Source, source, sources};
+pub use source::{Calls, Source, source, sources};
 
 /// A name as emitted code has it.
 fn ident(name: &str) -> Ident {

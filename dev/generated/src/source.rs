@@ -26,6 +26,17 @@ pub struct Source {
     tokens: TokenStream,
 }
 
+/// The texts about the types of a file.
+#[derive(Default)]
+pub struct Calls {
+    /// Entries of a list of `Called`.
+    pub types: Vec<TokenStream>,
+    /// Functions that make the values of the types, in a module for each driver.
+    pub values: TokenStream,
+    /// Runs of the algorithms for any mechanism and for any scene: pairs of a name and a function.
+    pub algorithms: Vec<TokenStream>,
+}
+
 /// The `linkage!` of all files of a repository, or of those with these names, each with all `derive` requests.
 ///
 /// # Panics
@@ -120,42 +131,34 @@ impl Source {
         quote!(#modules #(#emitted)*)
     }
 
-    /// Calls of the public functions of its types, which are in this module: entries of a list of `Called`.
+    /// Calls of the public functions of its types, which are in this module.
     #[must_use]
-    pub fn calls(&self, module: &TokenStream) -> Vec<TokenStream> {
-        self.of_types(module, |values| values.calls())
-    }
-
-    /// Runs of the algorithms for any mechanism and for any scene: pairs of a name and a function.
-    #[must_use]
-    pub fn algorithms(&self, module: &TokenStream) -> Vec<TokenStream> {
-        self.of_types(module, |values| values.algorithms())
+    pub fn calls(&self, module: &TokenStream) -> Calls {
+        let mut all = Calls::default();
+        self.each(|of| {
+            let values = Values::new(&self.file, module, &of.program);
+            all.types.extend(values.calls());
+            all.values.extend(values.module());
+            all.algorithms.extend(values.algorithms());
+        });
+        all
     }
 
     /// Functions without type parameters for those of its types, which are in the module around theirs: `T` is the scalar, and
     /// `__rt` are the names of the library for emitted code.
     #[must_use]
     pub fn wrappers(&self) -> Vec<TokenStream> {
-        self.of_types(&TokenStream::new(), |values| values.wrappers())
+        self.wrapped(|values| values.wrappers())
     }
 
     /// Such functions of the motion of all links and points in one call.
     #[must_use]
     pub fn kinematics(&self) -> Vec<TokenStream> {
-        self.of_types(&TokenStream::new(), |values| values.kinematics())
+        self.wrapped(|values| values.kinematics())
     }
 
-    /// Functions that make the values of its types, in a module with this name for each driver.
-    #[must_use]
-    pub fn values(&self, module: &TokenStream) -> TokenStream {
-        self.each(|of| Values::new(&self.file, module, &of.program).module()).into_iter().collect()
-    }
-
-    fn of_types(
-        &self,
-        module: &TokenStream,
-        entries: impl Fn(&Values<'_, '_>) -> Vec<TokenStream>,
-    ) -> Vec<TokenStream> {
-        self.each(|of| entries(&Values::new(&self.file, module, &of.program))).into_iter().flatten().collect()
+    fn wrapped(&self, wrappers: impl Fn(&Values<'_, '_>) -> Vec<TokenStream>) -> Vec<TokenStream> {
+        let module = TokenStream::new();
+        self.each(|of| wrappers(&Values::new(&self.file, &module, &of.program))).into_iter().flatten().collect()
     }
 }
