@@ -38,10 +38,7 @@ macro_rules! listed {
         functions::compare_listed::<_, linkage_gallery::$file::$Mechanism>();
     };
     (circuits $file:ident $Mechanism:ident closed) => {
-        // Each position begins a motion.
-        if linkage_gallery::$file::$Mechanism::<f64>::branches().len() <= most_branches() {
-            compare_circuits_along::<_, linkage_gallery::$file::$Mechanism>();
-        }
+        compare_circuits_along::<_, linkage_gallery::$file::$Mechanism>();
     };
     ($question:ident $file:ident $Mechanism:ident $method:ident) => {};
 }
@@ -67,6 +64,10 @@ fn most_branches() -> usize {
 }
 
 fn compare_circuits_along<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Branches>() {
+    // Each position begins a motion.
+    if M::branches().len() > most_branches() {
+        return;
+    }
     let Positions { mechanism, starts, .. } = Positions::<M>::drawn(80);
     let start = starts.first().expect("a position");
     at_run_time::<V, M, _>(|own| {
