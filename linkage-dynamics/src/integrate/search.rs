@@ -9,7 +9,7 @@ use super::sampled::{FunctionSample, Sample, SampledStep};
 use super::samples::Samples;
 use super::system::{ErrorOf, StateOf, System};
 use linkage_runtime::jacobian::first_not_positive;
-use linkage_runtime::{Build, Column, Dim, real};
+use linkage_runtime::{Build, Column, D, Dim, real};
 
 /// The largest number of equal parts of a step at whose ends guards are sampled.
 const MAX_PARTS: usize = 64;
@@ -129,10 +129,9 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         }
         let passes = |place: usize| {
             quarters.iter().all(|sample| start[place].has_known_course(&sample[place]))
-                && may_pass(
-                    quarters
-                        .map(|sample| [sample[place].value - quarters[0][place].value.min(0.0), sample[place].rate]),
-                )
+                && may_pass(D::map(quarters, |sample| {
+                    [sample[place].value - quarters[0][place].value.min(0.0), sample[place].rate]
+                }))
         };
         Ok(if (0..self.guards.dim().count()).any(passes) { Found::Perhaps } else { Found::Nothing })
     }
@@ -150,9 +149,9 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         is_so: impl Fn(&EventSign, [&FunctionSample; P]) -> bool,
     ) -> bool {
         let events = (0..self.events.dim().count())
-            .any(|i| self.events[i].sign != 0 && is_so(&self.events[i], samples.map(|sample| &sample.events[i])));
+            .any(|i| self.events[i].sign != 0 && is_so(&self.events[i], D::map(samples, |sample| &sample.events[i])));
         let unknown = |i: usize| samples.iter().all(|sample| !sample.guards[i].is_known);
-        let guards = |i: usize| is_so(&self.guards[i], samples.map(|sample| &sample.guards[i]));
+        let guards = |i: usize| is_so(&self.guards[i], D::map(samples, |sample| &sample.guards[i]));
         events || (0..self.guards.dim().count()).any(|i| self.guards[i].sign != 0 && unknown(i) && guards(i))
     }
 

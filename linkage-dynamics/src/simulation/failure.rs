@@ -12,7 +12,7 @@ use linkage_runtime::__shared::{smallest, to_f64};
 use linkage_runtime::held::Held;
 use linkage_runtime::jacobian::ulp::nearly_zero;
 use linkage_runtime::jacobian::{Blocks, EliminationOf as Elimination, Scales};
-use linkage_runtime::{Build, Dim, Mechanism, PositionError, real};
+use linkage_runtime::{Build, D, Dim, Mechanism, PositionError, real};
 
 /// Below this regularity of the best choice of coordinates a failed step is ascribed to forces in joints. In the tests
 /// steps fail at 0.0005 to 0.003.
@@ -88,7 +88,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let elimination = Elimination::<S::Mechanism>::all_but(1, jacobian);
         let mut free = elimination.free();
         let columns = [free.next()?, free.next()?];
-        let [one, two] = columns.map(|column| elimination.null_vector(column).scaled(&self.scales.coordinates));
+        let null_vector = |column: usize| elimination.null_vector(column).scaled(&self.scales.coordinates);
+        let (one, two) = (null_vector(columns[0]), null_vector(columns[1]));
         let form = |x: &Change<S>| {
             let rates = S::Mechanism::rates(x.unknowns, x.inputs);
             let along = mechanism.gamma(&pose, &rates).component_div(&self.scales.residuals);
@@ -103,13 +104,16 @@ impl<S: Scene, W> Motion<'_, S, W> {
             return None;
         }
         let root = b + ComplexField::sqrt(discriminant).copysign(b);
-        let scales = columns.map(|column| to_f64(self.scales.coordinates.get(column)));
-        let rates = [[-c, root], [root, -a]].map(|[x, y]| {
+        let scales = D::map(columns, |column| to_f64(self.scales.coordinates.get(column)));
+        let rates = D::map([[-c, root], [root, -a]], |[x, y]| {
             let [x, y] = [x * scales[0], y * scales[1]];
             let size = if x.abs() > y.abs() { x } else { y };
             [x / size, y / size]
         });
-        Some(CrossingRates { coordinates: columns.map(|column| mechanism.coordinate_name(column)), rates })
+        Some(CrossingRates {
+            coordinates: [mechanism.coordinate_name(columns[0]), mechanism.coordinate_name(columns[1])],
+            rates,
+        })
     }
 
     /// The error if no choice of coordinates is regular: a prescribed input is at a dead point, or two motions cross.

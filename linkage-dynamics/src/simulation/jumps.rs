@@ -71,7 +71,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let Some(law) = laws[input] else { return false };
             let scale = self.scales.coordinates.inputs[input];
             let place = place_of::<S>(&self.parametrisation, input);
-            let [rate, rate_before] = [rates, rates_before].map(|rates| place.map_or(law.rate, |place| rates[place]));
+            let (rate, rate_before) = place.map_or((law.rate, law.rate), |place| (rates[place], rates_before[place]));
             let size = law.value.abs() + inputs_before[input].abs() + scale;
             let speed = law.rate.abs() + rate_before.abs() + scale * frequency;
             // Not true for NaN: a law that is not finite is reported elsewhere.

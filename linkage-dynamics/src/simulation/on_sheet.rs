@@ -7,7 +7,7 @@ use super::sheet::{ABSCISSAE, Errors, Node, NodeOf, SheetOf};
 use crate::{Coordinates, MotionErrorOf, Scene, StateColumn};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::larger;
-use linkage_runtime::{Dim, Mechanism, PerInput, real};
+use linkage_runtime::{D, Dim, Mechanism, PerInput, real};
 
 /// A line is moved until the crossing is nearer than this to x = 0.
 const MAX_OFF_CENTRE: f64 = 0.02;
@@ -68,7 +68,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
             if x.abs() <= real(MAX_OFF_CENTRE) {
                 return sheet.set_edges().then_some(());
             }
-            let guesses = ABSCISSAE.map(|node| sheet.position(x + real(node)));
+            let guesses = D::map(ABSCISSAE, |node| sheet.position(x + real(node)));
             sheet.centre += sheet.reach * x;
             for (node, guess) in sheet.nodes.iter_mut().zip(guesses) {
                 node.q = guess;
@@ -167,11 +167,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
             let exact = self.node(&sheet.independent, (&z, guess.q), &sheet.reach, reach * real(CHECKED))?;
             errors.position = larger(errors.position, self.scaled_norm(&(exact.q - guess.q)));
             for column in 0..free.dim().count() {
-                let [exact, guess] = [&exact, &guess].map(|node| Change::<S> {
+                let along = |node: &NodeOf<S>| Change::<S> {
                     unknowns: node.basis.0.column(column),
                     inputs: node.basis.1.column(column),
-                });
-                errors.basis = larger(errors.basis, self.scaled_norm(&(exact - guess)) * free[column]);
+                };
+                let error = self.scaled_norm(&(along(&exact) - along(&guess)));
+                errors.basis = larger(errors.basis, error * free[column]);
             }
             errors.bias = larger(errors.bias, self.scaled_norm(&(exact.bias - guess.bias)) / (reach * reach));
         }
