@@ -8,6 +8,8 @@ from steps import ROOT
 PARTS = {
     # Every test of the inner ring at its full size.
     "tests": "RING=outer dev/test",
+    # All algorithms at run time against emitted code, for every mechanism and scene.
+    "gallery": "cargo test --workspace --all-features --test interpreted_gallery",
     # No emitted function can come to a panic, at each level and for a Cortex-M4; the instructions of each.
     "firmware": """
         RING=outer cargo test --workspace --all-features --test firmware
@@ -30,6 +32,11 @@ PARTS = {
     "page": "LINKAGE_EVERY_PREFIX=1 web/check",
     # Sweeps in SQL, in one process and on a cluster.
     "engine": "dev/engine",
+    # What development builds are too slow for: 48 million calls at run time against emitted code, every float's sine.
+    "release": """
+        CALLS=10000 cargo test --release --workspace --all-features --test interpreted same_bits
+        cargo test --release --workspace --all-features --test runtime sine
+    """,
 }
 
 COMPILER = ["linkage-compiler", "linkage-macros", "dev/gallery"]

@@ -1,5 +1,5 @@
 //! A generator puts short sequences of tokens wherever a name or a number stands: the macro never panics, stays within its
-//! counted budget, gives what Rust can read, and says nothing twice.
+//! counted budget, gives what Rust can read, and says nothing twice. In the inner ring one in eight is tried, others for each commit.
 
 use linkage_compiler::budget::{Budget, MOST_STEPS};
 use linkage_tests::expanded::{expanded, is_rejected, parsed};
@@ -81,10 +81,15 @@ fn no_sequence_makes_the_macro_panic_run_away_or_repeat_itself() {
     let everything: TokenStream = EVERYTHING.parse().unwrap();
     let expansion = expanded(&everything, &root, &Budget::default());
     assert!(!is_rejected(&expansion), "{:?}", messages(expansion, &everything));
-    let (mut count, mut accepted, mut most) = (0, 0, 0);
+    let (mut count, mut tried, mut accepted, mut most) = (0, 0, 0, 0);
+    let mut chosen = linkage_trials::some(0.., 8).peekable();
     let mut repeated = Vec::new();
     with_sequences(&everything, &mut |input| {
         count += 1;
+        if chosen.next_if_eq(&(count - 1)).is_none() {
+            return;
+        }
+        tried += 1;
         let budget = Budget::default();
         let expansion = expanded(&input, &root, &budget);
         most = most.max(MOST_STEPS - budget.left());
@@ -103,8 +108,8 @@ fn no_sequence_makes_the_macro_panic_run_away_or_repeat_itself() {
             repeated.push(format!("{input}\n    {}", pair[0]));
         }
     });
-    println!("{count} inputs, {accepted} accepted, at most {most} steps of {MOST_STEPS}");
-    assert!(count > 3400 && accepted > count / 20, "{accepted} of {count} are accepted");
+    println!("{tried} of {count} inputs, {accepted} accepted, at most {most} steps of {MOST_STEPS}");
+    assert!(count > 3400 && accepted > tried / 20, "{accepted} of {tried} are accepted");
     assert!(most < MOST_STEPS / 10, "{most} steps");
-    assert!(repeated.is_empty(), "{} of {count}: {}", repeated.len(), repeated.join("\n"));
+    assert!(repeated.is_empty(), "{} of {tried}: {}", repeated.len(), repeated.join("\n"));
 }

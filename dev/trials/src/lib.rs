@@ -1,4 +1,4 @@
-//! How many cases a test tries, and which: the inner ring tries few, other ones for each commit, the outer ring tries all.
+//! Numbers of cases and their seeds: the inner ring of the tests tries few cases, others for each commit; the outer ring tries all.
 //!
 //! `RING=outer` is the outer ring. A number for a test, such as `POSES=1000`, stands above both rings. `SEED` is a hexadecimal
 //! number, such as that of a commit, from which random cases are drawn; without it each test draws those of its own seed.

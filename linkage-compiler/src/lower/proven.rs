@@ -17,7 +17,8 @@ use crate::program::{Finite, Intrinsic};
 /// The check of a half chord requires that both factors are finite. In IEEE 754 a sum, product, square, square root,
 /// absolute value, sine or cosine is finite only if its operands are, so that these are finite, too.
 ///
-/// The `conclusive` results are checked, and whatever they are computed from is finite then.
+/// The `conclusive` results are checked, and whatever they are computed from is finite then. That proves no other result by a product
+/// with a small number: a half of x would be finite since x is, and x since its half is checked.
 pub(super) fn proven(
     values: &Values,
     statements: &[Statement],
@@ -28,6 +29,7 @@ pub(super) fn proven(
         values,
         named: FxHashMap::default(),
         finite: vec![false; values.all.len()],
+        implied: vec![false; values.all.len()],
         checked: vec![false; values.all.len()],
     };
     let (mut chords, mut checked) = (Vec::new(), Vec::new());
@@ -37,14 +39,17 @@ pub(super) fn proven(
     if conclusive.is_empty() && chords.is_empty() {
         return vec![false; results.len()];
     }
-    proven.follow(checked);
+    let mut finite = std::mem::take(&mut proven.finite);
+    proven.follow(checked, &mut finite);
+    let mut implied = finite.clone();
     for result in &results[conclusive] {
         let operands = proven.operands(proven.itself(*result));
-        proven.follow(operands);
+        proven.follow(operands, &mut implied);
     }
     for chord in chords {
-        proven.finite[chord.0] = true;
+        finite[chord.0] = true;
     }
+    (proven.finite, proven.implied) = (finite, implied);
     for result in results {
         let id = proven.itself(*result);
         proven.checked[id.0] = true;
@@ -56,7 +61,10 @@ struct Proven<'a> {
     values: &'a Values,
     /// The value that each variable is finite with.
     named: FxHashMap<ValueId, ValueId>,
+    /// True for values that are finite if the checks of half chords pass.
     finite: Vec<bool>,
+    /// True for these, and for those from which the conclusive results are computed.
+    implied: Vec<bool>,
     /// True for results, which are checked.
     checked: Vec<bool>,
 }
@@ -99,11 +107,11 @@ impl Proven<'_> {
         }
     }
 
-    /// Marks these values and their operands as finite.
-    fn follow(&mut self, mut stack: Vec<ValueId>) {
+    /// Marks these values and their operands.
+    fn follow(&self, mut stack: Vec<ValueId>, finite: &mut [bool]) {
         while let Some(id) = stack.pop() {
             let id = self.itself(id);
-            if std::mem::replace(&mut self.finite[id.0], true) {
+            if std::mem::replace(&mut finite[id.0], true) {
                 continue;
             }
             stack.extend(self.operands(id));
@@ -132,6 +140,7 @@ impl Proven<'_> {
         let is_finite = |id: ValueId| self.finite[self.itself(id).0];
         let is_checked = |id: ValueId| self.checked[self.itself(id).0];
         self.finite[id.0]
+            || self.implied[id.0]
             || match value(id) {
                 Value::Call(Function::Sin | Function::Cos, angle) => is_finite(angle[0].value),
                 Value::Intrinsic(Intrinsic::SineInLane | Intrinsic::CosineInLane, _, angle) => is_finite(angle[0]),

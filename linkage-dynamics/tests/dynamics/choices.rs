@@ -110,7 +110,7 @@ const HARD: [u64; 4] = [281_594, 314_198, 496_082, 1_266_200];
 /// again until the iteration limit, a typed error.
 const REFUSED: [u64; 2] = [131_815, 1_560_156];
 
-/// The trials that are known to pass, but for [`REFUSED`].
+/// The trials that are known to pass, but for the known failures.
 const KNOWN: u64 = 2_000_000;
 
 /// By convexity these conditions have one solution v''. `TRIALS=2000000` sets the number of trials.
