@@ -169,7 +169,7 @@ fn assembles_or_says_why(of: &dyn Listed<f64>, trial: &Trial) -> [usize; 2] {
 
 #[test]
 fn a_position_is_an_error_or_finite() {
-    let random = &mut SmallRng::seed_from_u64(linkage_trials::seed(3));
+    let random = &mut SmallRng::seed_from_u64(3);
     // For Newton's method on such numbers, see `tests/input/invalid_numbers`.
     let closed: Vec<_> = all().iter().copied().filter(|of| !of.branches().is_empty()).collect();
     let trials: Vec<Vec<Trial>> =
