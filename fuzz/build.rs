@@ -1,9 +1,9 @@
-//! Writes the calls of the public functions of some mechanisms, as `tests/input/invalid_numbers` does for all.
+//! Writes the calls of the public functions of some mechanisms, as `tests/input/invalid_numbers` does for all in the outer ring.
 
 use std::path::Path;
 use std::{env, fs};
 
-use linkage_tests::calls;
+use linkage_tests::subjects;
 
 /// One mechanism of each kind, since the code for coverage is slow to build: groups of two unknowns and of more, gears,
 /// belts, slots and cams, limits and change points, scenes with every effect, stops and friction.
@@ -26,10 +26,10 @@ const CHOSEN: [&str; 13] = [
 fn main() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let written = env::var("OUT_DIR").unwrap();
-    for (file, text) in calls::files(root, Some(&CHOSEN)) {
+    for (file, text) in subjects::emitted(root, Some(&CHOSEN)) {
         fs::write(Path::new(&written).join(file), text).unwrap();
     }
-    for read in ["tests/input/invalid_numbers", "dev/gallery/src"] {
+    for read in ["tests/input/invalid_numbers", "dev/called/src", "dev/gallery/src"] {
         println!("cargo::rerun-if-changed={}", root.join(read).display());
     }
 }

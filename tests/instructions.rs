@@ -14,25 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-const MANIFEST: &str = r#"
-[package]
-name = "instructions"
-version = "0.0.0"
-edition = "2024"
-
-[[bin]]
-name = "PROGRAM"
-path = "ROOT/benches/PATH"
-
-[dependencies]
-DEPENDENCY
-
-[workspace]
-"#;
-
-const LIBRARY: &str =
-    r#"linkage = { path = "ROOT", default-features = false, features = ["std", "dynamics", "interval"] }"#;
-const INTERPRETER: &str = r#"linkage-interpreter = { path = "ROOT/linkage-interpreter" }"#;
+use linkage_tests::programs::{Libraries, succeeded, written};
 
 /// The emitted code may take this many times the instructions by hand: another version of the compiler moves both by some
 /// per cent. On Rust 1.95 they take 0.94 and 0.95 times as many.
@@ -47,25 +29,15 @@ const CALLS: u64 = 1000;
 /// Fewer calls of what takes millions of instructions.
 const FEW_CALLS: u64 = 2;
 
-/// Builds a program; returns its path.
-fn built(name: &str, path: &str, dependency: &str) -> PathBuf {
-    let root = linkage_tests::ROOT;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+/// Builds a program with a library of these features for release; returns its path.
+fn built(name: &str, path: &str, [library, features]: [&str; 2]) -> PathBuf {
+    let named = library.replace('-', "_");
+    let folder = written(name, []);
     fs::create_dir_all(&folder).unwrap();
-    let manifest = MANIFEST.replace("PROGRAM", name).replace("PATH", path).replace("DEPENDENCY", dependency);
-    fs::write(folder.join("Cargo.toml"), manifest.replace("ROOT", root)).unwrap();
-    // The versions under test are those of this workspace.
-    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("instructions");
-    let output = Command::new(env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned()))
-        .args(["build", "--release", "--quiet", "--color=never", "--bin", name, "--target-dir"])
-        .arg(&target)
-        .current_dir(&folder)
-        .env_remove("RUSTFLAGS")
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    target.join("release").join(name)
+    let file = Path::new(linkage_tests::ROOT).join("benches").join(path);
+    let mut rustc = Libraries::of(library, features, "release", None).rustc(&folder, file.to_str().unwrap(), &[&named]);
+    succeeded(rustc.args(["-Copt-level=3", "-Cembed-bitcode=no", "-Cstrip=debuginfo"]));
+    folder.join(name)
 }
 
 /// All that a run takes.
@@ -91,7 +63,7 @@ fn a_call(program: &Path, arguments: [&str; 2], calls: u64) -> f64 {
 
 #[test]
 fn a_scene_takes_no_more_than_its_hand_written_twin() {
-    let program = built("twin", "twin.rs", LIBRARY);
+    let program = built("twin", "twin.rs", ["linkage", "std,dynamics,interval"]);
     for scene in ["bare", "mounted"] {
         let [emitted, alone, hand] =
             ["emitted", "alone", "hand"].map(|version| a_call(&program, [scene, version], CALLS));
@@ -106,8 +78,8 @@ fn a_scene_takes_no_more_than_its_hand_written_twin() {
 
 #[test]
 fn functions_take_what_the_table_says() {
-    let kernels = &built("kernels", "poses/kernels.rs", LIBRARY);
-    let from_text = &built("from_text", "from_text.rs", INTERPRETER);
+    let kernels = &built("kernels", "poses/kernels.rs", ["linkage", "std,dynamics,interval"]);
+    let from_text = &built("from_text", "from_text.rs", ["linkage-interpreter", "default"]);
     let table = Path::new(linkage_tests::ROOT).join("tests/instructions.tsv");
     let committed = fs::read_to_string(&table).unwrap();
     let mut found = String::from("mechanism\tfunction\tinstructions\n");

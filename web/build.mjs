@@ -38,7 +38,7 @@ function examples() {
 }
 
 /** The settings of a draft, which are those of dev/wasm/run: the crates that both need are built once. */
-const DRAFT = { CARGO_PROFILE_DEV_DEBUG: "false", CARGO_PROFILE_DEV_OPT_LEVEL: "1", CARGO_PROFILE_DEV_BUILD_OVERRIDE_OPT_LEVEL: "0" };
+const DRAFT = { CARGO_PROFILE_DEV_OPT_LEVEL: "1", CARGO_PROFILE_DEV_BUILD_OVERRIDE_OPT_LEVEL: "0" };
 
 /** A module, without names. With -Os it would be 5 % smaller, and 10 % larger once it is deflated, which is what is sent. */
 function wasm(path, ...options) {

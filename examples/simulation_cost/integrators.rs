@@ -1,18 +1,12 @@
-//! Adaptive steps: `simulate` with projection, and `integrate` and other crates on the right-hand side alone.
+//! Adaptive steps: `simulate` with projection, and `integrate` on the right-hand side alone.
 
-use std::cell::Cell;
 use std::rc::Rc;
 
-use differential_equations::prelude::{ExplicitRungeKutta, IVP};
 use linkage::integrate::{Dop853, Dopri5, Integration, Method, Tolerance};
-use linkage::nalgebra::SVector;
 use linkage::simulation::{Start, simulate};
-use linkage::{Build, D, MotionError, StateParts};
+use linkage::{Build, MotionError, StateParts};
 
-use super::list::{
-    DIFFERENTIAL_EQUATIONS_5, DIFFERENTIAL_EQUATIONS_8, INTEGRATE_5, INTEGRATE_8, ODE_SOLVERS_5, ODE_SOLVERS_8,
-    Outcome, SIMULATE_5, SIMULATE_8, Work,
-};
+use super::list::{INTEGRATE_5, INTEGRATE_8, Outcome, SIMULATE_5, SIMULATE_8, Work};
 use super::problem::{Emitted, Problem, State};
 
 /// The limit on steps: the default of `linkage` and `ode_solvers`.
@@ -22,18 +16,14 @@ pub const MOST_STEPS: usize = 100_000;
 pub type End<S> = Result<(State<S>, usize), String>;
 
 /// A run with a given tolerance.
-type Run<S> = fn(&Problem<S>, f64) -> End<S>;
+pub type Run<S> = fn(&Problem<S>, f64) -> End<S>;
 
-pub fn works<S: Emitted<State = D<N>> + 'static, const N: usize>(problem: &Rc<Problem<S>>) -> Vec<Work> {
-    let methods: [(usize, Run<S>); 8] = [
+pub fn works<S: Emitted + 'static>(problem: &Rc<Problem<S>>) -> Vec<Work> {
+    let methods: [(usize, Run<S>); 4] = [
         (SIMULATE_8, Problem::simulated::<Dop853>),
         (SIMULATE_5, Problem::simulated::<Dopri5>),
         (INTEGRATE_8, Problem::integrated::<Dop853>),
         (INTEGRATE_5, Problem::integrated::<Dopri5>),
-        (ODE_SOLVERS_8, Problem::by_ode_solvers::<true>),
-        (ODE_SOLVERS_5, Problem::by_ode_solvers::<false>),
-        (DIFFERENTIAL_EQUATIONS_8, Problem::by_differential_equations::<true>),
-        (DIFFERENTIAL_EQUATIONS_5, Problem::by_differential_equations::<false>),
     ];
     methods.into_iter().flat_map(|(method, end)| by_tolerance(problem, method, end)).collect()
 }
@@ -84,55 +74,5 @@ impl<S: Emitted> Problem<S> {
     #[inline]
     pub fn rate(&self, t: f64, y: &State<S>) -> State<S> {
         self.scene.derivative(t, y).unwrap_or_else(|_| y.dim().repeat(f64::NAN))
-    }
-}
-
-impl<S: Emitted<State = D<N>>, const N: usize> Problem<S> {
-    fn by_ode_solvers<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<S> {
-        let calls = Cell::new(0);
-        let start = ode_solvers::SVector::<f64, N>::from(<[f64; N]>::from(self.start));
-        let called = Called(self, &calls);
-        let sparse = ode_solvers::dop_shared::OutputType::Sparse;
-        let last = if IS_EIGHT {
-            let mut stepper = ode_solvers::Dop853::new(called, 0.0, self.end, self.end, start, tolerance, tolerance);
-            stepper.set_output(sparse);
-            stepper.integrate().map(|_| stepper.y_out().last().copied())
-        } else {
-            let mut stepper = ode_solvers::Dopri5::new(called, 0.0, self.end, self.end, start, tolerance, tolerance);
-            stepper.set_output(sparse);
-            stepper.integrate().map(|_| stepper.y_out().last().copied())
-        };
-        let last = last.map_err(|error| error.to_string())?.ok_or("no state")?;
-        Ok((<[f64; N]>::from(last).into(), calls.get()))
-    }
-
-    fn by_differential_equations<const IS_EIGHT: bool>(&self, tolerance: f64) -> End<S> {
-        let calls = Cell::new(0);
-        let system = |t: f64, y: &SVector<f64, N>, slope: &mut SVector<f64, N>| {
-            calls.set(calls.get() + 1);
-            *slope = self.rate(t, &(*y).into()).into();
-        };
-        let motion = IVP::ode_from_fn(system, 0.0, self.end, SVector::from(self.start));
-        let solution = if IS_EIGHT {
-            motion.method(ExplicitRungeKutta::dop853().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
-        } else {
-            motion.method(ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerance).max_steps(MOST_STEPS)).solve()
-        };
-        let solution = solution.map_err(|error| format!("{error:?}"))?;
-        Ok(((*solution.y.last().ok_or("no state")?).into(), calls.get()))
-    }
-}
-
-/// The right-hand side with a count of its calls.
-struct Called<'a, S: Emitted>(&'a Problem<S>, &'a Cell<usize>);
-
-impl<S, const N: usize> ode_solvers::System<f64, ode_solvers::SVector<f64, N>> for Called<'_, S>
-where
-    S: Emitted<State = D<N>>,
-{
-    #[inline]
-    fn system(&self, t: f64, y: &ode_solvers::SVector<f64, N>, slope: &mut ode_solvers::SVector<f64, N>) {
-        self.1.set(self.1.get() + 1);
-        *slope = <[f64; N]>::from(self.0.rate(t, &<[f64; N]>::from(*y).into())).into();
     }
 }

@@ -7,8 +7,11 @@
 
 use std::error::Error;
 
+mod others;
+
 use linkage_examples::simulation_cost::report;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    report::write(report::Problems::all().works())
+    let problems = report::Problems::all();
+    report::write(problems.works(others::works(&problems)))
 }

@@ -26,8 +26,8 @@ impl Problems {
         }
     }
 
-    /// The runs with each that exist in every build.
-    pub fn works(&self) -> [Vec<Work>; 4] {
+    /// All runs, in the order of the tables: by adaptive steps of this library, then of others, then by fixed steps.
+    pub fn works(&self, others: [Vec<Work>; 4]) -> [Vec<Work>; 4] {
         let Self { squeezer, windows, sprung, turning } = self;
         let mut works = [
             integrators::works(squeezer),
@@ -35,6 +35,7 @@ impl Problems {
             integrators::works(sprung),
             integrators::works(turning),
         ];
+        works.iter_mut().zip(others).for_each(|(works, others)| works.extend(others));
         works[0].extend(fixed_steps::works::<13, _, _>(squeezer, 250, [1e3, 1e4]));
         works[1].extend(fixed_steps::works::<9, _, _>(windows, 2500, [5.0, 50.0]));
         works[2].extend(fixed_steps::works::<5, _, _>(sprung, 1250, [5.0, 50.0]));

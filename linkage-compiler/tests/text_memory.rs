@@ -3,7 +3,6 @@
 //! An allocator counts the bytes of this process, which has one test. `TEXTS` is the number of texts.
 
 use std::alloc::System;
-use std::env;
 
 use cap::Cap;
 use linkage_compiler::budget::Budget;
@@ -36,8 +35,7 @@ fn compile(number: usize) {
 
 #[test]
 fn texts_leave_nothing_behind() {
-    const USUAL: usize = 2000;
-    let count = env::var("TEXTS").map_or(USUAL, |text| text.parse().expect("a number"));
+    let count = linkage_trials::count("TEXTS", 400, 2000);
     let a_few = count / 100;
     (0..a_few).for_each(compile);
     let after_a_few = ALLOCATOR.allocated();

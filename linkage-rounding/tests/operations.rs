@@ -54,7 +54,7 @@ enum Arguments {
 }
 
 fn evaluations() -> usize {
-    let all = std::env::var("EVALUATIONS").ok().and_then(|count| count.parse().ok()).unwrap_or(3_000_usize);
+    let all: usize = linkage_trials::count("EVALUATIONS", 3_000, 3_000);
     all / OPERATIONS.len()
 }
 
@@ -156,7 +156,7 @@ fn within(random: &mut SmallRng, number: Rounded) -> Big {
 
 #[test]
 fn results_are_within_their_bounds() {
-    let mut random = SmallRng::seed_from_u64(53);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(53));
     for (name, arguments, ulps) in OPERATIONS {
         let (mut known, mut worst) = (0, 0.0_f64);
         for round in 0..evaluations() {
@@ -229,7 +229,7 @@ fn jumps() {
         ("argument", |x| x.argument(), |x| if x >= 0.0 { 0.0 } else { std::f64::consts::PI }),
         ("copysign", |x| Rounded::from(3.0).copysign(x), |x| 3_f64.copysign(x)),
     ];
-    let mut random = SmallRng::seed_from_u64(7);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(7));
     for (name, found, exact) in jumps {
         let mut moved = 0;
         for _ in 0..1000 {

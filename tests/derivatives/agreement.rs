@@ -21,7 +21,7 @@ const TOLERANCE: f64 = 1e-12;
 
 /// Poses per mechanism.
 fn poses() -> usize {
-    std::env::var("POSES").ok().and_then(|count| count.parse().ok()).unwrap_or(200)
+    linkage_trials::count("POSES", 40, 200)
 }
 
 /// The expressions of quantities and of their first and second derivative.

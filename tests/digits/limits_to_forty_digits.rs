@@ -141,7 +141,7 @@ impl Worst {
 
 /// Limits of each kind; the environment variable asks for the full number.
 fn times() -> usize {
-    std::env::var("LIMITS").ok().and_then(|count| count.parse().ok()).unwrap_or(400)
+    linkage_trials::count("LIMITS", 100, 400)
 }
 
 /// Random mechanisms at random inputs: limits in closed form, at which each can be assembled, and both ends of

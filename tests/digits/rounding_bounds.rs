@@ -18,11 +18,9 @@ use linkage_oracle::scalars;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-/// Random coordinates of each mechanism; `BOUNDED` gives another number.
-const POSES: usize = 40;
-
+/// Random coordinates of each mechanism.
 fn poses() -> usize {
-    std::env::var("BOUNDED").map_or(POSES, |count| count.parse().unwrap())
+    linkage_trials::count("BOUNDED", 10, 40)
 }
 
 /// The bound, the error and the magnitude of each rounded result, by function.
@@ -103,7 +101,7 @@ fn results<T: linkage::Real>(
 fn measured(of: &dyn Listed<f64>, precise: &dyn Listed<DoubleDouble>, motion: Motion, poses: usize) -> Measured {
     let bounds = bounds_of(of.file(), of.name());
     let defaults = of.defaults();
-    let mut rng = SmallRng::seed_from_u64(31);
+    let mut rng = SmallRng::seed_from_u64(linkage_trials::seed(31));
     let (mut measured, mut silent) = (Measured::new(), BTreeSet::new());
     for pose in 0..poses {
         let parameters: Vec<f64> = defaults.iter().map(|value| value * rng.random_range(0.7..1.3)).collect();
@@ -198,7 +196,7 @@ fn the_bounds_of_the_four_bar_are_near_its_errors() {
 fn ratios_of_the_four_bar_in_48_digits() {
     let bounds = bounds_of("four_bar", "FourBar");
     let bound = &bounds.functions["velocity_ratios"];
-    let mut rng = SmallRng::seed_from_u64(48);
+    let mut rng = SmallRng::seed_from_u64(linkage_trials::seed(48));
     let four_bar = listed("four_bar", "FourBar");
     let parameters = four_bar.defaults();
     let m = four_bar.with_parameters(&parameters);

@@ -1,147 +1,129 @@
 //! Emitted code as if somebody had written it: a crate made of the expansions alone must pass clippy's
 //! pedantic lints and those of its nursery, without the standard library, without unsafe code, and with every item documented.
+//!
+//! `RING=outer` looks at every file of the gallery, and makes a chain of 200 loops.
+
+use std::process::Command;
 
 use linkage_gallery::{FILES, families, source};
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::{env, fs};
+use linkage_tests::programs::{Libraries, succeeded, written};
+use linkage_tests::turn;
+use linkage_trials::is_outer;
+use proc_macro2::TokenStream;
 
-const MANIFEST: &str = r#"
-[package]
-name = "emitted"
-version = "0.0.0"
-edition = "2024"
-# The minimum of `linkage`: clippy rejects what is newer in the standard library.
-rust-version = "MINIMUM"
+/// All that is denied, then what is allowed all the same.
+const DENIED: [&str; 15] = [
+    "unsafe_code",
+    "warnings",
+    "missing_docs",
+    "future_incompatible",
+    "keyword_idents",
+    "let_underscore",
+    "nonstandard_style",
+    "rust_2018_idioms",
+    "rust_2021_compatibility",
+    "rust_2024_compatibility",
+    "refining_impl_trait",
+    "unused",
+    "clippy::all",
+    "clippy::pedantic",
+    "clippy::nursery",
+];
+const ALLOWED: [&str; 7] = [
+    // These ask for fused multiplication, which is slow where the machine has none.
+    "suboptimal_flops",
+    "imprecise_flops",
+    // The user chooses the names of the mechanism, and its size.
+    "many_single_char_names",
+    "similar_names",
+    "too_many_lines",
+    // The user writes the documentation of the mechanism, and what its parameters derive.
+    "too_long_first_doc_paragraph",
+    "derive_partial_eq_without_eq",
+];
+/// Lints that clippy does not ask of what a macro emits.
+const NOT_OF_MACROS: [&str; 4] =
+    ["inline_always", "missing_const_for_fn", "or_fun_call", "suspicious_operation_groupings"];
 
-[dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["dynamics", "libm"] }
+/// The minimum of `linkage`, since clippy rejects what is newer in the standard library; a name in the user's own doc
+/// comments.
+const SETTINGS: &str =
+    concat!("msrv = \"", env!("CARGO_PKG_RUST_VERSION"), "\"\ndoc-valid-idents = [\"McCarthy\", \"..\"]\n");
 
-[lints.rust]
-unsafe_code = "forbid"
-warnings = "deny"
-missing_docs = "deny"
-future_incompatible = { level = "deny", priority = -1 }
-keyword_idents = { level = "deny", priority = -1 }
-let_underscore = { level = "deny", priority = -1 }
-nonstandard_style = { level = "deny", priority = -1 }
-rust_2018_idioms = { level = "deny", priority = -1 }
-rust_2021_compatibility = { level = "deny", priority = -1 }
-rust_2024_compatibility = { level = "deny", priority = -1 }
-refining_impl_trait = { level = "deny", priority = -1 }
-unused = { level = "deny", priority = -1 }
+/// One mechanism of each kind: scenes with every effect and with contacts, functions of the user and of the language,
+/// groups of two loops, limits, change points, tangential accelerations.
+const ALWAYS: [&str; 8] = [
+    "cam_follower",
+    "double_butterfly",
+    "every_function",
+    "five_bar_contacts",
+    "four_bar_effects",
+    "inverted_slider_crank",
+    "klann_mirrored",
+    "slider_crank_scenes",
+];
 
-[lints.clippy]
-all = { level = "deny", priority = -1 }
-pedantic = { level = "deny", priority = -1 }
-nursery = { level = "deny", priority = -1 }
-# These ask for fused multiplication, which is slow where the machine has none.
-suboptimal_flops = "allow"
-imprecise_flops = "allow"
-# The user chooses the names of the mechanism, and its size.
-many_single_char_names = "allow"
-similar_names = "allow"
-too_many_lines = "allow"
-# The user writes the documentation of the mechanism, and what its parameters derive.
-too_long_first_doc_paragraph = "allow"
-derive_partial_eq_without_eq = "allow"
-# Clippy itself does not ask this of what a macro emits.
-inline_always = "allow"
-missing_const_for_fn = "allow"
-or_fun_call = "allow"
-suspicious_operation_groupings = "allow"
-
-[profile.dev]
-debug = false
-incremental = false
-
-[workspace]
-"#;
-
-/// A folder for a crate of expansions.
-fn crate_called(name: &str) -> PathBuf {
-    let root = linkage_tests::ROOT;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::create_dir_all(folder.join("src")).unwrap();
-    let manifest =
-        MANIFEST.replace("ROOT", root).replace("MINIMUM", env!("CARGO_PKG_RUST_VERSION")).replacen("emitted", name, 1);
-    fs::write(folder.join("Cargo.toml"), manifest).unwrap();
-    // A name in the user's own doc comments.
-    fs::write(folder.join("clippy.toml"), r#"doc-valid-idents = ["McCarthy", ".."]"#).unwrap();
-    // The versions under test are those of this workspace.
-    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    folder
+/// The files of the gallery that are looked at: those, and some that turn with the commit; all in the outer ring.
+fn files() -> impl Iterator<Item = &'static str> {
+    let turned = turn::of(FILES.len(), 20);
+    let is_looked_at =
+        move |(place, file): &(usize, &'static str)| is_outer() || ALWAYS.contains(file) || turned(*place);
+    FILES.iter().copied().enumerate().filter(is_looked_at).map(|(_, file)| file)
 }
 
-/// Runs a command of cargo on the crate in a folder, which must succeed; all crates share one target folder.
-fn succeeds(folder: &Path, command: &str) {
-    let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let output = Command::new(cargo)
-        .args([command, "--quiet", "--color=never", "--target-dir"])
-        .arg(Path::new(env!("CARGO_TARGET_TMPDIR")).join("target"))
-        .current_dir(folder)
-        .env_remove("RUSTFLAGS")
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+/// Modules that pass these lints, in a crate without the standard library.
+fn passes(name: &str, modules: Vec<(String, String)>, allowed: &[&str]) {
+    let mut library = String::from("//! Mechanisms under test.\n#![no_std]\n\n");
+    for (module, _) in &modules {
+        library += &format!("pub mod {module};\n");
+    }
+    let modules = modules.into_iter().map(|(module, text)| (format!("{module}.rs"), text));
+    let others = [("lib.rs", library), ("clippy.toml", SETTINGS.to_owned())];
+    let others = others.map(|(file, text)| (file.to_owned(), text));
+    let folder = written(name, modules.chain(others));
+    let mut clippy = Libraries::of_tests().clippy(&folder, "lib.rs", &["linkage"]);
+    clippy.arg("--crate-type=lib").args(DENIED.map(|lint| format!("-D{lint}")));
+    succeeded(clippy.args(allowed.iter().map(|lint| format!("-Aclippy::{lint}"))));
 }
 
 #[test]
 fn passes_pedantic_lints() {
-    let (folder, root) = (crate_called("emitted"), linkage_tests::ROOT);
-    fs::copy(Path::new(root).join("dev/gallery/src/cam_laws.rs"), folder.join("src/cam_laws.rs")).unwrap();
-    let mut library = String::from("//! Expansions of the mechanisms under test.\n#![no_std]\n\npub mod cam_laws;\n");
     // Sensitivities with few entries, and points that need nothing of a block that is factorised.
     let orders = |family: String| {
         let derived = family.replacen('{', "{ derive limits, jerk, velocity_ratio_derivatives, sensitivity;", 1);
         format!("pub {derived}").replace("+ b0_0@t0;", ";").parse().unwrap()
     };
     let families = [("chain", orders(families::chain(3))), ("dense", orders(families::dense(2)))];
-    let files = FILES.iter().map(|&file| (file, source::tokens_of(file)));
-    for (mechanism, tokens) in files.chain(families) {
+    let files = files().map(|file| (file, source::tokens_of(file)));
+    let laws = ("cam_laws".to_owned(), include_str!("../../dev/gallery/src/cam_laws.rs").to_owned());
+    let module = |(mechanism, tokens): (&str, TokenStream)| {
         let tokens = linkage_compiler::expand(tokens, &"::linkage".parse().unwrap());
         let text = prettyplease::unparse(&syn::parse2(tokens).unwrap());
-        fs::write(folder.join(format!("src/{mechanism}.rs")), format!("//! `{mechanism}`.\n\n{text}")).unwrap();
-        library += &format!("pub mod {mechanism};\n");
-    }
-    fs::write(folder.join("src/lib.rs"), library).unwrap();
-    succeeds(&folder, "clippy");
+        (mechanism.to_owned(), format!("//! `{mechanism}`.\n\n{text}"))
+    };
+    let modules = files.chain(families).map(module).chain([laws]).collect();
+    passes("emitted", modules, &[&ALLOWED[..], &NOT_OF_MACROS].concat());
 }
-
-/// Lints that clippy does not ask of what a macro emits, or that the source of a mechanism does not keep.
-const OF_SOURCE: [&str; 5] = [
-    "derive_partial_eq_without_eq",
-    "inline_always",
-    "missing_const_for_fn",
-    "or_fun_call",
-    "suspicious_operation_groupings",
-];
 
 /// A user may deny every lint, those of clippy's nursery too, but for the two that ask for fused multiplication, and for
 /// lints of the names, the size and the documentation that a mechanism has from its user.
 #[test]
 fn a_user_may_deny_every_lint() {
-    let folder = crate_called("all_lints");
-    let manifest = fs::read_to_string(folder.join("Cargo.toml")).unwrap();
-    let is_kept = |line: &&str| !OF_SOURCE.iter().any(|lint| line.starts_with(&format!("{lint} = ")));
-    let manifest: Vec<&str> = manifest.lines().filter(is_kept).collect();
-    fs::write(folder.join("Cargo.toml"), manifest.join("\n")).unwrap();
-    let mut library = String::from("//! Mechanisms of a user.\n#![no_std]\n\n");
-    let files = FILES.iter().step_by(4);
-    let sources = files.map(|file| (file, source::text_of(file))).filter(|(_, text)| !text.contains("crate::"));
-    for (file, text) in sources {
+    let own = FILES.iter().map(|&file| (file, source::text_of(file))).filter(|(_, text)| !text.contains("crate::"));
+    let own: Vec<_> = own.collect();
+    let turned = turn::of(own.len(), if is_outer() { 4 } else { 40 });
+    let module = |(file, text): (&str, &str)| {
         let text = text.replace("PartialEq)]", "PartialEq, Eq)]");
-        // Intervals need the standard library.
-        let text = text.replace("derive intervals;", "").replace(", intervals;", ";");
-        fs::write(folder.join(format!("src/{file}.rs")), format!("//! `{file}`.\n\n{text}")).unwrap();
-        library += &format!("pub mod {file};\n");
-    }
-    fs::write(folder.join("src/lib.rs"), library).unwrap();
-    succeeds(&folder, "clippy");
+        (file.to_owned(), format!("//! `{file}`.\n\n{text}"))
+    };
+    let chosen = own.into_iter().enumerate().filter(|(place, _)| turned(*place));
+    let modules = chosen.map(|(_, one)| module(one)).collect();
+    let of_source = |lint: &&str| *lint != "derive_partial_eq_without_eq";
+    passes("all_lints", modules, &ALLOWED.into_iter().filter(of_source).collect::<Vec<_>>());
 }
 
 /// Every loop of a chain, checked one by one: the input of each is the output of the one before it.
-const CHAIN_OF_TWO_HUNDRED: &str = r#"//! A chain of 200 loops, assembled and driven.
+const CHAIN: &str = r#"//! A chain of loops, assembled and driven.
 
 mod chain;
 
@@ -151,7 +133,7 @@ use chain::{Chain, ChainCoordinates, ChainInputs};
 use linkage::Mechanism;
 use linkage::nalgebra::SVector;
 
-const LOOPS: usize = 200;
+const LOOPS: usize = COUNT;
 
 fn main() {
     let chain = Chain::default();
@@ -204,15 +186,19 @@ fn main() {
 }
 "#;
 
-/// A mechanism that is nearly as large as one may be compiles in a plain dev build, with full debug information.
+/// A mechanism that is nearly as large as one may be compiles in a plain dev build, with full debug information: of 200
+/// loops, of 20 in the inner ring.
 #[test]
-fn a_chain_of_two_hundred_loops_runs() {
-    let folder = crate_called("large");
+fn a_long_chain_of_loops_runs() {
+    let loops = linkage_trials::count("LOOPS", 20, 200);
     let attribute = r#"#[allow(dead_code, reason = "the program calls a few of the emitted functions")]"#;
-    let tokens = format!("{attribute} pub {}", families::chain(200)).parse().unwrap();
+    let tokens = format!("{attribute} pub {}", families::chain(loops)).parse().unwrap();
     let tokens = linkage_compiler::expand(tokens, &"::linkage".parse().unwrap());
     let text = prettyplease::unparse(&syn::parse2(tokens).unwrap());
-    fs::write(folder.join("src/chain.rs"), text).unwrap();
-    fs::write(folder.join("src/main.rs"), CHAIN_OF_TWO_HUNDRED).unwrap();
-    succeeds(&folder, "run");
+    let files = [("chain.rs", text), ("main.rs", CHAIN.replace("COUNT", &loops.to_string()))];
+    let folder = written("large", files.map(|(file, text)| (file.to_owned(), text)));
+    let mut rustc = Libraries::of_tests().rustc(&folder, "main.rs", &["linkage"]);
+    let lints = DENIED.into_iter().filter(|lint| !lint.contains("clippy")).map(|lint| format!("-D{lint}"));
+    succeeded(rustc.arg("-Cdebuginfo=2").args(lints));
+    succeeded(&mut Command::new(folder.join("large")));
 }

@@ -175,7 +175,7 @@ linkage! {
 #[test]
 fn limits_of_random_four_bars() {
     let mut random = SmallRng::seed_from_u64(11);
-    let count = std::env::var("CERTIFICATES").ok().and_then(|count| count.parse().ok()).unwrap_or(40);
+    let count = linkage_trials::count("CERTIFICATES", 16, 40);
     let (mut cranks, mut rockers) = (0, 0);
     while cranks + rockers < count {
         let [a, b, c, d] = std::array::from_fn(|_| random.random_range(1.0..10.0));

@@ -8,38 +8,17 @@ use std::path::Path;
 
 use object::{Object, ObjectSection, ObjectSymbol, SectionFlags};
 
+use linkage_tests::programs::{succeeded, written};
+
 use crate::graph::Graph;
-use crate::{built, libraries, of_rust, package, wrappers};
+use crate::{LEVELS, is_wrapper, libraries, of_firmware, of_rust, wrappers};
 
 /// A processor with instructions for floats, and none for doubles: a Cortex-M4F.
 const TARGET: &str = "thumbv7em-none-eabihf";
 
-const MANIFEST: &str = r#"
-[package]
-name = "NAME"
-version = "0.0.0"
-edition = "2024"
-
-[dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["libm", "dynamics"] }
-
-[profile.size]
-inherits = "release"
-opt-level = "z"
-panic = "abort"
-lto = LTO
-codegen-units = 1
-
-[workspace]
-"#;
-
-fn manifest(name: &str, lto: bool) -> String {
-    MANIFEST.replace("NAME", name).replace("LTO", &lto.to_string())
-}
-
 /// True if the target is installed; if not, the test that asks passes and says so.
 fn is_installed() -> bool {
-    let is_there = of_rust(Path::new(linkage_tests::ROOT), Some(TARGET)).is_dir();
+    let is_there = of_rust(Some(TARGET)).is_dir();
     if !is_there {
         println!("not tried, since the target is not installed: rustup target add {TARGET}");
     }
@@ -97,10 +76,10 @@ fn a_program_links_no_doubles() {
     if !is_installed() {
         return;
     }
-    let folder = package("program", &manifest("program", true), vec![("main.rs".to_owned(), PROGRAM.to_owned())]);
-    let files = built(&folder, "size", Some(TARGET), |file| file.ends_with("program"));
-    let [program] = &files[..] else { panic!("{files:?}") };
-    let data = std::fs::read(program).unwrap();
+    let folder = written("program", [("main.rs".to_owned(), PROGRAM.to_owned())]);
+    let mut rustc = of_firmware("program", Some(TARGET)).rustc(&folder, "main.rs", &["linkage"]);
+    succeeded(rustc.args(["-Copt-level=z", "-Cpanic=abort", "-Clto", "-Ccodegen-units=1"]));
+    let data = std::fs::read(folder.join("program")).unwrap();
     let file = object::File::parse(&*data).unwrap();
     let names = file.symbols().filter_map(|symbol| symbol.name().map(str::to_owned).ok());
     let names: Vec<String> = names.map(|name| format!("{:#}", rustc_demangle::demangle(&name))).collect();
@@ -136,16 +115,12 @@ fn closed_forms_compute_in_floats() {
         return;
     }
     let files = wrappers::in_floats(Path::new(linkage_tests::ROOT));
-    let folder = package("floats", &manifest("floats", false), files);
+    let folder = written("floats", files);
     let mut graph = Graph::default();
-    for library in libraries(&folder, "size", Some(TARGET)) {
+    for library in libraries(&folder, LEVELS[2], Some(TARGET)) {
         graph.add(&library);
     }
-    let is_wrapper = |name: &str| {
-        let inside = name.strip_prefix("floats::").and_then(|name| name.split_once("::wrappers::"));
-        inside.is_some_and(|(_, function)| !function.contains("::"))
-    };
-    let ways = graph.ways(is_wrapper, computes_in_doubles);
+    let ways = graph.ways(is_wrapper("floats"), computes_in_doubles);
     let last = |name: &str| name.rsplit("::").next().unwrap_or_default().to_owned();
     let in_doubles = ways.iter().filter(|(_, way)| way.is_some());
     let found: BTreeSet<String> = in_doubles.clone().map(|(name, _)| last(name)).collect();

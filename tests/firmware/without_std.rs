@@ -2,7 +2,9 @@
 
 use std::process::Command;
 
-use crate::{MANIFEST, built, numbers, package};
+use linkage_tests::programs::{succeeded, written};
+
+use crate::{numbers, of_firmware};
 
 const PROGRAM: &str = r#"
 mod numbers;
@@ -16,12 +18,10 @@ fn main() {
 fn numbers_have_the_same_bits_without_std() {
     let files = [("main.rs", PROGRAM), ("numbers.rs", include_str!("numbers.rs"))];
     let files = files.map(|(name, text)| (name.to_owned(), text.to_owned()));
-    let manifest = MANIFEST.replace("name = \"firmware\"", "name = \"without_std\"");
-    let folder = package("without_std", &manifest, files.to_vec());
-    let [program] = &built(&folder, "three", None, |file| file.ends_with("without_std"))[..] else {
-        panic!("one program");
-    };
-    let output = Command::new(program).output().expect("it runs");
+    let folder = written("without_std", files);
+    let mut rustc = of_firmware("size", None).rustc(&folder, "main.rs", &["linkage"]);
+    succeeded(rustc.args(["-Copt-level=z", "-Cpanic=abort"]));
+    let output = succeeded(&mut Command::new(folder.join("without_std")));
     let (with, without) = (numbers::text(), String::from_utf8(output.stdout).expect("a text"));
     assert!(with.lines().count() > 1200, "{with}");
     for (one, other) in with.lines().zip(without.lines()) {

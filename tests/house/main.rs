@@ -1,5 +1,6 @@
 //! The project itself: packages, imports, the manual.
 
 mod circles;
+mod commands;
 mod constructs;
 mod packages;

@@ -6,7 +6,8 @@ use std::path::Path;
 use linkage_gallery::FILES;
 use linkage_interpreter::Program;
 
-use crate::drawn::{Drawn, mechanisms};
+use crate::at_run_time::mechanisms;
+use crate::drawn::Drawn;
 
 /// The calls of each function.
 const CALLS: u64 = 5;

@@ -3,7 +3,8 @@
 use linkage_gallery::FILES;
 use linkage_interpreter::{CallError, Columns, Data, Design, Values};
 
-use crate::drawn::{Drawn, mechanisms};
+use crate::at_run_time::mechanisms;
+use crate::drawn::Drawn;
 
 /// More than one block, and a part of one.
 const POSITIONS: usize = 150;

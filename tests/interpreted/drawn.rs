@@ -1,47 +1,12 @@
-//! The mechanisms of the gallery at run time, and random arguments.
+//! Random arguments.
 
-use linkage_gallery::{cam_laws, source};
-use linkage_interpreter::{Data, Design, Mechanism, Program, Record, Shape};
+use linkage_interpreter::{Data, Design, Mechanism, Record, Shape};
 
 /// Numbers that functions must bear.
 const EXTREME: &[f64] = &[0.0, -0.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, 1e-300, 1e17];
 
 /// Zeros, and angles near them: many links are nearly in line, so that groups are nearly singular.
 const NEAR_ZERO: &[f64] = &[0.0, -0.0, 0.001, -0.002];
-
-/// The text of a file of the gallery, between the braces of its `linkage!`.
-pub fn text_of(file: &str) -> String {
-    let text = source::text_of(file);
-    let from = text.find("linkage! {").expect("one `linkage!`") + "linkage! {".len();
-    text[from..text.rfind('}').expect("its end")].to_owned()
-}
-
-/// The mechanisms of a file, with their user functions.
-pub fn mechanisms(file: &str) -> Vec<Mechanism> {
-    let program = Program::compile(&text_of(file)).unwrap_or_else(|messages| panic!("{file}: {messages:?}"));
-    program.mechanisms().iter().cloned().map(given).collect()
-}
-
-/// The mechanism with its user functions.
-pub fn given(mechanism: Mechanism) -> Mechanism {
-    match mechanism.name() {
-        "CamFollower" => {
-            let lift = |at: &[f64]| {
-                let (lift, lift1, lift2, lift3) = cam_laws::polynomial_strokes(at[0], at[1], at[2]);
-                vec![lift, lift1, lift2, lift3]
-            };
-            mechanism.with_function("lift", lift).expect("its function")
-        }
-        "CamRocker" => {
-            let turn = |at: &[f64]| {
-                let (turn, turn1, turn2) = cam_laws::cycloidal_strokes(at[0], at[1], at[2]);
-                vec![turn, turn1, turn2]
-            };
-            mechanism.with_function("turn", turn).expect("its function")
-        }
-        _ => mechanism,
-    }
-}
 
 /// Random numbers, kept in the order in which they are taken.
 pub struct Drawn {
@@ -56,7 +21,7 @@ pub struct Drawn {
 impl Drawn {
     /// Numbers of which this share is extreme.
     pub fn new(seed: u64, extreme: f64) -> Self {
-        Self { random: seed, all: Vec::new(), special: (EXTREME, extreme) }
+        Self { random: linkage_trials::seed(seed), all: Vec::new(), special: (EXTREME, extreme) }
     }
 
     /// Numbers of which this share is zero or near it.

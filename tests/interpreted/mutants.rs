@@ -12,8 +12,7 @@ use rand::rngs::SmallRng;
 
 use crate::drawn::Drawn;
 
-/// The mutants that compile, and the calls of each.
-const MUTANTS: usize = 30;
+/// The calls of each mutant.
 const CALLS: usize = 100;
 
 /// The steps of the compiler's budget: a mutant is no larger than what it is made of.
@@ -21,8 +20,8 @@ const STEPS: usize = 20_000_000;
 
 #[test]
 fn no_mutant_panics_when_it_runs() {
-    let wanted = std::env::var("MUTANTS").ok().and_then(|text| text.parse().ok()).unwrap_or(MUTANTS);
-    let random = SmallRng::seed_from_u64(51);
+    let wanted = linkage_trials::count("MUTANTS", 10, 30);
+    let random = SmallRng::seed_from_u64(linkage_trials::seed(51));
     let mut mutants = Mutator::new(random, corpus(std::path::Path::new(linkage_tests::ROOT)));
     let (mut compiled, mut values, mut errors) = (0, 0, 0);
     while compiled < wanted {

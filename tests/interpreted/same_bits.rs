@@ -5,14 +5,12 @@
 
 use std::collections::BTreeMap;
 
-use linkage_called::{ALL, Call, Called, Numbers};
+use linkage_called::{ALL, Call, Called, Listed};
 use linkage_interpreter::{CallError, Data, Design, Error, Mechanism, SceneDesign};
 
-use crate::drawn::{Drawn, mechanisms};
+use crate::at_run_time::mechanisms;
+use crate::drawn::Drawn;
 use crate::printed::{Printed, read};
-
-/// The calls of each function.
-const CALLS: usize = 50;
 
 /// The share of extreme numbers in the second half of the calls.
 const EXTREME: f64 = 0.02;
@@ -47,7 +45,7 @@ struct Found {
 
 #[test]
 fn every_function_of_the_gallery() {
-    let calls = std::env::var("CALLS").ok().and_then(|text| text.parse().ok()).unwrap_or(CALLS);
+    let calls = linkage_trials::count("CALLS", 10, 50);
     let mut found = Found::default();
     let mut last: (&str, Vec<Mechanism>) = ("", Vec::new());
     for one in ALL {
@@ -105,7 +103,7 @@ fn called(
     if function.starts_with("branch_") && drawn.all.iter().any(|number| !number.is_finite()) {
         return;
     }
-    let emitted = run(&mut Numbers(&drawn.all));
+    let emitted = run(&mut Listed(&drawn.all));
     let difference = match &own {
         Ok(own) => difference("", &read(&emitted), own),
         Err(error) => {

@@ -5,7 +5,8 @@ use linkage_interpreter::{Data, Program};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
-use crate::drawn::{Drawn, given, text_of};
+use crate::at_run_time::{given, text_of};
+use crate::drawn::Drawn;
 
 #[test]
 fn what_is_read_is_what_was_written() {
@@ -84,7 +85,7 @@ fn another_version_is_one_message() {
 /// Damaged files are errors, or run: to a value, an error or a defect, without a panic.
 #[test]
 fn damaged_files_do_not_panic() {
-    let mut random = SmallRng::seed_from_u64(7);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(7));
     let (mut rejected, mut run) = (0, 0);
     for file in ["four_bar", "double_butterfly", "four_bar_effects"] {
         let text = serde_json::to_string(&Program::compile(&text_of(file)).expect("it compiles")).expect("written");

@@ -2,7 +2,6 @@
 //! are extreme. The bits include the sign of a zero: another kind of batch has small whole numbers, right angles and zeros,
 //! at which many differences vanish.
 
-use std::env;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use linkage::lanes::{Batch, Given, Lanes, Values};
@@ -23,7 +22,7 @@ const LANES: usize = 1003;
 
 /// Batches of each kind for each mechanism and scalar. `LANE_BATCHES=930` is the full size: 1e8 lanes, half of them in `f32`.
 fn batches() -> usize {
-    env::var("LANE_BATCHES").ok().and_then(|text| text.parse().ok()).unwrap_or(4)
+    linkage_trials::count("LANE_BATCHES", 1, 4)
 }
 
 const EXTREME: [f64; 14] = [
@@ -157,11 +156,11 @@ where
     S<M>: Bits,
 {
     let name = <M as Lanes>::NAME;
-    let mut random = SmallRng::seed_from_u64(18);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(18));
     let [mut usual, mut extreme, mut plain] =
         [const { Tally { accepted: 0, rejected: 0, partly: 0, zeros: 0, negative_zeros: 0 } }; 3];
     // Newton's method takes much longer where there is no position.
-    for _ in 0..batches() / if name == "StephensonII" { 4 } else { 1 } {
+    for _ in 0..batches().div_ceil(if name == "StephensonII" { 4 } else { 1 }) {
         compare(design, branch, &mut random, Numbers::Usual, &mut usual);
         compare(design, branch, &mut random, Numbers::Extreme, &mut extreme);
         compare(design, branch, &mut random, Numbers::Plain, &mut plain);

@@ -1,6 +1,8 @@
 //! `dyn Mechanism`, which rustc rejects with the reasons, shows what to write instead.
 
-use super::checked::{messages, package};
+use linkage_tests::programs::written;
+
+use super::checked::messages;
 
 const PROGRAM: &str = "\
 use linkage::Kinematic;
@@ -21,9 +23,9 @@ pub fn all() -> Vec<Box<dyn Kinematic<Scalar = f64>>> {
 
 #[test]
 fn a_trait_object_has_a_message_with_its_replacement() {
-    let folder = package("trait_objects", [("src/lib.rs".to_owned(), PROGRAM.to_owned())]);
-    let all = messages(&folder, &["--lib"]);
-    let text: String = all.iter().filter_map(|line| line["message"]["rendered"].as_str()).collect();
+    let folder = written("trait_objects", [("lib.rs".to_owned(), PROGRAM.to_owned())]);
+    let all = messages(&folder, "lib.rs", "lib");
+    let text: String = all.iter().filter_map(|line| line["rendered"].as_str()).collect();
     for part in ["E0038", "Instead of `dyn`: a generic function, or your trait for all `M: Kinematic`."] {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }

@@ -1,5 +1,7 @@
 //! Motions that are followed: paths, steps over change points, circuits, and the cases at which usual formulas fail.
 
+#[path = "../at_run_time.rs"]
+mod at_run_time;
 mod by_continuation;
 mod circuits;
 mod continuation;

@@ -1,6 +1,5 @@
 //! One motion over a range: its ends, what it passes, and each of its positions against a path in small steps.
 
-use std::env;
 use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
@@ -207,7 +206,7 @@ fn small_steps(m: &Tilted, start: &TiltedCoordinates, input: f64) -> Result<Opti
 /// `MOTIONS=10000` for ten thousand linkages.
 #[test]
 fn positions_are_those_of_small_steps() {
-    let count: u32 = env::var("MOTIONS").map_or(300, |count| count.parse().unwrap());
+    let count: u32 = linkage_trials::count("MOTIONS", 60, 300);
     let mut random = SmallRng::seed_from_u64(48);
     let (mut rows, mut closed, mut ended, mut failures) = (0, 0, 0, Vec::new());
     for number in 0..count {

@@ -182,9 +182,14 @@ macro_rules! is_listed {
     }};
 }
 
+/// Mechanisms with planted positions; a twentieth as many from random starts.
+fn count() -> usize {
+    linkage_trials::count("GUIDES", 600, 3000)
+}
+
 #[test]
 fn planted_positions() {
-    let count = std::env::var("GUIDES").ok().and_then(|count| count.parse().ok()).unwrap_or(3000);
+    let count = count();
     let random = &mut SmallRng::seed_from_u64(44);
     let mut counts = [[0; 3]; CLASSES.len()];
     for case in 0..count {
@@ -224,7 +229,7 @@ fn planted_positions() {
 /// All lengths and the input are multiples of 1/2 and 1/4: no regular position that Newton's method finds is left out.
 #[test]
 fn round_lengths_against_random_starts() {
-    let count = std::env::var("GUIDES").ok().and_then(|count| count.parse().ok()).unwrap_or(3000) / 20;
+    let count = count() / 20;
     let random = &mut SmallRng::seed_from_u64(45);
     let (mut reached, mut empty) = (0, 0);
     for _ in 0..count {

@@ -1,9 +1,10 @@
 //! Shared by the tests: the sources that they read, mutants of them, and the operations that emitted code states.
 
-pub mod calls;
-pub mod every;
 pub mod expanded;
 pub mod mutants;
+pub mod programs;
+pub mod subjects;
+pub mod turn;
 pub mod work;
 
 /// The folder of the workspace.

@@ -43,3 +43,10 @@ pub fn seed(own: u64) -> u64 {
     // An odd factor: neighbouring commits have seeds far apart, and no commit leaves the own seed.
     own ^ of_commit.wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
+
+/// All cases in the outer ring; in the inner ring one of so many, other ones for each commit.
+pub fn some<T>(cases: impl IntoIterator<Item = T>, of: usize) -> impl Iterator<Item = T> {
+    let step = if is_outer() { 1 } else { of };
+    let first = (seed(0) % step as u64) as usize;
+    cases.into_iter().skip(first).step_by(step)
+}

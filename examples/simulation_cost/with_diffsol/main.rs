@@ -3,12 +3,14 @@
 use std::error::Error;
 
 mod diffsol;
+#[path = "../others.rs"]
+mod others;
 
 use linkage_examples::simulation_cost::report;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let problems = report::Problems::all();
-    let mut works = problems.works();
+    let mut works = problems.works(others::works(&problems));
     works[0].extend(diffsol::works(&problems.squeezer));
     works[1].extend(diffsol::works(&problems.windows));
     works[2].extend(diffsol::works(&problems.sprung));

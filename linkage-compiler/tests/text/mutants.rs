@@ -3,9 +3,9 @@
 //!
 //! `MUTANTS` is their number, `MUTANTS_SEED` chooses others. One of a hundred that pass is compiled.
 
+use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::{env, fs};
 
 use linkage_compiler::budget::Budget;
 use linkage_compiler::text;
@@ -175,15 +175,11 @@ fn check(messages: &[text::Message], text: &str) {
     }
 }
 
-fn setting(name: &str, usual: usize) -> usize {
-    env::var(name).map_or(usual, |text| text.parse().unwrap())
-}
-
 #[test]
 fn no_mutant_of_a_text_panics_or_runs_away() {
-    const USUAL: usize = 1500;
-    let count = setting("MUTANTS", USUAL);
-    let mut mutator = Mutator { random: SmallRng::seed_from_u64(setting("MUTANTS_SEED", 1) as u64), corpus: corpus() };
+    let count = linkage_trials::count("MUTANTS", 300, 1500);
+    let own = linkage_trials::count("MUTANTS_SEED", 1, 1);
+    let mut mutator = Mutator { random: SmallRng::seed_from_u64(linkage_trials::seed(own)), corpus: corpus() };
     let (mut passed, mut compiled, mut said) = (0, 0, 0);
     for number in 1..=count {
         let text = mutator.mutant();

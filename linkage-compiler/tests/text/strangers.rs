@@ -8,13 +8,11 @@ use std::{env, thread};
 
 use linkage_compiler::budget::Budget;
 use linkage_compiler::text;
+use linkage_trials::count;
 use proc_macro2::{TokenStream, TokenTree};
 
 /// The stack of a thread of Rust, in KiB.
 const STACK: usize = 2048;
-
-/// The budget of each text.
-const STEPS: usize = 100_000;
 
 /// A shape of texts: its name, and the text of a size.
 type Shape = (&'static str, fn(usize) -> String);
@@ -262,6 +260,12 @@ const SHAPES: &[Shape] = &[
 /// The sizes of each shape: the largest that fits, and fractions of it.
 const FRACTIONS: [usize; 4] = [1000, 30, 4, 1];
 
+/// In the inner ring one of so many shapes has these sizes.
+const FEW: usize = 3;
+
+/// A size that every shape has.
+const SMALL: usize = 20;
+
 /// The number of tokens of a text; 0 if it is none.
 fn tokens(text: &str) -> usize {
     let Ok(tokens) = text.parse::<TokenStream>() else { return 0 };
@@ -288,10 +292,6 @@ fn largest(shape: fn(usize) -> String) -> usize {
     of(text::LONGEST, bytes).min(of(text::MOST_TOKENS, tokens)).max(SOME)
 }
 
-fn setting(name: &str, usual: usize) -> usize {
-    env::var(name).map_or(usual, |text| text.parse().unwrap())
-}
-
 /// The time and the steps that a text takes on a thread with little stack, and its mechanisms or messages.
 fn time_of(
     name: &str,
@@ -311,26 +311,28 @@ fn time_of(
 
 #[test]
 fn texts_of_every_shape_end_on_a_small_stack() {
-    let (stack, steps) = (setting("STRANGERS_STACK", STACK), setting("STRANGERS_STEPS", STEPS));
+    let (stack, steps) = (count("STRANGERS_STACK", STACK, STACK), count("STRANGERS_STEPS", 100_000, 100_000));
     let chosen = env::var("STRANGERS").unwrap_or_default();
-    for (name, shape) in SHAPES.iter().filter(|(name, _)| format!("={name}=").contains(&chosen)) {
+    let shapes = SHAPES.iter().filter(|(name, _)| format!("={name}=").contains(&chosen));
+    let small = shapes.clone().map(|(name, shape)| (name, shape, SMALL));
+    let large = linkage_trials::some(shapes, FEW).flat_map(|(name, shape)| {
         let most = largest(*shape);
-        for fraction in FRACTIONS {
-            let count = most / fraction;
-            let text = shape(count);
-            if text.len() > text::LONGEST {
-                continue;
-            }
-            let bytes = text.len();
-            let (time, spent, found) = time_of(&format!("{name} {count}"), text, stack, steps);
-            let said = match &found {
-                Ok(count) => format!("{count} mechanisms"),
-                Err(messages) => {
-                    let first: String = messages[0].to_string().chars().take(90).collect();
-                    format!("{} messages: {first}", messages.len())
-                }
-            };
-            println!("{:8.3} s {bytes:8} bytes {spent:9} steps, {name} {count}: {said}", time.as_secs_f64());
+        FRACTIONS.map(|fraction| (name, shape, most / fraction))
+    });
+    for (name, shape, count) in small.chain(large) {
+        let text = shape(count);
+        if text.len() > text::LONGEST {
+            continue;
         }
+        let bytes = text.len();
+        let (time, spent, found) = time_of(&format!("{name} {count}"), text, stack, steps);
+        let said = match &found {
+            Ok(count) => format!("{count} mechanisms"),
+            Err(messages) => {
+                let first: String = messages[0].to_string().chars().take(90).collect();
+                format!("{} messages: {first}", messages.len())
+            }
+        };
+        println!("{:8.3} s {bytes:8} bytes {spent:9} steps, {name} {count}: {said}", time.as_secs_f64());
     }
 }

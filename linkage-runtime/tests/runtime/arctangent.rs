@@ -74,7 +74,7 @@ impl Largest {
 /// `SAMPLES=20000000` takes so many.
 #[test]
 fn within_the_promise() {
-    let samples = std::env::var("SAMPLES").ok().and_then(|samples| samples.parse().ok()).unwrap_or(20_000);
+    let samples = linkage_trials::count("SAMPLES", 20_000, 20_000);
     let mut numbers = random(1);
     let mut next = || numbers.next().unwrap_or_default();
     let mut largest = Largest::default();

@@ -106,7 +106,7 @@ fn exact_ulps(found: f64, exact: DoubleDouble) -> f64 {
 
 #[test]
 fn errors() {
-    let count = std::env::var("SAMPLES").ok().and_then(|text| text.parse().ok()).unwrap_or(4000);
+    let count = linkage_trials::count("SAMPLES", 4000, 4000);
     for row in &ROWS {
         let mut largest = [(0.0, 0.0); 3];
         for x in row.ranges.iter().flat_map(|range| range.arguments(count)) {

@@ -106,8 +106,8 @@ fn reference_is_right() {
 /// `SAMPLES=20000000 cargo test --release -p linkage-runtime --test runtime sine` takes so many, and every multiple of pi/2.
 #[test]
 fn within_the_promise() {
-    let samples = std::env::var("SAMPLES").ok().and_then(|samples| samples.parse().ok());
-    samples.map_or_else(|| sweep(20_000, 7), |samples| sweep(samples, 1));
+    let samples = linkage_trials::count("SAMPLES", 20_000, 20_000);
+    sweep(samples, if samples > 20_000 { 1 } else { 7 });
 }
 
 fn bits((sine, cosine): (f64, f64)) -> [u64; 2] {

@@ -12,7 +12,7 @@ use super::reference::{Data, Reference};
 
 /// Poses of each mechanism.
 fn poses() -> usize {
-    std::env::var("POSES").ok().and_then(|count| count.parse().ok()).unwrap_or(8)
+    linkage_trials::count("POSES", 3, 8)
 }
 
 /// Mechanisms with user functions, whose values are data in 48 digits.
@@ -42,7 +42,7 @@ pub(super) fn within_bounds(of: &dyn Listed<f64>, rounded: &dyn Listed<Rounded>)
         return;
     }
     let reference = Reference::new(of);
-    let mut random = SmallRng::seed_from_u64(19_630_401);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(19_630_401));
     let (mut results, mut unknown, mut most) = (0, 0, 0.0_f64);
     for _ in 0..poses() {
         let data = reference.data(&mut random, of.branch_count());

@@ -14,7 +14,7 @@ pub(super) const ULPS: f64 = 8.0;
 
 /// Poses of each mechanism; the environment variable asks for the full number.
 fn poses() -> usize {
-    std::env::var("POSES").ok().and_then(|count| count.parse().ok()).unwrap_or(40)
+    linkage_trials::count("POSES", 10, 40)
 }
 
 /// The largest error in ulp times condition number, with its place.
@@ -40,7 +40,7 @@ impl Worst {
 
 pub(super) fn largest_errors(of: &dyn Listed<f64>) -> [Worst; 3] {
     let (reference, file, branches) = (Reference::new(of), of.name(), of.branch_count());
-    let mut random = SmallRng::seed_from_u64(20_091_121);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(20_091_121));
     let mut worst: [Worst; 3] = Default::default();
     let (mut count, mut missed) = (0, 0);
     let (unknowns, place_of) = (&reference.derivation.unknowns, &reference.derivation.coordinates);
@@ -118,13 +118,13 @@ pub(super) fn unit_of_length(of: &dyn Listed<f64>) {
         return;
     };
     assert!(!WITH_NUMBERS.contains(&of.file()), "no number for a length: it is not one of WITH_NUMBERS");
-    let mut random = SmallRng::seed_from_u64(5);
-    let mut found = 0;
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(5));
+    let (mut found, most) = (0, linkage_trials::count("UNITS", 20, 100));
     for _ in 0..5000 {
         let data = reference.data(&mut random, of.branch_count());
         let Some(plain) = run(of, &data) else { continue };
         found += 1;
-        if found > 100 {
+        if found > most {
             break;
         }
         for k in [-300, -37, -1, 2, 101, 300] {

@@ -20,9 +20,6 @@ use rand::{Rng, SeedableRng};
 
 use reader::Core;
 
-/// Random positions of each mechanism.
-const POSES: usize = 20;
-
 /// Mechanisms without formulas for rates: by pivoting, and equal to those of the input.
 const WITHOUT: [&str; 2] = ["ThreeTogether", "Block"];
 
@@ -89,9 +86,9 @@ fn agrees(listed: &dyn Listed<f64>) {
     let components: Vec<String> = points.iter().flat_map(|name| [format!("{name}.x"), format!("{name}.y")]).collect();
     let motions: Vec<String> =
         points.iter().flat_map(|name| [format!("{name}.acceleration.x"), format!("{name}.acceleration.y")]).collect();
-    let mut rng = SmallRng::seed_from_u64(7);
+    let mut rng = SmallRng::seed_from_u64(linkage_trials::seed(7));
     let mut compared = 0;
-    for pose in 0..POSES {
+    for pose in 0..linkage_trials::count("FPCORE", 5, 20) {
         let values: Vec<f64> = defaults.iter().map(|value| value * rng.random_range(0.98..1.02)).collect();
         let m = listed.with_parameters(&values);
         let mut draw = || -> Vec<f64> { names.iter().map(|_| rng.random_range(-3.0..3.0)).collect() };

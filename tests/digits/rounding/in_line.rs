@@ -69,11 +69,8 @@ linkage! {
     }
 }
 
-/// Positions, if no number is asked for.
-const POSITIONS: usize = 4_000;
-
 fn positions() -> usize {
-    std::env::var("IN_LINE").ok().and_then(|count| count.parse().ok()).unwrap_or(POSITIONS)
+    linkage_trials::count("IN_LINE", 1_000, 4_000)
 }
 
 /// A vector, or a complex number.
@@ -441,7 +438,7 @@ fn positions_of_links_in_line_are_within_their_bounds() {
         ("harmonic", harmonic),
     ];
     for (name, compare) in kinds {
-        let mut draw = Draw(SmallRng::seed_from_u64(44));
+        let mut draw = Draw(SmallRng::seed_from_u64(linkage_trials::seed(44)));
         let mut found = Found::default();
         let most = positions() / kinds.len();
         while found.positions < most {

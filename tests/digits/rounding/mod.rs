@@ -18,6 +18,6 @@ mod results;
 mod user_functions;
 
 /// Poses of each mechanism.
-fn poses(default: usize) -> usize {
-    std::env::var("POSES").ok().and_then(|count| count.parse().ok()).unwrap_or(default)
+fn poses(usual: usize) -> usize {
+    linkage_trials::count("POSES", usual, usual)
 }

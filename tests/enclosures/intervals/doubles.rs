@@ -10,13 +10,13 @@ use crate::intervals::poses;
 /// of sines too.
 const ULPS: f64 = 64.0;
 
-pub fn are_those_of_a_position(of: &dyn Enclosable, emitted: &dyn Listed<f64>) {
+pub fn are_those_of_a_position(of: &Enclosable, emitted: &dyn Listed<f64>) {
     let mut oracle = Oracle::of(of);
     let nodes = nodes(&mut oracle);
     let known = is_known(&oracle, &nodes);
     let mut compared = 0;
     oracle.at_samples(poses(), |_, sample| {
-        let found = of.in_doubles(&At::of(sample, &oracle.derivation));
+        let found = of.values(&At::of(sample, &oracle.derivation));
         let expected = of_position(emitted, sample);
         let sizes = oracle.magnitudes(sample, &nodes);
         assert_eq!(found.len(), expected.len());

@@ -9,11 +9,11 @@ use crate::intervals::poses;
 /// Relative error of one formula against another.
 const TOLERANCE: f64 = 1e-12;
 
-pub fn are_the_derivatives(of: &dyn Enclosable) {
+pub fn are_the_derivatives(of: &Enclosable) {
     let oracle = Oracle::of(of);
     oracle.at_samples(poses(), |_, sample| {
         let at = At::of(sample, &oracle.derivation);
-        let found = of.in_doubles(&at);
+        let found = of.values(&at);
         let (u, v) = (at.unknowns.len(), at.inputs.len());
         let (jacobian, rest) = found[u..].split_at(u * (u + v));
         let gamma = &rest[..u];
@@ -24,7 +24,7 @@ pub fn are_the_derivatives(of: &dyn Enclosable) {
             let mut along = constant.map(|value| value);
             let place = along.unknowns.iter_mut().chain(&mut along.inputs).nth(column).unwrap();
             place.eps = 1.0;
-            let expected: Vec<f64> = of.residual_once(&along).iter().map(|psi| psi.eps).collect();
+            let expected: Vec<f64> = of.residual(&along).iter().map(|psi| psi.eps).collect();
             compare("derivative of Psi", entries, &expected, largest);
         }
         // The second derivative of Psi along q'.
@@ -33,7 +33,7 @@ pub fn are_the_derivatives(of: &dyn Enclosable) {
         for (value, &rate) in along.unknowns.iter_mut().chain(&mut along.inputs).zip(rates) {
             value.v1 = rate;
         }
-        let expected: Vec<f64> = of.residual_twice(&along).iter().map(|psi| psi.v2).collect();
+        let expected: Vec<f64> = of.residual(&along).iter().map(|psi| psi.v2).collect();
         compare("gamma", gamma, &expected, 0.0);
     });
 }

@@ -1,6 +1,7 @@
 //! Over intervals the formulas contain the values of the derivation's expressions in 48 digits.
 
 use linkage::Interval;
+use linkage_gallery::listed::Named as _;
 use linkage_oracle::Oracle;
 use linkage_oracle::precise::{Big, big};
 use rand::rngs::SmallRng;
@@ -10,14 +11,14 @@ use crate::intervals::formulas::{At, Enclosable, is_known, nodes};
 use crate::intervals::poses;
 
 /// At numbers, where only rounding errors make an interval wide.
-pub fn of_points(of: &dyn Enclosable) {
+pub fn of_points(of: &Enclosable) {
     let mut oracle = Oracle::of(of);
     let nodes = nodes(&mut oracle);
     let known = is_known(&oracle, &nodes);
     let tape = oracle.tape(&nodes);
     let mut widths = Vec::new();
     oracle.at_samples(poses(), |_, sample| {
-        let found = of.in_intervals(&At::of(sample, &oracle.derivation).map(Interval::from));
+        let found = of.values(&At::of(sample, &oracle.derivation).map(Interval::from));
         contain(&found, &oracle.precisely(&tape, sample));
         let sizes = oracle.magnitudes(sample, &nodes);
         for (place, interval) in found.iter().enumerate() {
@@ -34,11 +35,11 @@ pub fn of_points(of: &dyn Enclosable) {
 }
 
 /// Over wide intervals of coordinates and rates, and narrow ones of parameters: at random numbers inside.
-pub fn of_boxes(of: &dyn Enclosable) {
+pub fn of_boxes(of: &Enclosable) {
     let mut oracle = Oracle::of(of);
     let nodes = nodes(&mut oracle);
     let tape = oracle.tape(&nodes);
-    let mut random = SmallRng::seed_from_u64(20_091_122);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(20_091_122));
     oracle.at_samples(poses(), |_, sample| {
         let radius = 10_f64.powf(random.random_range(-6.0..0.5));
         let of_parameters = if random.random() { 1e-3 * radius } else { 0.0 };
@@ -48,7 +49,7 @@ pub fn of_boxes(of: &dyn Enclosable) {
             parameters: at.parameters.iter().map(|&value| around(value, of_parameters)).collect(),
             ..at.map(|value| around(value, radius))
         };
-        let found = of.in_intervals(&wide);
+        let found = of.values(&wide);
         for _ in 0..3 {
             let mut inner = |value: f64, radius: f64| value + radius * random.random_range(-1.0..1.0);
             let other = oracle.moved(sample, |parameter| inner(parameter, of_parameters), |coordinate| coordinate);

@@ -12,14 +12,13 @@ use linkage_oracle::{Oracle, all_close};
 use crate::intervals::formulas::{At, Enclosable};
 
 /// Psi is the same after the turns of one coordinate or of two together for which `repeats` says so.
-pub fn turns_leave_the_residual(of: &dyn Enclosable) {
+pub fn turns_leave_the_residual(of: &Enclosable) {
     let oracle = Oracle::of(of);
     let (unknowns, count) = (oracle.derivation.unknowns.len(), oracle.derivation.coordinates.len());
     let parameters = same_as(listed::all(), of).defaults();
     // Psi where no user function makes it NaN.
-    let residual = |at: &At<f64>| -> Vec<f64> {
-        of.in_doubles(at)[..unknowns].iter().copied().filter(|psi| !psi.is_nan()).collect()
-    };
+    let residual =
+        |at: &At<f64>| -> Vec<f64> { of.values(at)[..unknowns].iter().copied().filter(|psi| !psi.is_nan()).collect() };
     oracle.at_samples(2, |_, sample| {
         let at = At { parameters: parameters.clone(), ..At::of(sample, &oracle.derivation) };
         let before = residual(&at);

@@ -1,34 +1,28 @@
 //! All numbers of the formulas of a mechanism in one list, over any kind of number and as nodes of its derivation.
 
-use std::marker::PhantomData;
+use std::sync::LazyLock;
 
 use linkage::certify::Certify;
 use linkage::enclose::{EncloseError, PoseBox};
-use linkage::{Certifiable, Column, Dim, Formulas, Interval, Number};
+use linkage::{Certifiable, Column, Dim, Formulas, Interval, Mechanism as _, Number, UpTo};
 use linkage_compiler::derivation::{Derivation, Row};
 use linkage_compiler::graph::{Node, NodeId};
 use linkage_compiler::ids::Id;
-use linkage_gallery::listed::Named;
-use linkage_gallery::{Fixture, all_mechanisms};
+use linkage_gallery::listed::{self, Listed, Named};
+use linkage_interpreter::{CertifiableAtRunTime, Design, Mechanism};
 use linkage_oracle::{Oracle, Sample};
-use num_dual::{Dual2_64, Dual64};
 
-/// A mechanism with what is compiled of it over intervals and dual numbers.
-pub trait Enclosable: Named {
-    /// All numbers of the formulas.
-    fn in_doubles(&self, at: &At<f64>) -> Vec<f64>;
-    /// All numbers of the formulas.
-    fn in_intervals(&self, at: &At<Interval>) -> Vec<Interval>;
-    /// Psi with first derivatives.
-    fn residual_once(&self, at: &At<Dual64>) -> Vec<Dual64>;
-    /// Psi with second derivatives.
-    fn residual_twice(&self, at: &At<Dual2_64>) -> Vec<Dual2_64>;
-    /// The name of the first user function in the equations of each group.
-    fn user_functions(&self) -> &'static [Option<&'static str>];
-    /// True if Psi of the mechanism with default parameters is the same after these turns of the unknowns and the inputs.
-    fn repeats(&self, turns: &[i64]) -> bool;
-    /// Encloses all rates over intervals, with these accelerations of the inputs; `parameters` are in the intervals.
-    fn enclosed(&self, parameters: &[f64], wide: &At<Interval>, given: &[Interval]) -> Result<Enclosed, EncloseError>;
+use crate::at_run_time;
+
+/// The number of inputs, at most six as in every mechanism at run time.
+type Inputs = UpTo<6>;
+
+/// A mechanism of the gallery at run time. Its formulas are those of the emitted code, operation for operation: see
+/// `interpreted/algorithms/certificates/formulas`.
+pub struct Enclosable {
+    file: &'static str,
+    name: &'static str,
+    compiled: Mechanism,
 }
 
 /// All that is enclosed: the velocity ratios, the sensitivities, the velocity, the acceleration.
@@ -38,63 +32,105 @@ pub struct Enclosed {
     pub ends: [usize; 2],
 }
 
-/// All mechanisms of the gallery.
-pub fn all() -> Vec<&'static dyn Enclosable> {
-    macro_rules! entries {
-        ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
-            vec![$($(&Of::<linkage_gallery::$file::$Mechanism>(PhantomData)),+),*]
-        };
-    }
-    all_mechanisms!(entries)
+/// The reason why nothing is enclosed.
+pub enum Unproved {
+    NotRegular { norm: f64 },
+    UserFunction,
+    Other(String),
 }
 
-/// A type of the gallery, as an object.
-struct Of<M>(PhantomData<fn() -> M>);
+impl From<EncloseError<&str>> for Unproved {
+    fn from(error: EncloseError<&str>) -> Self {
+        match error {
+            EncloseError::NotRegular { norm, .. } => Self::NotRegular { norm },
+            EncloseError::UserFunction { .. } => Self::UserFunction,
+            other => Self::Other(other.to_string()),
+        }
+    }
+}
 
-impl<M: Fixture> Named for Of<M> {
+/// All mechanisms of the gallery.
+pub fn all() -> Vec<&'static Enclosable> {
+    static ALL: LazyLock<Vec<Enclosable>> = LazyLock::new(|| {
+        let of = |listed: &&'static dyn Listed<f64>| Enclosable {
+            file: listed.file(),
+            name: listed.name(),
+            compiled: at_run_time::of(listed.file(), listed.name()),
+        };
+        listed::all().iter().map(of).collect()
+    });
+    ALL.iter().collect()
+}
+
+impl Named for Enclosable {
     fn file(&self) -> &'static str {
-        M::FILE
+        self.file
     }
     fn name(&self) -> &'static str {
-        M::NAME
+        self.name
     }
 }
 
-impl<M: Fixture<Scalar = f64> + Certifiable + Default> Enclosable for Of<M> {
-    fn in_doubles(&self, at: &At<f64>) -> Vec<f64> {
-        values::<M, f64>(at)
+impl Enclosable {
+    /// Calls a function with the mechanism.
+    fn with<R>(&self, design: Design, call: impl FnOnce(&CertifiableAtRunTime<'_, Inputs>) -> R) -> R {
+        let prepared = design.prepared().expect("a mechanism within the capacities");
+        let result = call(&prepared.certifiable().expect("formulas over intervals"));
+        assert_eq!(prepared.failure(), None, "{}", self.name);
+        result
     }
-    fn in_intervals(&self, at: &At<Interval>) -> Vec<Interval> {
-        values::<M, Interval>(at)
+
+    /// All numbers of the formulas: Psi, the columns of J, the columns of A, gamma, the quantities.
+    pub fn values<T: Number>(&self, at: &At<T>) -> Vec<T> {
+        self.with(self.compiled.design(), |m| {
+            let over = m.over::<T>(column(&at.parameters));
+            let (unknowns, inputs) = (column(&at.unknowns), column(&at.inputs));
+            let mut all: Vec<T> = over.residual(&unknowns, &inputs).into_iter().collect();
+            all.extend(over.jacobian_unknowns(&unknowns, &inputs).iter().flatten());
+            all.extend(over.jacobian_inputs(&unknowns, &inputs).iter().flatten());
+            all.extend(over.gamma(&unknowns, &inputs, &column(&at.unknown_rates), &column(&at.input_rates)));
+            all.extend(over.quantities(&unknowns, &inputs));
+            all
+        })
     }
-    fn residual_once(&self, at: &At<Dual64>) -> Vec<Dual64> {
-        residual::<M, Dual64>(at)
+
+    /// Psi.
+    pub fn residual<T: Number>(&self, at: &At<T>) -> Vec<T> {
+        self.with(self.compiled.design(), |m| {
+            let over = m.over::<T>(column(&at.parameters));
+            over.residual(&column(&at.unknowns), &column(&at.inputs)).into_iter().collect()
+        })
     }
-    fn residual_twice(&self, at: &At<Dual2_64>) -> Vec<Dual2_64> {
-        residual::<M, Dual2_64>(at)
+
+    /// True if an equation calls a user function.
+    pub fn has_user_function(&self) -> bool {
+        self.with(self.compiled.design(), |m| (0..m.dims().2.count()).any(|group| m.user_function(group).is_some()))
     }
-    fn user_functions(&self) -> &'static [Option<&'static str>] {
-        assert_eq!(M::USER_FUNCTIONS.len(), M::GROUPS.len());
-        M::USER_FUNCTIONS
+
+    /// True if Psi of the mechanism with default parameters is the same after these turns of the unknowns and the inputs.
+    pub fn repeats(&self, turns: &[i64]) -> bool {
+        self.with(self.compiled.design(), |m| {
+            let (unknowns, inputs) = turns.split_at(m.dims().0.count());
+            let (unknowns, inputs) = (Column::from_slice(unknowns).unwrap(), Column::from_slice(inputs).unwrap());
+            Certify::new(m).repeats(&unknowns, &inputs)
+        })
     }
-    fn repeats(&self, turns: &[i64]) -> bool {
-        let (unknowns, inputs) = turns.split_at(M::U::CAPACITY);
-        let (unknowns, inputs) = (Column::from_slice(unknowns).unwrap(), Column::from_slice(inputs).unwrap());
-        Certify::new(&M::default()).repeats(&unknowns, &inputs)
-    }
-    fn enclosed(&self, parameters: &[f64], wide: &At<Interval>, given: &[Interval]) -> Result<Enclosed, EncloseError> {
-        let mechanism = <M as Fixture>::with_parameters(parameters);
-        let (unknowns, inputs) = (column(&wide.unknowns), column(&wide.inputs));
-        let pose = PoseBox::with_parameters(&mechanism, column(&wide.parameters), unknowns, inputs)?;
-        assert!(pose.norms().iter().all(|norm| (0.0..1.0).contains(norm)));
-        let input_rates = column(&wide.input_rates);
-        let mut all: Vec<Interval> = pose.velocity_ratios()?.iter().flatten().copied().collect();
-        all.extend(pose.sensitivity()?.iter().flatten());
-        let matrices = all.len();
-        all.extend(pose.velocity(&input_rates)?);
-        let velocities = all.len();
-        all.extend(pose.acceleration(&column(&wide.unknown_rates), &input_rates, &column(given))?);
-        Ok(Enclosed { all, ends: [matrices, velocities] })
+
+    /// Encloses all rates over intervals, with these accelerations of the inputs; `parameters` are in the intervals.
+    pub fn enclosed(&self, parameters: &[f64], wide: &At<Interval>, given: &[Interval]) -> Result<Enclosed, Unproved> {
+        self.with(self.compiled.design().with_parameters(parameters), |m| {
+            let (unknowns, inputs) = (column(&wide.unknowns), column(&wide.inputs));
+            let pose = PoseBox::with_parameters(m, column(&wide.parameters), unknowns, inputs)?;
+            assert!(pose.norms().iter().all(|norm| (0.0..1.0).contains(norm)));
+            let input_rates = column(&wide.input_rates);
+            let mut all: Vec<Interval> = pose.velocity_ratios()?.iter().flatten().copied().collect();
+            all.extend(pose.sensitivity()?.iter().flatten());
+            let matrices = all.len();
+            all.extend(pose.velocity(&input_rates)?);
+            let velocities = all.len();
+            all.extend(pose.acceleration(&column(&wide.unknown_rates), &input_rates, &column(given))?);
+            Ok(Enclosed { all, ends: [matrices, velocities] })
+        })
     }
 }
 
@@ -133,24 +169,6 @@ impl At<f64> {
             input_rates: pick(&sample.rates, &mut inputs()),
         }
     }
-}
-
-/// Psi.
-fn residual<M: Certifiable + Default, T: Number>(at: &At<T>) -> Vec<T> {
-    let over = M::default().over::<T>(column(&at.parameters));
-    over.residual(&column(&at.unknowns), &column(&at.inputs)).into_iter().collect()
-}
-
-/// Psi, the columns of J, the columns of A, gamma, the quantities.
-pub fn values<M: Certifiable + Default, T: Number>(at: &At<T>) -> Vec<T> {
-    let over = M::default().over::<T>(column(&at.parameters));
-    let (unknowns, inputs) = (column(&at.unknowns), column(&at.inputs));
-    let mut all: Vec<T> = over.residual(&unknowns, &inputs).into_iter().collect();
-    all.extend(over.jacobian_unknowns(&unknowns, &inputs).iter().flatten());
-    all.extend(over.jacobian_inputs(&unknowns, &inputs).iter().flatten());
-    all.extend(over.gamma(&unknowns, &inputs, &column(&at.unknown_rates), &column(&at.input_rates)));
-    all.extend(over.quantities(&unknowns, &inputs));
-    all
 }
 
 /// A column of these numbers.

@@ -7,6 +7,7 @@
 use linkage::certify::{Certify, CertifyError, Enclosure, Series};
 use linkage::{Certifiable, Column, D, Formulas, Interval};
 use linkage_compiler::graph::{Exception, Place, written};
+use linkage_interpreter::{CertifiableAtRunTime, Mechanism, Program};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -14,95 +15,72 @@ use rand::{Rng, SeedableRng};
 const BEFORE: f64 = 0.5;
 const BEHIND: f64 = 0.35;
 
-/// Mechanisms with a function of one argument a + da s, or of two, b + db s the second: as an output, as the right side of
-/// an equation, and in the equation of an unknown.
-macro_rules! mechanisms {
-    ($($name:ident: ($($parameter:ident),*) |$s:ident| $formula:expr;)*) => {$(
-        mod $name {
-            linkage::linkage! {
-                #[derive(Debug, Clone, PartialEq)]
-                pub mechanism Output {
-                    param $($parameter),*;
-                    input t;
-                    unknown $s;
-                    equation $s = t;
-                    output f = $formula;
-                    derive intervals;
-                }
-            }
-            linkage::linkage! {
-                #[derive(Debug, Clone, PartialEq)]
-                pub mechanism Equation {
-                    param $($parameter),*;
-                    input $s;
-                    unknown f;
-                    equation f = $formula;
-                    derive intervals;
-                }
-            }
-            linkage::linkage! {
-                #[derive(Debug, Clone, PartialEq)]
-                pub mechanism Inverse {
-                    param $($parameter),*;
-                    input f;
-                    unknown $s;
-                    equation $formula + $s / 100 = f;
-                    derive intervals;
-                }
-            }
+/// Functions by their names and formulas, of one argument a + da s, or of two, b + db s the second.
+const FORMULAS: [(&str, &str); 17] = [
+    ("sin", "sin(a + da * s)"),
+    ("cos", "cos(a + da * s)"),
+    ("tan", "tan(a + da * s)"),
+    ("asin", "asin(a + da * s)"),
+    ("acos", "acos(a + da * s)"),
+    ("atan", "atan(a + da * s)"),
+    ("atan2", "atan2(a + da * s, b + db * s)"),
+    ("sqrt", "sqrt(a + da * s)"),
+    ("abs", "abs(a + da * s)"),
+    ("exp", "exp(a + da * s)"),
+    ("ln", "ln(a + da * s)"),
+    ("hypot", "hypot(a + da * s, b + db * s)"),
+    ("inverse", "1 / (a + da * s)"),
+    ("modulus", "sqrt((a + da * s)^2)"),
+    ("sign", "(a + da * s) / abs(a + da * s)"),
+    ("norm", "norm((a + da * s, b + db * s))"),
+    ("angle", "angle((b + db * s, a + da * s))"),
+];
+
+/// A function with its mechanisms, which are texts: as an output, as the right side of an equation, and in the equation of an
+/// unknown.
+struct Case {
+    name: &'static str,
+    output: Mechanism,
+    equation: Mechanism,
+    inverse: Mechanism,
+}
+
+impl Case {
+    fn of(&(name, formula): &(&'static str, &str)) -> Self {
+        let parameters = if formula.contains("db") { "a = 0, da = 0, b = 0, db = 0" } else { "a = 0, da = 0" };
+        let compiled = |text: &str| {
+            let text = format!("mechanism Function {{ param {parameters}; {text} derive intervals; }}");
+            Program::compile(&text).unwrap_or_else(|messages| panic!("{text}: {messages:?}")).mechanisms()[0].clone()
+        };
+        Self {
+            name,
+            output: compiled(&format!("input t; unknown s; equation s = t; output f = {formula};")),
+            equation: compiled(&format!("input s; unknown f; equation f = {formula};")),
+            inverse: compiled(&format!("input f; unknown s; equation {formula} + s / 100 = f;")),
         }
-    )*};
+    }
+
+    /// All checks at a place.
+    fn check(&self, line: &Line, exception: Exception) {
+        line.with(&self.output, |m| output(m, line, exception));
+        line.with(&self.equation, |m| equation(m, line, exception));
+        line.with(&self.inverse, |m| inverse(m, line));
+    }
+
+    /// The certified extremes of the output along a whole line.
+    fn certificate(&self, line: &Line) -> Enclosure {
+        line.with(&self.output, |m| range(m, -BEFORE, -BEFORE, BEHIND).unwrap()[0])
+    }
 }
 
-mechanisms! {
-    sin: (a, da) |s| sin(a + da * s);
-    cos: (a, da) |s| cos(a + da * s);
-    tan: (a, da) |s| tan(a + da * s);
-    asin: (a, da) |s| asin(a + da * s);
-    acos: (a, da) |s| acos(a + da * s);
-    atan: (a, da) |s| atan(a + da * s);
-    atan2: (a, da, b, db) |s| atan2(a + da * s, b + db * s);
-    sqrt: (a, da) |s| sqrt(a + da * s);
-    abs: (a, da) |s| abs(a + da * s);
-    exp: (a, da) |s| exp(a + da * s);
-    ln: (a, da) |s| ln(a + da * s);
-    hypot: (a, da, b, db) |s| hypot(a + da * s, b + db * s);
-    inverse: (a, da) |s| 1 / (a + da * s);
-    modulus: (a, da) |s| sqrt((a + da * s)^2);
-    sign: (a, da) |s| (a + da * s) / abs(a + da * s);
-    norm: (a, da, b, db) |s| norm((a + da * s, b + db * s));
-    angle: (a, da, b, db) |s| angle((b + db * s, a + da * s));
+fn cases() -> Vec<Case> {
+    FORMULAS.iter().map(Case::of).collect()
 }
 
-/// The mechanisms of a function with their checks, for a number of parameters.
-macro_rules! cases {
-    ($($name:ident $count:literal,)*) => {
-        [$((
-            stringify!($name),
-            [
-                output::<$name::Output, $count> as Check,
-                equation::<$name::Equation, $count>,
-                inverse::<$name::Inverse, $count>,
-            ],
-            certificate::<$name::Output, $count> as fn(&Line) -> Enclosure,
-        )),*]
-    };
-}
-
-type Check = fn(&Line, Exception);
-
-/// The name of a function, its checks at a place, and the extremes of an output.
-type Case = (&'static str, [Check; 3], fn(&Line) -> Enclosure);
+type AtRunTime<'p> = CertifiableAtRunTime<'p, D<1>>;
 
 /// The name of a function, its value and its places.
 type Composed = (&'static str, fn(&[f64]) -> f64, Vec<Place>);
-
-fn cases() -> [Case; 17] {
-    cases![
-        sin 2, cos 2, tan 2, asin 2, acos 2, atan 2, atan2 4, sqrt 2, abs 2, exp 2, ln 2, hypot 4,
-        inverse 2, modulus 2, sign 2, norm 4, angle 4,
-    ]
-}
 
 /// Functions that are no rows of the table, but have such places: their values and places.
 fn composed() -> [Composed; 5] {
@@ -131,10 +109,14 @@ impl Line {
         (self.value)(&arguments)
     }
 
-    /// a, da, b, db.
-    fn parameters<const P: usize>(&self) -> [f64; P] {
+    /// Calls a function with a mechanism whose parameters a, da, b, db are those of the line.
+    fn with<R>(&self, of: &Mechanism, call: impl FnOnce(&AtRunTime<'_>) -> R) -> R {
         let all: Vec<f64> = self.at.iter().zip(&self.across).flat_map(|(&at, &across)| [at, across]).collect();
-        all.try_into().unwrap()
+        let design = of.design().with_parameters(&all);
+        let prepared = design.prepared().unwrap();
+        let result = call(&prepared.certifiable().unwrap());
+        assert_eq!(prepared.failure(), None);
+        result
     }
 
     /// Places of the line on both sides of zero, denser next to it.
@@ -166,33 +148,21 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// That of a quotient of differences of 1e-4 of the values.
 const OF_SLOPES: f64 = 1e-10;
 
-fn range<M, const P: usize>(line: &Line, unknown: f64, from: f64, to: f64) -> Result<[Enclosure; 2], CertifyError>
-where
-    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
-{
-    let m = M::from(line.parameters());
-    let start = M::coordinates(Column::from([unknown]), Column::from([from]));
-    let found = Certify::new(&m).range(&start, to)?;
+fn range<'p>(m: &AtRunTime<'p>, unknown: f64, from: f64, to: f64) -> Result<[Enclosure; 2], CertifyError<&'p str>> {
+    let found = Certify::new(m).range(&position(unknown, from), to)?;
     let quantities = found.quantities();
     let value = quantities.as_slice().first().copied();
     let unknown = found.velocity_ratios()[0];
     Ok([value.unwrap_or(unknown), found.quantity_ratios().as_slice().first().copied().unwrap_or(unknown)])
 }
 
-/// The certified extremes of an output along the whole line.
-fn certificate<M, const P: usize>(line: &Line) -> Enclosure
-where
-    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
-{
-    range::<M, P>(line, -BEFORE, -BEFORE, BEHIND).unwrap()[0]
+fn position<'p>(unknown: f64, input: f64) -> <AtRunTime<'p> as linkage::Mechanism>::Coordinates {
+    <AtRunTime<'p> as linkage::Mechanism>::coordinates(Column::from_slice(&[unknown]).unwrap(), [input].into())
 }
 
 /// An output over the place: all values on both sides are in the extremes, which are not sharp; nothing bounds the rate.
-fn output<M, const P: usize>(line: &Line, exception: Exception)
-where
-    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
-{
-    let [value, rate] = range::<M, P>(line, -BEFORE, -BEFORE, BEHIND).unwrap();
+fn output(m: &AtRunTime<'_>, line: &Line, exception: Exception) {
+    let [value, rate] = range(m, -BEFORE, -BEFORE, BEHIND).unwrap();
     for s in Line::samples() {
         let sample = line.value(s);
         assert!(!sample.is_finite() || has(value.values(), sample, ROUNDING), "{} {s} {sample} {value:?}", line.name);
@@ -206,11 +176,10 @@ where
     let is_infinite = matches!(exception, Exception::Pole | Exception::Edge) || line.name == "sign";
     assert_eq!(value.values().width().is_infinite(), is_infinite, "{} {value:?}", line.name);
     // The formulas themselves, over boxes with the place inside, at each end of them, and outside of them.
-    let m = M::from(line.parameters());
     let m = m.over(m.parameters().map(|value| Series::constant(value.into())));
     for (from, to) in [(-BEFORE, BEHIND), (-BEFORE, 0.0), (0.0, BEHIND), (-BEFORE, -0.01), (0.01, BEHIND)] {
         let s = Series::line(Interval::new(from, to).unwrap(), Interval::from(1.0));
-        let found = m.quantities(&Column::from([s]), &Column::from([s]));
+        let found = m.quantities(&Column::from_slice(&[s]).unwrap(), &Column::from([s]));
         let Series { value, first, .. } = found.as_slice()[0];
         for s in Line::samples().into_iter().filter(|&s| from <= s && s <= to) {
             let sample = line.value(s);
@@ -230,14 +199,11 @@ where
 }
 
 /// The right side of an equation over the place: the motion up to it is certified, and none over it.
-fn equation<M, const P: usize>(line: &Line, exception: Exception)
-where
-    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
-{
+fn equation(m: &AtRunTime<'_>, line: &Line, exception: Exception) {
     let start = line.value(-BEFORE);
-    let up_to = range::<M, P>(line, start, -BEFORE, -0.01);
+    let up_to = range(m, start, -BEFORE, -0.01);
     assert!(up_to.is_ok(), "{} {:?}", line.name, up_to.err());
-    let over = range::<M, P>(line, start, -BEFORE, BEHIND).err();
+    let over = range(m, start, -BEFORE, BEHIND).err();
     let input = match over {
         Some(CertifyError::NoBounds { group: "f", input, .. }) => input,
         // The bounds grow before a pole.
@@ -246,7 +212,7 @@ where
     };
     assert!(input.magnitude() < 1e-4, "{} {input:?}", line.name);
     if line.value(BEHIND).is_finite() {
-        let back = range::<M, P>(line, line.value(BEHIND), BEHIND, -BEFORE).err();
+        let back = range(m, line.value(BEHIND), BEHIND, -BEFORE).err();
         assert!(
             matches!(back, Some(CertifyError::NoBounds { .. } | CertifyError::Undecided { .. })),
             "{} {back:?}",
@@ -257,16 +223,12 @@ where
 
 /// A function of an unknown: a motion over the place has no certificate, neither as a function of
 /// the input nor as a curve.
-fn inverse<M, const P: usize>(line: &Line, _: Exception)
-where
-    M: Certifiable<Name = &'static str, U = D<1>, V = D<1>> + From<[f64; P]>,
-{
-    let m = M::from(line.parameters());
+fn inverse(m: &AtRunTime<'_>, line: &Line) {
     let [start, near, limit] = [-BEFORE, -1e-3, -1e-9].map(|s| line.value(s) + s / 100.0);
     let has_pole = (line.value(-1e-12) - limit).abs() > 1.0;
     let beyond = if has_pole { 1e30 * limit } else { limit + (near - start).signum() };
-    let position = M::coordinates(Column::from([-BEFORE]), Column::from([start]));
-    let certify = Certify::new(&m).most_tests(120);
+    let position = position(-BEFORE, start);
+    let certify = Certify::new(m).most_tests(120);
     let over = certify.range(&position, beyond).map(|found| found.inputs());
     assert!(over.is_err(), "{} {over:?}", line.name);
     let curve = certify.curve(&position).map(|curve| curve.boxes());
@@ -276,16 +238,16 @@ where
 /// Each function of the language has a line here.
 #[test]
 fn all_functions_are_taken_across_their_places() {
-    let names: Vec<&str> = cases().iter().map(|case| case.0).collect();
+    let names: Vec<&str> = FORMULAS.iter().map(|case| case.0).collect();
     let rows: Vec<&str> = written().map(|row| row.name).collect();
     assert_eq!(names[..rows.len()], rows);
     let of_rows = written().map(|row| (row.name, row.value, row.places.to_vec()));
     let mut count = 0;
     for ((name, value, places), case) in of_rows.chain(composed()).zip(cases()) {
-        assert_eq!(name, case.0);
+        assert_eq!(name, case.name);
         for Place { exception, at, across } in places {
             let line = Line { value, at: at.to_vec(), across: across.to_vec(), name };
-            case.1.iter().for_each(|check| check(&line, exception));
+            case.check(&line, exception);
             count += 1;
         }
     }
@@ -315,7 +277,7 @@ fn places_are_of_their_kind() {
 #[test]
 fn functions_are_smooth_elsewhere() {
     let random = &mut SmallRng::seed_from_u64(44);
-    for ((row, case), _) in written().zip(cases()).flat_map(|pair| (0..4).map(move |_| (pair, ()))) {
+    for (row, case) in written().zip(&cases()).flat_map(|pair| [pair; 4]) {
         let is_finite = !row.may_be_undefined();
         for _ in 0..1000 {
             let arguments: Vec<f64> = (0..row.arity).map(|_| random.random_range(-50.0..50.0)).collect();
@@ -332,7 +294,7 @@ fn functions_are_smooth_elsewhere() {
             .map(|(at, &across): (_, &f64)| across.min((0.95 - at) / BEHIND).min((at - 0.1) / BEFORE))
             .collect();
         let line = Line { value: row.value, at, across, name: row.name };
-        let found = (case.2)(&line);
+        let found = case.certificate(&line);
         let values: Vec<f64> =
             (0..=2000).map(|k| line.value(-BEFORE + (BEFORE + BEHIND) * f64::from(k) / 2e3)).collect();
         let [least, largest] = [f64::min, f64::max].map(|of| values.iter().copied().reduce(of).unwrap());

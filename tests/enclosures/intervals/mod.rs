@@ -23,7 +23,7 @@ use linkage_oracle::scalars;
 
 /// Poses of each mechanism.
 fn poses() -> usize {
-    std::env::var("INTERVALS").ok().and_then(|count| count.parse().ok()).unwrap_or(4)
+    linkage_trials::count("INTERVALS", 2, 4)
 }
 
 #[test]

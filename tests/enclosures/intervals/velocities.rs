@@ -4,10 +4,9 @@
 use std::cmp::Ordering;
 
 use linkage::Interval;
-use linkage::enclose::EncloseError;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::ids::Id;
-use linkage_gallery::listed::{Listed, ListedWithOrders};
+use linkage_gallery::listed::{Listed, ListedWithOrders, Named as _};
 use linkage_oracle::precise::{Big, Scalar, big};
 use linkage_oracle::tape::Tape;
 use linkage_oracle::{Oracle, Sample};
@@ -16,7 +15,7 @@ use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
 use crate::intervals::enclosures::contain;
-use crate::intervals::formulas::{At, Enclosable, Enclosed, nodes};
+use crate::intervals::formulas::{At, Enclosable, Enclosed, Unproved, nodes};
 use crate::intervals::poses;
 
 /// The mechanism in 48 digits: J, A, Psi_p and gamma.
@@ -33,7 +32,7 @@ struct Radii {
 }
 
 impl Reference {
-    fn of(of: &dyn Enclosable) -> Self {
+    fn of(of: &Enclosable) -> Self {
         let mut oracle = Oracle::of(of);
         let residual = oracle.derivation.residual.to_vec();
         let (u, v) = (oracle.derivation.unknowns.len(), oracle.derivation.inputs.len());
@@ -101,7 +100,7 @@ fn solve(columns: &[Vec<Big>], mut x: Vec<Big>) -> Option<Vec<Big>> {
 }
 
 /// Encloses everything over a box about a sample.
-fn enclosed(of: &dyn Enclosable, oracle: &Oracle, sample: &Sample, radii: Radii) -> Result<Enclosed, EncloseError> {
+fn enclosed(of: &Enclosable, oracle: &Oracle, sample: &Sample, radii: Radii) -> Result<Enclosed, Unproved> {
     let at = At::of(sample, &oracle.derivation);
     let around = |value: f64, radius: f64| Interval::around(value, radius).unwrap();
     let wide = At {
@@ -119,13 +118,16 @@ fn moved(oracle: &Oracle, sample: &Sample, radii: Radii, mut inner: impl FnMut(f
 }
 
 /// Asserts that an error is that of a mechanism whose equations call a user function.
-fn has_user_function(of: &dyn Enclosable, error: &EncloseError) {
-    let is_user = matches!(error, EncloseError::UserFunction { .. });
-    assert!(is_user && of.user_functions().iter().any(Option::is_some), "{error}");
+fn has_user_function(of: &Enclosable, error: Unproved) {
+    match error {
+        Unproved::UserFunction => assert!(of.has_user_function()),
+        Unproved::NotRegular { norm } => panic!("not regular: {norm}"),
+        Unproved::Other(error) => panic!("{error}"),
+    }
 }
 
 /// At numbers, where only rounding errors make an interval wide.
-pub fn of_points(of: &dyn Enclosable) {
+pub fn of_points(of: &Enclosable) {
     let reference = Reference::of(of);
     let mut widths = Vec::new();
     reference.oracle.at_samples(poses(), |_, sample| {
@@ -137,7 +139,7 @@ pub fn of_points(of: &dyn Enclosable) {
                 let largest = all.iter().map(|x| x.magnitude()).fold(0.0, f64::max);
                 widths.extend(all.iter().map(|x| x.width() / (f64::EPSILON * largest)));
             }
-            Err(error) => has_user_function(of, &error),
+            Err(error) => has_user_function(of, error),
         }
     });
     print_quartiles(&format!("{}, widths in epsilons of the largest", of.name()), widths);
@@ -145,10 +147,10 @@ pub fn of_points(of: &dyn Enclosable) {
 
 /// Over boxes: at random numbers inside, in 48 digits and by the emitted functions. The widths are compared with the
 /// range to first order: the sum over all numbers of the difference of the results at the two ends of its interval.
-pub fn of_boxes(of: &dyn Enclosable, emitted: &dyn Listed<Rounded>) {
+pub fn of_boxes(of: &Enclosable, emitted: &dyn Listed<Rounded>) {
     let reference = Reference::of(of);
     let oracle = &reference.oracle;
-    let mut random = SmallRng::seed_from_u64(20_091_123);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(20_091_123));
     let mut quotients = [Vec::new(), Vec::new(), Vec::new()];
     let (mut regular, mut singular) = (0, 0);
     oracle.at_samples(poses(), |number, sample| {
@@ -156,12 +158,12 @@ pub fn of_boxes(of: &dyn Enclosable, emitted: &dyn Listed<Rounded>) {
         let radii = Radii { coordinates, parameters: if number % 2 == 0 { coordinates } else { 0.0 } };
         let found = match enclosed(of, oracle, sample, radii) {
             Ok(found) => found,
-            Err(EncloseError::NotRegular { norm, .. }) => {
+            Err(Unproved::NotRegular { norm }) => {
                 assert!(norm >= 1.0);
                 singular += 1;
                 return;
             }
-            Err(error) => return has_user_function(of, &error),
+            Err(error) => return has_user_function(of, error),
         };
         regular += 1;
         for _ in 0..3 {
@@ -179,7 +181,7 @@ pub fn of_boxes(of: &dyn Enclosable, emitted: &dyn Listed<Rounded>) {
         }
     });
     println!("{}: {regular} regular boxes, {singular} not proved", of.name());
-    assert_eq!(regular > 0, of.user_functions().iter().all(Option::is_none), "{regular} regular boxes");
+    assert_eq!(regular > 0, !of.has_user_function(), "{regular} regular boxes");
     for (what, quotients) in ["ratios and sensitivities", "velocities", "accelerations"].iter().zip(quotients) {
         let median = print_quartiles(&format!("{}, {what}, width by range", of.name()), quotients);
         assert!(median.is_none_or(|median| median < 1.5), "{what}: {median:?}");
@@ -239,10 +241,10 @@ fn first_order_ranges(reference: &Reference, sample: &Sample, radii: Radii) -> V
 }
 
 /// The emitted sensitivities, each within its bound of rounding error, meet the enclosures.
-pub fn of_sensitivities(of: &dyn Enclosable, emitted: &dyn ListedWithOrders<Rounded>) {
+pub fn of_sensitivities(of: &Enclosable, emitted: &dyn ListedWithOrders<Rounded>) {
     let oracle = Oracle::of(of);
     let ratios = oracle.derivation.unknowns.len() * oracle.derivation.inputs.len();
-    let mut random = SmallRng::seed_from_u64(20_091_124);
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(20_091_124));
     oracle.at_samples(poses(), |_, sample| {
         let coordinates = 10_f64.powf(random.random_range(-7.0..-2.0));
         let radii = Radii { coordinates, parameters: 1e-2 * coordinates };

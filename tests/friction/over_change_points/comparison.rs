@@ -11,11 +11,6 @@ pub const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-9, 1e-12];
 /// of the change when it is moved by thirty tolerances.
 const MOST: f64 = 1000.0;
 
-/// The number of random starts: `STARTS`, or as many as unoptimised code runs in seconds.
-pub fn starts(usual: usize) -> usize {
-    std::env::var("STARTS").ok().and_then(|count| count.parse().ok()).unwrap_or(usual)
-}
-
 /// The result of one motion: coordinates at its end and numbers of events, or the error that ended it.
 pub type Outcome = Result<(Vec<f64>, usize), MotionError>;
 
@@ -31,9 +26,10 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
 }
 
-/// Draws cases and compares them at each tolerance; at most `errors` of a thousand may end in a typed error.
-pub fn compare(name: &str, usual: usize, errors: usize, mut draw: impl FnMut(&mut SmallRng) -> Case) {
-    let count = starts(usual);
+/// Draws so many cases in the outer ring, or `STARTS`, and compares them at each tolerance; at most `errors` of a thousand may
+/// end in a typed error.
+pub fn compare(name: &str, all: usize, errors: usize, mut draw: impl FnMut(&mut SmallRng) -> Case) {
+    let count = linkage_trials::count("STARTS", all.div_ceil(4), all);
     for tolerance in TOLERANCES {
         let random = &mut SmallRng::seed_from_u64(73);
         let (mut ratios, mut failures, mut passed) = (Vec::new(), Vec::new(), 0);

@@ -1,16 +1,17 @@
 //! Names in all places of a mechanism: each either compiles or is an error of the macro, and after a mistake rustc says
 //! nothing more.
 //!
-//! The names are those of the expansions themselves and, in the kinematics, those of Rust and of its standard library. Each
-//! name is in every third place; with `NAMES=all` it is in all of them, and types are in a mechanism of every effect.
+//! The names are those of the expansions themselves and, in the kinematics, those of Rust and of its standard library: one
+//! in ten of them, other ones for each commit. Each is in every third place; with `NAMES=all` and in the outer ring all names
+//! are in all of them, and types are in a mechanism of every effect.
 
 mod places;
 
 use std::collections::BTreeSet;
-use std::path::Path;
-use std::process::Command;
-use std::{env, fs};
+use std::env;
 
+use linkage_tests::programs::{Libraries, succeeded, written};
+use linkage_tests::turn;
 use places::{EMPTY, GUIDES, MISTAKES, TEMPLATES, Template, functions, small_types, types};
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
@@ -143,30 +144,16 @@ impl Modules {
     }
 }
 
-const MANIFEST: &str = r#"
-[package]
-name = "names"
-version = "0.0.0"
-edition = "2024"
-
-[dependencies]
-linkage = { path = "ROOT", default-features = false, features = ["dynamics", "std"] }
-
-[workspace]
-"#;
+/// One in ten of the names, all if the test is full.
+fn sample(names: BTreeSet<String>, is_full: bool) -> BTreeSet<String> {
+    let turned = turn::of(names.len(), if is_full { 1 } else { 10 });
+    names.into_iter().enumerate().filter(|(place, _)| turned(*place)).map(|(_, name)| name).collect()
+}
 
 #[test]
 fn each_name_compiles_or_is_rejected() {
-    let root = linkage_tests::ROOT;
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("names");
-    // Those of an earlier version of the test.
-    drop(fs::remove_dir_all(folder.join("src")));
-    fs::create_dir_all(folder.join("src")).unwrap();
-    fs::write(folder.join("Cargo.toml"), MANIFEST.replace("ROOT", root)).unwrap();
-    // The versions under test are those of this workspace.
-    fs::copy(Path::new(root).join("Cargo.lock"), folder.join("Cargo.lock")).unwrap();
-    let is_full = env::var("NAMES").is_ok_and(|value| value == "all");
-    let [of_expansions, of_rust] = names();
+    let is_full = linkage_trials::is_outer() || env::var("NAMES").is_ok_and(|value| value == "all");
+    let [of_expansions, of_rust] = names().map(|names| sample(names, is_full));
     let mut modules = Modules::default();
     for (number, template @ Template { what, places, mechanism, .. }) in TEMPLATES.iter().enumerate() {
         let all: BTreeSet<&String> = of_expansions.iter().chain(of_rust.iter().filter(|_| number == 0)).collect();
@@ -224,19 +211,11 @@ fn each_name_compiles_or_is_rejected() {
     }
     println!("{} modules, {} bytes", modules.0.len(), modules.0.iter().map(|(_, text)| text.len()).sum::<usize>());
     let mut library = String::from("#![no_std]\n#![allow(non_snake_case, non_camel_case_types)]\n");
-    for (name, text) in modules.0 {
-        fs::write(folder.join(format!("src/{name}.rs")), text).unwrap();
+    for (name, _) in &modules.0 {
         library += &format!("pub mod {name};\n");
     }
-    fs::write(folder.join("src/lib.rs"), library).unwrap();
-    let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
-    let output = Command::new(cargo)
-        .args(["check", "--quiet", "--color=never", "--target-dir"])
-        // That of the mutants, whose dependencies are the same.
-        .arg(folder.with_file_name("mutants").join("target"))
-        .current_dir(&folder)
-        .env("RUSTFLAGS", "-Dwarnings")
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let modules = modules.0.into_iter().map(|(name, text)| (format!("{name}.rs"), text));
+    let folder = written("names", modules.chain([("lib.rs".to_owned(), library)]));
+    let mut rustc = Libraries::of_tests().rustc(&folder, "lib.rs", &["linkage"]);
+    succeeded(rustc.args(["--crate-type=lib", "--emit=metadata", "-Dwarnings"]));
 }

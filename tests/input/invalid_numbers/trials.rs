@@ -7,9 +7,9 @@ use rand::rngs::SmallRng;
 
 use crate::harness::{Source, Subject, Tally, listen};
 
-/// `invalid_numbers 100000` makes this many trials of each subject; `invalid_numbers 100000 FourBar` of those whose
-/// names begin so; `invalid_numbers seed 17 FourBar` repeats one trial and prints it.
-pub fn main(subjects: &[(&'static str, Subject)]) -> ExitCode {
+/// `trials 100000` makes this many trials of each subject; `trials 100000 four_bar` of those whose names begin so;
+/// `trials seed 17 four_bar` repeats one trial and prints it.
+pub fn main(subjects: &[(String, Subject)]) -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let (seeds, begin) = match *arguments.as_slice() {
@@ -31,7 +31,7 @@ pub fn main(subjects: &[(&'static str, Subject)]) -> ExitCode {
         for seed in seeds.clone() {
             // Each mechanism has other numbers.
             let random = SmallRng::seed_from_u64(seed.wrapping_mul(1_000_003) ^ (number as u64) << 48);
-            subject(&mut tally, &mut Source::new(Box::new(random), seed));
+            subject.try_out(&mut tally, &mut Source::new(Box::new(random), seed));
         }
         tally.tell(name);
         all += &tally;

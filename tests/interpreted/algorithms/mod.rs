@@ -1,6 +1,7 @@
 //! Algorithms of the runtime on mechanisms at run time: the bits and the words of those on emitted mechanisms.
 //!
-//! An algorithm that reads a constant of a type, where it must read the value, does not compile here.
+//! An algorithm that reads a constant of a type, where it must read the value, does not compile here. Each mechanism and each
+//! scene costs a copy of all algorithms: these are few, and the program `interpreted_gallery` asks the same of the whole gallery.
 
 /// Mechanisms by the macro, and their text, which has a name or is that of the file.
 macro_rules! with_text {
@@ -15,22 +16,41 @@ macro_rules! with_text {
     };
 }
 
-mod bad_input;
-mod certificates;
-mod functions;
-mod gallery_scenes;
-mod motions;
-mod one_loop;
-mod pictures;
-mod scenes;
+/// Calls a function for mechanisms with branches: a closed form, several groups, change points, ranges, turns that are counted,
+/// two inputs.
+macro_rules! closed {
+    ($compare:ident) => {
+        $compare::<_, linkage_gallery::offset_slider_crank::OffsetSliderCrank>();
+        $compare::<_, linkage_gallery::watt_i::WattI>();
+        $compare::<_, linkage_gallery::tilted_parallelogram::TiltedParallelogram>();
+        $compare::<_, linkage_gallery::gate::Gate>();
+        $compare::<_, linkage_gallery::geared_five_bar::GearedFiveBar>();
+        $compare::<_, linkage_gallery::five_bar::FiveBar>();
+    };
+}
+
+/// Calls a function for these, for one whose positions Newton's method finds, and for an open chain.
+macro_rules! eight {
+    ($compare:ident) => {
+        closed!($compare);
+        $compare::<_, linkage_gallery::double_butterfly::DoubleButterfly>();
+        $compare::<_, linkage_gallery::cart_pendulum::CartPendulum>();
+    };
+}
+
+pub mod bad_input;
+pub mod certificates;
+pub mod functions;
+pub mod motions;
+pub mod one_loop;
+pub mod pictures;
+pub mod scenes;
 
 use linkage::{Column, D, Dim, Mechanism};
 use linkage_gallery::Fixture;
 use linkage_interpreter::{AtRunTime, Mechanism as Compiled, Program};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
-
-use crate::drawn::mechanisms;
 
 /// The unknowns and the inputs of a position.
 pub type Numbers = [Vec<f64>; 2];
@@ -59,8 +79,7 @@ pub fn coordinates<M: Mechanism<Scalar = f64>>([unknowns, inputs]: &Numbers) -> 
 
 /// The mechanism of the gallery as it is compiled at run time.
 pub fn compiled<M: Fixture>() -> Compiled {
-    let mut all = mechanisms(M::FILE).into_iter();
-    all.find(|mechanism| mechanism.name() == M::NAME).expect("the mechanism")
+    crate::at_run_time::of(M::FILE, M::NAME)
 }
 
 /// A mechanism of a text.

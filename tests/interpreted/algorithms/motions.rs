@@ -7,22 +7,16 @@ use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, E
 use linkage::kinematic::MotionOf;
 use linkage::range_of_motion::{Driven, MotionByLength, RangeOfMotion, RangeOptions};
 use linkage::{Branches, Column, D, Kinematic, Mechanism, OutputMotion, PerInput, extremes};
+use linkage_gallery::Fixture;
 use linkage_gallery::double_butterfly::DoubleButterfly;
-use linkage_gallery::four_bar::FourBar;
-use linkage_gallery::geneva::Geneva;
-use linkage_gallery::jansen::Jansen;
+use linkage_gallery::gate::Gate;
+use linkage_gallery::geared_five_bar::GearedFiveBar;
 use linkage_gallery::offset_slider_crank::OffsetSliderCrank;
-use linkage_gallery::one_window::OneWindow;
-use linkage_gallery::stephenson_iii::StephensonIII;
 use linkage_gallery::tilted_parallelogram::TiltedParallelogram;
-use linkage_gallery::wiper::Wiper;
-use linkage_gallery::{Fixture, all_mechanisms};
+use linkage_gallery::watt_i::WattI;
 use linkage_interpreter::AtRunTime;
 
 use super::{Numbers, Positions, at_run_time, bit, coordinates, position, same};
-
-/// A mechanism with two branches takes about 10 seconds.
-const MOST_BRANCHES: usize = 1;
 
 /// The steps of paths in both directions: positions, lengths and events, and the error at the end.
 fn steps<M: Mechanism<Scalar = f64, V = D<1>>>(m: &M, starts: &[M::Coordinates], count: usize) -> Vec<String> {
@@ -96,7 +90,7 @@ fn motions<M: Driven<Scalar = f64>>(m: &M, start: &M::Coordinates) -> Vec<String
 }
 
 /// The circuits at one input.
-fn circuits<M: Branches<Scalar = f64, V = D<1>>>(m: &M, input: f64) -> Vec<String> {
+pub fn circuits<M: Branches<Scalar = f64, V = D<1>>>(m: &M, input: f64) -> Vec<String> {
     match Circuits::of(m, input, CircuitOptions::default()) {
         Ok(found) => {
             let modes = found.modes.iter().map(|mode| format!("{} {}", position::<M>(&mode.position), mode.motion));
@@ -108,7 +102,7 @@ fn circuits<M: Branches<Scalar = f64, V = D<1>>>(m: &M, input: f64) -> Vec<Strin
     }
 }
 
-fn compare<M: Fixture<Scalar = f64, V = D<1>>>() {
+pub fn compare<M: Fixture<Scalar = f64, V = D<1>>>() {
     let Positions { mechanism, starts, .. } = Positions::<M>::drawn(20);
     assert!(starts.len() > 1, "{}", M::NAME);
     at_run_time::<1, M, _>(|own| {
@@ -130,94 +124,50 @@ fn along_a_line<M: Kinematic<Scalar = f64> + Clone>(m: &M, start: &Numbers) -> V
 }
 
 /// Inputs that grow, each with another rate.
-fn line<M: Mechanism<Scalar = f64> + Clone>(m: &M, [_, inputs]: &Numbers) -> Along<M, Line<M::Inputs>> {
+pub fn line<M: Mechanism<Scalar = f64> + Clone>(m: &M, [_, inputs]: &Numbers) -> Along<M, Line<M::Inputs>> {
     let column = |numbers: &[f64]| -> PerInput<M> { Column::from_slice(numbers).expect("as many inputs") };
     let to: Vec<f64> = inputs.iter().zip(1..).map(|(input, place)| input + 0.25 * f64::from(place)).collect();
     Along { mechanism: m.clone(), inputs: Line { from: column(inputs).into(), to: column(&to).into() } }
 }
 
-fn compare_along<const V: usize, M: Fixture<Scalar = f64, V = D<V>>>() {
+pub fn compare_along<const V: usize, M: Fixture<Scalar = f64, V = D<V>>>() {
     let Positions { mechanism, starts, .. } = Positions::<M>::drawn(80);
     let start = starts.first().expect("a position");
     at_run_time::<V, M, _>(|own| same::<M>(&along_a_line(&mechanism, start), &along_a_line(own, start)));
 }
 
-/// The most branches of a mechanism whose circuits are compared: `BRANCHES=1000` is the whole gallery.
-fn most_branches() -> usize {
-    std::env::var("BRANCHES").ok().and_then(|text| text.parse().ok()).unwrap_or(MOST_BRANCHES)
-}
-
-fn compare_circuits_along<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Branches>() {
-    // Each position begins a motion.
-    if M::branches().len() > most_branches() {
-        return;
-    }
-    let Positions { mechanism, starts, .. } = Positions::<M>::drawn(80);
-    let start = starts.first().expect("a position");
-    at_run_time::<V, M, _>(|own| {
-        same::<M>(&circuits(&line(&mechanism, start), 0.3), &circuits(&line(own, start), 0.3));
-    });
-}
-
-macro_rules! along {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
-        $($(compare_along::<_, linkage_gallery::$file::$Mechanism>();)+)*
-    };
-}
-
-macro_rules! circuits_if_listed {
-    ($file:ident $Mechanism:ident closed) => {
-        compare_circuits_along::<_, linkage_gallery::$file::$Mechanism>();
-    };
-    ($file:ident $Mechanism:ident $method:ident) => {};
-}
-
-macro_rules! circuits_along {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
-        $($(circuits_if_listed!($file $Mechanism $method);)+)*
-    };
-}
-
-#[test]
-fn motions_of_the_whole_gallery() {
-    all_mechanisms!(along);
-}
-
-#[test]
-fn circuits_of_the_whole_gallery() {
-    all_mechanisms!(circuits_along);
-}
-
-fn compare_circuits<M: Fixture<Scalar = f64, V = D<1>> + Branches>() {
+pub fn compare_circuits<M: Fixture<Scalar = f64, V = D<1>> + Branches>() {
     let mechanism = M::with_parameters(&M::defaults());
     at_run_time::<1, M, _>(|own| same::<M>(&circuits(&mechanism, 0.1 * TAU), &circuits(own, 0.1 * TAU)));
 }
 
 #[test]
+fn motions_along_a_line() {
+    eight!(compare_along);
+}
+
+#[test]
 fn motions_of_one_loop() {
-    compare::<FourBar>();
     compare::<OffsetSliderCrank>();
     // Change points, ranges, and motions that count turns.
     compare::<TiltedParallelogram>();
-    compare::<OneWindow>();
-    compare::<Geneva>();
+    compare::<Gate>();
+    compare::<GearedFiveBar>();
 }
 
 #[test]
 fn motions_of_several_groups() {
-    compare::<Wiper>();
-    compare::<Jansen>();
+    compare::<WattI>();
 }
 
 #[test]
 fn motions_without_a_closed_form() {
-    compare::<StephensonIII>();
     compare::<DoubleButterfly>();
 }
 
 #[test]
 fn circuits_are_those_of_emitted_code() {
-    compare_circuits::<FourBar>();
+    compare_circuits::<OffsetSliderCrank>();
     compare_circuits::<TiltedParallelogram>();
-    compare_circuits::<Wiper>();
+    compare_circuits::<WattI>();
 }

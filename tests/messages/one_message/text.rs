@@ -1,18 +1,20 @@
 //! The mechanism of each program as a text: its mistakes are the messages that rustc shows for the macro, at the same lines
 //! and columns.
 
-use std::fs;
-use std::path::Path;
-
 use linkage_compiler::budget::Budget;
 use linkage_compiler::text;
 
 use super::{Message, Planted, entry, planted};
+use crate::checked::snapshot;
 
-/// The inside of the invocation of a program, with blanks for all around it: lines and columns stay as they are.
-fn inside(program: &str) -> String {
+/// The inside of each invocation of a program, with blanks for all around it: lines and columns stay as they are.
+pub fn insides(program: &str) -> Vec<String> {
     const BEFORE: &str = "linkage! {";
-    let start = program.find(BEFORE).expect("an invocation") + BEFORE.len();
+    program.match_indices(BEFORE).map(|(at, _)| inside(program, at + BEFORE.len())).collect()
+}
+
+/// The inside of the invocation that begins here.
+fn inside(program: &str, start: usize) -> String {
     let mut depth = 1;
     let end = program[start..].find(|letter| {
         depth += i32::from(letter == '{') - i32::from(letter == '}');
@@ -26,7 +28,7 @@ fn inside(program: &str) -> String {
 
 /// The messages of a program's text as those of rustc, with the ends of its marks.
 fn messages(one: &Planted) -> Vec<Message> {
-    let found = text::compile(&inside(&one.program), &Budget::default(), |_| ()).err().unwrap_or_default();
+    let found = text::compile(&insides(&one.program).remove(0), &Budget::default(), |_| ()).err().unwrap_or_default();
     let of = |found: text::Message| {
         let from = (found.line, found.column);
         let mark = one.marks.iter().find(|(start, _)| *start == from);
@@ -41,12 +43,9 @@ fn messages(one: &Planted) -> Vec<Message> {
     found.into_iter().map(of).collect()
 }
 
-/// A snapshot without its head, its lines in an order of their own.
+/// A snapshot, its lines in an order of their own.
 fn expected(one: &Planted) -> Vec<String> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("messages/snapshots");
-    let text = fs::read_to_string(folder.join(one.list).join(one.mistake.0).with_extension("snap")).unwrap();
-    let (_, body) = text.split_once("---\n").unwrap().1.split_once("---\n").unwrap();
-    sorted(body)
+    sorted(&snapshot(one.list, one.mistake.0))
 }
 
 /// The messages with all their lines, in the order of their texts.
@@ -60,6 +59,11 @@ fn sorted(entry: &str) -> Vec<String> {
     }
     messages.sort();
     messages
+}
+
+/// True if rustc has a message of its own for a program.
+pub fn has_one_of_rust(one: &Planted) -> bool {
+    expected(one).iter().any(|line| is_of_rust(line))
 }
 
 /// True for what Rust itself says: of names outside of the macro, and of characters before it is called.

@@ -132,9 +132,11 @@ fn touches_and_gaps_within_a_group() {
         ([3.5, 2.0, 3.5, 2.0, 0.5, -1.0, 3.0, 1.0, 2.0, -1.0], 3.60137734563229),
         ([4.5, 3.0, 5.0, 3.5, 2.5, -1.0, 4.0, 4.5, -2.0, -0.5], 5.143345347380866),
     ];
+    let (differences, least): (&[f64], _) =
+        if linkage_trials::is_outer() { (&[0.0, 1e-4, 1e-6, 1e-8], 200) } else { (&[0.0, 1e-6], 100) };
     let mut counts = Counts::default();
     for (lengths, input) in touching {
-        for difference in [0.0, 1e-4, 1e-6, 1e-8] {
+        for &difference in differences {
             for sign in [1.0, -1.0] {
                 let [a, b, c, d, px, py, e, f, x, y] = lengths;
                 let d = d + sign * difference;
@@ -143,7 +145,7 @@ fn touches_and_gaps_within_a_group() {
         }
     }
     println!("{counts:?}");
-    assert!(counts.all > 200 && counts.crossed < counts.all / 2, "{counts:?}");
+    assert!(counts.all > least && counts.crossed < counts.all / 2, "{counts:?}");
     assert_eq!([counts.wrong, counts.errors], [0; 2]);
 }
 

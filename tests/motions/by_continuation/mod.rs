@@ -8,5 +8,5 @@ mod limits;
 
 /// The number of linkages of each family: `LINKAGES=10000` for a larger one.
 pub fn count() -> usize {
-    std::env::var("LINKAGES").ok().and_then(|count| count.parse().ok()).unwrap_or(12)
+    linkage_trials::count("LINKAGES", 4, 12)
 }

@@ -36,6 +36,6 @@ fn the_last_turns_of_a_million() {
 /// `TURNS=1000000 cargo test --release --test motions many_turns` makes so many, in 69 s.
 #[test]
 fn turns_from_the_start() {
-    let turns = std::env::var("TURNS").ok().and_then(|turns| turns.parse().ok()).unwrap_or(1000);
+    let turns = linkage_trials::count("TURNS", 100, 1000);
     turn(0.3, turns, turns / 10);
 }

@@ -13,7 +13,6 @@ use rand::{Rng, SeedableRng};
 use linkage_gallery::coupled_wheels::*;
 
 const DEGREES: [f64; 8] = [25.0, 20.0, 15.0, 10.0, 7.0, 5.0, 3.0, 2.0];
-const STARTS: usize = 40;
 const TURNS: f64 = 5.0;
 
 fn wheels() -> CoupledWheels {
@@ -56,11 +55,12 @@ fn naive(start: f64, step: f64, steps: u32) -> Result<bool, Error> {
 fn never_an_antiparallelogram() {
     let m = wheels();
     let mut random = SmallRng::seed_from_u64(320);
+    let starts = linkage_trials::count("PARALLELOGRAMS", 10, 40);
     let (mut naive_stays, mut naive_flips, mut naive_fails) = (0, 0, 0);
     for degrees in DEGREES {
         let step = degrees.to_radians();
         let steps = (TURNS * 360.0 / degrees).ceil() as u32;
-        for _ in 0..STARTS {
+        for _ in 0..starts {
             let start = random.random_range(0.2..PI - 0.2);
             match naive(start, step, steps) {
                 Ok(true) => naive_stays += 1,
@@ -82,8 +82,9 @@ fn never_an_antiparallelogram() {
             assert_eq!(passed, expected, "from {start} by {degrees} degrees");
         }
     }
-    println!("without prediction: {naive_flips} of 320 silent changes, {naive_fails} errors, {naive_stays} stay");
-    assert!(naive_flips > 300);
+    let all = starts * DEGREES.len();
+    println!("without prediction: {naive_flips} of {all} silent changes, {naive_fails} errors, {naive_stays} stay");
+    assert!(16 * naive_flips > 15 * all);
 }
 
 /// The rates of the parallelogram.

@@ -7,11 +7,13 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::continuation::{Along, AlongCoordinates, AtChangePoint, Direction, Event, Options, Path};
 use linkage::position::newton;
-use linkage::{Assembly, Build, D, Dim, Elbow, Mechanism, PathError, PerInput};
+use linkage::{Assembly, Branches, Build, D, Elbow, Kinematic, Mechanism, PathError, PerInput, UpTo};
 use linkage_gallery::four_bar::{FourBar, FourBarBranch};
-use linkage_gallery::{Fixture, all_mechanisms, named};
+use linkage_gallery::listed;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
+
+use crate::at_run_time;
 
 /// The outcomes of steps.
 #[derive(Debug, Default, Clone, Copy)]
@@ -40,16 +42,16 @@ fn stride(random: &mut SmallRng) -> f64 {
 }
 
 /// The largest difference of the unknowns: of angles modulo full turns, of lengths relative to the largest.
-fn difference<M: Mechanism<Scalar = f64>>(one: &M::Coordinates, two: &M::Coordinates) -> f64 {
-    let (one, two) = (M::unknowns(one), M::unknowns(two));
-    let is_length = |index: &usize| !M::UNKNOWN_ANGLES[*index];
-    let largest = (0..M::U::CAPACITY).filter(is_length).map(|index| two[index].abs()).fold(0.0, f64::max);
+fn difference<M: Mechanism<Scalar = f64>>(m: &M, one: &M::Coordinates, two: &M::Coordinates) -> f64 {
+    let (one, two, angles) = (M::unknowns(one), M::unknowns(two), m.unknown_angles());
+    let is_length = |index: &usize| !angles[*index];
+    let largest = (0..angles.len()).filter(is_length).map(|index| two[index].abs()).fold(0.0, f64::max);
     let part = |index: usize| match one[index] - two[index] {
-        turn if M::UNKNOWN_ANGLES[index] => 2.0 * (turn / 2.0).sin().abs(),
+        turn if angles[index] => 2.0 * (turn / 2.0).sin().abs(),
         length => length.abs() / largest,
     };
     // If a length is exactly zero in both, there is no difference.
-    (0..M::U::CAPACITY).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
+    (0..angles.len()).map(part).filter(|part| !part.is_nan()).fold(0.0, f64::max)
 }
 
 /// Sends the input to random values, from one of the positions that `starts` has at an input. Every position on the way
@@ -64,7 +66,7 @@ fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
     let mut count = Count::default();
     'starts: while count.steps < steps {
         let all = (0..1000).map(|_| starts(random.random_range(0.0..TAU), random)).find(|all| !all.is_empty());
-        let all = all.unwrap_or_else(|| panic!("{}: no position", M::NAME));
+        let all = all.unwrap_or_else(|| panic!("{}: no position", m.name()));
         let start = all[random.random_range(0..all.len())];
         // Ranges stop a motion anywhere.
         let options = Options { at_change_point: AtChangePoint::Stop, joint_ranges: false, ..Options::default() };
@@ -83,11 +85,11 @@ fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
             match path.advance_to(input) {
                 Ok(step) => {
                     let is_branch = m.same_branch(&m.pose_at(&start), &m.pose_at(&step.position));
-                    let off = expected(&start, &before, input).map(|q| difference::<M>(&step.position, &q));
+                    let off = expected(&start, &before, input).map(|q| difference(m, &step.position, &q));
                     // The closed form and the follower agree to rounding error, or at a dead point to the root of it.
                     if !is_branch || off.is_none_or(|off| off > 1e-7) {
                         let [before, after] = [before, step.position].map(|q| (M::inputs(&q)[0], M::unknowns(&q)));
-                        println!("{} from {before:?} to {after:?}: {off:?}", M::NAME);
+                        println!("{} from {before:?} to {after:?}: {off:?}", m.name());
                         count.silent += 1;
                     }
                 }
@@ -98,7 +100,7 @@ fn walk<M: Mechanism<Scalar = f64, V = D<1>>>(
             }
         }
     }
-    println!("{}: {count:?}", M::NAME);
+    println!("{}: {count:?}", m.name());
     count
 }
 
@@ -147,94 +149,73 @@ fn by_short_steps<M: Mechanism<Scalar = f64, V = D<1>>>(
     }
 }
 
-/// Walks by the number of inputs: several inputs follow one parameter.
-trait Inputs: Dim {
-    fn closed<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
-    fn newton<M: Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count;
-    fn open<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
-        Self::closed(m, steps, random)
+/// Walks of a mechanism with one input, which has a closed form or is solved by Newton's method.
+fn one_input<M>(m: &M, is_closed: bool, steps: usize, random: &mut SmallRng) -> Count
+where
+    M: Kinematic<Scalar = f64, V = D<1>> + Assembly + Branches,
+{
+    if !is_closed {
+        let starts = |input: f64, random: &mut SmallRng| {
+            from_a_random_guess(m, PerInput::<M>::from([input]), random).into_iter().collect()
+        };
+        return walk(m, starts, |_: &_, before: &_, input| by_short_steps(m, before, input), steps, random);
     }
+    let starts = |input: f64, _: &mut SmallRng| positions(m, PerInput::<M>::from([input]));
+    // The turns that are nearest to the last position.
+    let expected = |start: &M::Coordinates, before: &M::Coordinates, input: f64| {
+        let guess = M::with_inputs(before, [input].into());
+        Some(M::coordinates_of(&m.assemble_near(&guess, m.branch_of(&m.pose_at(start))).ok()?))
+    };
+    walk(m, starts, expected, steps, random)
 }
 
-impl Inputs for D<1> {
-    fn closed<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
-        let at = |input: f64, branch| m.assemble(PerInput::<M>::from([input]).into(), branch).ok();
-        let starts = |input: f64, _: &mut SmallRng| {
-            M::branches().into_iter().filter_map(|branch| Some(M::coordinates_of(&at(input, branch)?))).collect()
+/// Walks of a mechanism whose inputs all follow one parameter.
+fn several_inputs<M>(m: &M, is_closed: bool, scale: f64, steps: usize, random: &mut SmallRng) -> Count
+where
+    M: Kinematic<Scalar = f64> + Assembly + Branches + Clone,
+{
+    let along = Along { mechanism: m.clone(), inputs: |s| round(m, scale, s) };
+    let inputs = |parameter: f64| round(m, scale, parameter)[0];
+    if !is_closed {
+        let starts = |parameter: f64, random: &mut SmallRng| {
+            let q = from_a_random_guess(m, inputs(parameter), random);
+            q.map(|q| AlongCoordinates { q, parameter }).into_iter().collect()
         };
-        // The turns that are nearest to the last position.
-        let expected = |start: &M::Coordinates, before: &M::Coordinates, input: f64| {
-            let guess = M::with_inputs(before, [input].into());
-            Some(M::coordinates_of(&m.assemble_near(&guess, m.branch_of(&m.pose_at(start))).ok()?))
-        };
-        walk(&m, starts, expected, steps, random)
+        return walk(&along, starts, |_: &_, before: &_, s| by_short_steps(&along, before, s), steps, random);
     }
+    let starts = |parameter: f64, _: &mut SmallRng| {
+        positions(m, inputs(parameter)).into_iter().map(|q| AlongCoordinates { q, parameter }).collect()
+    };
+    let expected = |start: &AlongCoordinates<_>, _: &AlongCoordinates<_>, parameter: f64| {
+        let branch = m.branch_of(&m.pose_at(&along.position(start)));
+        let pose = m.assemble(inputs(parameter).into(), branch).ok()?;
+        Some(AlongCoordinates { q: M::coordinates_of(&pose), parameter })
+    };
+    walk(&along, starts, expected, steps, random)
+}
 
-    fn newton<M: Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
-        let starts = |input: f64, random: &mut SmallRng| {
-            from_a_random_guess(&m, PerInput::<M>::from([input]), random).into_iter().collect()
-        };
-        walk(&m, starts, |_: &_, before: &_, input| by_short_steps(&m, before, input), steps, random)
-    }
+/// The positions on all branches.
+fn positions<M: Branches<Scalar = f64>>(m: &M, inputs: PerInput<M>) -> Vec<M::Coordinates> {
+    m.all_positions(inputs.into()).map(|all| all.map(|(_, q)| q).collect()).unwrap_or_default()
 }
 
 /// The position that Newton's method finds at these inputs from random unknowns.
-fn from_a_random_guess<M: Fixture<Scalar = f64>>(
+fn from_a_random_guess<M: Kinematic<Scalar = f64>>(
     m: &M,
     inputs: PerInput<M>,
     random: &mut SmallRng,
 ) -> Option<M::Coordinates> {
-    let guess: Vec<f64> = (0..M::U::CAPACITY + M::V::CAPACITY).map(|_| random.random_range(-PI..PI)).collect();
-    let guess = M::with_inputs(&named::<M, _>(&guess), inputs);
+    let guess = M::coordinates(m.dims().0.column(|_| random.random_range(-PI..PI)), inputs);
     Some(newton(m, &M::coordinates_of(&m.pose_at(&guess))).ok()?.coordinates)
-}
-
-macro_rules! several_inputs {
-    ($($count:literal)*) => {$(
-        impl Inputs for D<$count> {
-            fn closed<M: Assembly + Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
-                let scale = scale(&m);
-                let m = Along { mechanism: m, inputs: move |s| round::<M>(scale, s) };
-                let at = |parameter: f64, branch| {
-                    let pose = m.mechanism.assemble((m.inputs)(parameter)[0].into(), branch).ok()?;
-                    Some(AlongCoordinates { q: M::coordinates_of(&pose), parameter })
-                };
-                let starts = |s: f64, _: &mut SmallRng| {
-                    M::branches().into_iter().filter_map(|branch| at(s, branch)).collect()
-                };
-                let expected = |start: &AlongCoordinates<_>, _: &AlongCoordinates<_>, s| {
-                    at(s, m.mechanism.branch_of(&m.mechanism.pose_at(&m.position(start))))
-                };
-                walk(&m, starts, expected, steps, random)
-            }
-
-            fn newton<M: Fixture<Scalar = f64, V = Self>>(m: M, steps: usize, random: &mut SmallRng) -> Count {
-                let scale = scale(&m);
-                let m = Along { mechanism: m, inputs: move |s| round::<M>(scale, s) };
-                let starts = |s: f64, random: &mut SmallRng| {
-                    let q = from_a_random_guess(&m.mechanism, (m.inputs)(s)[0], random);
-                    q.map(|q| AlongCoordinates { q, parameter: s }).into_iter().collect()
-                };
-                walk(&m, starts, |_: &_, before: &_, s| by_short_steps(&m, before, s), steps, random)
-            }
-        }
-    )*};
-}
-
-several_inputs!(2 3 4);
-
-/// The largest parameter, which is of the order of the lengths.
-fn scale<M: Fixture<Scalar = f64>>(m: &M) -> f64 {
-    m.parameters().into_iter().fold(0.0, f64::max)
 }
 
 /// Inputs with their first two derivatives by the parameter: angles at different rates, lengths round circles or
 /// ellipses that leave the range of the mechanism.
-fn round<M: Mechanism<Scalar = f64>>(scale: f64, s: f64) -> [PerInput<M>; 3] {
+fn round<M: Mechanism<Scalar = f64>>(m: &M, scale: f64, s: f64) -> [PerInput<M>; 3] {
     let parts = |index: usize| {
         let place = index as f64;
         let (sine, cosine) = (s - place * PI / 2.0).sin_cos();
-        if M::INPUT_ANGLES[index] {
+        if m.input_angles()[index] {
             let rate = 1.0 - 0.3 * place;
             [rate * s + place, rate, 0.0]
         } else {
@@ -242,31 +223,37 @@ fn round<M: Mechanism<Scalar = f64>>(scale: f64, s: f64) -> [PerInput<M>; 3] {
             [radius * (cosine + f64::from(u8::from(index.is_multiple_of(2)))), -radius * sine, -radius * cosine]
         }
     };
-    [0, 1, 2].map(|order| M::V::least().column(|index| parts(index)[order]))
+    [0, 1, 2].map(|order| m.dims().1.column(|index| parts(index)[order]))
 }
 
-macro_rules! walks {
-    ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
-        /// Walks of all mechanisms.
-        fn gallery(steps: usize) -> Count {
-            let random = &mut SmallRng::seed_from_u64(7);
-            let mut count = Count::default();
-            $($(count += {
-                type M = linkage_gallery::$file::$Mechanism;
-                <M as Mechanism>::V::$method(M::default(), steps, random)
-            };)+)*
-            count
-        }
-    };
+/// Walks of all mechanisms of the gallery, at run time.
+///
+/// `cam_follower` is lost at times on the return: the law there is a difference of nearly equal numbers and has fewer
+/// digits than its scale suggests, which the follower does not take for rounding error.
+fn gallery(steps: usize) -> Count {
+    let random = &mut SmallRng::seed_from_u64(linkage_trials::seed(7));
+    let mut count = Count::default();
+    for listed in listed::all() {
+        let design = at_run_time::of(listed.file(), listed.name()).design();
+        let prepared = design.prepared().expect("a mechanism within the capacities");
+        let is_closed = !listed.branches().is_empty();
+        // The largest parameter is of the order of the lengths.
+        let scale = design.parameters().iter().copied().fold(0.0, f64::max);
+        count += match listed.inputs().len() {
+            1 => one_input(&prepared.with_inputs::<D<1>>().expect("one input"), is_closed, steps, random),
+            _ => {
+                let m = prepared.with_inputs::<UpTo<6>>().expect("six inputs at most");
+                several_inputs(&m, is_closed, scale, steps, random)
+            }
+        };
+        assert_eq!(prepared.failure(), None, "{}", listed.name());
+    }
+    count
 }
-
-// `cam_follower` is lost at times on the return: the law there is a difference of nearly equal numbers and has fewer
-// digits than its scale suggests, which the follower does not take for rounding error.
-all_mechanisms!(walks);
 
 /// Four-bars of random lengths, followed by arc length through all their events.
 fn four_bars(steps: usize) -> Count {
-    let (random, mut count) = (&mut SmallRng::seed_from_u64(11), Count::default());
+    let (random, mut count) = (&mut SmallRng::seed_from_u64(linkage_trials::seed(11)), Count::default());
     while count.steps < steps {
         let m = FourBar::from([(); 4].map(|()| random.random_range(0.2..2.0)));
         let elbow = if random.random() { Elbow::Left } else { Elbow::Right };
@@ -312,7 +299,7 @@ fn four_bars(steps: usize) -> Count {
 /// times as many with four-bars: 2.1 million in a minute.
 #[test]
 fn no_silent_change() {
-    let steps = std::env::var("STEPS").ok().and_then(|steps| steps.parse().ok()).unwrap_or(100);
+    let steps = linkage_trials::count("STEPS", 30, 100);
     let mut count = gallery(steps);
     count += four_bars(40 * steps);
     println!("{count:?}");

@@ -84,8 +84,8 @@ fn a_negative_length_points_the_other_way() {
 /// `GAPS=1000000` for a larger number.
 #[test]
 fn random_gaps_next_to_the_start_and_at_the_end_of_a_turn() {
-    let count = std::env::var("GAPS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000);
-    let random = &mut SmallRng::seed_from_u64(44);
+    let count = linkage_trials::count("GAPS", 200, 1000);
+    let random = &mut SmallRng::seed_from_u64(linkage_trials::seed(44));
     for _ in 0..count {
         let mut size = || 10_f64.powf(random.random_range(-4.0..-1.52));
         let (half, away) = (0.5 * size(), size());

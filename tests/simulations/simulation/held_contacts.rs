@@ -78,7 +78,7 @@ fn a_block_slips_where_the_belt_brakes_harder_than_friction() {
 fn stacks_of_two_on_belts_do_not_repeat_events() {
     let mut random = SmallRng::seed_from_u64(5);
     let mut between = |least: f64, most: f64| random.random_range(least.ln()..most.ln()).exp();
-    for trial in 0..if cfg!(debug_assertions) { 60 } else { 1000 } {
+    for trial in 0..linkage_trials::count("STACKS", 20, if cfg!(debug_assertions) { 60 } else { 1000 }) {
         let scene = Stacked {
             m: between(0.01, 100.0),
             n: between(0.01, 100.0),
@@ -271,7 +271,8 @@ fn a_crank_starts_at_its_dead_centre() {
 #[test]
 fn blocks_at_rest_without_load_do_not_shorten_steps() {
     let (t, end, w, push) = (0.6_f64, 0.85, 4.0_f64, 13.6);
-    for m1 in [2.6, 2.7, 2.8] {
+    let masses: &[f64] = if linkage_trials::is_outer() { &[2.6, 2.7, 2.8] } else { &[2.7] };
+    for &m1 in masses {
         for [f1, f2, f3] in [[1.8, 0.3, 0.0], [1.8, 0.0, 0.3], [1.8, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.0]] {
             let scene = Row { m1, m2: 1.4, m3: 1.5, push, w, f1, f2, f3, wide: 0.125, ..Row::default() };
             let q = BlocksCoordinates { x: 0.2, u: 0.35, v: 0.125 };

@@ -8,11 +8,14 @@ fn empty() -> Page {
     Page::with("mechanism Crank { param r = 1; input phi; point P = r@phi; }")
 }
 
+/// In the inner ring so many prefixes of each example, or `PREFIXES`, from another one for each commit.
 #[test]
 fn every_prefix_of_every_example_has_an_answer() {
     let mut page = empty();
     for (name, text) in examples() {
-        for end in (0..text.len()).filter(|end| text.is_char_boundary(*end)) {
+        let step = text.len().div_ceil(linkage_trials::count("PREFIXES", 40, text.len()));
+        let first = (linkage_trials::seed(0) % step as u64) as usize;
+        for end in (first..text.len()).step_by(step).filter(|end| text.is_char_boundary(*end)) {
             let answer = page.ask(&json!({ "do": "compile", "text": &text[..end] }));
             let units = text[..end].encode_utf16().count() as u64;
             for mistake in answer["mistakes"].as_array().into_iter().flatten() {

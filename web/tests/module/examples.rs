@@ -11,9 +11,10 @@ fn answered(name: &str, question: &Value, answer: &Value) {
     assert!(answer["why"].is_null(), "{name}: {} {answer}", question["do"]);
 }
 
+/// In the inner ring about a third of them.
 #[test]
 fn every_question_about_every_example() {
-    for (name, text) in examples() {
+    for (name, text) in linkage_trials::some(examples(), 3) {
         let mut page = Page::with(&text);
         let count = page.about.as_array().unwrap().len();
         for mechanism in 0..count {

@@ -124,13 +124,14 @@ fn zeros(dip: &Dip) -> [Option<f64>; 2] {
     [zero(0.0), zero(1.0)]
 }
 
-/// Ten thousand guards, half with known rates: each is found at its exact time.
+/// Guards, half of them with known rates: each is found at its exact time. `DIPS` is their number.
 #[test]
 fn one_minimum_in_a_step_is_never_missed() {
     let mut random = SmallRng::seed_from_u64(20_261_122);
     let mut found = [0; 3];
     let mut looks = [0; 4];
-    while found[0] < 10_000 {
+    let all = linkage_trials::count("DIPS", 2_000, 10_000);
+    while found[0] < all {
         let dip = Dip::random(&mut random);
         let [Some(falls), rises] = zeros(&dip) else { continue };
         let knows = found[0] % 2 == 0;
@@ -153,7 +154,7 @@ fn one_minimum_in_a_step_is_never_missed() {
         assert_eq!(up.len(), usize::from(rises.is_some()), "{up:?} {rises:?} {dip:?} {both:?}");
         found[2] += 1;
     }
-    let [by_values, by_rates, monotone, by_rates_monotone] = looks.map(|looks| f64::from(looks as u32) / 5000.0);
+    let [by_values, by_rates, monotone, by_rates_monotone] = looks.map(|looks| 2.0 * looks as f64 / all as f64);
     println!("none of {found:?} missed; evaluations a step with rates {by_rates:.1}, with values {by_values:.1}");
     println!("compared with {by_rates_monotone:.1} and {monotone:.1} without an extremum");
 }
@@ -169,7 +170,7 @@ fn an_oscillator_grazes_its_wall() {
         (motion.system().hit.map(|t| t * frequency), motion.counts())
     };
     let mut random = SmallRng::seed_from_u64(7);
-    for _ in 0..1000 {
+    for _ in 0..linkage_trials::count("GRAZES", 300, 1000) {
         let shallow = 10.0_f64.powf(random.random_range(-11.0..-1.0));
         // The wall is still met with this error of the position.
         let relative = (1e-3 * shallow).clamp(1e-14, 1e-5);

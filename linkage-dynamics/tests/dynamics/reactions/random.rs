@@ -167,8 +167,7 @@ fn check<const V: usize, const C: usize>(
 /// `TRIALS` sets the number of problems of each of the twelve sizes.
 #[test]
 fn every_motion_satisfies_every_law() {
-    let few = if cfg!(debug_assertions) { 20 } else { 1000 };
-    let trials: u64 = std::env::var("TRIALS").map_or(few, |trials| trials.parse().expect("a number of trials"));
+    let trials: u64 = linkage_trials::count("TRIALS", 20, if cfg!(debug_assertions) { 20 } else { 1000 });
     let mut outcomes = Outcomes::default();
     for seed in 0..trials {
         let source = &mut SmallRng::seed_from_u64(seed);

@@ -4,9 +4,10 @@ use linkage_interval::Interval;
 use linkage_interval::certify::{self, Certify};
 use linkage_interval::enclose::{EncloseError, PoseBox};
 use linkage_runtime::Column;
+use linkage_trials::count;
 
 use crate::certify::loops::{Loops, exactly};
-use crate::certify::random::{Random, count, four_bar, six_bar};
+use crate::certify::random::{Random, four_bar, six_bar};
 use crate::certify::shapes::{FourBar, SixBar, UserFunction};
 
 const LENGTHS: [f64; 4] = [100.0, 40.0, 120.0, 80.0];
@@ -38,7 +39,8 @@ fn nearly(x: f64) -> Interval {
 fn ratios_of_random_boxes() {
     let mut random = Random(17);
     let (mut proved, mut quotients) = (0, Vec::new());
-    for _ in 0..count("BOXES", 300) {
+    let boxes = count("BOXES", 100, 300);
+    for _ in 0..boxes {
         let lengths = [(); 4].map(|()| random.between(0.3, 1.0));
         let angles = [(); 3].map(|()| random.between(-3.0, 3.0));
         let radius = 10_f64.powf(random.between(-6.0, -0.5));
@@ -65,7 +67,7 @@ fn ratios_of_random_boxes() {
     quotients.sort_by(f64::total_cmp);
     let [median, most] = [quotients[quotients.len() / 2], quotients[quotients.len() - 1]];
     println!("{proved} boxes, width by range of samples: median {median:.2}, most {most:.2}");
-    assert!(2 * proved > count("BOXES", 300) && median < 1.5, "{proved} {median}");
+    assert!(2 * proved > boxes && median < 1.5, "{proved} {median}");
 }
 
 /// The links are in line where both angles are equal: the largest box that is proved reaches almost up to there.

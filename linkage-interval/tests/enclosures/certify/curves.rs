@@ -1,9 +1,9 @@
 //! Motions through dead points.
 
 use linkage_interval::certify::{self, CertifyError};
+use linkage_trials::count;
 
 use crate::certify::loops::Loops;
-use crate::certify::random::count;
 use crate::certify::shapes::{DOUBLE_BUTTERFLY, DoubleButterfly, FourBar, MODES};
 
 /// No link of this four-bar can turn fully: crank^2 + ground^2 - 2 crank ground cos theta = (coupler + rocker)^2 at the
@@ -48,7 +48,7 @@ fn positions_of_the_double_butterfly() {
     let starts = MODES.map(|mode| Loops::<DoubleButterfly, f64>::at(mode, 0.0));
     let shortest = certify::turn(&butterfly, &starts[4]).unwrap();
     assert!(shortest.is_closed() && shortest.boxes() <= 14);
-    if count("BUTTERFLY", 0) == 0 {
+    if count("BUTTERFLY", 0, 1) == 0 {
         return;
     }
     let mut limits = Vec::new();

@@ -4,14 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use linkage_interval::Interval;
 use linkage_interval::certify::{self, CertifyError, End};
+use linkage_trials::count;
 
 use crate::certify::loops::{Loops, exactly};
 use crate::certify::shapes::{FourBar, SixBar};
-
-/// The number of random mechanisms: by the variable of this name, or few.
-pub fn count(variable: &str, few: usize) -> usize {
-    std::env::var(variable).ok().and_then(|value| value.parse().ok()).unwrap_or(few)
-}
 
 /// Numbers from 0 to 1 by a linear congruential generator (D. E. Knuth, "The Art of Computer Programming" 2, 3.3.4).
 pub struct Random(pub u64);
@@ -69,7 +65,7 @@ fn limit([ground, crank, coupler, rocker]: [f64; 4], from: f64) -> Option<f64> {
 fn four_bars_turn_as_grashofs_limits_say() {
     let mut random = Random(7);
     let (mut closed, mut dead, mut open) = (0, 0, 0);
-    for _ in 0..count("FOUR_BARS", 12) {
+    for _ in 0..count("FOUR_BARS", 4, 12) {
         let lengths = [(); 4].map(|()| random.between(0.1, 1.0));
         let input = random.between(-PI, PI);
         let side = if random.between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 };
@@ -109,7 +105,7 @@ fn four_bars_turn_as_grashofs_limits_say() {
 fn positions_of_six_bars_are_in_their_tubes() {
     let mut random = Random(11);
     let (mut closed, mut dead, mut boxes) = (0, 0, 0);
-    for _ in 0..count("SIX_BARS", 3) {
+    for _ in 0..count("SIX_BARS", 3, 3) {
         // A crank-rocker, and a dyad that may lock.
         let first = [1.0, random.between(0.1, 0.3), random.between(0.8, 1.2), random.between(0.6, 1.0)];
         let second = [0.6, 0.3, 0.9, 0.8, 0.7, 0.4].map(|length| length * random.between(0.7, 1.3));

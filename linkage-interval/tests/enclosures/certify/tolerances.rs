@@ -2,9 +2,10 @@
 
 use linkage_interval::certify::{self, Certificate, Certify, Enclosure};
 use linkage_runtime::{Column, Dim};
+use linkage_trials::count;
 
 use crate::certify::loops::{Loops, Shape};
-use crate::certify::random::{count, four_bar, six_bar};
+use crate::certify::random::{four_bar, six_bar};
 use crate::certify::shapes::{FourBar, SixBar, SliderCrank};
 
 /// The tolerance of the tests, relative to each length.
@@ -48,7 +49,7 @@ fn compare<S: Shape>(parameters: Column<f64, S::P>, start: Column<f64, S::U>, qu
 #[test]
 fn four_bar_within_tolerances() {
     let lengths = [100.0, 40.0, 120.0, 80.0];
-    let quantities = if count("CORNERS", 0) > 0 { 3 } else { 1 };
+    let quantities = if count("CORNERS", 0, 1) > 0 { 3 } else { 1 };
     compare::<FourBar>(lengths.into(), four_bar(lengths, 1.0, 0.7).unwrap().into(), quantities);
 }
 
@@ -60,7 +61,7 @@ fn slider_crank_within_tolerances() {
 /// The 1024 corners take a minute.
 #[test]
 fn six_bar_within_tolerances() {
-    if count("CORNERS", 0) == 0 {
+    if count("CORNERS", 0, 1) == 0 {
         return;
     }
     let (first, second) = ([1.0, 0.25, 1.0, 0.8], [0.6, 0.3, 0.9, 0.8, 0.7, 0.4]);

@@ -4,9 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use linkage_interval::Interval;
 use linkage_interval::certify::{self, Certificate, Certify, CertifyError, End};
+use linkage_trials::count;
 
 use crate::certify::loops::{Loops, Shape, exactly};
-use crate::certify::random::{Random, count, four_bar, is_angle_in};
+use crate::certify::random::{Random, four_bar, is_angle_in};
 use crate::certify::shapes::{FourBar, HalfSpeed, Jansen, SliderCrank};
 
 /// The position with its rocker above, or below.
@@ -103,7 +104,7 @@ fn sampled_positions_are_in_the_tubes() {
     let certificate = turn(lengths, 0.7).unwrap();
     let tubes: Vec<_> = certificate.tubes().collect();
     let quantities = certificate.quantities();
-    for _ in 0..count("POSES", 2000) {
+    for _ in 0..count("POSES", 400, 2000) {
         let input = random.between(0.7, 0.7 + TAU);
         let exact = four_bar(lengths, 1.0, input).unwrap();
         let within = |(range, angles): &&(Interval, _)| {

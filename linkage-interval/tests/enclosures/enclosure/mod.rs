@@ -16,7 +16,7 @@ use precise::{Big, big, doubles, encloses};
 
 /// Evaluations in 48 digits of each function.
 fn evaluations() -> usize {
-    std::env::var("EVALUATIONS").ok().and_then(|count| count.parse().ok()).unwrap_or(400)
+    linkage_trials::count("EVALUATIONS", 100, 400)
 }
 
 fn interval([least, most]: [f64; 2]) -> Interval {

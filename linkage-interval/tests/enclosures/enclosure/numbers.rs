@@ -9,7 +9,7 @@ pub struct Numbers(SmallRng);
 
 impl Numbers {
     pub fn new(seed: u64) -> Self {
-        Self(SmallRng::seed_from_u64(seed))
+        Self(SmallRng::seed_from_u64(linkage_trials::seed(seed)))
     }
 
     pub fn between(&mut self, least: f64, most: f64) -> f64 {

@@ -270,7 +270,7 @@ fn check<const L: usize, const N: usize>(kinds: &[Kind<L>], count: usize, class:
 
 /// The number of all groups.
 fn count() -> usize {
-    std::env::var("CLASSES").map_or(3000, |count| count.parse().expect("CLASSES is a number"))
+    linkage_trials::count("CLASSES", 600, 3000)
 }
 
 fn check_all(class: Class) {

@@ -125,10 +125,11 @@ fn two_positions_share_a_direction() {
 /// At a dead point two positions meet, and near it they are closer than rounding error shows: an error, or both.
 #[test]
 fn positions_that_meet() {
+    let count = linkage_trials::count("MEETING", 30, 100);
     let mut random = SmallRng::seed_from_u64(5);
     for from_dead_point in [0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3] {
         let (mut listed, mut undecided) = (0, 0);
-        for _ in 0..100 {
+        for _ in 0..count {
             let legs = LEGS.map(|length| length * random.random_range(0.5..1.5));
             let factors = triad(PLATFORM, legs);
             let mut position: [f64; 4] = angles(&mut random);
@@ -148,7 +149,7 @@ fn positions_that_meet() {
             }
         }
         println!("{from_dead_point:e} rad from a dead point: {listed} listed, {undecided} undecided");
-        assert!(listed + undecided > 90);
+        assert!(10 * (listed + undecided) > 9 * count);
         assert!(from_dead_point > 0.0 || listed == 0);
         assert!(from_dead_point < 1e-4 || undecided == 0);
     }

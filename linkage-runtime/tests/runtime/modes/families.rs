@@ -19,7 +19,7 @@ fn is_undetermined(error: &PositionError) -> bool {
 #[test]
 fn combinations_of_two_dyads() {
     let mut random = SmallRng::seed_from_u64(1);
-    for _ in 0..500 {
+    for _ in 0..linkage_trials::count("DYADS", 100, 500) {
         let mut link = || turned(random.random_range(0.2..2.0), random.random_range(-PI..PI));
         let dyads: [[Number; 4]; 2] = [[link(), link(), ZERO, ZERO], [ZERO, ZERO, link(), link()]];
         let weights: [[f64; 2]; 2] = [[1.0, random.random_range(-1.0..1.0)], [random.random_range(-0.5..0.5), 1.0]];

@@ -67,7 +67,7 @@ fn check<const L: usize, const N: usize>(
 ) {
     let mut random = SmallRng::seed_from_u64(11);
     let (mut largest, mut counts) = (0.0_f64, [0; 21]);
-    for case in 0..200 {
+    for case in 0..linkage_trials::count("MODES_WITH_LENGTHS", 50, 200) {
         let mut position: [f64; N] = angles(&mut random);
         let mut are = [Unknown::Angle; N];
         for &(place, in_loop, with) in lengths {

@@ -7,7 +7,7 @@ use crate::modes::group::{Number, all, angles, butterfly, closed, evaluate, near
 
 /// The number of groups of two loops; of three a tenth as many.
 fn count() -> usize {
-    std::env::var("MODES").map_or(2000, |count| count.parse().expect("MODES is a number"))
+    linkage_trials::count("MODES", 400, 2000)
 }
 
 fn check<const L: usize, const N: usize>(

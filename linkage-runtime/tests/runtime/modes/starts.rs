@@ -9,7 +9,7 @@ use linkage_runtime::position::newton_group;
 use crate::modes::group::{Number, all, angles, butterfly, closed, evaluate, nearest, random_triad};
 
 fn check<const L: usize, const N: usize>(seed: u64, factors: impl Fn(&mut SmallRng) -> [[Number; N]; L]) {
-    let starts = std::env::var("STARTS").map_or(1000, |count| count.parse().expect("STARTS is a number"));
+    let starts = linkage_trials::count("STARTS", 1000, 1000);
     let mut random = SmallRng::seed_from_u64(seed);
     let planted = angles(&mut random);
     let loops: Loops<f64, L, N> = closed(factors(&mut random), &planted);

@@ -293,8 +293,8 @@ const RUNS: [(&str, Run); 13] = [
 
 #[test]
 fn no_sample_contradicts_a_certificate() {
-    let count = std::env::var("CERTIFIED").ok().and_then(|count| count.parse().ok()).unwrap_or(RUNS.len());
-    let random = &mut SmallRng::seed_from_u64(44);
+    let count = linkage_trials::count("CERTIFIED", RUNS.len(), RUNS.len());
+    let random = &mut SmallRng::seed_from_u64(linkage_trials::seed(44));
     for (name, run) in RUNS {
         let mut counts = Counts::default();
         for _ in 0..count.div_ceil(RUNS.len()) {

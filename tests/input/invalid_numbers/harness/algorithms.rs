@@ -4,19 +4,21 @@ use std::fmt::Debug;
 
 use linkage::accuracy::{Newton, PositionMethod, Reached, Table};
 use linkage::continuation::{AtChangePoint, Direction, Options, Path};
-use linkage::integrate::{Action, Crossing, FixedStep, Tolerance, dop853, dopri5, watched};
+use linkage::integrate::{Action, Crossing, FixedStep, Interpolant, Tolerance, dop853, dopri5, watched};
 use linkage::nalgebra::{SMatrix, SVector};
 use linkage::position::{newton, newton_any_branch, newton_step};
 use linkage::simulation::{Start, simulate};
 use linkage::singularity::{accuracy, report, sigma_min};
 use linkage::Kink;
 use linkage::{
-    Bearing, Column, Contact, D, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
+    Bearing, Column, Contact, D, Dim, Equations, Group, Matrix, Mechanism, MotionError, PathError, PerInput, PerUnknown,
     PositionError, Ranged, Prescribed, Scene, StateParts, Unreduced,
 };
 
+use super::draw::{coordinates, rates};
 use super::tally::evaluated;
-use super::{Draw, Finite, Pool, Source, Tally};
+use super::{Draw, Pool, Source, Tally};
+use crate::called::Numbers;
 
 /// A mechanism whose positions are counted.
 struct Counted<'a, M>(&'a M);
@@ -187,71 +189,85 @@ impl<'a, S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>> Scen
 const SELDOM: usize = 40;
 
 /// Positions of a mechanism, if there are any.
-pub fn positions<M>(m: &M, s: &mut Source, positions: &mut Pool<M::Coordinates>)
+fn found<M>(m: &M, s: &mut Source, positions: &mut Pool<M::Coordinates>)
 where
-    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V: Default, Coordinates: Draw>,
+    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V: Default>,
 {
     for _ in 0..2 {
-        let guess = Draw::draw(s);
-        if let Ok(found) = newton_any_branch(m, &guess) {
+        if let Ok(found) = newton_any_branch(m, &coordinates::<M>(s)) {
             positions.keep(found.coordinates);
         }
     }
 }
 
-/// The algorithms for any mechanism.
+/// The algorithms for any mechanism, whose poses `pose` makes.
 pub fn mechanism<M>(
     t: &mut Tally,
     s: &mut Source,
     m: &M,
     positions: &mut Pool<M::Coordinates>,
-    poses: &mut Pool<M::Pose>,
+    pose: fn(&mut dyn Numbers, &M) -> M::Pose,
 ) where
-    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V: Default, Coordinates: Draw + Finite, Pose: Draw + Finite + Debug + Copy>,
+    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V: Default, Pose: Debug + Copy>,
 {
-    let m = &Counted(m);
+    let (new, mut poses) = (coordinates::<M>, Pool::default());
+    let counted = &Counted(m);
     for _ in 0..2 {
-        let guess = positions.take(s);
-        if let Some(found) = t.fallible(s, "newton_any_branch", || newton_any_branch(m, &guess)) {
+        let guess = positions.take(s, new);
+        if let Some(found) = t.fallible(s, "newton_any_branch", || newton_any_branch(counted, &guess)) {
             positions.keep(found.coordinates);
             poses.keep(m.pose_at(&found.coordinates));
         }
     }
-    let guess = positions.take(s);
-    if let Some(found) = t.fallible(s, "newton", || newton(m, &guess)) {
+    let guess = positions.take(s, new);
+    if let Some(found) = t.fallible(s, "newton", || newton(counted, &guess)) {
         positions.keep(found.coordinates);
     }
-    let q = positions.take(s);
-    if let Some(q) = t.fallible(s, "newton_step", || newton_step(m, &q)) {
+    let q = positions.take(s, new);
+    if let Some(q) = t.fallible(s, "newton_step", || newton_step(counted, &q)) {
         positions.keep(q);
     }
-    let (q, there) = (positions.take(s), PerInput::<M>::draw(s));
-    t.fallible(s, "accuracy::Newton", || Newton::<2>::position(m, &Reached::at(m, q), there));
-    let (q, input_rates) = (positions.take(s), PerInput::<M>::draw(s));
+    let (q, there) = (positions.take(s, new), PerInput::<M>::draw(s));
+    t.fallible(s, "accuracy::Newton", || Newton::<2>::position(counted, &Reached::at(counted, q), there));
+    let (q, input_rates) = (positions.take(s, new), PerInput::<M>::draw(s));
     let (mass, forces) = (Matrix::<f64, M::V, M::V>::draw(s), PerInput::<M>::draw(s));
-    t.fallible(s, "Equations::at", || Equations::at(m, &q, input_rates, mass, forces));
+    t.fallible(s, "Equations::at", || Equations::at(counted, &q, input_rates, mass, forces));
     if s.below(4) == 0 {
-        let pose = poses.take(s);
-        t.fallible(s, "singularity::report", || report(m, &pose));
-        t.fallible(s, "singularity::sigma_min", || sigma_min(m, &pose));
-        t.fallible(s, "singularity::accuracy", || accuracy(m, &pose));
+        let pose = poses.take(s, |s| pose(s, m));
+        t.fallible(s, "singularity::report", || {
+            let of = report(counted, &pose)?;
+            let groups: Vec<_> = of.groups().map(|of| [of.determinant, of.regularity, of.sigma_min]).collect();
+            let (free, admissible): (Vec<_>, Vec<_>) = (of.free().collect(), of.admissible().collect());
+            Ok::<_, PositionError>(([of.determinant(), of.sigma_min()], groups, free, admissible, of.drivers().collect::<Vec<_>>()))
+        });
+        t.fallible(s, "singularity::sigma_min", || sigma_min(counted, &pose));
+        t.fallible(s, "singularity::accuracy", || {
+            // Where a position is singular, its attainable error may be infinite.
+            accuracy(counted, &pose).map(|of| {
+                (of.residual, of.sigma_min, (of.sigma_min >= f64::MIN_POSITIVE).then(|| of.attainable()))
+            })
+        });
     }
 }
 
 /// The algorithms for any mechanism with one input.
 pub fn driven<M>(t: &mut Tally, s: &mut Source, m: &M, positions: &mut Pool<M::Coordinates>)
 where
-    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V = D<1>, Coordinates: Draw + Finite, Rates: Draw + Finite, Pose: Finite + Debug>,
+    M: Mechanism<Scalar = f64, Name = &'static str, U: Default, V = D<1>, Pose: Debug>,
 {
     if s.below(SELDOM) > 0 {
         return;
     }
-    let m = &Counted(m);
-    let (start, end) = (positions.take(s), s.number());
-    let table = match s.below(2) {
-        0 => t.fallible(s, "Table::turn", || Table::<_, 9>::turn(m, &start)),
-        _ => t.fallible(s, "Table::between", || Table::<_, 9>::between(m, &start, end)),
-    };
+    let (new, m) = (coordinates::<M>, &Counted(m));
+    let (start, end) = (positions.take(s, new), s.number());
+    let (is_turn, mut table) = (s.below(2) == 0, None);
+    // A table by its error; its entries show in the positions that it gives.
+    t.fallible(s, if is_turn { "Table::turn" } else { "Table::between" }, || {
+        let found = if is_turn { Table::<_, 9>::turn(m, &start) } else { Table::<_, 9>::between(m, &start, end) }?;
+        let error = found.error();
+        table = Some(found);
+        Ok::<_, PathError>(error)
+    });
     if let Some(table) = table {
         for _ in 0..4 {
             let input = PerInput::<M>::draw(s);
@@ -261,7 +277,7 @@ where
     let direction = match s.below(3) {
         0 => Direction::Increasing,
         1 => Direction::Decreasing,
-        _ => Direction::Along(Draw::draw(s)),
+        _ => Direction::Along(rates::<M>(s)),
     };
     let at_change_point = [AtChangePoint::Keep, AtChangePoint::Switch, AtChangePoint::Stop][s.below(3)];
     let range = (s.below(4) == 0).then(|| [s.number(), s.number()]);
@@ -288,7 +304,7 @@ where
                 t.fallible(s, "Path::advance_to", || path.advance_to(input)).is_some()
             }
             6 => {
-                let rates = Draw::draw(s);
+                let rates = rates::<M>(s);
                 t.fallible(s, "Path::choose", || path.choose(&rates)).is_some()
             }
             _ => t.total(s, "Path::turn_back", || path.turn_back()).is_some(),
@@ -298,22 +314,17 @@ where
 }
 
 /// The algorithms for any scene.
-pub fn scene<S, M>(t: &mut Tally, s: &mut Source, scene: &S, positions: &mut Pool<M::Coordinates>)
+pub fn scene<S, M>(t: &mut Tally, s: &mut Source, scene: &S)
 where
-    S: Scene<Scalar = f64, Mechanism = M, Reactions: Finite, State: Default, Contacts: Default>,
-    M: Mechanism<
-            Scalar = f64,
-            Name = &'static str,
-            U = S::U,
-            V = S::V,
-            Coordinates: Draw + Finite,
-            Rates: Draw + Finite,
-            Inputs: Draw + Finite,
-        >,
+    S: Scene<Scalar = f64, Mechanism = M, U: Default, V: Default, State: Default, Contacts: Default>,
+    M: Mechanism<Scalar = f64, Name = &'static str, U = S::U, V = S::V>,
 {
+    let (new, mut positions) = (coordinates::<M>, Pool::default());
+    found(scene.mechanism(), s, &mut positions);
     let scene = &CountedScene { scene, mechanism: Counted(scene.mechanism()) };
-    let (q, input_rates, time) = (positions.take(s), M::Inputs::draw(s), s.number());
-    let rates = M::Rates::draw(s);
+    let input_rates = M::Inputs::from(PerInput::<M>::draw(s));
+    let (q, time) = (positions.take(s, new), s.number());
+    let rates = rates::<M>(s);
     let y = t.fallible(s, "Scene::start", || scene.start(time, &q, &input_rates)).unwrap_or_else(|| Draw::draw(s));
     t.fallible(s, "Scene::project", || scene.project(&y));
     t.fallible(s, "Scene::derivative", || scene.derivative(time, &y));
@@ -344,6 +355,12 @@ where
         t.fallible(s, "Simulation::loads", || simulation.loads());
     }
     t.fallible(s, "Simulation::state", || Ok::<_, MotionError>((*simulation.state(), simulation.progress())));
+}
+
+/// An interpolant at the ends of its step and between them.
+fn ends<N: Dim>(of: &Interpolant<f64, N>) -> ([f64; 2], [Column<f64, N>; 3]) {
+    let (from, to) = of.interval();
+    ([from, to], [from, 0.5 * from + 0.5 * to, to].map(|t| of.at(t)))
 }
 
 /// Integrations of systems that are not mechanisms.
@@ -385,7 +402,7 @@ pub fn integrations(t: &mut Tally, s: &mut Source) {
             if let Some(mut integration) = integration {
                 for _ in 0..10 {
                     let Some(Some(_)) = t.fallible(s, "Integration::advance", || integration.advance()) else { break };
-                    t.fallible(s, "Integration::interpolant", || integration.interpolant());
+                    t.fallible(s, "Integration::interpolant", || integration.interpolant().map(|of| ends(&of)));
                 }
                 let times = [integration.t(), end, s.number()];
                 t.each(s, "Integration::at", || integration.at(times).take(times.len()).collect());

@@ -1,10 +1,12 @@
 //! Arguments: ordinary numbers, extreme ones, and mixtures.
 
-use std::marker::PhantomData;
+use std::collections::BTreeMap;
 
 use linkage::nalgebra::{Complex, SMatrix, Unit, UnitComplex};
-use linkage::{AssemblyMode, Column, Dim, Elbow, Matrix, Slider, Slope};
+use linkage::{Column, Dim, Matrix, Mechanism, PerInput, PerUnknown};
 use rand::{Rng, RngCore};
+
+use crate::called::{Kind, Numbers};
 
 /// Numbers at the ends of the range, beyond it, and where squares and products overflow or underflow.
 const EXTREME: [f64; 24] = [
@@ -46,6 +48,12 @@ pub struct Source {
     /// The size of ordinary lengths and of other ordinary numbers.
     length: f64,
     scale: f64,
+    /// The parameters of the mechanism of the trial, and those that were given to the present call.
+    parameters: Vec<f64>,
+    given: usize,
+    /// Results that become arguments, and the numbers that come next of one of them.
+    results: BTreeMap<Kind, Pool<Vec<f64>>>,
+    next: Vec<f64>,
 }
 
 impl Source {
@@ -63,7 +71,13 @@ impl Source {
             // All numbers are bad.
             _ => [extreme, sized] = [0, 1].map(|_| random.random_range(0.0..1.0)),
         }
-        Self { random, seed, extreme, sized, length, scale }
+        let (parameters, results, next) = (Vec::new(), BTreeMap::new(), Vec::new());
+        Self { random, seed, extreme, sized, length, scale, parameters, given: 0, results, next }
+    }
+
+    /// Begins a call of a function of the same mechanism.
+    pub fn begin_call(&mut self) {
+        (self.given, self.next) = (0, Vec::new());
     }
 
     /// A number below `count`.
@@ -82,16 +96,83 @@ impl Source {
         }
     }
 
+    /// A new number.
     pub fn number(&mut self) -> f64 {
         let ordinary = self.random.random_range(-3.2..3.2);
         self.about(self.scale, ordinary)
     }
+}
 
-    /// A parameter with a default.
-    pub fn parameter(&mut self, default: f64) -> f64 {
-        let ordinary =
-            if self.random.random_bool(0.5) { default } else { default * self.random.random_range(0.5..1.5) };
-        self.about(self.length, ordinary)
+impl Numbers for Source {
+    fn number(&mut self) -> f64 {
+        self.next.pop().unwrap_or_else(|| Source::number(self))
+    }
+
+    /// A parameter is the same in all calls of a trial.
+    fn parameter(&mut self, usual: f64) -> f64 {
+        if self.given == self.parameters.len() {
+            let ordinary = if usual.is_nan() {
+                self.random.random_range(-3.2..3.2)
+            } else if self.random.random_bool(0.5) {
+                usual
+            } else {
+                usual * self.random.random_range(0.5..1.5)
+            };
+            let size = if usual.is_nan() { self.scale } else { self.length };
+            let parameter = self.about(size, ordinary);
+            self.parameters.push(parameter);
+        }
+        self.given += 1;
+        self.parameters[self.given - 1]
+    }
+
+    fn side(&mut self) -> bool {
+        self.below(2) == 1
+    }
+
+    /// Usually a number, of which not all exist.
+    fn position(&mut self) -> Option<usize> {
+        match self.below(8) {
+            0 => None,
+            1 => Some(usize::MAX),
+            _ => Some(self.below(8)),
+        }
+    }
+
+    fn turns(&mut self) -> i32 {
+        match self.below(16) {
+            0 => i32::MAX,
+            1 => i32::MIN,
+            other => i32::try_from(other).unwrap_or_default() / 4 - 2,
+        }
+    }
+
+    fn begin(&mut self, kind: Kind) {
+        // New numbers are drawn one by one.
+        let kept = self.results.remove(&kind).unwrap_or_default();
+        self.next = kept.take(self, |_| Vec::new());
+        self.next.reverse();
+        self.results.insert(kind, kept);
+    }
+
+    fn keep(&mut self, kind: Kind, numbers: &[f64]) {
+        if numbers.iter().all(|number| number.is_finite()) {
+            self.results.entry(kind).or_default().keep(numbers.to_vec());
+        }
+    }
+
+    /// One in five poses, as far as there are positions.
+    fn is_any_pose(&mut self) -> bool {
+        self.results.get(&Kind::Coordinates).is_none_or(Pool::is_empty) || self.below(5) == 0
+    }
+
+    /// Usually a direction.
+    fn direction(&mut self) -> UnitComplex<f64> {
+        if self.below(8) == 0 {
+            Unit::new_unchecked(Complex { re: Source::number(self), im: Source::number(self) })
+        } else {
+            UnitComplex::new(Source::number(self))
+        }
     }
 }
 
@@ -103,28 +184,6 @@ pub trait Draw {
 impl Draw for f64 {
     fn draw(source: &mut Source) -> Self {
         source.number()
-    }
-}
-
-/// Turns of an angle.
-impl Draw for i32 {
-    fn draw(source: &mut Source) -> Self {
-        match source.below(16) {
-            0 => i32::MAX,
-            1 => i32::MIN,
-            other => i32::try_from(other).unwrap_or_default() / 4 - 2,
-        }
-    }
-}
-
-/// Usually a direction.
-impl Draw for UnitComplex<f64> {
-    fn draw(source: &mut Source) -> Self {
-        if source.below(8) == 0 {
-            Unit::new_unchecked(Complex { re: source.number(), im: source.number() })
-        } else {
-            Self::new(source.number())
-        }
     }
 }
 
@@ -152,32 +211,14 @@ impl<R: Dim + Default, C: Dim + Default> Draw for Matrix<f64, R, C> {
     }
 }
 
-impl<T> Draw for PhantomData<T> {
-    fn draw(_: &mut Source) -> Self {
-        Self
-    }
+/// Coordinates of a mechanism.
+pub fn coordinates<M: Mechanism<Scalar = f64, U: Default, V: Default>>(source: &mut Source) -> M::Coordinates {
+    M::coordinates(PerUnknown::<M>::draw(source), PerInput::<M>::draw(source))
 }
 
-macro_rules! draw_choices {
-    ($($name:ident $one:ident $other:ident)*) => {$(
-        impl Draw for $name {
-            fn draw(source: &mut Source) -> Self {
-                if source.below(2) == 0 { Self::$one } else { Self::$other }
-            }
-        }
-    )*};
-}
-draw_choices! { Elbow Left Right Slider Near Far Slope Rising Falling }
-
-/// Usually a number, of which not all exist.
-impl Draw for AssemblyMode {
-    fn draw(source: &mut Source) -> Self {
-        match source.below(8) {
-            0 => Self::OfGuess,
-            1 => Self::Number(usize::MAX),
-            _ => Self::Number(source.below(8)),
-        }
-    }
+/// Rates of a mechanism.
+pub fn rates<M: Mechanism<Scalar = f64, U: Default, V: Default>>(source: &mut Source) -> M::Rates {
+    M::rates(PerUnknown::<M>::draw(source), PerInput::<M>::draw(source))
 }
 
 /// Results that become arguments.
@@ -192,7 +233,11 @@ impl<Q> Default for Pool<Q> {
 /// The capacity of a pool.
 const MOST: usize = 6;
 
-impl<Q: Draw + Copy> Pool<Q> {
+impl<Q: Clone> Pool<Q> {
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     pub fn keep(&mut self, q: Q) {
         if self.0.len() < MOST {
             self.0.push(q);
@@ -200,7 +245,7 @@ impl<Q: Draw + Copy> Pool<Q> {
     }
 
     /// A kept value, or a new one.
-    pub fn take(&mut self, source: &mut Source) -> Q {
-        if self.0.is_empty() || source.below(5) == 0 { Q::draw(source) } else { self.0[source.below(self.0.len())] }
+    pub fn take(&self, source: &mut Source, new: impl FnOnce(&mut Source) -> Q) -> Q {
+        if self.0.is_empty() || source.below(5) == 0 { new(source) } else { self.0[source.below(self.0.len())].clone() }
     }
 }

@@ -8,7 +8,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use linkage::Error;
 
-use super::{Finite, Source};
+use super::Source;
+use super::finite::{all_finite, is_finite};
 
 thread_local! {
     static EVALUATIONS: Cell<u64> = const { Cell::new(0) };
@@ -30,8 +31,8 @@ pub fn listen() {
 struct Row {
     calls: u64,
     finite: u64,
-    /// By the error: of inputs, positions, paths and motions.
-    errors: [u64; 4],
+    /// By the error: of inputs, positions, paths and motions; last those of functions whose results are texts.
+    errors: [u64; 5],
     not_finite: u64,
     panics: u64,
     /// The most evaluations of one call.
@@ -41,8 +42,11 @@ struct Row {
 /// The calls of the functions of one mechanism, or of all.
 #[derive(Default)]
 pub struct Tally {
-    rows: BTreeMap<&'static str, Row>,
+    rows: BTreeMap<Name, Row>,
 }
+
+/// A function and its type; an algorithm has none.
+type Name = (&'static str, &'static str);
 
 /// The number of failures of each function that are printed.
 const EXAMPLES: u64 = 2;
@@ -54,15 +58,15 @@ const MOST_EVALUATIONS: u64 = 400_000;
 
 impl Tally {
     /// A call that may return an error; its result if there is one and all numbers are finite.
-    pub fn fallible<R: Finite + Debug, E: Into<Error>>(
+    pub fn fallible<R: Debug, E: Into<Error>>(
         &mut self,
         source: &Source,
         name: &'static str,
         call: impl FnOnce() -> Result<R, E>,
     ) -> Option<R> {
-        let (result, row) = self.call(source, name, call)?;
+        let (result, row) = self.call(source.seed, ("", name), call)?;
         match result {
-            Ok(result) if result.all_finite() => {
+            Ok(result) if is_finite(&result) => {
                 row.finite += 1;
                 return Some(result);
             }
@@ -87,13 +91,13 @@ impl Tally {
     }
 
     /// A call that gives several results, each of which may be an error.
-    pub fn each<R: Finite + Debug, E: Into<Error>>(
+    pub fn each<R: Debug, E: Into<Error>>(
         &mut self,
         source: &Source,
         name: &'static str,
         call: impl FnOnce() -> Vec<Result<R, E>>,
     ) {
-        let results = self.call(source, name, call).map(|(results, _)| results);
+        let results = self.call(source.seed, ("", name), call).map(|(results, _)| results);
         for result in results.into_iter().flatten() {
             self.fallible(source, name, || result);
         }
@@ -101,12 +105,28 @@ impl Tally {
 
     /// A call that always gives a result, which is not checked here.
     pub fn total<R>(&mut self, source: &Source, name: &'static str, call: impl FnOnce() -> R) -> Option<R> {
-        let (result, row) = self.call(source, name, call)?;
+        let (result, row) = self.call(source.seed, ("", name), call)?;
         row.finite += 1;
         Some(result)
     }
 
-    fn call<R>(&mut self, source: &Source, name: &'static str, call: impl FnOnce() -> R) -> Option<(R, &mut Row)> {
+    /// A call whose result is a text. One of a function without `Result` is not checked: its docs say what it gives for invalid
+    /// numbers.
+    pub fn text(&mut self, seed: u64, name: Name, call: impl FnOnce() -> String) {
+        let Some((result, row)) = self.call(seed, name, call) else { return };
+        if result.starts_with("Err(") {
+            row.errors[4] += 1;
+        } else if result.starts_with("Ok(") && !all_finite(&result) {
+            row.not_finite += 1;
+            if row.not_finite <= EXAMPLES {
+                println!("  {}::{} seed {seed}: {result}", name.0, name.1);
+            }
+        } else {
+            row.finite += 1;
+        }
+    }
+
+    fn call<R>(&mut self, seed: u64, name: Name, call: impl FnOnce() -> R) -> Option<(R, &mut Row)> {
         let row = self.rows.entry(name).or_default();
         row.calls += 1;
         let before = EVALUATIONS.get();
@@ -115,7 +135,7 @@ impl Tally {
         if result.is_err() {
             row.panics += 1;
             if row.panics <= EXAMPLES {
-                println!("  {name} seed {}: {}", source.seed, PANIC.take());
+                println!("  {}::{} seed {seed}: {}", name.0, name.1, PANIC.take());
             }
         }
         result.ok().map(|result| (result, row))
@@ -130,26 +150,26 @@ impl Tally {
     pub fn tell(&self, name: &str) {
         let sum = |number: fn(&Row) -> u64| self.rows.values().map(number).sum::<u64>();
         let [calls, finite] = [sum(|row| row.calls), sum(|row| row.finite)];
-        let errors = [0, 1, 2, 3].map(|kind| self.rows.values().map(|row| row.errors[kind]).sum::<u64>());
+        let errors = [0, 1, 2, 3, 4].map(|kind| self.rows.values().map(|row| row.errors[kind]).sum::<u64>());
         let [not_finite, panics] = [sum(|row| row.not_finite), sum(|row| row.panics)];
         let most = self.rows.values().map(|row| row.evaluations).max().unwrap_or_default();
         println!(
-            "{name}: {calls} calls of {} functions, {finite} finite, errors of input, position, path, motion {errors:?}, \
+            "{name}: {calls} calls of {} functions, {finite} finite, errors of input, position, path, motion, functions {errors:?}, \
              {not_finite} not finite, {panics} panics, at most {most} evaluations",
             self.rows.len()
         );
-        for (function, row) in &self.rows {
+        for ((of, function), row) in &self.rows {
             let is_wrong = row.not_finite > 0 || row.panics > 0 || row.evaluations > MOST_EVALUATIONS;
-            if is_wrong || (name == "all" && !function.contains("::")) {
+            if is_wrong || (name == "all" && of.is_empty()) {
                 println!(
-                    "  {function}: {} calls, {} finite, {:?} errors, {} not finite, {} panics, at most {} evaluations",
+                    "  {of}::{function}: {} calls, {} finite, {:?} errors, {} not finite, {} panics, at most {} evaluations",
                     row.calls, row.finite, row.errors, row.not_finite, row.panics, row.evaluations
                 );
             }
         }
-        let fewest = self.rows.iter().filter(|(function, _)| function.contains("::")).min_by_key(|(_, row)| row.calls);
-        if let Some((function, row)) = fewest.filter(|_| name == "all") {
-            println!("  fewest: {} calls of {function}", row.calls);
+        let fewest = self.rows.iter().filter(|((of, _), _)| !of.is_empty()).min_by_key(|(_, row)| row.calls);
+        if let Some(((of, function), row)) = fewest.filter(|_| name == "all") {
+            println!("  fewest: {} calls of {of}::{function}", row.calls);
         }
     }
 }
@@ -157,7 +177,7 @@ impl Tally {
 impl AddAssign<&Self> for Tally {
     fn add_assign(&mut self, other: &Self) {
         for (name, row) in &other.rows {
-            let sum = self.rows.entry(name).or_default();
+            let sum = self.rows.entry(*name).or_default();
             sum.calls += row.calls;
             sum.finite += row.finite;
             for (sum, errors) in sum.errors.iter_mut().zip(row.errors) {

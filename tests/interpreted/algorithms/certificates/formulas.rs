@@ -44,13 +44,18 @@ fn facts<M: Certifiable>(m: &M) -> Vec<String> {
         .collect()
 }
 
-/// Numbers of all kinds.
+/// The operations of the formulas: with the same ones results are the same for numbers of every kind.
+fn operations<M: Certifiable>(m: &M) -> Vec<String> {
+    let (u, v, _) = m.dims();
+    let names = [("parameter", m.parameters().iter().count()), ("unknown", u.count()), ("input", v.count())];
+    let operations = names.map(|(name, count)| given(name, count));
+    computed::<M, Operations>(m, [&operations[0], &operations[1], &operations[2]])
+}
+
+/// Doubles and intervals.
 fn numbers<M: Certifiable>(m: &M, starts: &[Numbers]) -> Vec<String> {
     let parameters: Vec<f64> = Certifiable::parameters(m).iter().copied().collect();
-    let (u, v, _) = m.dims();
-    let names = [("parameter", parameters.len()), ("unknown", u.count()), ("input", v.count())];
-    let operations = names.map(|(name, count)| given(name, count));
-    let mut all = computed::<M, Operations>(m, [&operations[0], &operations[1], &operations[2]]);
+    let mut all = Vec::new();
     for [unknowns, inputs] in starts {
         all.extend(computed::<M, f64>(m, [&parameters, unknowns, inputs]));
         let wide = |numbers: &[f64]| -> Vec<Interval> {
@@ -61,12 +66,18 @@ fn numbers<M: Certifiable>(m: &M, starts: &[Numbers]) -> Vec<String> {
     all
 }
 
-fn compare<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Certifiable>() {
-    let Positions { mechanism, starts, .. } = Positions::<M>::drawn(20);
+fn compare_operations<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Certifiable>() {
+    assert_eq!(M::USER_FUNCTIONS.len(), M::GROUPS.len());
+    let mechanism = M::with_parameters(&M::defaults());
     certifiable::<V, M, _>(|own| {
         same::<M>(&facts(&mechanism), &facts(own));
-        same::<M>(&numbers(&mechanism, &starts), &numbers(own, &starts));
+        same::<M>(&operations(&mechanism), &operations(own));
     });
+}
+
+pub fn compare<const V: usize, M: Fixture<Scalar = f64, V = D<V>> + Certifiable>() {
+    let Positions { mechanism, starts, .. } = Positions::<M>::drawn(20);
+    certifiable::<V, M, _>(|own| same::<M>(&numbers(&mechanism, &starts), &numbers(own, &starts)));
 }
 
 with_text! { CONSTANTS:
@@ -88,18 +99,25 @@ with_text! { CONSTANTS:
 #[test]
 fn constants_keep_their_kinds() {
     let start = [vec![0.3, 0.4], vec![0.7]];
-    let emitted = numbers(&Constants::default(), std::slice::from_ref(&start));
-    let at_run_time = ready::<1, _>(&only(CONSTANTS), |own| numbers(own, std::slice::from_ref(&start)));
-    equal("Constants", &emitted, &at_run_time);
+    fn all<M: Certifiable>(m: &M, start: &Numbers) -> Vec<String> {
+        [operations(m), numbers(m, std::slice::from_ref(start))].concat()
+    }
+    let at_run_time = ready::<1, _>(&only(CONSTANTS), |own| all(own, &start));
+    equal("Constants", &all(&Constants::default(), &start), &at_run_time);
 }
 
-macro_rules! compared {
+macro_rules! operations_of {
     ($($file:ident: $($Mechanism:ident $method:ident)+ $(, $orders:ident)?;)*) => {
-        $($(compare::<_, linkage_gallery::$file::$Mechanism>();)+)*
+        $($(compare_operations::<_, linkage_gallery::$file::$Mechanism>();)+)*
     };
 }
 
 #[test]
-fn formulas_are_those_of_emitted_code() {
-    all_mechanisms!(compared);
+fn operations_are_those_of_emitted_code() {
+    all_mechanisms!(operations_of);
+}
+
+#[test]
+fn numbers_are_those_of_emitted_code() {
+    eight!(compare);
 }

@@ -4,8 +4,8 @@ use linkage::position::newton_any_branch;
 use linkage::{Column, D, PerInput, Scene};
 use linkage_gallery::Fixture;
 
-use super::scenes::{Named, same};
-use super::{Numbers, Positions, coordinates};
+use crate::algorithms::scenes::{Named, same};
+use crate::algorithms::{Numbers, Positions, coordinates};
 
 /// A start of a scene: a position of its mechanism at the laws of driven inputs, with their rates.
 fn start<M, S>(scene: &S) -> (Numbers, Vec<f64>)
