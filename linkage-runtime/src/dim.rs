@@ -97,9 +97,9 @@ impl<const N: usize> Dim for D<N> {
     }
 }
 
-/// True if an array of such entries is not made by a loop. Of `from_fn` and `map` the compiler makes ten functions for each
-/// closure, of a loop none; where the choice is a constant it makes one of the two. But it keeps a loop over lanes, from 32
-/// bytes on: 8 lanes of a long mechanism took 39 % more instructions.
+/// True if an array of such entries is not made by a loop. rustc makes ten functions of each call of `from_fn` and `map`, and none of
+/// a loop; where the choice is a constant it makes one of the two. But it keeps a loop over lanes, from 32 bytes on: 8 lanes of a
+/// long mechanism took 39 % more instructions.
 const fn is_large<X>() -> bool {
     size_of::<X>() >= 32
 }
