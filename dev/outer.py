@@ -42,7 +42,7 @@ PARTS = {
 COMPILER = ["linkage-compiler", "linkage-macros", "dev/gallery"]
 NUMERICS = ["linkage-runtime", "linkage-dynamics", "linkage-double"]
 
-# What `.ci/run` takes of the outer ring: its name, the part that has all of it, the folders whose changes since that part's
+# What `dev/ci` takes of the outer ring: its name, the part that has all of it, the folders whose changes since that part's
 # last run ask for it, and the command.
 SAMPLES = [
     ("firmware at one level", "firmware", [*COMPILER, *NUMERICS], "cargo test --workspace --all-features --test firmware"),

@@ -132,8 +132,8 @@ fn a_mistake_has_one_message() {
             "../LICENSE-MIT has no mechanism: write the path of a file with `linkage! { … }`".to_owned(),
         ),
         (
-            &["../.ci/run", "code"],
-            "../.ci/run is not read: cannot parse string into token stream; write the path of a Rust file".to_owned(),
+            &["../dev/ci", "code"],
+            "../dev/ci is not read: cannot parse string into token stream; write the path of a Rust file".to_owned(),
         ),
         (
             &["../tests/messages/ui/missing_semicolon.rs", "groups"],
