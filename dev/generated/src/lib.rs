@@ -3,6 +3,7 @@
 
 mod algorithms;
 mod calls;
+mod constructors;
 mod source;
 mod values;
 mod wrappers;

@@ -5,6 +5,7 @@ use linkage_compiler::program::{Access, Argument, Associated, Function, Implemen
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
 
+use crate::constructors::over_scalar;
 use crate::ident;
 use crate::values::Values;
 
@@ -31,6 +32,7 @@ impl Values<'_, '_> {
             all.extend(self.functions(&scene.signatures.types.itself, "MotionError", scene.functions.iter()));
             all.extend(scene.implementation.iter().flat_map(|implementation| self.implementation(implementation)));
         }
+        all.extend(self.constructors());
         all
     }
 
@@ -137,12 +139,6 @@ impl Values<'_, '_> {
             }
         }]
     }
-}
-
-/// A type over the scalar.
-fn over_scalar(name: &str) -> TokenStream {
-    let name = ident(name);
-    quote!(#name<T>)
 }
 
 /// A type of a trait.

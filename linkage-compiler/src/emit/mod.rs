@@ -39,6 +39,7 @@ use kernels::kernels;
 use names::string;
 pub use numbers::parts_of_pi;
 pub use text::{function_as_text, text};
+pub use types::MOST_ARGUMENTS;
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]

@@ -23,8 +23,9 @@ pub(super) use derives::{derives, serde_of_parameters};
 use derives::{derives_of_pose, serde_alias};
 use fields::Fields;
 pub(super) use fields::{docs, field, mark};
+pub use parameters::MOST_ARGUMENTS;
 use parameters::parameters;
-pub(super) use parameters::{MOST_ARGUMENTS, default_of, docs_of_parameter, other_scalar};
+pub(super) use parameters::{default_of, docs_of_parameter, other_scalar};
 
 /// The types that all drivers of a mechanism share.
 pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {

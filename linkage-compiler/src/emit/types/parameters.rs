@@ -12,7 +12,7 @@ use crate::graph::Number;
 use crate::model::{Mechanism, Parameter, TypeName};
 
 /// `new` is emitted only up to this number of parameters; longer argument lists are hard to read at the call.
-pub(in crate::emit) const MOST_ARGUMENTS: usize = 7;
+pub const MOST_ARGUMENTS: usize = 7;
 
 /// The type of the parameters, with its functions.
 pub(super) fn parameters(
