@@ -177,6 +177,18 @@ impl Machine {
         derivation.graph.evaluate(&nodes, |symbol| self.value(derivation.graph.symbol_name(symbol), inputs, unknowns))
     }
 
+    /// True if the equations hold at these values of the unknowns.
+    pub fn solves(&self, inputs: &[f64], unknowns: &[f64]) -> bool {
+        let derivation = &self.about.derivation;
+        let of = |nodes: &[NodeId]| {
+            derivation
+                .graph
+                .evaluate(nodes, |symbol| self.value(derivation.graph.symbol_name(symbol), inputs, unknowns))
+        };
+        let (residual, scales) = (of(&derivation.residual), of(&derivation.residual_scales));
+        residual.iter().zip(scales).all(|(residual, scale)| residual.abs() <= scale * f64::EPSILON.sqrt())
+    }
+
     /// The value of a symbol of the formulas at a position.
     pub fn symbol(&self, name: &str, motion: &Motion) -> f64 {
         self.value(name, &motion.inputs, &motion.unknowns)

@@ -1,7 +1,6 @@
 //! Positions, velocities and accelerations: calls of the functions of a mechanism.
 
 use linkage_interpreter::{Data, Design};
-use linkage_runtime::lane::arctangent2;
 use linkage_runtime::{OutputMotion, PointMotion};
 
 use crate::failure::Failure;
@@ -46,8 +45,9 @@ pub struct Motion {
     pub inputs: Vec<f64>,
     /// The values of the unknowns.
     pub unknowns: Vec<f64>,
-    /// True for each unknown that is found as a direction: its angle is from -pi to pi and counts no turns.
-    pub are_directions: Vec<bool>,
+    /// True of a motion that is followed: its angles count turns. Others are those of the branch, and directions among them
+    /// are from -pi to pi.
+    pub is_followed: bool,
     data: Data,
 }
 
@@ -119,15 +119,14 @@ impl Solver {
             ("points", each(&self.points, points.iter().map(point).collect())),
             ("outputs", each(&self.outputs, outputs.iter().map(output).collect())),
         ]);
-        let are_directions = vec![false; unknowns.len()];
-        Motion { inputs, unknowns, are_directions, data }
+        Motion { inputs, unknowns, is_followed: true, data }
     }
 
     /// The unknowns at the position on the branch, which may have a number.
     pub fn on_branch(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
         let pose = self.design.call("assemble", &[Self::given(inputs), self.branch.clone()]);
         let pose = pose.map_err(|error| error.to_string())?;
-        Ok(self.of_pose(&pose).0)
+        self.of_pose(&pose)
     }
 
     /// All positions at these inputs, each with its branch in words; or why they are not listed.
@@ -139,11 +138,10 @@ impl Solver {
         let turns: Vec<&str> = turns.iter().map(|(name, _)| *name).collect();
         let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| error.to_string())?;
         let position = |data: &Data| {
-            let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
-            let motion = Motion { inputs: inputs.to_vec(), unknowns, are_directions, data: data.clone() };
-            (data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion)
+            let motion = self.of_data(inputs, data.clone())?;
+            Ok((data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion))
         };
-        Ok(all.list().iter().map(position).collect())
+        all.list().iter().map(position).collect()
     }
 
     /// Inputs as an argument.
@@ -161,19 +159,20 @@ impl Solver {
         let has_quantities = !self.points.is_empty() || !self.outputs.is_empty();
         let function = if has_quantities { function } else { function.trim_start_matches("full_") };
         let data = self.design.call(function, &arguments).map_err(|error| error.to_string())?;
-        let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
-        Ok(Motion { inputs: inputs.to_vec(), unknowns, are_directions, data })
+        self.of_data(inputs, data)
     }
 
-    /// The unknowns of a pose, and which of them are directions.
-    fn of_pose(&self, pose: &Data) -> (Vec<f64>, Vec<bool>) {
-        let unknowns =
-            self.unknowns.iter().map(|unknown| match pose.get(&unknown.name.field).map(Data::numbers).as_deref() {
-                Some([cosine, sine]) => (arctangent2(*sine, *cosine), true),
-                Some([value]) => (*value, false),
-                _ => (f64::NAN, false),
-            });
-        unknowns.unzip()
+    /// The motion that data with a pose is.
+    fn of_data(&self, inputs: &[f64], data: Data) -> Result<Motion, String> {
+        let unknowns = data.get("pose").map(|pose| self.of_pose(pose)).transpose()?.unwrap_or_default();
+        Ok(Motion { inputs: inputs.to_vec(), unknowns, is_followed: false, data })
+    }
+
+    /// The unknowns of a pose, as the equations have them.
+    fn of_pose(&self, pose: &Data) -> Result<Vec<f64>, String> {
+        let all = self.design.coordinates(pose).map_err(|error| error.to_string())?;
+        let number = |of: &Coordinate| all.get(&of.name.field).and_then(Data::number).unwrap_or(f64::NAN);
+        Ok(self.unknowns.iter().map(number).collect())
     }
 }
 

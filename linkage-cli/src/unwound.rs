@@ -1,6 +1,7 @@
 //! Angles that go on from row to row, instead of back by a turn at pi.
 //!
-//! The unknowns of a motion that is followed count turns; one that is found as a direction has the turn nearest to the last row.
+//! The unknowns of a motion that is followed count turns. Those of a position on a branch have the turns nearest to the last row,
+//! unless the equations do not hold there: an angle of which another is a part in an equation has other positions on other turns.
 //! An output is its formula at these unknowns, as in the library, whose motions count turns. `atan2` in an output that is an
 //! angle goes on as an unknown does.
 
@@ -24,8 +25,14 @@ impl Unwound {
     pub fn next(&mut self, machine: &Machine, motion: &Motion) -> Turned {
         let mut now = Turned { unknowns: motion.unknowns.clone(), outputs: Self::outputs(machine, motion) };
         if let Some(last) = &self.0 {
-            let directions = now.unknowns.iter_mut().zip(&last.unknowns).zip(&motion.are_directions);
-            directions.filter(|(_, is_one)| **is_one).for_each(|((value, last), _)| *value = near(*value, *last, TAU));
+            if !motion.is_followed {
+                let mut turned = now.unknowns.clone();
+                let all = turned.iter_mut().zip(&last.unknowns).zip(&machine.about.unknowns);
+                all.filter(|(_, of)| of.is_angle).for_each(|((value, last), _)| *value = near(*value, *last, TAU));
+                if machine.solves(&motion.inputs, &turned) {
+                    now.unknowns = turned;
+                }
+            }
             // The difference of two values of the formula is a number of jumps: where there are none, all digits stay.
             if now.unknowns != motion.unknowns {
                 let [on, off] =

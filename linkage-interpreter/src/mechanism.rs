@@ -8,7 +8,7 @@ use crate::code::{Access, Argument, Function};
 use crate::convert::{to_data, to_value};
 use crate::data::Data;
 use crate::error::Mistake;
-use crate::machine::{Kind, Machine, Of, User, Value};
+use crate::machine::{Defect, Kind, Machine, Of, User, Value};
 use crate::program::{Driver, Scene, UserFunction};
 
 /// A mechanism, or one choice of inputs of a mechanism with several.
@@ -280,6 +280,22 @@ impl Design {
         let arguments = given(driver, function, arguments)?;
         let own = if function.is_method { self.own() } else { Value::Absent };
         let value = machine.call(Of::Driver, function, own, arguments)?;
+        Ok(to_data(driver, &value))
+    }
+
+    /// The coordinates by name of a pose that a function has returned. An angle that the pose has as a direction alone is
+    /// between -pi and pi: its turns change nothing. All others are as the equations have them, with their turns.
+    ///
+    /// # Errors
+    /// [`CallError`] if this is no pose of the mechanism.
+    pub fn coordinates(&self, pose: &Data) -> Result<Data, CallError> {
+        let driver = &self.of.driver;
+        let mut of_traits = driver.traits.iter().flat_map(|one| &one.functions);
+        let function = of_traits.find(|function| function.name == "coordinates_of");
+        let function = function.ok_or_else(|| CallError::Defect(Defect::new("no function `coordinates_of`")))?;
+        let mut machine = Machine::new(driver, None, &self.of.users, Kind::Double);
+        let arguments = given(driver, function, std::slice::from_ref(pose))?;
+        let value = machine.call(Of::Driver, function, Value::Absent, arguments)?;
         Ok(to_data(driver, &value))
     }
 }

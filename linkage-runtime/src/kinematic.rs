@@ -158,7 +158,8 @@ pub trait Kinematic:
         Name::from_static(Self::OUTPUTS.get(place).copied().unwrap_or_default())
     }
 
-    /// The coordinates of a position; an angle that it stores as a direction is between -pi and pi.
+    /// The coordinates of a position; an angle that it stores as a direction alone is between -pi and pi, unless the pose keeps
+    /// the coordinates that it is made of, as one at run time does.
     fn coordinates_of(pose: &Self::Pose) -> Self::Coordinates;
     /// The rates q' at the rates v' of the inputs.
     ///

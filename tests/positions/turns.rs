@@ -66,6 +66,13 @@ linkage! {
         loop a@theta + b@(phi + 0.3) + 0.1@phi = d@0 + c@(psi - 0.3) + 0.2@psi;
         point P = a@theta + 2@(2 * phi);
     }
+    /// A double crank that may turn less than three times, as its range says.
+    pub mechanism Reeled {
+        param a = 3, b = 2.5, c = 3, d = 1;
+        input t;
+        unknown p, q in -30deg..1000deg;
+        loop a@t + b@p = d@0 + c@q;
+    }
     /// A slider on a turning guide, whose turns a spring counts.
     #[derive(Clone)]
     pub mechanism Wound {
@@ -269,6 +276,25 @@ fn turns_that_cannot_be_counted() {
     // A pose with an angle beyond the countable turns still has a turn.
     let pose = m.pose_at(&PinAndSlotCoordinates { slot: 1e300, ..q });
     assert!(m.assemble(0.4, m.branch_of(&pose)).is_ok());
+}
+
+/// A range of more than a turn counts turns: a pose has the number of its angle, and motions end where it does.
+#[test]
+fn a_range_counts_turns() {
+    let m = Reeled::default();
+    let branch = ReeledBranch::new(Elbow::Left);
+    let start = m.assemble(1.0, branch).unwrap().coordinates();
+    for turn in -3..=3 {
+        let q = m.assemble(1.0, ReeledBranch { q_turn: turn, ..branch }).unwrap().coordinates();
+        assert_eq!(q.q, start.q + f64::from(turn) * TAU);
+        assert_eq!(m.pose_at(&q).coordinates().q, q.q);
+        assert_eq!(m.branch_of(&m.pose_at(&q)), ReeledBranch { q_turn: turn, ..branch });
+        let ranged = m.ranged(0, &q).unwrap();
+        assert_eq!((ranged.value, ranged.is_within()), (q.q, (0..=2).contains(&turn)));
+    }
+    let mut path = Path::new(&m, &start, Direction::Increasing).unwrap();
+    let error = path.advance_to(30.0).unwrap_err();
+    assert!(matches!(error, linkage::PathError::JointRange { of: "q", .. }), "{error}");
 }
 
 /// A branch has no turn if no angle's number is needed.

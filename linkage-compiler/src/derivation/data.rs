@@ -1,6 +1,6 @@
 //! The data of a derivation: coordinates, groups, points, outputs, scenes, and the results of `derive` statements.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::joints::Joints;
 use super::linear::{Row, Solutions};
@@ -134,6 +134,8 @@ pub struct Derivation {
     pub scenes: Vec<Scene>,
     /// The least and the largest value of angles that count turns.
     pub ranges_of_turns: BTreeMap<SymbolId, [NodeId; 2]>,
+    /// The angles of which a range counts turns.
+    pub counted_by_ranges: BTreeSet<SymbolId>,
 }
 
 impl Group {

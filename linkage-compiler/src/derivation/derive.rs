@@ -84,6 +84,7 @@ pub fn derive(mechanism: &Mechanism, driver: &Driver) -> Derivation {
         skeleton: None,
         scenes: Vec::new(),
         ranges_of_turns: mechanism.ranges_of_turns(driver),
+        counted_by_ranges: mechanism.counted_by_ranges(),
         graph,
     };
     for request in &mechanism.requests {

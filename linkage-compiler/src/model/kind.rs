@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+use super::output_angles::angle;
 use crate::diagnostics::Region;
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
 use crate::syntax::ExpressionId;
@@ -49,6 +50,43 @@ impl Kinds {
             Some(kind) => *kind,
             None if self.supposed.contains(&symbol) => Kind::Length,
             None => Kind::Number,
+        }
+    }
+
+    /// The kinds of all symbols that have one.
+    fn all(&self) -> BTreeMap<SymbolId, Kind> {
+        let supposed = self.supposed.iter().map(|symbol| (*symbol, Kind::Length));
+        supposed.chain(self.known.iter().map(|(symbol, kind)| (*symbol, *kind))).collect()
+    }
+
+    /// Finds the coordinates that equations make angles: the terms of a sum are of one kind, and an equation is a sum that is
+    /// zero. Numbers of teeth and radii are factors, and have no kind from it.
+    pub(super) fn angles_of_equations(
+        &mut self,
+        graph: &Graph,
+        equations: &[NodeId],
+        coordinates: impl IntoIterator<Item = SymbolId>,
+    ) {
+        let mut kinds = self.all();
+        let open: BTreeSet<SymbolId> = coordinates.into_iter().filter(|symbol| !kinds.contains_key(symbol)).collect();
+        let mut equations_of: BTreeMap<SymbolId, Vec<NodeId>> = BTreeMap::new();
+        let mut left = Vec::new();
+        for &equation in equations {
+            let symbols: Vec<SymbolId> =
+                bare_symbols(graph, equation).into_iter().filter(|symbol| open.contains(symbol)).collect();
+            symbols.iter().for_each(|symbol| equations_of.entry(*symbol).or_default().push(equation));
+            left.extend((!symbols.is_empty()).then_some(equation));
+        }
+        while let Some(equation) = left.pop() {
+            if angle(graph, equation, &kinds).is_none() {
+                continue;
+            }
+            for symbol in bare_symbols(graph, equation) {
+                if open.contains(&symbol) && kinds.insert(symbol, Kind::Angle).is_none() {
+                    self.known.insert(symbol, Kind::Angle);
+                    left.extend(equations_of.get(&symbol).into_iter().flatten());
+                }
+            }
         }
     }
 }

@@ -35,7 +35,7 @@ enum Term {
     Other,
 }
 
-fn angle(graph: &Graph, sum: NodeId, kinds: &BTreeMap<SymbolId, Kind>) -> Option<OutputAngle> {
+pub(super) fn angle(graph: &Graph, sum: NodeId, kinds: &BTreeMap<SymbolId, Kind>) -> Option<OutputAngle> {
     let term = |number: Number, of: NodeId| match graph.node(of) {
         Node::Symbol(symbol) => match kinds.get(symbol) {
             Some(Kind::Angle) => Term::Angle,

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::TAU;
 
 use proc_macro2::Ident;
 
@@ -13,8 +14,31 @@ use crate::graph::{NodeId, SymbolId};
 use crate::ids::{CoordinateId, Table};
 use crate::syntax::{ExpressionId, Range};
 
+/// Two ends differ by at most a turn up to this number of ulps of the larger one, as in `Ranged` of the runtime.
+const SLACK_ULPS: f64 = 4.0;
+
 impl Mechanism {
-    /// The symbols of which whole turns change a formula, as those of a gear's angle, of half an angle, and all lengths.
+    /// The angles whose range has one end only or is longer than a turn by its numbers: they count turns. One whose length
+    /// depends on parameters is understood as a range of directions.
+    #[must_use]
+    pub fn counted_by_ranges(&self) -> BTreeSet<SymbolId> {
+        let counts_turns = |range: &&JointRange| match range.ends {
+            [Some(least), Some(most)] => match [least, most].map(|end| self.graph.constant_value(end)) {
+                [Some(least), Some(most)] => {
+                    most - least - least.abs().max(most.abs()) * f64::EPSILON * SLACK_ULPS > TAU
+                }
+                _ => false,
+            },
+            _ => true,
+        };
+        let counted = self.ranges.iter().filter(counts_turns).filter_map(|range| self.graph.as_symbol(range.value));
+        let counted: BTreeSet<SymbolId> = counted.collect();
+        let angles = self.coordinates.iter().filter(|coordinate| coordinate.kind == Kind::Angle);
+        angles.map(|coordinate| coordinate.symbol).filter(|symbol| counted.contains(symbol)).collect()
+    }
+
+    /// The symbols of which whole turns change a formula, as those of a gear's angle, of half an angle, and all lengths, and
+    /// those that a range counts.
     #[must_use]
     pub fn counted(&self, driver: &Driver) -> BTreeSet<SymbolId> {
         let mut formulas = self.kinematic_formulas(&driver.system.rows);
@@ -24,7 +48,7 @@ impl Mechanism {
             let (paths, graph) = (scene.paths(&self.bodies), graph.to_mut());
             formulas.extend(self.coordinates.iter().flat_map(|coordinate| graph.partial(&paths, coordinate.symbol)));
         }
-        graph.needed_as_numbers(&formulas).into_iter().collect()
+        graph.needed_as_numbers(&formulas).into_iter().chain(self.counted_by_ranges()).collect()
     }
 
     /// The ranges with both ends of angles whose value a position has, not their direction alone.

@@ -95,6 +95,7 @@ impl PosePlan {
         let directions: BTreeMap<NodeId, String> = angles.iter().map(|&angle| (angle, unique(name(angle)))).collect();
         let bare_angles: BTreeSet<SymbolId> = angles.iter().filter_map(|&angle| graph.as_symbol(angle)).collect();
         bare.extend(graph.needed_as_numbers(&numeric));
+        bare.extend(&derivation.counted_by_ranges);
         // Near a dead point the functions need the angles of groups that are solved by factorisation in full.
         let factorised = derivation.groups.iter().filter(|group| group.determinant.is_none());
         let factorised = factorised.flat_map(|group| derivation.unknowns.at(&group.unknowns));

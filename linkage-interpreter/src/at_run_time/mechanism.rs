@@ -89,7 +89,7 @@ impl<'p, V: Dim, P: Parameters> Mechanism for AtRunTime<'p, V, P> {
         (rates.unknowns, rates.inputs)
     }
     fn pose_at(&self, q: &CoordinatesAtRunTime<V>) -> PoseAtRunTime<V> {
-        self.read_pose(self.value("pose_at", [self.coordinates_value(q)]))
+        self.read_pose_at(&self.value("pose_at", [self.coordinates_value(q)]), *q)
     }
     fn is_finite(pose: &PoseAtRunTime<V>) -> bool {
         pose.numbers.as_ref().iter().all(|number| number.is_finite())

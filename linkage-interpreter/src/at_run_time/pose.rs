@@ -8,6 +8,7 @@ use super::{CoordinatesAtRunTime, MOST_OF_POSE};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PoseAtRunTime<V: Dim> {
     pub(crate) numbers: Bounded<f64, MOST_OF_POSE>,
-    /// An angle that the pose stores as a direction is between -pi and pi.
+    /// Those that the pose was made of, or of a pose that a function found those that it holds: an angle that it has as a
+    /// direction alone is then between -pi and pi, and its turns change nothing.
     pub(crate) coordinates: CoordinatesAtRunTime<V>,
 }

@@ -31,6 +31,13 @@ pub(crate) fn field(value: &Value, name: Name) -> &Value {
     value.field(name).unwrap_or(&Value::Absent)
 }
 
+/// All numbers of a pose.
+fn pose_numbers(value: &Value) -> Bounded<f64, MOST_OF_POSE> {
+    let all = numbers(value);
+    let count = linkage_runtime::UpTo::<MOST_OF_POSE>::new(all.len());
+    count.unwrap_or_else(Dim::least).array(|place| all[place])
+}
+
 /// A quantity of points or outputs.
 pub(crate) trait Read: Quantity {
     fn read(value: &Value) -> Self;
@@ -139,13 +146,16 @@ impl<'p, V: Dim, P: Parameters> AtRunTime<'p, V, P> {
         self.prepared.pose(&pose.numbers)
     }
 
-    /// The pose that a value is.
+    /// The pose that a value is, which a function found.
     pub(crate) fn read_pose(&self, value: Value) -> PoseAtRunTime<V> {
-        let all = numbers(&value);
-        let count = linkage_runtime::UpTo::<MOST_OF_POSE>::new(all.len());
-        let numbers = count.unwrap_or_else(Dim::least).array(|place| all[place]);
+        let numbers = pose_numbers(&value);
         let coordinates = self.prepared.value("coordinates_of", [value]);
         PoseAtRunTime { numbers, coordinates: self.read_coordinates(&coordinates) }
+    }
+
+    /// The pose that a value is, which was made of these coordinates.
+    pub(crate) fn read_pose_at(&self, value: &Value, coordinates: CoordinatesAtRunTime<V>) -> PoseAtRunTime<V> {
+        PoseAtRunTime { numbers: pose_numbers(value), coordinates }
     }
 
     /// The value of a branch.

@@ -31,16 +31,18 @@ pub(super) fn reason<M: Certifiable>(system: &System<M>, q: &[f64], within: &[In
     }
 }
 
-/// True if the tolerances may make a group singular in a box: |I - Y J| < 1 with the inverse Y at a point excludes it.
+/// True if the tolerances may make a group singular in a box.
 fn may_be_singular<M: Certifiable>(
     system: &System<M>,
     group: &Group<'_, M::Name>,
     q: &[f64],
     within: &[Interval],
 ) -> bool {
-    if !system.has_tolerances() {
-        return false;
-    }
+    system.has_tolerances() && !is_regular(system, group, q, within)
+}
+
+/// True if a group is singular nowhere in a box: |I - Y J| < 1 with the inverse Y at a point.
+fn is_regular<M: Certifiable>(system: &System<M>, group: &Group<'_, M::Name>, q: &[f64], within: &[Interval]) -> bool {
     let over = system.jacobian(Dimensions::All, within);
     let entry = |column: usize, row: usize| Some(*over.get(column)?.get(row)? * scale_of(system, column).into());
     let column = |&column: &usize| group.equations.iter().filter_map(|&row| entry(column, row)).collect();
@@ -48,8 +50,7 @@ fn may_be_singular<M: Certifiable>(
     let columns: Vec<&[Interval]> = block.iter().map(Vec::as_slice).collect();
     let (inverse, _) = inverse_of(system, group, &system.float_jacobian(q));
     let scales = vec![1.0; group.unknowns.len()];
-    let is_regular = inverse.is_some_and(|inverse| norm(&defect(&inverse, &columns), &scales) < 1.0);
-    !is_regular
+    inverse.is_some_and(|inverse| norm(&defect(&inverse, &columns), &scales) < 1.0)
 }
 
 /// The error of a start that has no certificate.
@@ -76,7 +77,8 @@ pub(super) fn nearest_group<M: Certifiable>(system: &System<M>, q: &[f64]) -> M:
 }
 
 /// The group whose block of J is nearest to a singularity at a point, and the regularity of it: 1 divided by the largest
-/// entry of the inverse, relative to the scales of rows and columns.
+/// entry of the inverse, relative to the scales of rows and columns. A group that is singular nowhere, as a wheel on another
+/// one, comes last.
 fn nearest<'a, M: Certifiable>(system: &'a System<M>, q: &[f64]) -> Option<(Group<'a, M::Name>, f64)> {
     let columns = system.float_jacobian(q);
     let regularity = |group: &Group<'_, M::Name>| {
@@ -87,7 +89,11 @@ fn nearest<'a, M: Certifiable>(system: &'a System<M>, q: &[f64]) -> Option<(Grou
         });
         largest.map_or(0.0, |largest| 1.0 / largest)
     };
-    system.mechanism.groups().map(|group| (group, regularity(&group))).min_by(|one, other| one.1.total_cmp(&other.1))
+    let everywhere = vec![Interval::ENTIRE; q.len()];
+    let by_regularity = |one: &(_, f64), other: &(_, f64)| one.1.total_cmp(&other.1);
+    let all = || system.mechanism.groups().map(|group| (group, regularity(&group)));
+    let singular = all().filter(|(group, _)| !is_regular(system, group, q, &everywhere));
+    singular.min_by(by_regularity).or_else(|| all().min_by(by_regularity))
 }
 
 /// The inverse of the block of a group, with the columns relative to the scales of its unknowns, and the scales of its

@@ -40,7 +40,6 @@ fn functions<M: Kinematic<Scalar = f64>>(m: &M, at: &Numbers) -> Vec<String> {
     let pose = m.pose_at(&q);
     let given = |value: f64| -> PerInput<M> { m.dims().1.repeat(value) };
     let mut all = vec![
-        position::<M>(&M::coordinates_of(&pose)),
         format!("{}", M::is_finite(&pose)),
         bits(&m.residual(&pose)),
         bits(&m.residual_scales(&pose)),

@@ -3,6 +3,7 @@
 mod bad_input;
 mod examples;
 mod motions;
+mod turns;
 mod written;
 
 use std::fs;

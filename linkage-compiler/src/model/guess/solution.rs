@@ -81,7 +81,7 @@ impl Guess {
     }
 }
 
-/// The solved angles that appear as numbers in formulas of the mechanism or of its scenes.
+/// The solved angles that appear as numbers in formulas of the mechanism or of its scenes, or whose ranges count turns.
 fn turns(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, solved: &BTreeSet<SymbolId>) -> Vec<CoordinateId> {
     let mut formulas = mechanism.kinematic_formulas(&driver.system.rows);
     let directions = graph.directions(&formulas);
@@ -91,7 +91,8 @@ fn turns(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, solved: &BTr
         let paths = scene.paths(&mechanism.bodies);
         formulas.extend(symbols.iter().flat_map(|&symbol| graph.partial(&paths, symbol)));
     }
-    let needed: BTreeSet<SymbolId> = graph.needed_as_numbers(&formulas).into_iter().collect();
+    let needed = graph.needed_as_numbers(&formulas).into_iter();
+    let needed: BTreeSet<SymbolId> = needed.chain(mechanism.counted_by_ranges()).collect();
     let order = mechanism.coordinate_order(driver).into_iter();
     let turning = order.filter(|&id| {
         let symbol = mechanism.coordinates[id].symbol;
