@@ -9,4 +9,5 @@ mod drawn;
 mod mutants;
 mod printed;
 mod same_bits;
+mod which_motion;
 mod written;
