@@ -1,4 +1,5 @@
-//! The motion of a table or a film: it is followed from the first position, through change points, to both of its ends.
+//! The motion of a table or a film: the first row that has the position asked for chooses it. It is followed through change
+//! points to both of its ends.
 
 use std::f64::consts::TAU;
 
@@ -13,14 +14,17 @@ use crate::machine::{Machine, Motion};
 use crate::motion::Path;
 use crate::one_input::{Followable, OneInput, coordinates, one_input};
 
-/// The most positions from which a motion is tried to be followed: each may take thousands of steps.
-const MOST_TRIALS: usize = 8;
-
-/// The most steps of a motion without end, which is followed over the range that is asked for.
-const MOST_STEPS: usize = 1_000_000;
-
 /// The share of an input up to which it counts as an end of the range.
 pub const EQUAL: f64 = 1e-12;
+
+/// The reason why there is no motion, in words.
+struct Why(String);
+
+impl From<PathError<&str>> for Why {
+    fn from(error: PathError<&str>) -> Self {
+        Self(why(&error))
+    }
+}
 
 /// The range of a motion.
 pub type Range<'p> = RangeOfMotion<'p, OneInput<'p>>;
@@ -34,7 +38,7 @@ pub struct Followed<'p> {
 }
 
 impl<'p> Followed<'p> {
-    /// The motion through the first position at these values of the moving input.
+    /// The motion that these values of the moving input are about.
     pub fn of(
         machine: &'p Machine,
         prepared: &'p Result<Prepared<'p>, NotPrepared>,
@@ -53,27 +57,16 @@ impl<'p> Followed<'p> {
         };
         let still = vec![0.0; machine.about.inputs.len()];
         let mechanism = one_input(prepared, &path.at(path.ends[0]), path.moving)?;
-        let (mut first, mut trials) = (None, 0);
-        for value in values {
-            let unknowns = match machine.place(&path.at(value), &still) {
-                Ok(unknowns) => unknowns,
-                Err(error) => {
-                    first.get_or_insert(error);
-                    continue;
-                }
-            };
-            let Some(at) = coordinates(&mechanism, &unknowns, value) else { continue };
-            match followed(mechanism, &at, path.ends) {
-                Ok(range) => return Ok(with(Some(range))),
-                Err(error) => first.get_or_insert(why(&error)),
-            };
-            trials += 1;
-            if trials == MOST_TRIALS {
-                break;
-            }
+        let position = |value: f64| {
+            let unknowns = machine.place(&path.at(value), &still).map_err(Why)?;
+            let at = coordinates(&mechanism, &unknowns, value);
+            at.ok_or_else(|| Why(format!("`{}` has too many coordinates", machine.about.name)))
+        };
+        let range = Range::chosen(mechanism, values, position, RangeOptions::through_change_points());
+        match range {
+            Ok(range) => Ok(with(Some(range))),
+            Err(Why(why)) => Err(Failure::Outside(prepared.failure().map_or(why, |failure| failure.to_string()))),
         }
-        let why = prepared.failure().map(|failure| failure.to_string()).or(first);
-        Err(Failure::Outside(why.unwrap_or_else(|| format!("`{}` has no position", machine.about.name))))
     }
 
     /// The motion at a value of the moving input.
@@ -122,32 +115,4 @@ impl<'p> Followed<'p> {
 pub fn passed(range: &Range<'_>) -> Vec<f64> {
     let is_end = |input: f64| !range.is_closed() && range.inputs().contains(&input);
     range.crossings().map(|crossing| crossing.input).filter(|input| !is_end(*input)).collect()
-}
-
-/// The motion through a position, to its ends or over the range that is asked for.
-fn followed<'p>(
-    mechanism: OneInput<'p>,
-    start: &crate::one_input::At,
-    [from, to]: [f64; 2],
-) -> Result<Range<'p>, PathError<&'p str>> {
-    let whole = RangeOptions::through_change_points();
-    let asked = || {
-        let mut options = RangeOptions { most_turns: u32::MAX, ..whole };
-        options.path.range = Some([from.min(to), from.max(to)]);
-        options.path.most_steps = MOST_STEPS;
-        RangeOfMotion::of(mechanism, start, options)
-    };
-    match RangeOfMotion::of(mechanism, start, whole) {
-        // A motion that goes on, as of a rack, or with a place outside of the range from which it is not followed.
-        Ok(range) if range.ends().contains(&MotionEnd::Open) => {
-            let [least, largest] = range.inputs();
-            let is_within = least <= from.min(to) && from.max(to) <= largest;
-            if is_within { Ok(range) } else { asked() }
-        }
-        Ok(range) => Ok(range),
-        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => {
-            Err(error)
-        }
-        Err(error) => asked().map_err(|_| error),
-    }
 }

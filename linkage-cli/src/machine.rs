@@ -4,17 +4,19 @@ use linkage_compiler::Lowered;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::model::Request;
 use linkage_interpreter::{Data, Design, Mechanism, SceneDesign};
+use linkage_runtime::Ranged;
 
 use crate::about::{About, chosen};
 use crate::arguments::Numbers;
 use crate::failure::Failure;
+use crate::motion::HELD;
 use crate::names::{once, place};
 use crate::parameters::Parameters;
 use crate::scene::AboutScene;
 use crate::solver::Solver;
 pub use crate::solver::{Coordinate, Motion, Named};
 use crate::source::read;
-use crate::start::Start;
+use crate::start::{Near, Start};
 use crate::values::{Assignment, Choice};
 
 /// A mechanism with values for all but its inputs.
@@ -131,16 +133,59 @@ impl Machine {
         place(&self.about.name, "input", name, &names)
     }
 
+    /// The ends of the range that is declared for an input.
+    pub fn declared(&self, input: usize) -> [Option<f64>; 2] {
+        let graph = &self.about.derivation.graph;
+        let of_parameter =
+            |name: &str| self.parameters.iter().find(|(other, _)| other == name).map(|(_, value)| *value);
+        let value = |node: NodeId| {
+            let values = graph.evaluate(&[node], |symbol| of_parameter(graph.symbol_name(symbol)).unwrap_or(f64::NAN));
+            values.first().copied()
+        };
+        self.about.input_ends.get(input).copied().unwrap_or_default().map(|end| end.and_then(value))
+    }
+
+    /// The first value of an input: that of its declared range, of another angle 60 degrees, none of another length.
+    pub fn first_value(&self, input: usize) -> Option<f64> {
+        let [least, most] = self.declared(input);
+        let of_angle = || self.about.inputs.get(input)?.is_angle.then_some(HELD);
+        Ranged { value: 0.0, least, most, is_direction: false }.first().or_else(of_angle)
+    }
+
     /// Position, velocity and acceleration at the position that the branch or the guess chooses; rates are constant.
     pub fn motion(&self, inputs: &[f64], rates: &[f64]) -> Result<Motion, String> {
         match &self.start {
             Start::Closed => self.solver.motion(inputs, rates),
             Start::Guess(guess) => self.solver.motion_near(inputs, guess, rates),
             Start::Listed => self.solver.motion_near(inputs, &self.solver.on_branch(inputs)?, rates),
+            Start::Near(near) => {
+                let solver = self.near(near, inputs)?;
+                match near.is_closed {
+                    true => solver.motion(inputs, rates),
+                    false => solver.motion_near(inputs, &solver.on_branch(inputs)?, rates),
+                }
+            }
         }
     }
 
-    /// True if all positions have a closed form.
+    /// The solver on the branch of the position that is nearest to a guess.
+    fn near(&self, near: &Near, inputs: &[f64]) -> Result<Solver, String> {
+        let positions = self.solver.positions(inputs)?;
+        let words = near.nearest(&self.about, positions.iter().map(|(branch, at)| (branch.as_str(), &at.unknowns)));
+        let Some(choices) = words else {
+            return Err(self.solver.on_branch(inputs).err().unwrap_or_else(|| {
+                format!("`{}` has no position on this branch at {}", self.about.name, self.at(inputs))
+            }));
+        };
+        let branch =
+            branch(&self.about, self.solver.design.mechanism(), &choices).map_err(|failure| match failure {
+                Failure::Argument(why) | Failure::Outside(why) => why,
+                _ => format!("`{}` has no such branch", self.about.name),
+            })?;
+        Ok(Solver { branch, ..self.solver.clone() })
+    }
+
+    /// True if all positions have a closed form, on the same branch.
     pub fn is_closed(&self) -> bool {
         self.start == Start::Closed
     }
@@ -149,6 +194,7 @@ impl Machine {
     pub fn place(&self, inputs: &[f64], rates: &[f64]) -> Result<Vec<f64>, String> {
         match &self.start {
             Start::Closed => self.solver.on_branch(inputs),
+            Start::Near(near) if near.is_closed => self.near(near, inputs)?.on_branch(inputs),
             _ => self.motion(inputs, rates).map(|motion| motion.unknowns),
         }
     }

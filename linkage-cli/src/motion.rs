@@ -8,7 +8,7 @@ use crate::machine::Machine;
 use crate::names::once;
 use crate::values::{Assignment, Value};
 
-/// The angle at which an input is held without a value: every crank can be there.
+/// The angle at which an input without a range is held without a value: every crank can be there.
 pub const HELD: f64 = TAU / 6.0;
 
 /// The values of all inputs at each step.
@@ -29,11 +29,16 @@ impl Path {
         };
         let input = &machine.about.inputs[moving];
         let given = |value: &Option<Value>| value.map(|value| input.value(value)).transpose();
-        let turn = if input.is_angle { [Some(0.0), Some(TAU)] } else { [None, None] };
-        let ends = [given(&along.from)?.or(turn[0]), given(&along.to)?.or(turn[1])];
+        let usual = usual_ends(machine, moving);
+        let ends = [given(&along.from)?.or(usual[0]), given(&along.to)?.or(usual[1])];
         let [Some(from), Some(to)] = ends else {
             let name = &input.name.text;
-            return Err(Failure::Argument(format!("`{name}` is a length: write --from and --to")));
+            let missing = match ends {
+                [None, None] => "--from and --to",
+                [None, _] => "--from",
+                _ => "--to",
+            };
+            return Err(Failure::Argument(format!("`{name}` is a length: write {missing}")));
         };
         if from == to {
             return Err(Failure::Argument("--from and --to are equal".to_owned()));
@@ -63,10 +68,21 @@ impl Path {
     }
 }
 
-/// The inputs with these values, and the first value of the one that moves; angles without one are held at 60 degrees.
+/// The first and the last value of an input that moves: the ends of its declared range, of an angle without two ends a turn
+/// from the one that it has, or from 0.
+pub fn usual_ends(machine: &Machine, input: usize) -> [Option<f64>; 2] {
+    match (machine.declared(input), machine.about.inputs[input].is_angle) {
+        ([None, None], true) => [Some(0.0), Some(TAU)],
+        ([Some(least), None], true) => [Some(least), Some(least + TAU)],
+        ([None, Some(most)], true) => [Some(most - TAU), Some(most)],
+        (ends, _) => ends,
+    }
+}
+
+/// The inputs with these values, and the first value of the one that moves; those without one are held at their first value.
 pub fn held(machine: &Machine, at: &[Assignment], moving: Option<(usize, f64)>) -> Result<Vec<f64>, Failure> {
     let mut inputs: Vec<Option<f64>> =
-        machine.about.inputs.iter().map(|input| input.is_angle.then_some(HELD)).collect();
+        (0..machine.about.inputs.len()).map(|input| machine.first_value(input)).collect();
     once("--at", at.iter().map(|at| at.name.as_str()))?;
     for Assignment { name, value } in at {
         let place = machine.input(name)?;

@@ -2,26 +2,46 @@
 
 use std::f64::consts::TAU;
 
+use linkage_runtime::Mechanism as _;
+
 use crate::ends::{Reason, shown};
 use crate::followed::{EQUAL, Followed, passed};
+use crate::one_input::coordinates;
 
 /// The most places that are named.
 const NAMED: usize = 5;
 
 impl Followed<'_> {
-    /// Says on standard error how many of these rows or positions are missing, with the value and the reason of the first, where the
-    /// motion passes change points, and where it does not get across.
-    pub fn say(&self, missing: usize, of: &str, first: Option<(f64, &str)>) {
-        if let Some((value, first)) = first {
-            let is_beyond = self.range.as_ref().is_some_and(|range| range.at(value).is_err());
+    /// Says on standard error how many of these rows or positions are missing, with the reason of the first, where the motion
+    /// passes change points, and where it does not get across. `missing` has the values of the moving input, and the reasons.
+    pub fn say(&self, missing: &[(f64, String)], of: &str) {
+        if let Some((value, first)) = missing.first() {
+            let is_beyond = self.range.as_ref().is_some_and(|range| range.at(*value).is_err());
             let ends = self.ends().filter(|_| is_beyond);
             let why = ends.unwrap_or_else(|| format!("the first: {first}"));
-            anstream::eprintln!("{missing} of {of} have no position; {why}");
+            let others = missing.iter().filter(|(value, _)| self.is_elsewhere(*value)).count();
+            let count = missing.len();
+            match others {
+                0 => anstream::eprintln!("{count} of {of} have no position; {why}"),
+                _ => anstream::eprintln!(
+                    "{count} of {of} are not on the motion; {why}; {others} of them {} on the branch, to which it does not get",
+                    if others == 1 { "has a position" } else { "have positions" }
+                ),
+            }
         }
         self.say_change_points();
-        if missing == 0 {
+        if missing.is_empty() {
             self.say_gaps();
         }
+    }
+
+    /// True if the branch has a position here, and the motion has none. A number of a list is no branch at other inputs.
+    fn is_elsewhere(&self, value: f64) -> bool {
+        let (Some(range), true) = (&self.range, self.machine.is_closed()) else { return false };
+        let inputs = self.path.at(value);
+        let unknowns = self.machine.place(&inputs, &vec![0.0; inputs.len()]);
+        let at = unknowns.ok().and_then(|unknowns| coordinates(range.mechanism(), &unknowns, value));
+        at.is_some_and(|at| range.at(value).is_err() && range.mechanism().is_within_ranges(&at).unwrap_or(false))
     }
 
     /// The ends of the motion in words, those within the values of the moving input; none of a motion without ends.

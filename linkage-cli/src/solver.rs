@@ -64,6 +64,7 @@ impl Motion {
 }
 
 /// A mechanism with values of its parameters, and a branch.
+#[derive(Clone)]
 pub struct Solver {
     pub inputs: Vec<Coordinate>,
     pub unknowns: Vec<Coordinate>,

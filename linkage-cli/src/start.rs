@@ -1,4 +1,4 @@
-//! The first position of a motion without closed forms: a guess that is given, or a position that is listed.
+//! The position that is asked for: on the branch, from a guess, or the listed one that is nearest to it.
 
 use linkage_interpreter::Mechanism;
 
@@ -6,17 +6,68 @@ use crate::about::About;
 use crate::arguments::Numbers;
 use crate::failure::Failure;
 use crate::names::{once, place};
-use crate::values::Assignment;
+use crate::values::{Assignment, Choice};
 
-/// The beginning of a motion.
+/// The position that is asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Start {
     /// The position on the branch, in closed form.
     Closed,
-    /// A guess of the unknowns.
+    /// A guess of the unknowns, for Newton's method.
     Guess(Vec<f64>),
     /// A position by its number, in the branch.
     Listed,
+    /// Of all positions the nearest to a guess.
+    Near(Near),
+}
+
+/// A guess of some unknowns, to which a position of a list is near.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Near {
+    guess: Vec<Option<f64>>,
+    /// The choices of --branch, which the position has too.
+    choices: Vec<Choice>,
+    /// True if all positions have a closed form.
+    pub is_closed: bool,
+}
+
+impl Near {
+    /// The choices of the position that is nearest to the guess, of those with the choices of --branch; none without one.
+    pub fn nearest<'p>(
+        &self,
+        about: &About,
+        positions: impl Iterator<Item = (&'p str, &'p Vec<f64>)>,
+    ) -> Option<Vec<Choice>> {
+        let positions = positions.filter_map(|(branch, unknowns)| {
+            let own: Result<Vec<Choice>, _> =
+                branch.split(", ").filter(|choice| !choice.is_empty()).map(str::parse).collect();
+            Some((own.ok()?, unknowns))
+        });
+        let has = |own: &[Choice], of: &Choice| {
+            own.iter().all(|one| one.name != of.name || one.word.eq_ignore_ascii_case(&of.word))
+        };
+        let positions: Vec<_> =
+            positions.filter(|(own, _)| self.choices.iter().all(|choice| has(own, choice))).collect();
+        let off = |unknowns: &[f64]| -> f64 {
+            let each = self.guess.iter().zip(unknowns).zip(&about.unknowns).enumerate();
+            each.filter_map(|(place, ((guess, value), of))| {
+                let guess = (*guess)?;
+                if of.is_angle {
+                    return Some((2.0 * ((value - guess) / 2.0).sin()).abs());
+                }
+                // In parts of the largest of these lengths.
+                let all = positions.iter().filter_map(|(_, unknowns)| unknowns.get(place)).map(|value| value.abs());
+                let size = all.fold(guess.abs(), f64::max);
+                Some(if size > 0.0 { (value - guess).abs() / size } else { 0.0 })
+            })
+            .fold(0.0, f64::max)
+        };
+        let nearest = positions.iter().min_by(|(_, one), (_, other)| off(one).total_cmp(&off(other)));
+        let (own, _) = nearest?;
+        // The choices of --branch have the turns of angles too.
+        let more = self.choices.iter().filter(|choice| own.iter().all(|one| one.name != choice.name)).cloned();
+        Some(own.iter().cloned().chain(more).collect())
+    }
 }
 
 impl Start {
@@ -24,28 +75,31 @@ impl Start {
         let (name, wrong) = (&about.name, |message: String| Err(Failure::Argument(message)));
         let [_, listed, _] = mechanism.branch_fields();
         let needed: Vec<&str> = about.guessed.iter().map(|place| about.unknowns[*place].name.text.as_str()).collect();
+        let all: Vec<&str> = about.unknowns.iter().map(|unknown| unknown.name.text.as_str()).collect();
+        let is_listed = needed.is_empty() || !listed.is_empty();
+        // Without a list a guess is that of Newton's method.
+        let (kind, names) = if is_listed { ("unknown", &all) } else { ("unknown without a closed form", &needed) };
         let mut guess = vec![None; about.unknowns.len()];
         once("--guess", numbers.guess.iter().map(|guess| guess.name.as_str()))?;
         for Assignment { name: of, value } in &numbers.guess {
-            if needed.is_empty() {
-                return wrong(format!("positions of `{name}` need no guess: choose one by --branch"));
-            }
-            let place = about.guessed[place(name, "unknown without a closed form", of, &needed)?];
+            place(name, kind, of, names)?;
+            let place = place(name, "unknown", of, &all)?;
             guess[place] = Some(about.unknowns[place].value(*value)?);
         }
-        let missing = about.guessed.iter().filter(|place| guess[**place].is_none());
-        let missing: Vec<String> = missing.map(|place| format!("{}=VALUE", about.unknowns[*place].name.text)).collect();
-        if needed.is_empty() {
-            return Ok(Self::Closed);
-        }
-        if numbers.guess.is_empty() && !listed.is_empty() {
-            return Ok(Self::Listed);
+        if numbers.guess.is_empty() && is_listed {
+            return Ok(if needed.is_empty() { Self::Closed } else { Self::Listed });
         }
         let choice = numbers.branch.iter().find(|choice| listed.iter().any(|(group, _)| *group == choice.name));
         if let Some(choice) = choice {
             return wrong(format!("--guess and --branch {} choose the same position: leave out one", choice.name));
         }
+        let missing: Vec<usize> = about.guessed.iter().copied().filter(|place| guess[*place].is_none()).collect();
+        let is_of_others = (0..all.len()).any(|place| guess[place].is_some() && !about.guessed.contains(&place));
+        if is_listed && (needed.is_empty() || is_of_others) {
+            return Ok(Self::Near(Near { guess, choices: numbers.branch.clone(), is_closed: needed.is_empty() }));
+        }
         if !missing.is_empty() {
+            let missing: Vec<String> = missing.iter().map(|place| format!("{}=VALUE", all[*place])).collect();
             return wrong(format!("positions of `{name}` are found from a guess: write --guess {}", missing.join(",")));
         }
         // The others follow from these.

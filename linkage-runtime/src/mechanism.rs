@@ -130,6 +130,14 @@ pub trait Mechanism {
     fn range_names(&self) -> impl Iterator<Item = Self::Name> + Clone {
         (0..).map_while(|place| self.range_name(place))
     }
+    /// The range that is declared for an input, at no position; none without one.
+    fn input_range(&self, input: usize) -> Option<Ranged<Self::Scalar>> {
+        let name = self.input_name(input);
+        let place = self.range_names().position(|of| of == name)?;
+        let (u, v, _) = self.dims();
+        self.ranged(place, &Self::coordinates(u.zeros(), v.zeros()))
+    }
+
     /// The name of a coordinate, by its column of [J A]; empty beyond the last.
     #[inline]
     fn coordinate_name(&self, column: usize) -> Self::Name {

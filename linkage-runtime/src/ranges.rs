@@ -61,6 +61,16 @@ impl<T: Real> Ranged<T> {
         }
     }
 
+    /// The value at which programs begin if none is given: the middle of the range, or its end where it has one only; none
+    /// without a range.
+    #[must_use]
+    pub fn first(&self) -> Option<T> {
+        match (self.least, self.most) {
+            (Some(least), Some(most)) => Some(least * real(0.5) + most * real(0.5)),
+            (end, None) | (None, end) => end,
+        }
+    }
+
     /// True if the value is in the range, up to a few ulps.
     #[must_use]
     pub fn is_within(&self) -> bool {
@@ -172,6 +182,14 @@ mod tests {
         assert_eq!(in_range(-9.0, f64::NAN, 1.0), -9.0);
         assert_eq!(in_range(-9.0, 1.0, f64::INFINITY), -9.0);
         assert!(in_range(f64::NAN, 0.0, 1.0).is_nan());
+    }
+
+    #[test]
+    fn first_values() {
+        let first = |least, most| ranged(9.0, least, most).first();
+        assert_eq!([first(Some(-80.0), Some(80.0)), first(Some(1.0), Some(4.0))], [Some(0.0), Some(2.5)]);
+        assert_eq!([first(Some(1.0), None), first(None, Some(4.0)), first(None, None)], [Some(1.0), Some(4.0), None]);
+        assert_eq!(first(Some(f64::MAX), Some(f64::MAX)), Some(f64::MAX));
     }
 
     #[test]

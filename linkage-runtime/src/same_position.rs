@@ -86,6 +86,25 @@ impl<M: Mechanism<V = D<1>>> SamePosition<M> {
     }
 }
 
+/// True if a value with a range is another after whole turns, though the position is the same.
+pub(crate) fn has_counted<M: Mechanism<V = D<1>>>(
+    mechanism: &M,
+    position: &M::Coordinates,
+    start: &M::Coordinates,
+) -> bool {
+    let whole = |angle: M::Scalar| (angle / M::Scalar::two_pi()).round() * M::Scalar::two_pi();
+    let ((unknowns, inputs), (from, first)) = (M::parts(position), M::parts(start));
+    let turned = (unknowns.iter().zip(&from).zip(mechanism.unknown_angles()))
+        .map(|((to, from), is_angle)| if *is_angle { *from + whole(*to - *from) } else { *from });
+    let turned = M::coordinates(from.dim().padded(turned), first + (inputs - first).map(whole));
+    (0..mechanism.range_names().count()).any(|place| {
+        let [Some(one), Some(other)] = [start, &turned].map(|q| mechanism.ranged(place, q)) else { return false };
+        let scale = [Some(one.value), Some(other.value), one.least, one.most].into_iter().flatten();
+        let scale = scale.fold(M::Scalar::zero(), |sum, part| sum + part.abs());
+        !one.is_direction && (one.value - other.value).abs() > scale * nearly_zero()
+    })
+}
+
 /// An angle from -pi to pi that differs by whole turns; any other coordinate as it is.
 pub(crate) fn modulo_turns<T: Real>(off: T, is_angle: bool) -> T {
     if is_angle { off - T::two_pi() * (off / T::two_pi()).round() } else { off }

@@ -10,4 +10,5 @@ mod mutants;
 mod printed;
 mod same_bits;
 mod turns;
+mod which_motion;
 mod written;

@@ -48,7 +48,7 @@ export type Question =
     /** Mechanisms that were compiled before, of a live sheet: the answer is that of a text. */
     | { do: "load"; written: string }
     | { do: "words" }                                              // { keywords: string[]; functions: string[] } of the language, for colours and completion
-    /** A first position, at 60 degrees of each input or the nearest inputs that have one. */
+    /** A first position: at the first value of each input, or at other inputs that have one. */
     | ({ do: "begin"; mechanism: number; parameters: number[]; near?: Place; show: Show }) // Moved; `near` is a position of the text before
     | ({ do: "positions"; mechanism: number; parameters: number[]; inputs: number[] })  // { positions: { branch: string; unknowns: number[]; svg: string }[] }
     | ({ do: "picture"; show: Show } & At)                         // Moved

@@ -78,11 +78,20 @@ fn drive_one(
     let from = q.inputs[input];
     let start = AlongCoordinates { q, parameter: from };
     let direction = if to > from { Direction::Increasing } else { Direction::Decreasing };
-    let options = Options { most_steps: MOST_STEPS, ..Options::default() };
-    let reach = |to: f64| -> Result<Coordinates, PathError<&str>> {
+    let reach_by = |to: f64, joint_ranges: bool| -> Result<Coordinates, PathError<&str>> {
+        let options = Options { most_steps: MOST_STEPS, joint_ranges, ..Options::default() };
         let step = Path::with(&one, &start, direction, options)?.advance_to(to)?;
         Ok(one.position(&step.position))
     };
+    let reach = |to: f64| reach_by(to, true);
+    // From outside of the declared ranges, as after a change of parameters, a motion may only lead into them.
+    let is_within = |q: &Coordinates| mechanism.is_within_ranges(q).unwrap_or_default();
+    if !is_within(&q)
+        && let Ok(reached) = reach_by(to, false)
+        && is_within(&reached)
+    {
+        return Ok((reached, None));
+    }
     let error = match reach(to) {
         Ok(reached) => return Ok((reached, None)),
         Err(error) => error,

@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 use linkage_report::Table;
 use linkage_report::chart::Chart;
 use linkage_report::drawing::Animation;
+use linkage_runtime::Mechanism as _;
 use linkage_runtime::continuation::AlongCoordinates;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
-use linkage_runtime::{Mechanism as _, PathError};
 use serde::Serialize;
 
 use crate::Refusal;
 use crate::about::Quantity;
-use crate::at::{AlongOne, OneInput, coordinates, moving, one_input};
+use crate::at::{coordinates, moving, one_input};
 use crate::limit::Limit;
 use crate::machine::{Machine, prepared};
 use crate::question::At;
@@ -53,7 +53,8 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
     let start = AlongCoordinates { q, parameter };
     let is_angle = mechanism.input_angles().get(along).copied().unwrap_or_default();
     let scale = if is_angle { TAU } else { mechanism.length_scale(&mechanism.pose_at(&q)) };
-    let range = followed(one, &start, [parameter - scale, parameter + scale]).map_err(Refusal::new)?;
+    let asked = [parameter - scale, parameter + scale];
+    let range = RangeOfMotion::over(one, &start, asked, RangeOptions::through_change_points()).map_err(Refusal::new)?;
     if let Some(failure) = prepared.failure() {
         return Err(Refusal::new(failure));
     }
@@ -73,28 +74,6 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
     let columns = table.names().into_iter().map(column).collect();
     let about = Range { least, largest, is_angle, ends, turns: range.is_closed(), columns };
     Ok((Followed { of: (at.mechanism, at.parameters.clone()), along, table, film }, about))
-}
-
-/// The motion to its ends, or over a range if it has none.
-fn followed<'p>(
-    one: OneInput<'p>,
-    start: &AlongOne,
-    range: [f64; 2],
-) -> Result<RangeOfMotion<'p, OneInput<'p>>, PathError<&'p str>> {
-    let whole = RangeOptions::through_change_points();
-    let within = || {
-        let mut options = whole;
-        options.path.range = Some(range);
-        RangeOfMotion::of(one, start, options)
-    };
-    match RangeOfMotion::of(one, start, whole) {
-        Ok(found) if found.ends().contains(&MotionEnd::Open) => within().or(Ok(found)),
-        Ok(found) => Ok(found),
-        Err(error @ (PathError::NoDirection { .. } | PathError::ChangePoint { .. } | PathError::Position(_))) => {
-            Err(error)
-        }
-        Err(error) => within().map_err(|_| error),
-    }
 }
 
 /// The limit at an end; none if the motion goes on there.

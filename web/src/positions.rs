@@ -62,8 +62,9 @@ pub fn why_not(design: &Design, inputs: &[f64]) -> Option<Refusal> {
     design.call("assemble", &[given, Data::fields(words.chain(numbers))]).err().map(Refusal::new)
 }
 
-/// A position to begin with: near another one if that is given, else the first at 60 degrees of each input or, if there is none,
-/// at the first of other inputs that have one.
+/// A position to begin with: near another one if that is given, else at the first value of each input, which is that of its
+/// declared range, or 60 degrees, or half of the largest parameter; if there is none, at the first of other inputs that have
+/// one. A position from which the mechanism moves comes before one from which it does not.
 pub fn begin(
     machine: &Machine,
     mechanism: &Moving<'_>,
@@ -73,35 +74,57 @@ pub fn begin(
     let v = mechanism.dims().1;
     let size = parameters_size(machine, design.parameters());
     let near = near.filter(|near| near.inputs.len() == v.count());
-    let mut first = None;
+    let (mut first, mut still) = (None, None);
     if let Some(near) = near {
         match at_inputs(mechanism, inputs_of(mechanism, &near.inputs)?, size, Some(&near.unknowns)) {
-            Ok(Some(q)) => return Ok(q),
+            Ok(Some((q, true))) => return Ok(q),
+            Ok(Some((q, false))) => still = Some(q),
             Ok(None) => first = Some(no_position(design, &near.inputs)),
             Err(why) => first = Some(why),
         }
     }
     for trial in 0..MOST_TRIALS {
-        let inputs: Column<f64, Inputs> = v.column(|input| {
-            let is_angle = mechanism.input_angles().get(input).copied().unwrap_or_default();
-            if is_angle { BEGIN + TAU * fraction(trial, 2) } else { size * (0.5 + 1.5 * fraction(trial, 2)) }
-        });
+        let inputs: Column<f64, Inputs> = v.column(|input| tried(mechanism, input, size, trial));
         match at_inputs(mechanism, inputs, size, None) {
-            Ok(Some(q)) => return Ok(q),
+            Ok(Some((q, true))) => return Ok(q),
+            Ok(Some((q, false))) => _ = still.get_or_insert(q),
             Ok(None) => _ = first.get_or_insert_with(|| no_position(design, inputs.as_slice())),
             Err(why) => _ = first.get_or_insert(why),
         }
     }
-    Err(first.unwrap_or_else(|| Refusal::new("no position was found")))
+    still.ok_or_else(|| first.unwrap_or_else(|| Refusal::new("no position was found")))
 }
 
-/// The position at these inputs that is nearest to these unknowns, or the first from which the mechanism moves.
+/// A value of an input that is tried: all over its declared range, over a turn, or over lengths of both signs.
+fn tried(mechanism: &Moving<'_>, input: usize, size: f64, trial: u32) -> f64 {
+    let part = fraction(trial, 2);
+    let is_angle = mechanism.input_angles().get(input).copied().unwrap_or_default();
+    let unit = if is_angle { TAU } else { 2.0 * size };
+    let range = mechanism.input_range(input);
+    let ends = range.map_or([None; 2], |range| [range.least, range.most]);
+    match (range.and_then(|range| range.first()), ends) {
+        // From the middle on.
+        (Some(first), [Some(least), Some(most)]) => {
+            let value = first + (most - least) * part;
+            if value > most { value - (most - least) } else { value }
+        }
+        (Some(least), [Some(_), None]) => least + unit * part,
+        (Some(most), [None, Some(_)]) => most - unit * part,
+        _ if is_angle => BEGIN + TAU * part,
+        // From half of the size, to both sides in turn.
+        _ if trial.is_multiple_of(2) => size * (0.5 + 1.5 * fraction(trial / 2, 2)),
+        _ => size * (0.5 - 2.5 * fraction(trial / 2 + 1, 2)),
+    }
+}
+
+/// The position at these inputs that is nearest to these unknowns, or the first; of those from which the mechanism moves if
+/// there are any, which is the other answer.
 fn at_inputs(
     mechanism: &Moving<'_>,
     inputs: Column<f64, Inputs>,
     size: f64,
     near: Option<&[f64]>,
-) -> Result<Option<Coordinates>, Refusal> {
+) -> Result<Option<(Coordinates, bool)>, Refusal> {
     let (u, ..) = mechanism.dims();
     let found: Vec<Coordinates> = match mechanism.all_positions(inputs) {
         Ok(all) => all.map(|(_, q)| q).collect(),
@@ -135,7 +158,8 @@ fn at_inputs(
         mechanism.is_within_ranges(q).unwrap_or(false)
             && mechanism.block_determinants(&pose).iter().all(|one| *one != 0.0 && one.is_finite())
     };
-    Ok(found.iter().filter(moves).min_by(|one, other| is_far(one).total_cmp(&is_far(other))).or(found.first()).copied())
+    let moving = found.iter().filter(moves).min_by(|one, other| is_far(one).total_cmp(&is_far(other)));
+    Ok(moving.map(|q| (*q, true)).or_else(|| found.first().map(|q| (*q, false))))
 }
 
 /// The lengths of a mechanism: the largest value of a parameter that is no angle, or 1.

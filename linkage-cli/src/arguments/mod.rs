@@ -54,9 +54,9 @@ pub enum Command {
     Sheet(Sheet),
     /// Print a motion as a table: coordinates, points and outputs with their velocities and accelerations
     #[command(after_help = "\
-The first row with a position, by --branch or --guess, chooses the motion. It passes change points
-smoothly, though links change their sides there; a message says at which inputs. Rows beyond its
-ends have no position, and a message says where it ends and why.
+The first row that has the position asked for, by --branch or --guess, chooses the motion. It passes
+change points smoothly, though links change their sides there; a message says at which inputs. All
+rows are of this motion: those beyond its ends are empty, and a message says where it ends and why.
 
 Examples:
   linkage table wiper.linkage --degrees --columns theta2,C_x,C_y > wiper.csv
@@ -281,7 +281,7 @@ pub struct Numbers {
     /// The position of a group that has several: a word such as left, or a number [default: the first]
     #[arg(long, value_name = "GROUP=SIDE,…", value_delimiter = ',')]
     pub branch: Vec<Choice>,
-    /// The value near which an unknown without a closed form is at the first position
+    /// The value near which an unknown is at the first position; of positions in closed form the nearest one is taken
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub guess: Vec<Assignment>,
 }
@@ -289,7 +289,7 @@ pub struct Numbers {
 /// One position.
 #[derive(Args)]
 pub struct Place {
-    /// The value of an input [default: 60deg]
+    /// The value of an input [default: the middle of its declared range, or its only end; else 60deg]
     #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
 }
@@ -308,16 +308,16 @@ const MOST_STEPS: i64 = 1_000_000;
 /// One input moves, others are held.
 #[derive(Args)]
 pub struct Along {
-    /// The value of an input that is held [default: 60deg]
+    /// The value of an input that is held [default: the middle of its declared range, or its only end; else 60deg]
     #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
     /// The input that moves [default: the first that is not held]
     #[arg(long, value_name = "INPUT")]
     pub along: Option<String>,
-    /// Its first value [default of an angle: 0]
+    /// Its first value [default: the least of its declared range; of an angle: 0]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub from: Option<Value>,
-    /// Its last value [default of an angle: 360deg]
+    /// Its last value [default: the largest of its declared range; of an angle: 360deg]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub to: Option<Value>,
     /// The number of equal steps between them

@@ -145,12 +145,12 @@ fn course(
 ) -> Result<Course, Failure> {
     let at = |step: u32| followed.motion(path.step(step, steps), 0.0);
     let errors: Vec<Option<String>> = progress::over("computing", 0..steps + 1).map(|step| at(step).err()).collect();
-    let missing = errors.iter().flatten().count();
-    let first_error = errors.iter().flatten().next();
+    let without = (0..=steps).zip(&errors).filter_map(|(step, error)| Some((path.step(step, steps), error.clone()?)));
+    let without: Vec<(f64, String)> = without.collect();
+    let missing = without.len();
+    let first_error = without.first().map(|(_, error)| error);
     if missing <= steps as usize {
-        let place =
-            (0..=steps).zip(&errors).find_map(|(step, error)| Some((path.step(step, steps), error.as_deref()?)));
-        followed.say(missing, &format!("{} frames", steps + 1), place);
+        followed.say(&without, &format!("{} frames", steps + 1));
     }
     // A film with missing positions may pass the beginning of a turn where these are the same a turn later.
     let is_turn = path.is_turn(machine) && (missing == 0 || followed.repeats());

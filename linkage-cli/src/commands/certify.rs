@@ -33,8 +33,14 @@ pub fn run(arguments: &arguments::Certify) -> Result<(), Failure> {
         return Err(Failure::Argument(format!("--at {name} and --from are both the first value: leave out one")));
     }
     let first = from.map(|value| input.value(value)).transpose()?;
-    let inputs = held(&machine, &place.at, first.map(|first| (moving, first)))?;
     let to = arguments.to.map(|value| input.value(value)).transpose()?;
+    let is_given = from.or(arguments.to).is_some() || place.at.iter().any(|at| at.name == *name);
+    // Without values and turns it goes over its declared range.
+    let [first, to] = match machine.declared(moving) {
+        [Some(least), Some(most)] if !is_given && !arguments.curve => [Some(least), Some(most)],
+        _ => [first, to],
+    };
+    let inputs = held(&machine, &place.at, first.map(|first| (moving, first)))?;
     match to {
         None if !input.is_angle && !arguments.curve => {
             let message = format!("`{name}` is a length and has no turn: write --to VALUE, or --curve");

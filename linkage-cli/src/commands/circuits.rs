@@ -1,7 +1,5 @@
 //! `linkage circuits`: the positions that are connected by motion.
 
-use std::f64::consts::TAU;
-
 use linkage_interpreter::BranchAtRunTime;
 use linkage_report::drawing::CircuitChart;
 use linkage_runtime::Mechanism;
@@ -16,7 +14,7 @@ use crate::curve::{Event, Motion};
 use crate::ends::{shown, why};
 use crate::failure::Failure;
 use crate::machine::Machine;
-use crate::motion::held;
+use crate::motion::{held, usual_ends};
 use crate::names::place;
 use crate::one_input::{At, OneInput, one_input, prepared};
 use crate::output::{self, Form, form};
@@ -126,10 +124,10 @@ fn starts(machine: &Machine, moving: usize, arguments: &arguments::Circuits) -> 
             None => Ok(vec![input.value(at.value)?]),
         };
     }
-    let turn = if input.is_angle { [Some(0.0), Some(TAU)] } else { [None, None] };
+    let usual = usual_ends(machine, moving);
     let given = [from, to].map(|end| end.map(|value| input.value(value)).transpose());
     let [given_from, given_to] = given;
-    let ends = [given_from?.or(turn[0]), given_to?.or(turn[1])];
+    let ends = [given_from?.or(usual[0]), given_to?.or(usual[1])];
     let [Some(from), Some(to)] = ends else {
         return wrong(format!("`{name}` is a length: write --at {name}=VALUE, or --from and --to"));
     };

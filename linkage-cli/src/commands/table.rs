@@ -35,7 +35,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
     let asked = asked(&all, &arguments.shown.columns)?;
     let mut table = Table::new(all);
     let mut unwound = Unwound::default();
-    let (mut missing, mut first) = (0, None);
+    let mut missing = Vec::new();
     let steps = arguments.along.steps;
     let prepared = machine.solver.design.prepared();
     let followed = Followed::of(&machine, &prepared, &path, (0..=steps).map(|step| path.step(step, steps)))?;
@@ -47,19 +47,15 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         match followed.motion(value, rate) {
             Ok(motion) => row.extend(numbers(&machine, &unwound.next(&machine, &motion), &motion)),
             Err(error) => {
-                missing += 1;
-                first.get_or_insert((value, error));
+                missing.push((value, error));
                 row.resize(table.names().len(), f64::NAN);
             }
         }
         table.push(&row);
     }
-    match first {
-        Some((_, error)) if missing == steps as usize + 1 => return Err(Failure::Outside(error)),
-        first => {
-            let first = first.as_ref().map(|(value, error)| (*value, error.as_str()));
-            followed.say(missing, &format!("{} rows", steps + 1), first);
-        }
+    match missing.first() {
+        Some((_, error)) if missing.len() == steps as usize + 1 => return Err(Failure::Outside(error.clone())),
+        _ => followed.say(&missing, &format!("{} rows", steps + 1)),
     }
     let digits = arguments.shown.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.shown.degrees)?;

@@ -12,3 +12,4 @@ mod pictures;
 mod simulations;
 mod tables;
 mod turns;
+mod which_motion;

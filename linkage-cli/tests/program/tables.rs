@@ -233,10 +233,10 @@ fn guesses_that_are_wrong() {
         ),
         (
             "six.linkage --guess alpa=1",
-            "SixBar has no unknown without a closed form `alpa`, did you mean `alpha`? `linkage names` lists all names",
+            "SixBar has no unknown `alpa`, did you mean `alpha`? `linkage names` lists all names",
         ),
         ("six.linkage --guess alpha=7", "`alpha` is an angle, and 7 radians are more than a turn: write `7deg`"),
-        ("cranks.linkage --guess phi=1", "positions of `Cranks` need no guess: choose one by --branch"),
+        ("cranks.linkage --guess phi=7", "`phi` is an angle, and 7 radians are more than a turn: write `7deg`"),
         (
             "six.linkage --guess alpha=1,beta=1,tau=1,rho=1 --branch alpha_beta_tau_rho=1",
             "--guess and --branch alpha_beta_tau_rho choose the same position: leave out one",

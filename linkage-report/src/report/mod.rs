@@ -161,10 +161,10 @@ impl<N: BorrowedName> Report<N> {
         Self::with_modes(&range, derivation, start, options)
     }
 
-    /// The report of the motion that begins on a branch, at the first of these inputs from which it can be followed.
+    /// The report of the motion that these inputs are about: the first that has a position on the branch chooses it.
     ///
     /// # Errors
-    /// If there is none, why the motion cannot be followed from the last of them; see [`RangeOfMotion::on_branch`].
+    /// If there is none, why the first has none; see [`RangeOfMotion::on_branch`].
     pub fn on_branch<M>(
         mechanism: &M,
         derivation: &Derivation<'_>,
@@ -175,15 +175,17 @@ impl<N: BorrowedName> Report<N> {
     where
         M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches + Assembly,
     {
-        let mut last = PathError::NoDirection { mechanism: mechanism.name() };
+        let inputs: Vec<f64> = inputs.into_iter().collect();
+        let range = RangeOfMotion::on_branch(mechanism, branch, inputs.iter().copied(), options.range)?;
+        let mut first = Err(PathError::NoDirection { mechanism: mechanism.name() });
         for input in inputs {
-            let found = RangeOfMotion::on_branch(mechanism, branch, [input], options.range);
-            match found.and_then(|range| Ok((range.at(input)?, range))) {
-                Ok((start, range)) => return Self::with_modes(&range, derivation, &start, options),
-                Err(error) => last = error,
+            match range.at(input).and_then(|start| Self::with_modes(&range, derivation, &start, options)) {
+                // Circuits are not followed from a dead point or a change point.
+                Ok(report) if !matches!(report.modes, ReportedModes::Failed(_)) => return Ok(report),
+                found => first = first.or(found),
             }
         }
-        Err(last)
+        first
     }
 
     /// The report of a motion that is known, without modes: for mechanisms whose positions cannot be listed.

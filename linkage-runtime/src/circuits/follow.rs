@@ -6,6 +6,7 @@ use super::modes::{Modes, crossing_function};
 use super::motion::{CurveEnd, CurveEvent, CurvePoint, MotionCurve};
 use super::{CircuitError, CircuitOptions};
 use crate::continuation::{Direction, Event, Options, Path, TouchOnPath, Touches};
+use crate::same_position::has_counted;
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
 use crate::{Branches, D, Mechanism, PathError, PathErrorOf, real};
@@ -67,7 +68,8 @@ impl<'a, M: Branches<V = D<1>>> Follower<'a, M> {
                 Some(Event::JointRange { of, end }) => Some(CurveEvent::JointRange { of, end }),
                 Some(Event::Limit) | None => None,
             };
-            let is_closed = event == Some(CurveEvent::Mode(Some(mode)));
+            let is_at_start = event == Some(CurveEvent::Mode(Some(mode)));
+            let is_closed = is_at_start && !has_counted(self.mechanism, &step.position, &start);
             points.push(point::<M>(step.position, event.filter(|_| !is_closed)));
             let end = if is_closed {
                 CurveEnd::Closed { turns: turns::<M>(self.mechanism, &start, &step.position) }

@@ -8,7 +8,7 @@ use super::options::Options;
 use super::place::Place;
 use super::tangents::Tangents;
 use crate::jacobian::ulp::{EQUAL_ULPS, nearly_zero};
-use crate::jacobian::{Sample, VectorOf as Vector, first_zero, root};
+use crate::jacobian::{Sample, VectorOf as Vector, first_resolved_zero, first_zero, root};
 use crate::scalar::arithmetic::*;
 use crate::{BorrowedName, D, Dim, Mechanism, Name, PathError, PathErrorOf, PositionError, RangeEnd, real};
 
@@ -75,6 +75,9 @@ impl<M: Mechanism> Copy for Resume<M> {}
 /// A function to watch, of the position and of the rates of the coordinates along the path.
 pub(super) type Watch<'w, M> =
     &'w dyn Fn(&<M as Mechanism>::Coordinates, &<M as Mechanism>::Rates) -> <M as Mechanism>::Scalar;
+
+/// A value at a distance along the tangent at the start of a step, at a position near the curve.
+type Near<'n, M> = &'n dyn Fn(<M as Mechanism>::Scalar) -> <M as Mechanism>::Scalar;
 
 /// The events that a step looks for in addition to dead points.
 pub(super) struct Wanted<'w, M: Mechanism> {
@@ -159,7 +162,9 @@ where
                 }
                 let along = |place: &Place<M>| self.room_along(place, &joint);
                 let is_known = !self.has_room(from, &joint);
-                match self.find_zero(from, &arrived, [is_known, false], along, |_| true)? {
+                let near = |distance: M::Scalar| self.room(&self.between(from, &arrived, distance), &joint);
+                let near = joint.is_output.then_some(&near as Near<'_, M>);
+                match self.find_resolved_zero(from, &arrived, [is_known, false], along, |_| true, near)? {
                     SignChange::None => {}
                     SignChange::Lost => return Ok(None),
                     SignChange::At(place) => {
@@ -208,6 +213,19 @@ where
         value: impl Fn(&Place<M>) -> [M::Scalar; 2],
         is_resolved: impl Fn(&Place<M>) -> bool,
     ) -> Result<SignChange<M>, PathErrorOf<M>> {
+        self.find_resolved_zero(from, end, is_known, value, is_resolved, None)
+    }
+
+    /// Finds the same of a value that may oscillate between both places, from its values near the curve.
+    fn find_resolved_zero(
+        &self,
+        from: &Place<M>,
+        end: &Place<M>,
+        is_known: [bool; 2],
+        value: impl Fn(&Place<M>) -> [M::Scalar; 2],
+        is_resolved: impl Fn(&Place<M>) -> bool,
+        near: Option<Near<'_, M>>,
+    ) -> Result<SignChange<M>, PathErrorOf<M>> {
         let sample = |at: M::Scalar, place: &Place<M>| {
             let [value, slope] = value(place);
             Sample { at, value, slope: slope / place.tangent.dot(&from.tangent) }
@@ -220,14 +238,18 @@ where
         let distance = self.difference(&end.q, &from.q).dot(&from.tangent);
         let ends = [start, sample(distance, end)];
         let smallest = self.rounding_error(&from.q);
-        let found = first_zero(ends, smallest, |distance| {
+        let between = |distance| {
             let place = at(distance)?;
             let mut between = sample(distance, &place);
             if !is_resolved(&place) {
                 between.value = M::Scalar::zero();
             }
             Ok(between)
-        });
+        };
+        let found = match near {
+            Some(near) => first_resolved_zero(ends, smallest, near, between),
+            None => first_zero(ends, smallest, between),
+        };
         let [low, high] = match found {
             // At the end itself it is known.
             Ok(Some([_, high])) if high.value.is_zero() && is_known[1] => return Ok(SignChange::None),
@@ -252,6 +274,18 @@ where
         } else {
             self.at(from, root)?.map_or(SignChange::Lost, SignChange::At)
         })
+    }
+
+    /// A position near the curve between two places, at this distance along the tangent of the first: on the cubic through
+    /// both with their tangents.
+    fn between(&self, from: &Place<M>, end: &Place<M>, distance: M::Scalar) -> M::Coordinates {
+        let chord = self.difference(&end.q, &from.q);
+        let way = chord.dot(&from.tangent);
+        let x = distance / way;
+        let y = M::Scalar::one() - x;
+        let slopes = [from.tangent * way, end.tangent * (way / end.tangent.dot(&from.tangent))];
+        let along = chord * (x * x * (y + y + M::Scalar::one())) + slopes[0] * (x * y * y) - slopes[1] * (x * x * y);
+        self.moved(&from.q, &along)
     }
 
     /// Gives a place exactly this input and corrects the other coordinates, unless the input is at rest.

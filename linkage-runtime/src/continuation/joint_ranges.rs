@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::place::Place;
 use crate::jacobian::ulp::EQUAL_ULPS;
 use crate::scalar::arithmetic::*;
-use crate::{D, Dim, Mechanism, PathErrorOf, RangeEnd, Real, real};
+use crate::{BorrowedName, D, Dim, Mechanism, PathErrorOf, RangeEnd, Real, real};
 
 /// An end of a range, with the value at the start of a step.
 pub(super) struct JointEnd<T, N> {
@@ -13,22 +13,26 @@ pub(super) struct JointEnd<T, N> {
     pub(super) end: RangeEnd,
     limit: T,
     value: T,
+    /// True for an output, which may oscillate within a step; coordinates do not.
+    pub(super) is_output: bool,
 }
 
 /// An end of a range of a mechanism.
 pub(super) type JointEndOf<M> = JointEnd<<M as Mechanism>::Scalar, <M as Mechanism>::Name>;
 
-impl<T: Real, N: Copy> JointEnd<T, N> {
+impl<T: Real, N: BorrowedName> JointEnd<T, N> {
     /// All ends of a mechanism that are given.
     pub(super) fn all<M: Mechanism<Scalar = T, Name = N>>(
         mechanism: &M,
         q: &M::Coordinates,
     ) -> impl Iterator<Item = Self> {
         let names = mechanism.range_names().enumerate();
-        let all = names.filter_map(|(place, of)| Some((place, of, mechanism.ranged(place, q)?)));
-        all.flat_map(|(place, of, ranged)| {
+        let (u, v, _) = mechanism.dims();
+        let is_output = move |of| !(0..u.count() + v.count()).any(|column| mechanism.coordinate_name(column) == of);
+        let all = names.filter_map(move |(place, of)| Some((place, of, mechanism.ranged(place, q)?, is_output(of))));
+        all.flat_map(|(place, of, ranged, is_output)| {
             let ends = RangeEnd::BOTH.into_iter().filter_map(move |end| Some((end, ranged.end(end)?)));
-            ends.map(move |(end, limit)| Self { place, of, end, limit, value: ranged.value })
+            ends.map(move |(end, limit)| Self { place, of, end, limit, value: ranged.value, is_output })
         })
     }
 }
@@ -38,7 +42,7 @@ where
     M: Mechanism<V = D<1>>,
 {
     /// The distance from an end of a range, negative beyond it; NaN without a value.
-    fn room(&self, q: &M::Coordinates, joint: &JointEndOf<M>) -> M::Scalar {
+    pub(super) fn room(&self, q: &M::Coordinates, joint: &JointEndOf<M>) -> M::Scalar {
         let ranged = self.mechanism.ranged(joint.place, q).map(|ranged| ranged.following(joint.value));
         ranged.and_then(|ranged| ranged.room_at(joint.end)).unwrap_or_else(|| real(f64::NAN))
     }

@@ -6,12 +6,14 @@
 //! - [`contract()`]: undamped Newton's method from near a solution;
 //! - [`root()`], [`first_not_positive`]: the point at which a function changes its sign;
 //! - [`first_zero()`]: an interval around the first zero of a function with slopes, also of two zeros next to each other;
+//! - [`first_resolved_zero()`]: the same of a function that may oscillate;
 //! - [`ulp`]: tolerances in ulps.
 
 mod blocks;
 mod contract;
 mod elimination;
 mod first_zero;
+mod resolved;
 mod root;
 mod scales;
 pub mod ulp;
@@ -22,6 +24,7 @@ pub use blocks::Blocks;
 pub use contract::{Iteration, contract, correction};
 pub use elimination::{Elimination, Order};
 pub use first_zero::{Sample, first_zero};
+pub use resolved::first_resolved_zero;
 pub use root::{first_not_positive, root};
 pub use scales::{Jacobian, Scales, largest_entries, scale_or_one};
 pub use vector::Vector;

@@ -7,10 +7,10 @@ use super::limit::Limit;
 use super::search::STEPS;
 use super::searched::{Found, Sample, Searched};
 use super::touch::in_turn_of;
-use crate::jacobian::{ScalesOf as Scales, first_zero};
+use crate::jacobian::{ScalesOf as Scales, first_resolved_zero, first_zero};
 use crate::mechanism::check_ranges;
 use crate::scalar::arithmetic::*;
-use crate::{Build, Mechanism, PositionErrorOf, RangeEnd, Ranged, real};
+use crate::{Build, Dim, Mechanism, PerUnknown, PositionErrorOf, RangeEnd, Ranged, real};
 
 /// The most steps that narrow an interval to two neighbouring numbers.
 const NARROWINGS: usize = 80;
@@ -30,6 +30,8 @@ struct Watched<T> {
     value: T,
     /// The unit of the input.
     unit: T,
+    /// True for an output, which may oscillate between two samples.
+    is_output: bool,
 }
 
 impl<M: Mechanism> Searched<'_, M> {
@@ -58,11 +60,13 @@ impl<M: Mechanism> Searched<'_, M> {
                 continue;
             }
             let Some(ranged) = self.mechanism.ranged(place, position) else { continue };
+            let (u, v, _) = self.mechanism.dims();
+            let is_output = !(0..u.count() + v.count()).any(|column| self.mechanism.coordinate_name(column) == name);
             for side in RangeEnd::BOTH {
                 if ranged.end(side).is_none() {
                     continue;
                 }
-                let watched = Watched { place, end: side, value: ranged.value, unit: reach };
+                let watched = Watched { place, end: side, value: ranged.value, unit: reach, is_output };
                 let to = first.map_or(end, |(input, ..)| input);
                 if let Some(input) = self.first_end(start, position, to, watched)? {
                     first = Some((input, name, side));
@@ -119,13 +123,21 @@ impl<M: Mechanism> Searched<'_, M> {
                 ends[0].slope = if ends[0].slope.is_finite() { ends[0].slope } else { M::Scalar::zero() };
             }
             let smallest = (input - last.input).abs() * M::Scalar::default_epsilon();
-            let found = first_zero(ends, smallest, |at| {
+            let between = |at: M::Scalar| {
                 let Found::Assembled(between) = self.next(&last, at)? else {
                     return Ok(crate::jacobian::Sample { at, value: M::Scalar::zero(), slope: M::Scalar::zero() });
                 };
                 let [at, value, slope] = self.room_along(&between, &watched);
                 Ok::<_, PositionErrorOf<M>>(crate::jacobian::Sample { at, value, slope })
-            })?;
+            };
+            let slopes = [&last, &there].map(|sample| self.slopes(&sample.position));
+            let found = match slopes {
+                [Some(one), Some(other)] if watched.is_output => {
+                    let near = |at: M::Scalar| self.room(&self.near([&last, &there], [&one, &other], at), &watched);
+                    first_resolved_zero(ends, smallest, near, between)?
+                }
+                _ => first_zero(ends, smallest, between)?,
+            };
             if let Some([low, high]) = found {
                 return self.narrowed(&last, [low.at, high.at], &watched).map(Some);
             }
@@ -175,27 +187,50 @@ impl<M: Mechanism> Searched<'_, M> {
         self.mechanism.ranged(watched.place, position).map(|ranged| ranged.following(watched.value))
     }
 
+    /// The distance from the end; NaN without a value.
+    fn room(&self, q: &M::Coordinates, watched: &Watched<M::Scalar>) -> M::Scalar {
+        let room = self.value(q, watched).and_then(|ranged| ranged.room_at(watched.end));
+        room.unwrap_or_else(|| real(f64::NAN))
+    }
+
     /// The input, the distance from the end, and its derivative by the input; NaN where that is unknown.
     fn room_along(&self, sample: &Sample<M>, watched: &Watched<M::Scalar>) -> [M::Scalar; 3] {
-        let unknown = || real::<M::Scalar>(f64::NAN);
-        let room = |q: &M::Coordinates| {
-            self.value(q, watched).and_then(|ranged| ranged.room_at(watched.end)).unwrap_or_else(unknown)
+        let here = self.room(&sample.position, watched);
+        let Some(slopes) = self.slopes(&sample.position) else {
+            return [sample.input, here, real(f64::NAN)];
         };
-        let here = room(&sample.position);
-        let pose = self.mechanism.pose_at(&sample.position);
+        let little = watched.unit * M::Scalar::default_epsilon().sqrt();
+        let near = self.moved(&sample.position, slopes * -little, little);
+        [sample.input, here, (self.room(&near, watched) - here) / little]
+    }
+
+    /// The derivatives of the unknowns by the input, with the other sign; none at a singular position.
+    fn slopes(&self, q: &M::Coordinates) -> Option<PerUnknown<M>> {
+        let pose = self.mechanism.pose_at(q);
         let by_inputs = self.mechanism.jacobian_inputs(&pose);
         let by_input =
             by_inputs.columns().as_slice().get(self.place).copied().unwrap_or_else(|| self.mechanism.dims().0.zeros());
-        let Ok(slopes) = self.mechanism.solve_jacobian(&pose, &by_input) else {
-            return [sample.input, here, unknown()];
-        };
-        let little = watched.unit * M::Scalar::default_epsilon().sqrt();
-        let (unknowns, mut inputs) = M::parts(&sample.position);
-        if let Some(input) = inputs.as_mut_slice().get_mut(self.place) {
-            *input += little;
+        self.mechanism.solve_jacobian(&pose, &by_input).ok()
+    }
+
+    /// A position with other unknowns and another input.
+    fn moved(&self, q: &M::Coordinates, unknowns: PerUnknown<M>, input: M::Scalar) -> M::Coordinates {
+        let (here, mut inputs) = M::parts(q);
+        if let Some(here) = inputs.as_mut_slice().get_mut(self.place) {
+            *here += input;
         }
-        let near = M::coordinates(unknowns - slopes * little, inputs);
-        [sample.input, here, (room(&near) - here) / little]
+        M::coordinates(here + unknowns, inputs)
+    }
+
+    /// A position near the motion at an input between two samples, on the cubic through both with these slopes.
+    fn near(&self, [last, there]: [&Sample<M>; 2], slopes: [&PerUnknown<M>; 2], input: M::Scalar) -> M::Coordinates {
+        let way = there.input - last.input;
+        let x = (input - last.input) / way;
+        let y = M::Scalar::one() - x;
+        let chord = M::unknowns(&there.position) - M::unknowns(&last.position);
+        let along = chord * (x * x * (y + y + M::Scalar::one())) + *slopes[1] * (way * x * x * y)
+            - *slopes[0] * (way * x * y * y);
+        self.moved(&last.position, along, way * x)
     }
 
     /// A distance of the value from an end that may be a rounding error.

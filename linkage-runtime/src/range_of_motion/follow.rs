@@ -9,10 +9,10 @@ use super::{MotionEnd, RangeOptions};
 use crate::continuation::{AtChangePoint, Direction, Event, Groups, Path};
 use crate::jacobian::Blocks;
 use crate::jacobian::ulp::nearly_zero;
-use crate::same_position::SamePosition;
+use crate::same_position::{SamePosition, has_counted};
 use crate::scalar::arithmetic::*;
 use crate::scalar::to_f64;
-use crate::{BorrowedName, Build, Mechanism, PathError, PathErrorOf, real};
+use crate::{BorrowedName, Mechanism, PathError, PathErrorOf, real};
 
 /// A position at which a step ended.
 pub(super) struct Step<M: Mechanism> {
@@ -76,6 +76,13 @@ pub(super) fn followed<M: Driven>(
     let follower = Follower { mechanism, same: &same, options: &options, at_dead_point };
     let (steps, ends) = follower.both_ways(start)?;
     Ok(Followed { options, same, steps, ends })
+}
+
+impl<M: Driven> Followed<M> {
+    /// The least and the largest input of a motion that ends at dead points.
+    pub(super) fn inputs(&self) -> [M::Scalar; 2] {
+        [self.steps.first(), self.steps.last()].map(|step| step.map_or_else(M::Scalar::zero, Step::input))
+    }
 }
 
 impl<M: Driven> Follower<'_, M> {
@@ -161,21 +168,6 @@ impl<M: Driven> Follower<'_, M> {
         }
         Err(PathError::TooManySteps { mechanism: self.mechanism.name(), steps: options.path.most_steps })
     }
-}
-
-/// True if a value with a range is another after whole turns, though the position is the same.
-fn has_counted<M: Driven>(mechanism: &M, position: &M::Coordinates, start: &M::Coordinates) -> bool {
-    let whole = |angle: M::Scalar| (angle / M::Scalar::two_pi()).round() * M::Scalar::two_pi();
-    let ((unknowns, inputs), (from, first)) = (M::parts(position), M::parts(start));
-    let turned = (unknowns.iter().zip(&from).zip(mechanism.unknown_angles()))
-        .map(|((to, from), is_angle)| if *is_angle { *from + whole(*to - *from) } else { *from });
-    let turned = M::coordinates(from.dim().padded(turned), first + (inputs - first).map(whole));
-    (0..mechanism.range_names().count()).any(|place| {
-        let [Some(one), Some(other)] = [start, &turned].map(|q| mechanism.ranged(place, q)) else { return false };
-        let scale = [Some(one.value), Some(other.value), one.least, one.most].into_iter().flatten();
-        let scale = scale.fold(M::Scalar::zero(), |sum, part| sum + part.abs());
-        !one.is_direction && (one.value - other.value).abs() > scale * nearly_zero()
-    })
 }
 
 impl<M: Driven> Step<M> {

@@ -36,6 +36,7 @@
 
 mod between;
 mod by_length;
+mod chosen;
 mod crossed;
 mod driven;
 mod end;
@@ -58,7 +59,7 @@ use crate::same_position::SamePosition;
 use crate::scalar::arithmetic::*;
 use crate::scalar::{larger, to_f64};
 use crate::{
-    Assembly, BorrowedName, Kinematic, Mechanism, Name, PathError, PathErrorOf, PerInput, PositionError, real,
+    Assembly, BorrowedName, Kinematic, Mechanism, Name, PathError, PathErrorOf, PerInput, PositionError, Real, real,
 };
 use driven::{PositionOf, same_inputs};
 use follow::{AtDeadPoint, Followed, Passed, Step, backwards, followed};
@@ -128,6 +129,12 @@ where
         Self { mechanism, options, same, steps, ends, repeats }
     }
 
+    /// The steps of the motion without its mechanism.
+    fn into_followed(self) -> Followed<M> {
+        let Self { options, same, steps, ends, .. } = self;
+        Followed { options, same, steps, ends }
+    }
+
     /// The mechanism that moves.
     #[must_use]
     pub fn driven(&self) -> &M::Of {
@@ -184,8 +191,9 @@ where
         })
     }
 
-    /// The position at an input. Coordinates are continuous along the motion: angles count turns. An angle outside of the
-    /// range may be within it after whole turns, unless these change positions, as with gears.
+    /// The position at an input. Coordinates are continuous along the motion: angles count turns. The angle of a motion of at
+    /// most a turn that ends may be within its range after whole turns, unless these change positions, as with gears. A motion
+    /// of more than a turn has other positions a turn later: its inputs are those at which it has been followed.
     ///
     /// # Errors
     /// If the motion ends before, the reason: [`PathError::DeadPoint`], [`PathError::ChangePoint`], or
@@ -222,7 +230,7 @@ where
         let (within, cycles) = if self.is_closed() {
             let cycles = ((input - first) / (last - first)).floor();
             (input - (last - first) * cycles, cycles)
-        } else if self.repeats {
+        } else if self.repeats && is_of_one_turn(last - first) {
             let turn = M::Scalar::two_pi();
             let lowest = input - turn * ((input - first) / turn).floor();
             let is_within = |input: &M::Scalar| {
@@ -315,32 +323,26 @@ impl<'a, M> RangeOfMotion<'a, M>
 where
     M: Driven<Of: Assembly>,
 {
-    /// Follows the motion that begins on a branch, at the first of these inputs from which it can be followed.
+    /// Follows the motion that these inputs are about: the first of them that has a position on the branch, within the declared
+    /// ranges, chooses it. At a dead point or a change point it is the motion on which the branch is next to it.
     ///
     /// # Errors
-    /// If there is none, why the motion cannot be followed from the last of them; [`PathError::NoDirection`] without
-    /// inputs.
+    /// If no input has a position, the error of the first; if the motion of the first that has one cannot be followed, the
+    /// error of [`of`](Self::of); [`PathError::NoDirection`] without inputs.
     pub fn on_branch<By>(
         mechanism: impl IntoHeld<'a, By, Of = M>,
         branch: M::Branch,
         inputs: impl IntoIterator<Item = M::Scalar>,
         options: RangeOptions<M::Scalar>,
     ) -> Result<Self, PathErrorOf<M>> {
-        let mechanism = mechanism.into_held();
-        let mut last = PathError::NoDirection { mechanism: mechanism.name() };
-        let from = |input: M::Scalar| -> Result<_, PathErrorOf<M>> {
+        let (mechanism, inputs) = (mechanism.into_held(), inputs.into_iter().collect::<Vec<_>>());
+        let position = |mechanism: &M, input: M::Scalar| -> Result<_, PathErrorOf<M>> {
             let [given, ..] = mechanism.inputs_at(input);
             let pose = mechanism.driven().assemble(given.into(), branch)?;
-            let start = M::coordinates(M::Of::unknowns(&M::Of::coordinates_of(&pose)), [input].into());
-            Ok((start, followed(&*mechanism, &start, options, AtDeadPoint::End)?))
+            Ok(M::coordinates(M::Of::unknowns(&M::Of::coordinates_of(&pose)), [input].into()))
         };
-        for input in inputs {
-            match from(input) {
-                Ok((start, followed)) => return Ok(Self::followed(mechanism, &start, followed)),
-                Err(error) => last = error,
-            }
-        }
-        Err(last)
+        let follow = |mechanism: &M, start: &M::Coordinates| followed(mechanism, start, options, AtDeadPoint::End);
+        Self::by(mechanism, &inputs, position, follow, &options)
     }
 }
 
@@ -356,6 +358,11 @@ fn repeats<M: Driven>(mechanism: &M, position: &M::Coordinates) -> bool {
         && !is_counted
         && same_inputs(mechanism, position, &turned)
         && residual.iter().zip(&scales).all(|(value, scale)| value.abs() <= *scale * nearly_zero())
+}
+
+/// True for a way of an angle of at most a turn, up to rounding errors: each direction is then passed once.
+fn is_of_one_turn<T: Real>(way: T) -> bool {
+    way <= T::two_pi() * (T::one() + T::default_epsilon() * real(EQUAL_ULPS))
 }
 
 /// True if a difference from an input is no more than rounding errors.

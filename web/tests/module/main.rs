@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod examples;
+mod first_values;
 mod motions;
 mod turns;
 mod written;

@@ -9,7 +9,6 @@ use super::running::{Inputs, Running};
 use crate::arguments::Simulate;
 use crate::failure::Failure;
 use crate::machine::Machine;
-use crate::motion::HELD;
 use crate::names::once;
 
 type StartOf = Start<f64, CoordinatesAtRunTime<Inputs>, Column<f64, Inputs>>;
@@ -19,11 +18,8 @@ pub fn start(machine: &Machine, scene: &Running<'_>, arguments: &Simulate, t: f6
     let laws = prescribed_after(scene, t);
     let law = |place: usize| laws.as_slice().get(place).copied().flatten();
     let inputs = &machine.about.inputs;
-    let mut values: Vec<Option<f64>> = inputs
-        .iter()
-        .enumerate()
-        .map(|(place, input)| law(place).map(|law| law.value).or(input.is_angle.then_some(HELD)))
-        .collect();
+    let first = |place: usize| law(place).map(|law| law.value).or_else(|| machine.first_value(place));
+    let mut values: Vec<Option<f64>> = (0..inputs.len()).map(first).collect();
     let mut rates: Vec<f64> = (0..inputs.len()).map(|place| law(place).map_or(0.0, |law| law.rate)).collect();
     for (option, given) in [("--at", &arguments.at), ("--rate", &arguments.rate)] {
         once(option, given.iter().map(|one| one.name.as_str()))?;
