@@ -44,8 +44,13 @@ pub(crate) fn numbers<S: Single, const N: usize>(value: &Value) -> Result<[S; N]
     if all.len() != N {
         return Err(value.expected("a list of another length"));
     }
+    each(all)
+}
+
+/// As many numbers.
+pub(crate) fn each<S: Single, const N: usize>(values: &[Value]) -> Result<[S; N], Defect> {
     let mut numbers = [S::zero(); N];
-    for (number, value) in numbers.iter_mut().zip(all) {
+    for (number, value) in numbers.iter_mut().zip(values) {
         *number = S::of(value).ok_or_else(|| value.expected("a number"))?;
     }
     Ok(numbers)

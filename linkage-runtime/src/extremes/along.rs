@@ -6,17 +6,24 @@
 //! a dead point. Next to an end, the sign of the derivative at the end itself is that along the tangent of the motion.
 
 use core::cmp::Ordering::Equal;
+use std::vec;
 use std::vec::Vec;
 
-use super::{Extreme, Extremes, MOST_IN_A_STEP, STEPS, ulp};
-use crate::jacobian::{Sample, first_zero, root};
+use super::at_input::Search;
+use super::course::Course;
+use super::{Extreme, Extremes, STEPS, constant};
+use crate::jacobian::Sample;
 use crate::kinematic::MotionOf;
 use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
-use crate::scalar::to_f64;
-use crate::{
-    Build, Dim, Kinematic, Mechanism, OutputMotion, PathError, PathErrorOf, PointMotion, PositionError, Real, real,
-};
+use crate::scalar::{larger, to_f64};
+use crate::{OutputMotion, PathErrorOf, Real, real};
+
+/// The distance of two inputs that are neighbours, as a part of a step: a motion is hardly seen, and rounding errors are others.
+const NEIGHBOUR: f64 = 1.0 / 1024.0;
+
+/// The places of a part at which rounding errors are measured.
+const PLACES: u32 = 12;
 
 /// The most turns that are searched with 360 steps each; a longer range has longer steps.
 const MOST_TURNS: f64 = 64.0;
@@ -64,23 +71,6 @@ where
     Ok(found.first().map_or(Extremes::only(M::Scalar::zero(), M::Scalar::zero()), |course| course.extremes))
 }
 
-/// A quantity along a motion.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Course<T = f64> {
-    /// The least and the largest value, ends included.
-    pub extremes: Extremes<T>,
-    /// The places at which it turns: its derivative changes its sign. They are in the order of the input, with that at
-    /// which a closed motion begins, without other ends.
-    pub turning_points: Vec<Extreme<T>>,
-    /// True if it does not move: what its samples differ by are rounding errors, which its derivative does not explain.
-    pub is_constant: bool,
-    /// The values at both ends.
-    pub ends: [Extreme<T>; 2],
-    /// The values between them, in the order of the input, with derivatives by the input.
-    pub samples: Vec<(T, OutputMotion<T>)>,
-}
-
 /// Several quantities along a motion, which is followed once for all of them; see [`over`]. `quantities` returns as
 /// many at each input.
 ///
@@ -97,17 +87,40 @@ where
     M: Driven,
     Q: AsRef<[OutputMotion<M::Scalar>]>,
 {
-    let mut search = Search { range, quantities };
+    courses_on_turns(range, [], quantities)
+}
+
+/// [`courses`] of quantities of which some jump: for each in order the jump of its formula, such as a whole turn of `atan2`,
+/// or none. They go on where their formula jumps, so that an angle that turns counts its turns.
+///
+/// # Panics
+/// If `quantities` does not return as many at each input.
+///
+/// # Errors
+/// Those of [`over`].
+pub fn courses_on_turns<M, Q>(
+    range: &RangeOfMotion<'_, M>,
+    jumps: impl IntoIterator<Item = Option<M::Scalar>>,
+    quantities: impl FnMut(&MotionOf<M::Of>) -> Q,
+) -> Result<Vec<Course<M::Scalar>>, PathErrorOf<M>>
+where
+    M: Driven,
+    Q: AsRef<[OutputMotion<M::Scalar>]>,
+{
+    let mut search = Search::new(range, quantities, jumps.into_iter().collect());
     let mut courses: Vec<Course<M::Scalar>> = Vec::new();
     // The signs of the derivatives next to the ends of each piece, and whether they change in between.
     let mut signs: Vec<Vec<[M::Scalar; 2]>> = Vec::new();
     let pieces = Piece::all(range);
     for piece in &pieces {
-        let ends = [(piece.low, search.by_length(piece.low)?), (piece.high, search.by_length(piece.high)?)];
+        let begin = search.begin(piece.low)?;
         let mut samples = Vec::new();
         for s in piece.places() {
-            samples.push((s, search.by_input(piece.input(s))?));
+            samples.push((s, search.next(piece.input(s))?));
         }
+        let ends = [(piece.low, begin), (piece.high, search.by_length(piece.high, false)?)];
+        let are_constant = are_constant(piece, &samples, &mut search)?;
+        let resolution = resolution(range, piece, &ends, &mut search)?;
         let mut of_piece = Vec::new();
         for place in 0..ends[0].1.len() {
             let at_ends = ends.each_ref().map(|(input, all)| Extreme { input: *input, value: all[place].value });
@@ -116,10 +129,13 @@ where
             }
             let course = &mut courses[place];
             course.ends[1] = at_ends[1];
-            let slopes = samples.iter().map(|(s, all)| (all[place].value, piece.slope_at(*s, &all[place])));
-            let is_constant = is_noise(&slopes.collect::<Vec<_>>());
+            let is_constant = are_constant.get(place) == Some(&true);
             course.is_constant &= is_constant;
             course.samples.extend(samples.iter().map(|(s, all)| (piece.input(*s), all[place])));
+            if let Some((between, at_ends)) = resolution.get(place) {
+                course.resolution.0 = course.resolution.0.max(*between);
+                course.resolution.1.extend([piece.low, piece.high].into_iter().zip(*at_ends));
+            }
             let before = course.turning_points.len();
             let mut next_to = [M::Scalar::zero(); 2];
             if is_constant {
@@ -149,43 +165,97 @@ where
             let Some(next) = next(at) else { continue };
             if signs[at][place][1] * signs[next][place][0] < M::Scalar::zero() {
                 let input = if next == 0 { pieces[0].low } else { piece.high };
-                let value = search.by_length(input)?[place].value;
+                let value = search.by_length(input, true)?[place].value;
                 course.turning_points.push(Extreme { input, value });
             }
         }
         course.turning_points.sort_by(|one, other| one.input.partial_cmp(&other.input).unwrap_or(Equal));
-        let sampled = course.samples.iter().map(|&(input, motion)| Extreme { input, value: motion.value });
-        let all = course.ends.iter().chain(&course.turning_points).copied().chain(sampled);
-        course.extremes = all.fold(course.extremes, |mut extremes, here| {
-            extremes.include(here.input, here.value);
-            extremes
-        });
+        course.find_extremes();
     }
     Ok(courses)
 }
 
-impl<T: Real> Course<T> {
-    fn only(at: Extreme<T>) -> Self {
-        let extremes = Extremes::only(at.input, at.value);
-        Self { extremes, turning_points: Vec::new(), is_constant: true, ends: [at; 2], samples: Vec::new() }
+/// The quantities at a place.
+type Quantities<T> = (T, Vec<OutputMotion<T>>);
+
+/// True for each quantity that does not move in a part.
+fn are_constant<M, F, Q>(
+    piece: &Piece<M::Scalar>,
+    samples: &[Quantities<M::Scalar>],
+    search: &mut Search<'_, '_, M, F>,
+) -> Result<Vec<bool>, PathErrorOf<M>>
+where
+    M: Driven,
+    F: FnMut(&MotionOf<M::Of>) -> Q,
+    Q: AsRef<[OutputMotion<M::Scalar>]>,
+{
+    let count = samples.first().map_or(0, |(_, all)| all.len());
+    let may_be = |place: usize| {
+        let slopes = samples.iter().map(|(s, all)| (all[place].value, piece.slope_at(*s, &all[place])));
+        !constant::moves(&slopes.collect::<Vec<_>>())
+    };
+    let may_be: Vec<bool> = (0..count).map(may_be).collect();
+    if !may_be.contains(&true) {
+        return Ok(may_be);
     }
+    let mut pairs = vec![Vec::new(); count];
+    let step: M::Scalar = real(1.0 / f64::from(piece.steps));
+    for (s, all) in samples {
+        let next = search.by_input(piece.input(*s + step * real(NEIGHBOUR)))?;
+        for (pairs, (one, next)) in pairs.iter_mut().zip(all.iter().zip(&next)) {
+            pairs.push([one.value, next.value]);
+        }
+    }
+    Ok(may_be.into_iter().zip(&pairs).map(|(may_be, pairs)| may_be && constant::is_constant(pairs)).collect())
 }
 
-/// True if the differences of values are not those that their derivatives give by the trapezoidal rule: the sum of what
-/// they are off is at least half of their own sum.
-fn is_noise<T: Real>(samples: &[(T, Sample<T>)]) -> bool {
-    let (mut moved, mut off) = (T::zero(), T::zero());
-    for pair in samples.windows(2) {
-        let [(before, from), (after, to)] = [pair[0], pair[1]];
-        let (difference, expected) = (after - before, (from.value + to.value) * (to.at - from.at) * real(0.5));
-        moved += difference.abs();
-        off += (difference - expected).abs();
+/// What an ulp of the input and rounding errors change in a quantity, between the ends of a part and at both.
+type Resolution<T> = (T, [T; 2]);
+
+/// The resolution of each quantity in a part.
+fn resolution<M, F, Q>(
+    range: &RangeOfMotion<'_, M>,
+    piece: &Piece<M::Scalar>,
+    ends: &[Quantities<M::Scalar>; 2],
+    search: &mut Search<'_, '_, M, F>,
+) -> Result<Vec<Resolution<M::Scalar>>, PathErrorOf<M>>
+where
+    M: Driven,
+    F: FnMut(&MotionOf<M::Of>) -> Q,
+    Q: AsRef<[OutputMotion<M::Scalar>]>,
+{
+    let mut found = vec![(M::Scalar::zero(), [M::Scalar::zero(); 2]); ends[0].1.len()];
+    let change = |one: &OutputMotion<M::Scalar>, other: &OutputMotion<M::Scalar>| {
+        let digit = larger(one.value.abs(), other.value.abs()) * M::Scalar::default_epsilon();
+        larger((one.value - other.value).abs(), digit)
+    };
+    for place in 0..PLACES {
+        let input = piece.input(real((f64::from(place) + 0.5) / f64::from(PLACES)));
+        let [before, after] = next_to(range, input);
+        let (before, after) = (search.by_input(before)?, search.by_input(after)?);
+        for ((between, _), (before, after)) in found.iter_mut().zip(before.iter().zip(&after)) {
+            *between = between.max(change(before, after));
+        }
     }
-    off + off >= moved
+    for (at, (end, values)) in ends.iter().enumerate() {
+        let [before, after] = next_to(range, *end);
+        let inside = search.by_length(if at == 0 { after } else { before }, at == 0)?;
+        for ((_, at_ends), (value, inside)) in found.iter_mut().zip(values.iter().zip(&inside)) {
+            at_ends[at] = change(value, inside);
+        }
+    }
+    Ok(found)
+}
+
+/// The inputs next to one, by some ulps of the largest.
+pub(super) fn next_to<M: Driven>(range: &RangeOfMotion<'_, M>, input: M::Scalar) -> [M::Scalar; 2] {
+    let size = range.inputs().into_iter().fold(input.abs(), |size, end| larger(size, end.abs()));
+    let some = size * M::Scalar::default_epsilon() * real(4.0);
+    [input - some, input + some]
 }
 
 /// A part of a motion without change points between its ends.
-struct Piece<T> {
+pub(super) struct Piece<T> {
     low: T,
     high: T,
     steps: u32,
@@ -214,135 +284,24 @@ impl<T: Real> Piece<T> {
     }
 
     /// low + (high - low) sin^2(pi s / 2), from the nearer end.
-    fn input(&self, s: T) -> T {
+    pub(super) fn input(&self, s: T) -> T {
         let (sine, cosine) = (T::frac_pi_2() * s).sine_cosine();
         let length = self.high - self.low;
         if sine < cosine { self.low + length * sine * sine } else { self.high - length * cosine * cosine }
     }
 
     /// The place s of an input.
-    fn place(&self, input: T) -> T {
+    pub(super) fn place(&self, input: T) -> T {
         let [below, above] = [input - self.low, self.high - input].map(|part| part.max(T::zero()).sqrt());
         below.arctangent2(above) / T::frac_pi_2()
     }
 
     /// The derivative by s of a quantity with its own: its rate and acceleration are by the input.
-    fn slope_at(&self, s: T, motion: &OutputMotion<T>) -> Sample<T> {
+    pub(super) fn slope_at(&self, s: T, motion: &OutputMotion<T>) -> Sample<T> {
         let (sine, cosine) = (T::pi() * s).sine_cosine();
         let half = (self.high - self.low) * real(0.5);
         let (first, second) = (half * T::pi() * sine, half * T::pi() * T::pi() * cosine);
         let slope = motion.acceleration * first * first + motion.rate * second;
         Sample { at: s, value: motion.rate * first, slope }
     }
-}
-
-/// The search of the extremes of quantities along a motion.
-struct Search<'a, 'm, M: Mechanism, F> {
-    range: &'a RangeOfMotion<'m, M>,
-    quantities: F,
-}
-
-impl<M, F, Q> Search<'_, '_, M, F>
-where
-    M: Driven,
-    F: FnMut(&MotionOf<M::Of>) -> Q,
-    Q: AsRef<[OutputMotion<M::Scalar>]>,
-{
-    /// The quantities at an input, with derivatives by the input.
-    fn by_input(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathErrorOf<M>> {
-        match self.range.motion(input, M::Scalar::one(), M::Scalar::zero()) {
-            Ok(motion) => Ok((self.quantities)(&motion).as_ref().to_vec()),
-            // Where motions touch the tangent is known still.
-            Err(PathError::Position(PositionError::Singular { .. })) => {
-                let (motion, input_rate) = along_tangent(self.range, input)?;
-                let all = (self.quantities)(&motion);
-                let unknown = M::Scalar::zero() / M::Scalar::zero();
-                let by_input = |all: &OutputMotion<M::Scalar>| OutputMotion {
-                    rate: all.rate / input_rate,
-                    acceleration: unknown,
-                    ..*all
-                };
-                Ok(all.as_ref().iter().map(by_input).collect())
-            }
-            Err(error) => Err(error),
-        }
-    }
-
-    /// The quantities at an input, with their first derivatives by the arc length.
-    fn by_length(&mut self, input: M::Scalar) -> Result<Vec<OutputMotion<M::Scalar>>, PathErrorOf<M>> {
-        let (motion, _) = along_tangent(self.range, input)?;
-        Ok((self.quantities)(&motion).as_ref().to_vec())
-    }
-
-    /// Adds the turning points of a quantity between two places.
-    fn within_step(
-        &mut self,
-        piece: &Piece<M::Scalar>,
-        place: usize,
-        [mut last, end]: [Sample<M::Scalar>; 2],
-        turning_points: &mut Vec<Extreme<M::Scalar>>,
-    ) -> Result<(), PathErrorOf<M>> {
-        for _ in 0..MOST_IN_A_STEP {
-            let around = first_zero([last, end], M::Scalar::default_epsilon(), |s| {
-                self.by_input(piece.input(s)).map(|all| piece.slope_at(s, &all[place]))
-            })?;
-            let Some(around) = around else { break };
-            let inputs = around.map(|sample| piece.input(sample.at));
-            let rates = [self.by_input(inputs[0])?[place].rate, self.by_input(inputs[1])?[place].rate];
-            let rate = |input| self.by_input(input).map(|all| Some(all[place].rate));
-            let zero = root(inputs, rates, ulp(inputs[0], inputs[1]), rate)?;
-            let input = zero.unwrap_or(inputs[1]);
-            let there = self.by_input(input)?[place];
-            turning_points.push(Extreme { input, value: there.value });
-            last = Sample { value: M::Scalar::zero(), ..piece.slope_at(piece.place(input), &there) };
-        }
-        Ok(())
-    }
-
-    /// The turning point of a quantity between an end and an input inside, if its derivative changes its sign.
-    fn next_to_end(
-        &mut self,
-        place: usize,
-        [end, inside]: [M::Scalar; 2],
-        [at_end, at_inside]: [M::Scalar; 2],
-    ) -> Result<Option<Extreme<M::Scalar>>, PathErrorOf<M>> {
-        if at_end * at_inside >= M::Scalar::zero() {
-            return Ok(None);
-        }
-        let at_inside = self.by_length(inside)?[place].rate;
-        let (inputs, rates) =
-            if end < inside { ([end, inside], [at_end, at_inside]) } else { ([inside, end], [at_inside, at_end]) };
-        let rate = |input| self.by_length(input).map(|all| Some(all[place].rate));
-        let Some(input) = root(inputs, rates, ulp(end, inside), rate)? else { return Ok(None) };
-        let value = self.by_length(input)?[place].value;
-        Ok(Some(Extreme { input, value }))
-    }
-}
-
-/// A motion by the arc length, and the derivative of the input.
-type AlongTangent<M> = (MotionOf<<M as Driven>::Of>, <M as Mechanism>::Scalar);
-
-/// The position at an input with derivatives by the arc length, accelerations zero, and that of the input.
-fn along_tangent<M: Driven>(range: &RangeOfMotion<'_, M>, input: M::Scalar) -> Result<AlongTangent<M>, PathErrorOf<M>> {
-    let (near, rates) = range.near(input)?;
-    let (unknown_rates, along) = M::rate_parts(&rates);
-    let [_, slope, _] = range.mechanism().inputs_at(input);
-    let (m, position) = (range.driven(), range.mechanism().position_of(&near));
-    let (pose, rates) = (m.pose_at(&position), M::Of::rates(unknown_rates, slope * along[0]));
-    let accelerations = M::Of::accelerations(unknown_rates.dim().zeros(), slope.dim().zeros());
-    let points = M::Of::each_point(m.points(&pose)?);
-    let velocities = M::Of::each_point(m.point_velocities(&pose, &rates)?);
-    let centripetal = M::Of::each_point(m.point_accelerations(&pose, &rates, &accelerations)?);
-    let points = velocities.dim().array(|at| PointMotion {
-        position: points[at],
-        velocity: velocities[at],
-        acceleration: centripetal[at],
-    });
-    let values = M::Of::each_output(m.outputs(&pose)?);
-    let output_rates = M::Of::each_output(m.output_rates(&pose, &rates)?);
-    let bends = M::Of::each_output(m.output_accelerations(&pose, &rates, &accelerations)?);
-    let outputs =
-        values.dim().array(|at| OutputMotion { value: values[at], rate: output_rates[at], acceleration: bends[at] });
-    let (points, outputs) = (points.into(), outputs.into());
-    Ok((MotionOf::<M::Of> { position, rates, accelerations, points, outputs }, along[0]))
 }

@@ -26,9 +26,19 @@
 
 #[cfg(feature = "std")]
 mod along;
+#[cfg(feature = "std")]
+mod at_input;
+#[cfg(feature = "std")]
+mod constant;
+#[cfg(feature = "std")]
+mod course;
+#[cfg(feature = "std")]
+mod on_turns;
 
 #[cfg(feature = "std")]
-pub use along::{Course, courses, over};
+pub use along::{courses, courses_on_turns, over};
+#[cfg(feature = "std")]
+pub use course::Course;
 
 use crate::jacobian::{Sample, first_zero, root};
 use crate::{OutputMotion, PositionError, Real, real};

@@ -15,7 +15,7 @@ use linkage_runtime::{Elbow, Ranged};
 
 use super::defect::Defect;
 use super::failure::Evaluated;
-use super::groups::{factorised, list, numbers, pivots, sized};
+use super::groups::{MOST_UNKNOWNS, each, factorised, list, numbers, pivots, sized};
 use super::scalar::Single;
 use super::value::Value;
 use super::{Kind, Load, Machine};
@@ -86,10 +86,17 @@ impl<'c> Machine<'c> {
                 let (sine, cosine) = number(0)?.sine_cosine();
                 list([sine, cosine])
             }
-            Operation::SinesCosines => sized!(arguments.at(0)?.as_list()?.len(), N => {
-                let all = S::sines_cosines(numbers::<S, N>(arguments.at(0)?)?);
-                Ok(Value::list(all.map(|(sine, cosine)| list([sine, cosine]))))
-            })?,
+            // Each has the digits that it has alone.
+            Operation::SinesCosines => {
+                let of_part = |part: &[Value]| {
+                    sized!(part.len(), N => {
+                        let all = S::sines_cosines(each::<S, N>(part)?);
+                        Ok(all.map(|(sine, cosine)| list([sine, cosine])).to_vec())
+                    })
+                };
+                let parts = arguments.at(0)?.as_list()?.chunks(MOST_UNKNOWNS).map(of_part);
+                Value::list(parts.collect::<Evaluated<Vec<_>>>()?.into_iter().flatten())
+            }
             Operation::Largest => {
                 let all = arguments.at(0)?.as_list()?.iter();
                 let all = all.map(|value| S::of(value).ok_or_else(|| value.expected("a number")));
