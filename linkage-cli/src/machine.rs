@@ -15,6 +15,7 @@ use crate::solver::Solver;
 pub use crate::solver::{Coordinate, Motion, Named};
 use crate::source::read;
 use crate::start::Start;
+use crate::symbols::Given;
 use crate::values::{Assignment, Choice};
 
 /// A mechanism with values for all but its inputs.
@@ -171,25 +172,16 @@ impl Machine {
     }
 
     /// The outputs by their formulas at these values of the unknowns, whose angles may be on other turns.
-    pub fn outputs_at(&self, inputs: &[f64], unknowns: &[f64]) -> Vec<f64> {
-        let derivation = &self.about.derivation;
-        let nodes: Vec<NodeId> = derivation.outputs.iter().flat_map(|output| output.value.iter().copied()).collect();
-        derivation.graph.evaluate(&nodes, |symbol| self.value(derivation.graph.symbol_name(symbol), inputs, unknowns))
+    pub fn outputs_at(&self, inputs: &[f64], unknowns: &[f64]) -> Result<Vec<f64>, Failure> {
+        let outputs = self.about.derivation.outputs.iter();
+        let nodes: Vec<NodeId> = outputs.flat_map(|output| output.value.iter().copied()).collect();
+        self.formulas_at(&nodes, inputs, unknowns)
     }
 
-    /// The value of a symbol of the formulas at a position.
-    pub fn symbol(&self, name: &str, motion: &Motion) -> f64 {
-        self.value(name, &motion.inputs, &motion.unknowns)
-    }
-
-    fn value(&self, name: &str, inputs: &[f64], unknowns: &[f64]) -> f64 {
-        let of = |coordinates: &[Coordinate], values: &[f64]| {
-            let place = coordinates.iter().position(|of| of.name.text == name)?;
-            values.get(place).copied()
-        };
-        let parameter = self.parameters.iter().find(|(other, _)| other == name).map(|(_, value)| *value);
-        let coordinate = of(&self.about.inputs, inputs).or_else(|| of(&self.about.unknowns, unknowns));
-        parameter.or(coordinate).unwrap_or(f64::NAN)
+    /// The values of formulas at a position.
+    pub fn formulas_at(&self, nodes: &[NodeId], inputs: &[f64], unknowns: &[f64]) -> Result<Vec<f64>, Failure> {
+        let given = Given { parameters: &self.parameters, inputs, unknowns };
+        self.about.symbols.evaluate(&self.about.derivation.graph, nodes, given)
     }
 }
 

@@ -11,3 +11,4 @@ mod pages;
 mod pictures;
 mod simulations;
 mod tables;
+mod written_names;
