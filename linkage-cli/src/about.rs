@@ -14,6 +14,7 @@ use crate::names::{listed, place};
 use crate::progress;
 use crate::scene::AboutScene;
 use crate::solver::{Coordinate, Named};
+use crate::symbols::Symbols;
 
 /// The names of a driver, and its derivation.
 pub struct About {
@@ -37,6 +38,8 @@ pub struct About {
     /// The scenes, in the order of the text.
     pub scenes: Vec<AboutScene>,
     pub derivation: Derivation,
+    /// The places of the values of its symbols.
+    pub symbols: Symbols,
 }
 
 /// A group that has several positions.
@@ -106,6 +109,7 @@ impl About {
             defaults: mechanism.parameters.iter().map(|of| (of.default_text.clone(), of.kind)).collect(),
             functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),
             scenes: AboutScene::all(&lowered),
+            symbols: Symbols::of(mechanism, driver),
             derivation: lowered.derivation,
         }
     }

@@ -2,6 +2,7 @@
 //! runtime, as a machine of three legs.
 
 use linkage_compiler::derivation;
+use linkage_compiler::graph::NodeId;
 use linkage_report::drawing::Parts;
 use linkage_runtime::skeleton::Part;
 
@@ -31,23 +32,21 @@ impl<'m> Figure<'m> {
     }
 
     /// The places of the joints at a position.
-    pub fn joints(&self, motion: &Motion) -> Vec<[f64; 2]> {
+    pub fn joints(&self, motion: &Motion) -> Result<Vec<[f64; 2]>, Failure> {
         self.places(&self.skeleton.joints.iter().map(|(_, at)| *at).collect::<Vec<_>>(), motion)
     }
 
     /// Applies a function to the parts, with the directions of guides at a position.
-    pub fn with_parts<R>(&self, motion: &Motion, f: impl FnOnce(Parts<'_>) -> R) -> R {
+    pub fn with_parts<R>(&self, motion: &Motion, f: impl FnOnce(Parts<'_>) -> R) -> Result<R, Failure> {
         let joints: Vec<&str> = self.skeleton.joints.iter().map(|(name, _)| name.as_str()).collect();
         let parts: Vec<Part<'_>> = self.skeleton.parts.iter().map(part).collect();
-        let guides = self.places(&self.skeleton.guides, motion);
-        f(Parts { joints: &joints, parts: &parts, guides: &guides })
+        let guides = self.places(&self.skeleton.guides, motion)?;
+        Ok(f(Parts { joints: &joints, parts: &parts, guides: &guides }))
     }
 
-    fn places(&self, nodes: &[[linkage_compiler::graph::NodeId; 2]], motion: &Motion) -> Vec<[f64; 2]> {
-        let graph = &self.machine.about.derivation.graph;
-        let bind = |symbol| self.machine.symbol(graph.symbol_name(symbol), motion);
-        let numbers = graph.evaluate(nodes.as_flattened(), bind);
-        numbers.chunks_exact(2).map(|at| [at[0], at[1]]).collect()
+    fn places(&self, nodes: &[[NodeId; 2]], motion: &Motion) -> Result<Vec<[f64; 2]>, Failure> {
+        let numbers = self.machine.formulas_at(nodes.as_flattened(), &motion.inputs, &motion.unknowns)?;
+        Ok(numbers.chunks_exact(2).map(|at| [at[0], at[1]]).collect())
     }
 }
 

@@ -17,6 +17,7 @@ use crate::solver::Solver;
 pub use crate::solver::{Coordinate, Motion, Named};
 use crate::source::read;
 use crate::start::{Near, Start};
+use crate::symbols::Given;
 use crate::values::{Assignment, Choice};
 
 /// A mechanism with values for all but its inputs.
@@ -135,13 +136,8 @@ impl Machine {
 
     /// The ends of the range that is declared for an input.
     pub fn declared(&self, input: usize) -> [Option<f64>; 2] {
-        let graph = &self.about.derivation.graph;
-        let of_parameter =
-            |name: &str| self.parameters.iter().find(|(other, _)| other == name).map(|(_, value)| *value);
-        let value = |node: NodeId| {
-            let values = graph.evaluate(&[node], |symbol| of_parameter(graph.symbol_name(symbol)).unwrap_or(f64::NAN));
-            values.first().copied()
-        };
+        // Formulas of parameters.
+        let value = |node: NodeId| self.formulas_at(&[node], &[], &[]).ok()?.first().copied();
         self.about.input_ends.get(input).copied().unwrap_or_default().map(|end| end.and_then(value))
     }
 
@@ -217,37 +213,24 @@ impl Machine {
     }
 
     /// The outputs by their formulas at these values of the unknowns, whose angles may be on other turns.
-    pub fn outputs_at(&self, inputs: &[f64], unknowns: &[f64]) -> Vec<f64> {
-        let derivation = &self.about.derivation;
-        let nodes: Vec<NodeId> = derivation.outputs.iter().flat_map(|output| output.value.iter().copied()).collect();
-        derivation.graph.evaluate(&nodes, |symbol| self.value(derivation.graph.symbol_name(symbol), inputs, unknowns))
+    pub fn outputs_at(&self, inputs: &[f64], unknowns: &[f64]) -> Result<Vec<f64>, Failure> {
+        let outputs = self.about.derivation.outputs.iter();
+        let nodes: Vec<NodeId> = outputs.flat_map(|output| output.value.iter().copied()).collect();
+        self.formulas_at(&nodes, inputs, unknowns)
     }
 
     /// True if the equations hold at these values of the unknowns.
-    pub fn solves(&self, inputs: &[f64], unknowns: &[f64]) -> bool {
+    pub fn solves(&self, inputs: &[f64], unknowns: &[f64]) -> Result<bool, Failure> {
         let derivation = &self.about.derivation;
-        let of = |nodes: &[NodeId]| {
-            derivation
-                .graph
-                .evaluate(nodes, |symbol| self.value(derivation.graph.symbol_name(symbol), inputs, unknowns))
-        };
-        let (residual, scales) = (of(&derivation.residual), of(&derivation.residual_scales));
-        residual.iter().zip(scales).all(|(residual, scale)| residual.abs() <= scale * f64::EPSILON.sqrt())
+        let residual = self.formulas_at(&derivation.residual, inputs, unknowns)?;
+        let scales = self.formulas_at(&derivation.residual_scales, inputs, unknowns)?;
+        Ok(residual.iter().zip(scales).all(|(residual, scale)| residual.abs() <= scale * f64::EPSILON.sqrt()))
     }
 
-    /// The value of a symbol of the formulas at a position.
-    pub fn symbol(&self, name: &str, motion: &Motion) -> f64 {
-        self.value(name, &motion.inputs, &motion.unknowns)
-    }
-
-    fn value(&self, name: &str, inputs: &[f64], unknowns: &[f64]) -> f64 {
-        let of = |coordinates: &[Coordinate], values: &[f64]| {
-            let place = coordinates.iter().position(|of| of.name.text == name)?;
-            values.get(place).copied()
-        };
-        let parameter = self.parameters.iter().find(|(other, _)| other == name).map(|(_, value)| *value);
-        let coordinate = of(&self.about.inputs, inputs).or_else(|| of(&self.about.unknowns, unknowns));
-        parameter.or(coordinate).unwrap_or(f64::NAN)
+    /// The values of formulas at a position.
+    pub fn formulas_at(&self, nodes: &[NodeId], inputs: &[f64], unknowns: &[f64]) -> Result<Vec<f64>, Failure> {
+        let given = Given { parameters: &self.parameters, inputs, unknowns };
+        self.about.symbols.evaluate(&self.about.derivation.graph, nodes, given)
     }
 }
 

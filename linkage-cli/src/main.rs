@@ -33,6 +33,7 @@ mod scene;
 mod solver;
 mod source;
 mod start;
+mod symbols;
 mod tips;
 mod unwound;
 mod values;

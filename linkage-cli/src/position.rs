@@ -6,7 +6,7 @@ use linkage_runtime::{OutputMotion, PointMotion};
 
 use crate::about::About;
 use crate::arguments;
-use crate::commands::drawing;
+use crate::commands::svg_or_message;
 use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::machine::{Coordinate, Machine, Motion};
@@ -26,14 +26,14 @@ struct Numbers {
 
 impl Position {
     /// The position that arguments ask for, and the documents of its mechanism; none if they ask for no numbers.
-    pub fn of(arguments: &arguments::Sheet) -> Result<Option<(Self, Documents)>, Failure> {
+    pub fn of(arguments: &arguments::Sheet, has_picture: bool) -> Result<Option<(Self, Documents)>, Failure> {
         let arguments::Sheet { numbers, place, rate, live, .. } = arguments;
         let is_asked = !numbers.branch.is_empty() || !place.at.is_empty() || rate.is_some() || *live;
         if numbers.set.is_empty() && !is_asked {
             return Ok(None);
         }
         let (machine, documents) = Machine::with(numbers, Documents::of)?;
-        let numbers = match Numbers::of(&machine, arguments) {
+        let numbers = match Numbers::of(&machine, arguments, has_picture) {
             Err(Failure::Outside(why) | Failure::Argument(why)) if !is_asked => {
                 anstream::eprintln!("the sheet has no numbers of a position: {why}");
                 None
@@ -58,7 +58,7 @@ impl Position {
 }
 
 impl Numbers {
-    fn of(machine: &Machine, arguments: &arguments::Sheet) -> Result<Self, Failure> {
+    fn of(machine: &Machine, arguments: &arguments::Sheet, has_picture: bool) -> Result<Self, Failure> {
         let arguments::Sheet { place, rate, .. } = arguments;
         let inputs = held(machine, &place.at, None)?;
         let mut rates = vec![0.0; inputs.len()];
@@ -66,45 +66,47 @@ impl Numbers {
             *first = rate.number;
         }
         let motion = machine.motion(&inputs, &rates).map_err(Failure::Outside)?;
-        let figure = Figure::of(machine)?;
+        // Only a page has pictures.
+        let picture = match has_picture {
+            true => svg_or_message(machine, &Figure::of(machine)?, &motion, "the sheet")?,
+            false => None,
+        };
         Ok(Self {
-            motion: numbers(machine, &motion, &rates, rate.is_some()),
-            picture: drawing(machine, &figure, &motion).to_svg().ok(),
+            motion: numbers(machine, &motion, &rates, rate.is_some())?,
+            picture,
             caption: arguments.language.of_sheet().position_at(&machine.at(&inputs)),
         })
     }
 }
 
 /// The numbers of all names, by their paths in the motion.
-fn numbers(machine: &Machine, motion: &Motion, rates: &[f64], has_rates: bool) -> MotionNumbers {
+fn numbers(machine: &Machine, motion: &Motion, rates: &[f64], has_rates: bool) -> Result<MotionNumbers, Failure> {
     let About { inputs, unknowns, points, outputs, .. } = &machine.about;
-    let of = |path: String| motion.number(&path);
     let coordinate = |of: &Coordinate, motion: [f64; 3]| {
         let (name, is_angle) = (of.name.text.clone(), of.is_angle);
         MovingCoordinate { name, is_angle, motion }
     };
     let of_inputs = inputs.iter().zip(&motion.inputs).zip(rates);
     let of_unknowns = unknowns.iter().zip(&motion.unknowns).map(|(unknown, value)| {
-        let [rate, acceleration] = ["rates", "accelerations"].map(|kind| of(format!("{kind}.{}", unknown.name.field)));
-        coordinate(unknown, [*value, rate, acceleration])
+        let of = |kind: &str| motion.number(&format!("{kind}.{}", unknown.name.field));
+        Ok(coordinate(unknown, [*value, of("rates")?, of("accelerations")?]))
     });
     let of_points = points.iter().map(|point| {
-        let vector = |kind: &str| ["x", "y"].map(|axis| of(format!("points.{}.{kind}.{axis}", point.field)));
-        let [position, velocity, acceleration] = ["position", "velocity", "acceleration"].map(vector);
-        let (velocity, acceleration) = (velocity.into(), acceleration.into());
-        (point.text.clone(), PointMotion { position: position.into(), velocity, acceleration })
+        let vector = |kind: &str| motion.numbers(&format!("points.{}.{kind}", point.field), ["x", "y"]);
+        let (velocity, acceleration) = (vector("velocity")?.into(), vector("acceleration")?.into());
+        Ok((point.text.clone(), PointMotion { position: vector("position")?.into(), velocity, acceleration }))
     });
     let of_outputs = outputs.iter().map(|output| {
-        let number = |kind: &str| of(format!("outputs.{}.{kind}", output.field));
-        let [value, rate, acceleration] = ["value", "rate", "acceleration"].map(number);
-        (output.text.clone(), OutputMotion { value, rate, acceleration })
+        let of = format!("outputs.{}", output.field);
+        let [value, rate, acceleration] = motion.numbers(&of, ["value", "rate", "acceleration"])?;
+        Ok((output.text.clone(), OutputMotion { value, rate, acceleration }))
     });
-    MotionNumbers {
+    Ok(MotionNumbers {
         inputs: of_inputs.map(|((input, value), rate)| coordinate(input, [*value, *rate, 0.0])).collect(),
-        unknowns: of_unknowns.collect(),
-        points: of_points.collect(),
-        outputs: of_outputs.collect(),
+        unknowns: of_unknowns.collect::<Result<_, Failure>>()?,
+        points: of_points.collect::<Result<_, Failure>>()?,
+        outputs: of_outputs.collect::<Result<_, Failure>>()?,
         ratios: machine.ratios(motion).chunks(inputs.len().max(1)).map(<[f64]>::to_vec).collect(),
         has_rates,
-    }
+    })
 }

@@ -58,8 +58,18 @@ impl Motion {
     }
 
     /// A number of the motion: `points.c.velocity.x`.
-    pub fn number(&self, path: &str) -> f64 {
-        self.data.get(path).and_then(Data::number).unwrap_or(f64::NAN)
+    pub fn number(&self, path: &str) -> Result<f64, Failure> {
+        let found = self.data.get(path).and_then(Data::number);
+        found.ok_or_else(|| Failure::Outside(format!("the position has no number `{path}`")))
+    }
+
+    /// The numbers of the motion with these endings of a path.
+    pub fn numbers<const N: usize>(&self, of: &str, ends: [&str; N]) -> Result<[f64; N], Failure> {
+        let mut numbers = [0.0; N];
+        for (number, end) in numbers.iter_mut().zip(ends) {
+            *number = self.number(&format!("{of}.{end}"))?;
+        }
+        Ok(numbers)
     }
 }
 

@@ -7,6 +7,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::failure::Failure;
 use crate::machine::{Machine, Motion};
 
 /// Unknowns and outputs of a row.
@@ -22,21 +23,21 @@ pub struct Unwound(Option<Turned>);
 
 impl Unwound {
     /// The row of a motion, on the turns nearest to the last one.
-    pub fn next(&mut self, machine: &Machine, motion: &Motion) -> Turned {
-        let mut now = Turned { unknowns: motion.unknowns.clone(), outputs: Self::outputs(machine, motion) };
+    pub fn next(&mut self, machine: &Machine, motion: &Motion) -> Result<Turned, Failure> {
+        let mut now = Turned { unknowns: motion.unknowns.clone(), outputs: Self::outputs(machine, motion)? };
         if let Some(last) = &self.0 {
             if !motion.is_followed {
                 let mut turned = now.unknowns.clone();
                 let all = turned.iter_mut().zip(&last.unknowns).zip(&machine.about.unknowns);
                 all.filter(|(_, of)| of.is_angle).for_each(|((value, last), _)| *value = near(*value, *last, TAU));
-                if machine.solves(&motion.inputs, &turned) {
+                if machine.solves(&motion.inputs, &turned)? {
                     now.unknowns = turned;
                 }
             }
             // The difference of two values of the formula is a number of jumps: where there are none, all digits stay.
             if now.unknowns != motion.unknowns {
-                let [on, off] =
-                    [&now.unknowns, &motion.unknowns].map(|unknowns| machine.outputs_at(&motion.inputs, unknowns));
+                let on = machine.outputs_at(&motion.inputs, &now.unknowns)?;
+                let off = machine.outputs_at(&motion.inputs, &motion.unknowns)?;
                 now.outputs.iter_mut().zip(on.iter().zip(off)).for_each(|(value, (on, off))| *value += on - off);
             }
             let outputs = now.outputs.iter_mut().zip(&last.outputs).zip(&machine.about.output_angles);
@@ -47,10 +48,10 @@ impl Unwound {
             }
         }
         self.0 = Some(now.clone());
-        now
+        Ok(now)
     }
 
-    fn outputs(machine: &Machine, motion: &Motion) -> Vec<f64> {
+    fn outputs(machine: &Machine, motion: &Motion) -> Result<Vec<f64>, Failure> {
         machine.about.outputs.iter().map(|output| motion.number(&format!("outputs.{}.value", output.field))).collect()
     }
 }

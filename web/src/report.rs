@@ -26,7 +26,9 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
         Ok(all) => all.map(|(branch, q)| (branch.to_string(), q)).collect(),
         Err(_) => Vec::new(),
     };
-    let pictures = listed.iter().filter_map(|(_, q)| drawing(&mechanism, q).ok()?.to_svg().ok()).collect::<Vec<_>>();
+    // The page says of a mode without a picture that it has none.
+    let picture = |q: &Coordinates| drawing(&mechanism, q)?.to_svg().map_err(Refusal::new);
+    let pictures = listed.iter().map(|(_, q)| picture(q).unwrap_or_default()).collect::<Vec<_>>();
     let text = match whole(&prepared, &derivation, at) {
         Ok(report) => written(report, &listed, &pictures),
         Err(why) => {

@@ -50,14 +50,14 @@ pub fn run(arguments: &Animate) -> Result<(), Failure> {
     let steps = if is_gif { steps.min((MOST_FRAMES * seconds) as u32).max(2) } else { steps };
     let frames = frames(&followed, course, steps)?;
     let [Some(first), Some(last)] = [frames.first(), frames.last()] else { return Ok(()) };
-    if is_far(&figure.joints(first), &figure.joints(last)) {
+    if is_far(&figure.joints(first)?, &figure.joints(last)?) {
         anstream::eprintln!(
             "the film jumps back to its start, which is another position: \
              write more turns with --to, or --back-and-forth"
         );
     }
-    let joints = frames.iter().map(|motion| figure.joints(motion));
-    let mut film = figure.with_parts(first, |parts| parts.animation(machine.about.name.as_str(), joints, seconds));
+    let joints = frames.iter().map(|motion| figure.joints(motion)).collect::<Result<Vec<_>, Failure>>()?;
+    let mut film = figure.with_parts(first, |parts| parts.animation(machine.about.name.as_str(), joints, seconds))?;
     if let Some(width) = arguments.size.width {
         film.width(width);
     }

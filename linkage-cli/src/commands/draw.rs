@@ -20,7 +20,7 @@ pub fn run(arguments: &Draw) -> Result<(), Failure> {
     let figure = Figure::of(&machine)?;
     let inputs = held(&machine, &arguments.place.at, None)?;
     let motion = machine.motion(&inputs, &vec![0.0; inputs.len()]).map_err(Failure::Outside)?;
-    let mut drawing = drawing(&machine, &figure, &motion);
+    let mut drawing = drawing(&machine, &figure, &motion)?;
     if let Some(width) = arguments.size.width {
         drawing.width(width);
     }
@@ -35,8 +35,25 @@ pub fn run(arguments: &Draw) -> Result<(), Failure> {
 }
 
 /// The drawing of a position.
-pub fn drawing(machine: &Machine, figure: &Figure<'_>, motion: &Motion) -> Drawing {
-    figure.with_parts(motion, |parts| parts.drawing(machine.about.name.as_str(), figure.joints(motion)))
+pub fn drawing(machine: &Machine, figure: &Figure<'_>, motion: &Motion) -> Result<Drawing, Failure> {
+    let joints = figure.joints(motion)?;
+    figure.with_parts(motion, |parts| parts.drawing(machine.about.name.as_str(), joints))
+}
+
+/// The picture of a position as SVG; where there is none, a message says why.
+pub fn svg_or_message(
+    machine: &Machine,
+    figure: &Figure<'_>,
+    motion: &Motion,
+    of: &str,
+) -> Result<Option<String>, Failure> {
+    match drawing(machine, figure, motion)?.to_svg() {
+        Ok(svg) => Ok(Some(svg)),
+        Err(error) => {
+            anstream::eprintln!("{of} has no picture: {error}");
+            Ok(None)
+        }
+    }
 }
 
 /// A painter; a message if it has no fonts.

@@ -31,10 +31,13 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
     let of_time = given.len().saturating_sub(1);
     let given: Vec<Data> = std::iter::repeat_n(Data::from(time.number), of_time).chain([guess]).collect();
     let found = design.call(function, &given).map_err(|error| Failure::Outside(error.to_string()))?;
-    let value = |of: &Coordinate| found.get(&of.name.field).and_then(Data::number).unwrap_or(f64::NAN);
-    let [inputs, unknowns]: [Vec<f64>; 2] =
-        [&machine.about.inputs, &machine.about.unknowns].map(|all| all.iter().map(value).collect());
-    let outputs = machine.about.outputs.iter().zip(machine.outputs_at(&inputs, &unknowns));
+    let value = |of: &Coordinate| {
+        let value = found.get(&of.name.field).and_then(Data::number);
+        value.ok_or_else(|| Failure::Outside(format!("the position has no number `{}`", of.name.text)))
+    };
+    let inputs = machine.about.inputs.iter().map(value).collect::<Result<Vec<f64>, Failure>>()?;
+    let unknowns = machine.about.unknowns.iter().map(value).collect::<Result<Vec<f64>, Failure>>()?;
+    let outputs = machine.about.outputs.iter().zip(machine.outputs_at(&inputs, &unknowns)?);
     let coordinates = all().zip(inputs.iter().chain(&unknowns));
     let coordinates =
         coordinates.map(|(of, value)| Number { name: of.name.text.clone(), value: *value, is_angle: of.is_angle });

@@ -21,7 +21,7 @@ mod simulate;
 mod summary;
 mod table;
 
-pub use draw::drawing;
+pub use draw::svg_or_message;
 
 use crate::arguments::Command;
 use crate::failure::Failure;

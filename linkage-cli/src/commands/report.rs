@@ -7,7 +7,7 @@ use linkage_report::report::{ListedMode, Local, Modes, Report, ReportOptions, Re
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::{BorrowedName, Branches, Column, D};
 
-use super::draw::drawing;
+use super::draw::svg_or_message;
 use crate::arguments;
 use crate::ends::why;
 use crate::failure::Failure;
@@ -41,8 +41,11 @@ pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
         false => None,
         true => {
             let figure = Figure::of(machine)?;
-            let positions = positions.iter().flatten();
-            Some(positions.filter_map(|(_, motion)| drawing(machine, &figure, motion).to_svg().ok()).collect())
+            let positions = positions.iter().flatten().zip(1..);
+            let picture = |((_, motion), number): (&(String, Motion), usize)| {
+                svg_or_message(machine, &figure, motion, &format!("mode {number}")).map(Option::unwrap_or_default)
+            };
+            Some(positions.map(picture).collect::<Result<_, _>>()?)
         }
     };
     let prepared = machine.solver.design.prepared();

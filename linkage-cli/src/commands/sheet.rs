@@ -58,7 +58,7 @@ fn sheets(arguments: &arguments::Sheet, format: SheetFormat) -> Result<String, F
             SheetFormat::Text => sheet.to_text(),
         }
     };
-    let text = match Position::of(arguments)? {
+    let text = match Position::of(arguments, format == SheetFormat::Html)? {
         Some((position, documents)) => documents.sheet(|sheet| written(position.add_to(sheet)))?.unwrap_or_default(),
         None => {
             let all = of_drivers(&arguments.numbers.source, |lowered| Documents::of(&lowered))?;

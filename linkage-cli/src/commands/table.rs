@@ -45,7 +45,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         let mut row = inputs.clone();
         row.extend((rate != 0.0).then(|| ((value - path.ends[0]) / rate).abs()));
         match followed.motion(value, rate) {
-            Ok(motion) => row.extend(numbers(&machine, &unwound.next(&machine, &motion), &motion)),
+            Ok(motion) => row.extend(numbers(&machine, &unwound.next(&machine, &motion)?, &motion)?),
             Err(error) => {
                 missing.push((value, error));
                 row.resize(table.names().len(), f64::NAN);
@@ -170,25 +170,24 @@ pub fn with_units(machine: &Machine, mut table: Table, is_in_degrees: bool) -> R
 }
 
 /// The numbers of a row after inputs and time.
-fn numbers(machine: &Machine, turned: &Turned, motion: &Motion) -> Vec<f64> {
+fn numbers(machine: &Machine, turned: &Turned, motion: &Motion) -> Result<Vec<f64>, Failure> {
     let mut row = Vec::new();
     for (unknown, value) in machine.about.unknowns.iter().zip(&turned.unknowns) {
         let field = &unknown.name.field;
-        row.extend([
-            *value,
-            motion.number(&format!("rates.{field}")),
-            motion.number(&format!("accelerations.{field}")),
-        ]);
+        row.push(*value);
+        row.push(motion.number(&format!("rates.{field}"))?);
+        row.push(motion.number(&format!("accelerations.{field}"))?);
     }
     for point in &machine.about.points {
-        let of = |path: &str| motion.number(&format!("points.{}.{path}", point.field));
-        let [x, y, velocity_x, velocity_y] = ["position.x", "position.y", "velocity.x", "velocity.y"].map(of);
+        let of = format!("points.{}", point.field);
+        let [x, y, velocity_x, velocity_y] =
+            motion.numbers(&of, ["position.x", "position.y", "velocity.x", "velocity.y"])?;
         row.extend([x, y, velocity_x, velocity_y, (velocity_x * velocity_x + velocity_y * velocity_y).sqrt()]);
-        row.extend(["acceleration.x", "acceleration.y"].map(of));
+        row.extend(motion.numbers(&of, ["acceleration.x", "acceleration.y"])?);
     }
     for (output, value) in machine.about.outputs.iter().zip(&turned.outputs) {
-        let of = |of: &str| motion.number(&format!("outputs.{}.{of}", output.field));
-        row.extend([*value, of("rate"), of("acceleration")]);
+        row.push(*value);
+        row.extend(motion.numbers(&format!("outputs.{}", output.field), ["rate", "acceleration"])?);
     }
-    row
+    Ok(row)
 }

@@ -13,3 +13,4 @@ mod simulations;
 mod tables;
 mod turns;
 mod which_motion;
+mod written_names;

@@ -17,7 +17,7 @@ impl<N: BorrowedName> Report<N> {
         self.to_html_with(&[])
     }
 
-    /// The report as one HTML file, with a picture of each mode as SVG.
+    /// The report as one HTML file, with a picture of each mode as SVG; an empty one where a mode has none.
     #[must_use]
     pub fn to_html_with(&self, pictures: &[String]) -> String {
         let name = escape(&self.mechanism);
@@ -31,7 +31,7 @@ impl<N: BorrowedName> Report<N> {
         self.to_html_fragment_with(&[])
     }
 
-    /// The sections of the page alone, with a picture of each mode as SVG.
+    /// The sections of the page alone, with a picture of each mode as SVG; an empty one where a mode has none.
     #[must_use]
     pub fn to_html_fragment_with(&self, pictures: &[String]) -> String {
         self.body(pictures)
@@ -96,8 +96,11 @@ impl<N: BorrowedName> Report<N> {
     }
 }
 
-/// The picture of a mode.
+/// The picture of a mode, or that it has none.
 fn picture(svg: &str, number: usize) -> String {
+    if svg.is_empty() {
+        return format!("<figure>\n<figcaption>Mode {number} has no picture</figcaption>\n</figure>\n");
+    }
     format!(
         "<figure>\n<img alt=\"Mode {number}\" src=\"{}\">\n<figcaption>Mode {number}</figcaption>\n</figure>\n",
         svg_address(svg)
