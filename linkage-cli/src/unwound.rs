@@ -27,12 +27,7 @@ impl Unwound {
         let mut now = Turned { unknowns: motion.unknowns.clone(), outputs: Self::outputs(machine, motion)? };
         if let Some(last) = &self.0 {
             if !motion.is_followed {
-                let mut turned = now.unknowns.clone();
-                let all = turned.iter_mut().zip(&last.unknowns).zip(&machine.about.unknowns);
-                all.filter(|(_, of)| of.is_angle).for_each(|((value, last), _)| *value = near(*value, *last, TAU));
-                if machine.solves(&motion.inputs, &turned)? {
-                    now.unknowns = turned;
-                }
+                now.unknowns = Self::near_last(machine, motion, &last.unknowns)?;
             }
             // The difference of two values of the formula is a number of jumps: where there are none, all digits stay.
             if now.unknowns != motion.unknowns {
@@ -49,6 +44,26 @@ impl Unwound {
         }
         self.0 = Some(now.clone());
         Ok(now)
+    }
+
+    /// The unknowns on the turns nearest to the last ones: of all angles or, where the equations do not hold there, of those that
+    /// alone change nothing.
+    fn near_last(machine: &Machine, motion: &Motion, last: &[f64]) -> Result<Vec<f64>, Failure> {
+        let solves = |unknowns: &[f64]| machine.solves(&motion.inputs, unknowns);
+        let each = motion.unknowns.iter().zip(last).zip(&machine.about.unknowns);
+        let turned: Vec<f64> =
+            each.map(|((value, last), of)| if of.is_angle { near(*value, *last, TAU) } else { *value }).collect();
+        if turned == motion.unknowns || solves(&turned)? {
+            return Ok(turned);
+        }
+        let mut unknowns = motion.unknowns.clone();
+        for (place, value) in turned.iter().enumerate() {
+            let found = std::mem::replace(&mut unknowns[place], *value);
+            if *value != found && !solves(&unknowns)? {
+                unknowns[place] = found;
+            }
+        }
+        Ok(unknowns)
     }
 
     fn outputs(machine: &Machine, motion: &Motion) -> Result<Vec<f64>, Failure> {

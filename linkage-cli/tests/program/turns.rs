@@ -127,7 +127,10 @@ fn a_wheel_before_loops() {
     near(column(&table, "t")[0], -65.93, 5e-3);
     near(column(&table, "w")[1], (3.0_f64 * 4.36).to_degrees(), 1e-11);
     let proof = json(&folder, &format!("certify before.linkage {mode} --from 4.359rad --to 4.4rad"));
-    assert_eq!(proof["velocity_ratios"][0]["least"], serde_json::json!([3.0, 3.0]), "{proof}");
+    for end in ["least", "largest"] {
+        let bounds = proof["velocity_ratios"][0][end].as_array().unwrap();
+        bounds.iter().for_each(|bound| near(bound.as_f64().unwrap(), 3.0, 1e-14));
+    }
     // The wheel is never the group that locks.
     let ran = folder.run(&format!("certify before.linkage {mode} --from 4.359rad"));
     assert!(ran.code == Some(1) && ran.messages.contains("a dead point of t, p, s, u;"), "{}", ran.messages);

@@ -39,7 +39,7 @@ fn listed(page: &mut Page, input: f64) -> Vec<Value> {
 fn a_wheel_between_groups() {
     let mut page = Page::with(BETWEEN);
     for turn in [0.0, 3.0] {
-        let t = (100.0 + 360.0 * turn).to_radians();
+        let t = f64::to_radians(100.0 + 360.0 * turn);
         let all = listed(&mut page, t);
         assert_eq!(all.len(), 4);
         for at in all {
