@@ -185,6 +185,7 @@ const WAVE: &str = "mechanism Wave {
     unknown p;
     equation p = t;
     point P = l@p;
+    point Q = l@t;
     output o in -9..level = t/5*sin(k*t);
     derive limits;
 }";
@@ -230,7 +231,12 @@ fn crests_between_samples() {
         let given: Vec<Data> =
             std::iter::once(Data::from(0.1)).chain(arguments.iter().skip(1).map(|_| Data::Nothing)).collect();
         let found = design.call("limits", &given).unwrap();
-        println!("{found:?}");
+        for (side, expected) in [("lower", -expected), ("upper", expected)] {
+            let end = |part: &str| found.get(&format!("{side}.JointRange.{part}"));
+            let input = end("input").and_then(Data::number);
+            assert!(input.is_some_and(|input| close(input, expected)), "{values:?}: {found:?} {expected}");
+            assert_eq!(end("of"), Some(&Data::from("o")));
+        }
     }
 }
 

@@ -198,7 +198,7 @@ fn declared_ranges_are_the_usual_values() {
         ("report m.linkage", "z = 0"),
         ("draw m.linkage -o -", "<svg"),
         ("animate m.linkage --steps 4 -o -", "<svg"),
-        ("certify m.linkage --curve", "z"),
+        ("certify m.linkage", "z from -20 to 20"),
     ] {
         let ran = of_cylinder.run(command);
         assert!(ran.code == Some(0) && ran.output.contains(at), "{command}: {} {}", ran.output, ran.messages);
