@@ -16,7 +16,7 @@ use crate::scene::AboutScene;
 use crate::solver::Solver;
 pub use crate::solver::{Coordinate, Motion, Named};
 use crate::source::read;
-use crate::start::{Near, Start};
+use crate::start::{Among, Near, Start, choices};
 use crate::symbols::Given;
 use crate::values::{Assignment, Choice};
 
@@ -156,9 +156,10 @@ impl Machine {
             Start::Listed => self.solver.motion_near(inputs, &self.solver.on_branch(inputs)?, rates),
             Start::Near(near) => {
                 let solver = self.near(near, inputs)?;
-                match near.is_closed {
-                    true => solver.motion(inputs, rates),
-                    false => solver.motion_near(inputs, &solver.on_branch(inputs)?, rates),
+                match near.among {
+                    Among::Closed => solver.motion(inputs, rates),
+                    Among::Listed => solver.motion_near(inputs, &solver.on_branch(inputs)?, rates),
+                    Among::Found => solver.motion_near(inputs, &near.guess(), rates),
                 }
             }
         }
@@ -166,18 +167,38 @@ impl Machine {
 
     /// The solver on the branch of the position that is nearest to a guess.
     fn near(&self, near: &Near, inputs: &[f64]) -> Result<Solver, String> {
-        let positions = self.solver.positions(inputs)?;
-        let words = near.nearest(&self.about, positions.iter().map(|(branch, at)| (branch.as_str(), &at.unknowns)));
-        let Some(choices) = words else {
-            return Err(self.solver.on_branch(inputs).err().unwrap_or_else(|| {
-                format!("`{}` has no position on this branch at {}", self.about.name, self.at(inputs))
-            }));
+        let positions: Vec<(Vec<Choice>, Vec<f64>)> = match near.among {
+            Among::Found => {
+                let branches = near.branches(self.solver.design.mechanism());
+                let branches = branches.ok_or("the groups have too many sides for a guess: write --branch")?;
+                let (guess, still) = (near.guess(), vec![0.0; inputs.len()]);
+                let on = |choices: Vec<Choice>| {
+                    let found = self.on(&choices).ok()?.motion_near(inputs, &guess, &still).ok()?;
+                    Some((choices, found.unknowns))
+                };
+                branches.into_iter().filter_map(on).collect()
+            }
+            Among::Closed | Among::Listed => {
+                let all = self.solver.positions(inputs)?.into_iter();
+                all.filter_map(|(branch, at)| Some((choices(&branch)?, at.unknowns))).collect()
+            }
         };
-        let branch =
-            branch(&self.about, self.solver.design.mechanism(), &choices).map_err(|failure| match failure {
-                Failure::Argument(why) | Failure::Outside(why) => why,
-                _ => format!("`{}` has no such branch", self.about.name),
-            })?;
+        let nearest = near.nearest(&self.about, positions.iter().map(|(choices, at)| (choices.clone(), at)));
+        match nearest {
+            Some(choices) => self.on(&choices),
+            None => {
+                let other = || format!("`{}` has no position on this branch at {}", self.about.name, self.at(inputs));
+                Err(self.solver.on_branch(inputs).err().unwrap_or_else(other))
+            }
+        }
+    }
+
+    /// The solver on another branch.
+    fn on(&self, choices: &[Choice]) -> Result<Solver, String> {
+        let branch = branch(&self.about, self.solver.design.mechanism(), choices).map_err(|failure| match failure {
+            Failure::Argument(why) | Failure::Outside(why) => why,
+            _ => format!("`{}` has no such branch", self.about.name),
+        })?;
         Ok(Solver { branch, ..self.solver.clone() })
     }
 
@@ -190,7 +211,7 @@ impl Machine {
     pub fn place(&self, inputs: &[f64], rates: &[f64]) -> Result<Vec<f64>, String> {
         match &self.start {
             Start::Closed => self.solver.on_branch(inputs),
-            Start::Near(near) if near.is_closed => self.near(near, inputs)?.on_branch(inputs),
+            Start::Near(near) if near.among == Among::Closed => self.near(near, inputs)?.on_branch(inputs),
             _ => self.motion(inputs, rates).map(|motion| motion.unknowns),
         }
     }

@@ -28,7 +28,8 @@ impl Position {
     /// The position that arguments ask for, and the documents of its mechanism; none if they ask for no numbers.
     pub fn of(arguments: &arguments::Sheet, has_picture: bool) -> Result<Option<(Self, Documents)>, Failure> {
         let arguments::Sheet { numbers, place, rate, live, .. } = arguments;
-        let is_asked = !numbers.branch.is_empty() || !place.at.is_empty() || rate.is_some() || *live;
+        let is_chosen = !numbers.branch.is_empty() || !numbers.guess.is_empty();
+        let is_asked = is_chosen || !place.at.is_empty() || rate.is_some() || *live;
         if numbers.set.is_empty() && !is_asked {
             return Ok(None);
         }

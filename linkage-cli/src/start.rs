@@ -27,22 +27,50 @@ pub struct Near {
     guess: Vec<Option<f64>>,
     /// The choices of --branch, which the position has too.
     choices: Vec<Choice>,
-    /// True if all positions have a closed form.
-    pub is_closed: bool,
+    pub among: Among,
 }
 
+/// The positions of which one is near a guess.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Among {
+    /// All have a closed form.
+    Closed,
+    /// They are listed.
+    Listed,
+    /// On each branch of the groups in closed form, that which Newton's method finds from the guess of the others.
+    Found,
+}
+
+/// The most groups whose sides are tried.
+const MOST_SIDES: usize = 10;
+
 impl Near {
+    /// The guess for Newton's method.
+    pub fn guess(&self) -> Vec<f64> {
+        self.guess.iter().map(|guess| guess.unwrap_or_default()).collect()
+    }
+
+    /// The branches of the groups in closed form in words, those of --branch first; none if they are too many.
+    pub fn branches(&self, mechanism: &Mechanism) -> Option<Vec<Vec<Choice>>> {
+        let [sides, ..] = mechanism.branch_fields();
+        let free: Vec<_> =
+            sides.iter().filter(|(name, _)| self.choices.iter().all(|choice| choice.name != *name)).collect();
+        let with = |all: Vec<Vec<Choice>>, (name, words): &(&str, Vec<&str>)| {
+            let each = |branch: &Vec<Choice>| {
+                let choice = |word: &&str| Choice { name: (*name).to_owned(), word: (*word).to_owned() };
+                words.iter().map(|word| [branch.clone(), vec![choice(word)]].concat()).collect::<Vec<_>>()
+            };
+            all.iter().flat_map(each).collect()
+        };
+        (free.len() <= MOST_SIDES).then(|| free.into_iter().fold(vec![self.choices.clone()], with))
+    }
+
     /// The choices of the position that is nearest to the guess, of those with the choices of --branch; none without one.
     pub fn nearest<'p>(
         &self,
         about: &About,
-        positions: impl Iterator<Item = (&'p str, &'p Vec<f64>)>,
+        positions: impl Iterator<Item = (Vec<Choice>, &'p Vec<f64>)>,
     ) -> Option<Vec<Choice>> {
-        let positions = positions.filter_map(|(branch, unknowns)| {
-            let own: Result<Vec<Choice>, _> =
-                branch.split(", ").filter(|choice| !choice.is_empty()).map(str::parse).collect();
-            Some((own.ok()?, unknowns))
-        });
         let has = |own: &[Choice], of: &Choice| {
             own.iter().all(|one| one.name != of.name || one.word.eq_ignore_ascii_case(&of.word))
         };
@@ -77,12 +105,9 @@ impl Start {
         let needed: Vec<&str> = about.guessed.iter().map(|place| about.unknowns[*place].name.text.as_str()).collect();
         let all: Vec<&str> = about.unknowns.iter().map(|unknown| unknown.name.text.as_str()).collect();
         let is_listed = needed.is_empty() || !listed.is_empty();
-        // Without a list a guess is that of Newton's method.
-        let (kind, names) = if is_listed { ("unknown", &all) } else { ("unknown without a closed form", &needed) };
         let mut guess = vec![None; about.unknowns.len()];
         once("--guess", numbers.guess.iter().map(|guess| guess.name.as_str()))?;
         for Assignment { name: of, value } in &numbers.guess {
-            place(name, kind, of, names)?;
             let place = place(name, "unknown", of, &all)?;
             guess[place] = Some(about.unknowns[place].value(*value)?);
         }
@@ -95,14 +120,24 @@ impl Start {
         }
         let missing: Vec<usize> = about.guessed.iter().copied().filter(|place| guess[*place].is_none()).collect();
         let is_of_others = (0..all.len()).any(|place| guess[place].is_some() && !about.guessed.contains(&place));
+        let near = |among| Self::Near(Near { guess: guess.clone(), choices: numbers.branch.clone(), among });
         if is_listed && (needed.is_empty() || is_of_others) {
-            return Ok(Self::Near(Near { guess, choices: numbers.branch.clone(), is_closed: needed.is_empty() }));
+            return Ok(near(if needed.is_empty() { Among::Closed } else { Among::Listed }));
         }
         if !missing.is_empty() {
             let missing: Vec<String> = missing.iter().map(|place| format!("{}=VALUE", all[*place])).collect();
             return wrong(format!("positions of `{name}` are found from a guess: write --guess {}", missing.join(",")));
         }
+        if is_of_others {
+            return Ok(near(Among::Found));
+        }
         // The others follow from these.
         Ok(Self::Guess(guess.into_iter().map(Option::unwrap_or_default).collect()))
     }
+}
+
+/// The choices of a branch in words.
+pub fn choices(branch: &str) -> Option<Vec<Choice>> {
+    let each = branch.split(", ").filter(|choice| !choice.is_empty());
+    each.map(|choice| choice.parse().ok()).collect()
 }

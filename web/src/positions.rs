@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use linkage_interpreter::{Data, Design};
+use linkage_runtime::continuation::{AlongCoordinates, Direction, Path};
 use linkage_runtime::position::newton;
 use linkage_runtime::{Branches as _, Build as _, Column, Dim as _, Mechanism as _};
 use serde::Serialize;
 
 use crate::Refusal;
-use crate::at::{Coordinates, Inputs, Moving, inputs_of, moving, place};
+use crate::at::{Coordinates, Inputs, Moving, inputs_of, moving, one_input, place};
 use crate::machine::{Machine, prepared};
 use crate::picture::drawing;
 use crate::question::Place;
@@ -111,9 +112,9 @@ fn tried(mechanism: &Moving<'_>, input: usize, size: f64, trial: u32) -> f64 {
         (Some(least), [Some(_), None]) => least + unit * part,
         (Some(most), [None, Some(_)]) => most - unit * part,
         _ if is_angle => BEGIN + TAU * part,
-        // From half of the size, to both sides in turn.
-        _ if trial.is_multiple_of(2) => size * (0.5 + 1.5 * fraction(trial / 2, 2)),
-        _ => size * (0.5 - 2.5 * fraction(trial / 2 + 1, 2)),
+        // From half of the size up to twice the size; then below, down to less than nothing.
+        _ if trial < MOST_TRIALS / 2 => size * (0.5 + 1.5 * part),
+        _ => size * (0.5 - 2.5 * fraction(trial - MOST_TRIALS / 2 + 1, 2)),
     }
 }
 
@@ -153,10 +154,13 @@ fn at_inputs(
         )
         .fold(0.0, f64::max)
     };
+    // Within its ranges, and at no dead point or change point.
     let moves = |q: &&Coordinates| {
-        let pose = mechanism.pose_at(q);
-        mechanism.is_within_ranges(q).unwrap_or(false)
-            && mechanism.block_determinants(&pose).iter().all(|one| *one != 0.0 && one.is_finite())
+        (0..inputs.as_slice().len()).any(|place| {
+            let start = AlongCoordinates { q: **q, parameter: inputs[place] };
+            one_input(*mechanism, inputs.as_slice(), place)
+                .is_ok_and(|one| Path::new(one, &start, Direction::Increasing).is_ok())
+        })
     };
     let moving = found.iter().filter(moves).min_by(|one, other| is_far(one).total_cmp(&is_far(other)));
     Ok(moving.map(|q| (*q, true)).or_else(|| found.first().map(|q| (*q, false))))

@@ -16,10 +16,10 @@ pub struct Certify {
     /// The input that moves [default: the first]
     #[arg(long, value_name = "INPUT")]
     pub along: Option<String>,
-    /// The value at which the motion begins [default: that of --at]
+    /// The value at which the motion begins [default: that of --at; of a length: the least of its declared range]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub from: Option<Value>,
-    /// The value at which the motion ends [default of an angle: after a full turn]
+    /// The value at which the motion ends [default: after a full turn of an angle; of a length: the largest of its declared range]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub to: Option<Value>,
     /// The number of full turns; wheels are at their start again after several

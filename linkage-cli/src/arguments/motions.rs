@@ -27,17 +27,17 @@ pub struct Limits {
 pub struct Circuits {
     #[command(flatten)]
     pub numbers: Numbers,
-    /// The value of an input that is held, or of the one that moves: its positions there are listed [default: 60deg; positions
-    /// are listed over the range]
+    /// The value of an input that is held, or of the one that moves: its positions there are listed [default: the
+    /// middle of its declared range, or its only end; else 60deg. Positions are listed over the range]
     #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
     /// The input that moves [default: the first]
     #[arg(long, value_name = "INPUT")]
     pub along: Option<String>,
-    /// The least value at which positions are listed [default of an angle: 0]
+    /// The least value at which positions are listed [default: the least of its declared range; of an angle: 0]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub from: Option<Value>,
-    /// The largest value at which positions are listed [default of an angle: 360deg]
+    /// The largest value at which positions are listed [default: the largest of its declared range; of an angle: 360deg]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub to: Option<Value>,
     /// The number of values between them at which positions are listed

@@ -15,7 +15,8 @@ pub struct Simulate {
     /// The scene [default: the only one]
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
-    /// The value of an input at the start [default of an angle: 60deg, of a driven input: that of its law]
+    /// The value of an input at the start [default: the middle of its declared range, or its only end; else 60deg; of a driven
+    /// input: that of its law]
     #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
     /// The rate of an input at the start, such as 45rpm, or a plain number of radians per second [default: 0, of a driven
@@ -66,7 +67,7 @@ pub struct Equilibrium {
     /// The scene [default: the only one with `equilibrium;`]
     #[arg(long, value_name = "NAME")]
     pub scene: Option<String>,
-    /// The value of an input near which the position is [default of an angle: 60deg]
+    /// The value of an input near which the position is [default: the middle of its declared range, or its only end; else 60deg]
     #[arg(long, value_name = "INPUT=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<Assignment>,
     /// The time at which driven inputs have their values

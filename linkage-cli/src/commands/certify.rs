@@ -35,9 +35,9 @@ pub fn run(arguments: &arguments::Certify) -> Result<(), Failure> {
     let first = from.map(|value| input.value(value)).transpose()?;
     let to = arguments.to.map(|value| input.value(value)).transpose()?;
     let is_given = from.or(arguments.to).is_some() || place.at.iter().any(|at| at.name == *name);
-    // Without values and turns it goes over its declared range.
+    // A length without values goes over its declared range.
     let [first, to] = match machine.declared(moving) {
-        [Some(least), Some(most)] if !is_given && !arguments.curve => [Some(least), Some(most)],
+        [Some(least), Some(most)] if !input.is_angle && !is_given && !arguments.curve => [Some(least), Some(most)],
         _ => [first, to],
     };
     let inputs = held(&machine, &place.at, first.map(|first| (moving, first)))?;
