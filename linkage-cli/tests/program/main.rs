@@ -9,5 +9,6 @@ mod motions;
 mod numbers;
 mod pages;
 mod pictures;
+mod reports;
 mod simulations;
 mod tables;

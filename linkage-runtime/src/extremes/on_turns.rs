@@ -53,8 +53,6 @@ impl<T: Real> OnTurns<T> {
     fn nearest(&self, input: T) -> Option<&(T, Vec<T>)> {
         let after = self.known.partition_point(|(at, _)| *at < input);
         let around = self.known.get(after.saturating_sub(1)).into_iter().chain(self.known.get(after));
-        around.min_by(|(one, _), (other, _)| {
-            (*one - input).abs().partial_cmp(&(*other - input).abs()).unwrap_or(Equal)
-        })
+        around.min_by(|(one, _), (other, _)| (*one - input).abs().partial_cmp(&(*other - input).abs()).unwrap_or(Equal))
     }
 }
