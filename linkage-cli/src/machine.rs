@@ -57,14 +57,14 @@ impl Machine {
         Ok(machine)
     }
 
-    /// The mechanism of all whose positions there is something to say: none of them is chosen.
-    pub fn of_all<R>(numbers: &Numbers, result: &str, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
-        let given = [("--branch", numbers.branch.is_empty()), ("--guess", numbers.guess.is_empty())];
-        if let Some((option, _)) = given.iter().find(|(_, is_empty)| !is_empty) {
-            return Err(Failure::Argument(format!("{result} all positions: leave out {option}")));
-        }
-        let (machine, _, result) =
-            Self::begun(numbers, &[Request::Drawing], |_| Ok(None), |_, _, _| Ok(Start::Listed), f)?;
+    /// The mechanism of all whose positions there is something to say. One of them is chosen only if there is a branch or a
+    /// guess, so that none is needed.
+    pub fn of_all<R>(numbers: &Numbers, f: impl FnMut(&Lowered<'_>) -> R) -> Result<(Self, R), Failure> {
+        let start = |about: &About, mechanism: &Mechanism, numbers: &Numbers| match numbers.choose() {
+            true => Start::of(about, mechanism, numbers),
+            false => Ok(Start::Listed),
+        };
+        let (machine, _, result) = Self::begun(numbers, &[Request::Drawing], |_| Ok(None), start, f)?;
         Ok((machine, result))
     }
 
@@ -219,6 +219,11 @@ impl Machine {
     /// All positions at these inputs, each with its branch in words; or why they are not listed.
     pub fn positions(&self, inputs: &[f64]) -> Result<Vec<(String, Motion)>, String> {
         self.solver.positions(inputs)
+    }
+
+    /// The first positions at these inputs, at most so many, and how many more there may be; or why they are not listed.
+    pub fn first_positions(&self, inputs: &[f64], most: usize) -> Result<(Vec<(String, Motion)>, usize), String> {
+        self.solver.first_positions(inputs, most)
     }
 
     /// The branch in words of a position that is listed.

@@ -73,6 +73,9 @@ impl Motion {
     }
 }
 
+/// The most branches whose positions are computed for a list of some: each takes up to a millisecond.
+const MOST_BRANCHES: usize = 1024;
+
 /// A mechanism with values of its parameters, and a branch.
 #[derive(Clone)]
 pub struct Solver {
@@ -153,6 +156,45 @@ impl Solver {
             Ok((data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion))
         };
         all.list().iter().map(position).collect()
+    }
+
+    /// The first positions at these inputs, at most so many, and how many more there may be. Of few branches all positions are
+    /// listed; of many, branch after branch is assembled until there are enough.
+    pub fn first_positions(&self, inputs: &[f64], most: usize) -> Result<(Vec<(String, Motion)>, usize), String> {
+        let [sides, modes, turns] = self.design.mechanism().branch_fields();
+        let branches = u32::try_from(sides.len()).ok().and_then(|sides| 1_usize.checked_shl(sides));
+        let many = branches.filter(|branches| *branches <= MOST_BRANCHES).is_none() && modes.is_empty();
+        if self.unknowns.is_empty() || !many {
+            let mut all = self.positions(inputs)?;
+            let more = all.len().saturating_sub(most);
+            all.truncate(most);
+            return Ok((all, more));
+        }
+        let turns: Vec<&str> = turns.iter().map(|(name, _)| *name).collect();
+        let (mut found, mut first) = (Vec::new(), None);
+        let mut tried = 0;
+        // The first side changes faster than the others, as in the list of all.
+        while tried < MOST_BRANCHES && found.len() < most {
+            let chosen = sides.iter().enumerate().map(|(place, (name, words))| {
+                let second = tried.checked_shr(place as u32).unwrap_or_default() & 1;
+                (*name, words.get(second).copied().map_or(Data::Nothing, Data::from))
+            });
+            let branch = Data::fields(chosen.chain(turns.iter().map(|name| (*name, Data::Count(0)))));
+            tried += 1;
+            match self.design.call("assemble", &[Self::given(inputs), branch.clone()]) {
+                Ok(pose) => {
+                    let (unknowns, are_directions) = self.of_pose(&pose);
+                    let data = Data::fields([("branch", branch.clone()), ("pose", pose)]);
+                    let motion = Motion { inputs: inputs.to_vec(), unknowns, are_directions, data };
+                    found.push((words(&branch, &turns), motion));
+                }
+                Err(error) => _ = first.get_or_insert_with(|| error.to_string()),
+            }
+        }
+        match first.filter(|_| found.is_empty()) {
+            Some(why) => Err(why),
+            None => Ok((found, branches.unwrap_or(usize::MAX).saturating_sub(tried))),
+        }
     }
 
     /// Inputs as an argument.

@@ -2,9 +2,9 @@
 
 use linkage_interpreter::Prepared;
 use linkage_lent::Lender;
-use linkage_report::report::{Report, ReportOptions, ReportedModes};
+use linkage_report::report::{MOST_MODES, Report, ReportOptions, ReportedModes};
 use linkage_runtime::derivation::Derivation;
-use linkage_runtime::{BorrowedName, Branches as _, Column, D};
+use linkage_runtime::{BorrowedName, Branches as _, Column, D, Mechanism as _};
 
 use crate::Refusal;
 use crate::at::{Coordinates, coordinates, moving};
@@ -23,7 +23,10 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
     let q = coordinates(&mechanism, &at.place)?;
     // Each with its branch in the words of the program, not as the value in Rust.
     let listed: Vec<(String, Coordinates)> = match mechanism.all_positions(q.inputs) {
-        Ok(all) => all.map(|(branch, q)| (branch.to_string(), q)).collect(),
+        Ok(all) => {
+            let within = all.filter(|(_, q)| mechanism.is_within_ranges(q).unwrap_or(false));
+            within.take(MOST_MODES).map(|(branch, q)| (branch.to_string(), q)).collect()
+        }
         Err(_) => Vec::new(),
     };
     // The page says of a mode without a picture that it has none.
@@ -50,7 +53,11 @@ fn whole<'p>(prepared: &'p Prepared<'p>, derivation: &Derivation<'_>, at: &At) -
         unknowns: Column::from_slice(&at.place.unknowns).ok_or_else(few)?,
         inputs: Column::from_slice(&at.place.inputs).ok_or_else(few)?,
     };
-    Report::of(&mechanism, derivation, &start, &ReportOptions::default()).map_err(Refusal::new)
+    let options = ReportOptions::default();
+    Ok(Report::of(&mechanism, derivation, &start, &options).unwrap_or_else(|why| Report {
+        no_motion: Some(why.to_string()),
+        ..Report::of_circuits(&mechanism, derivation, &start, &options)
+    }))
 }
 
 fn written<N: BorrowedName>(mut report: Report<N>, listed: &[(String, Coordinates)], pictures: &[String]) -> String {

@@ -76,6 +76,8 @@ Examples:
     Limits(Limits),
     /// Find the circuits: which positions are connected by motion, through dead points and change points
     #[command(after_help = "\
+With --branch or --guess, only the circuit of that position at the first value is listed.
+
 Examples:
   linkage circuits wiper.linkage
   linkage circuits wiper.linkage --set l2=45 --at theta2=20deg --format json
@@ -105,6 +107,8 @@ Examples:
     Certify(Certify),
     /// Report mobility, all positions at one choice of inputs, circuits, and a motion with its extremes
     #[command(after_help = "\
+--branch or --guess chooses the position whose motion is followed; without them it is the first.
+
 Examples:
   linkage report wiper.linkage --at theta2=20deg
   linkage report wiper.linkage --set l2=25 -o wiper_report.html")]
@@ -284,6 +288,13 @@ pub struct Numbers {
     /// The value near which an unknown is at the first position; of positions in closed form the nearest one is taken
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', allow_hyphen_values = true)]
     pub guess: Vec<Assignment>,
+}
+
+impl Numbers {
+    /// True if a branch or a guess chooses a position.
+    pub fn choose(&self) -> bool {
+        !self.branch.is_empty() || !self.guess.is_empty()
+    }
 }
 
 /// One position.

@@ -190,7 +190,7 @@ impl Asked<'_> {
         let points = about.points.iter().flat_map(|of| ["x", "y"].map(|axis| (format!("{}_{axis}", of.text), false)));
         let angles = about.output_angles.iter().map(Option::is_some);
         let outputs = about.outputs.iter().map(|of| of.text.clone()).zip(angles);
-        let quantities = points.chain(outputs).zip(quantities);
+        let quantities: Vec<_> = points.chain(outputs).zip(quantities).collect();
         Proof {
             mechanism: about.name.clone(),
             statement,
@@ -200,10 +200,26 @@ impl Asked<'_> {
             end: None,
             dead_points: Vec::new(),
             boxes,
-            quantities: quantities.map(|((name, is_angle), of)| Bounds::of(name, of, is_angle)).collect(),
+            within_a_turn: self.within_a_turn(&quantities),
+            quantities: quantities.into_iter().map(|((name, is_angle), of)| Bounds::of(name, of, is_angle)).collect(),
             velocity_ratios: Vec::new(),
             ranges: ranges.iter().map(Range::of).collect(),
         }
+    }
+}
+
+impl Asked<'_> {
+    /// The outputs whose formula jumps in the motion, as `atan2` does: their bounds are those of one turn.
+    fn within_a_turn(&self, quantities: &[((String, bool), &Enclosure)]) -> Vec<String> {
+        let about = &self.machine.about;
+        let angles = about.outputs.iter().zip(&about.output_angles);
+        let jumps = angles.filter_map(|(output, angle)| Some((&output.text, (*angle)?.jump?)));
+        let is_cut = |name: &str, jump: f64| {
+            let mut of_name = quantities.iter().filter(|((other, _), _)| other == name);
+            // From pi to -pi, each rounded.
+            of_name.any(|(_, of)| of.largest.most() - of.least.least() >= jump * (1.0 - 4.0 * f64::EPSILON))
+        };
+        jumps.filter(|(name, jump)| is_cut(name, *jump)).map(|(name, _)| name.clone()).collect()
     }
 }
 
@@ -222,6 +238,8 @@ struct Proof {
     /// Those of a curve.
     dead_points: Vec<DeadPoint>,
     boxes: usize,
+    /// The outputs whose bounds are those of one turn, since their formula jumps.
+    within_a_turn: Vec<String>,
     quantities: Vec<Bounds>,
     velocity_ratios: Vec<Bounds>,
     ranges: Vec<Range>,
@@ -326,6 +344,9 @@ impl Proof {
             let rows = self.quantities.iter().chain(&self.velocity_ratios).map(Bounds::row);
             text += "\n";
             text += &aligned(std::iter::once(head).chain(rows).collect());
+            text.extend(self.within_a_turn.iter().map(|name| {
+                format!("{name} is an angle whose formula jumps by a turn: these are bounds of one turn; `linkage report` says by how much it turns\n")
+            }));
         }
         text
     }

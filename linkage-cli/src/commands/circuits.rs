@@ -38,7 +38,7 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     let arguments::Circuits { numbers, at, along, output, .. } = arguments;
     let of_ending = form(output, "a list of circuits", &FORMS)?.map(|place| FORMATS[place]);
     let format = arguments.format.or(of_ending).unwrap_or(CircuitsFormat::Text);
-    let (machine, ()) = &Machine::of_all(numbers, "circuits have", |_| ())?;
+    let (machine, ()) = &Machine::of_all(numbers, |_| ())?;
     let charted = charted(machine, &arguments.chart, format)?;
     let moving = moving(machine, along.as_deref())?;
     let starts = starts(machine, moving, arguments)?;
@@ -67,6 +67,7 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     if found.modes.is_empty() {
         return Err(Failure::Outside(none(machine, &inputs, starts.len())));
     }
+    let found = if numbers.choose() { circuit_of_chosen(machine, &inputs, moving, found)? } else { found };
     let list = Circuits::of(machine, &inputs, moving, &found)?;
     let charts = charted.iter().map(|unknown| {
         let chart = CircuitChart::of(&mechanism, &found, unknown).map_err(undrawn)?;
@@ -102,6 +103,38 @@ fn charted<'m>(machine: &'m Machine, asked: &[String], format: CircuitsFormat) -
         }
         (_, _) => Ok(asked),
     }
+}
+
+/// The circuit of the position that the branch or the guess chooses at the first value that has one.
+fn circuit_of_chosen<'p>(
+    machine: &Machine,
+    inputs: &[f64],
+    moving: usize,
+    found: Found<'p>,
+) -> Result<Found<'p>, Failure> {
+    let (still, mut why) = (vec![0.0; inputs.len()], None);
+    let chosen = found.modes.iter().map(|mode| mode.position.parameter).find_map(|value| {
+        let mut here = inputs.to_vec();
+        here[moving] = value;
+        match machine.place(&here, &still) {
+            Ok(unknowns) => Some((value, unknowns)),
+            Err(error) => {
+                why.get_or_insert(error);
+                None
+            }
+        }
+    });
+    let Some((value, unknowns)) = chosen else { return Err(Failure::Outside(why.unwrap_or_default())) };
+    let off = |mode: &circuits::CircuitMode<At, BranchAtRunTime<'p>>| {
+        let listed = OneInput::unknowns(&mode.position);
+        let each = listed.iter().zip(&unknowns).zip(&machine.about.unknowns);
+        each.map(|((one, other), of)| if of.is_angle { ((one - other) / 2.0).sin() } else { one - other })
+            .fold(0.0, |most: f64, off| most.max(off.abs()))
+    };
+    let there = found.modes.iter().filter(|mode| mode.position.parameter == value);
+    let nearest = there.min_by(|one, other| off(one).total_cmp(&off(other)));
+    let circuit = nearest.and_then(|mode| found.circuit_of(mode.motion)).unwrap_or_default();
+    Ok(found.only(circuit))
 }
 
 /// The reason why there is no position.

@@ -15,11 +15,8 @@ use crate::one_input::{coordinates, one_input, prepared};
 pub fn run(arguments: &arguments::Limits) -> Result<(), Failure> {
     let arguments::Limits { numbers, place, along, form } = arguments;
     let format = form.format("a list of limits")?;
-    let is_chosen = !numbers.branch.is_empty() || !numbers.guess.is_empty();
-    let machine = match is_chosen {
-        true => Machine::of(numbers)?,
-        false => Machine::of_all(numbers, "limits have", |_| ())?.0,
-    };
+    let is_chosen = numbers.choose();
+    let (machine, ()) = Machine::of_all(numbers, |_| ())?;
     let moving = moving(&machine, along.as_deref())?;
     let inputs = held(&machine, &place.at, None)?;
     let all = match is_chosen {

@@ -52,6 +52,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     if let Some(failure) = prepared.failure() {
         return Err(Failure::Outside(failure.to_string()));
     }
+    let table = with_turns(&machine, table)?;
     let (marks, ended) = (table.marks().to_vec(), ended(&simulation, &table, to));
     let incomplete = if ended.is_none() { incomplete(&table) } else { None };
     let digits = arguments.shown.digits.or((format == SimulationFormat::Text).then_some(FOR_READERS));
@@ -119,6 +120,14 @@ fn times(arguments: &arguments::Simulate) -> Result<[f64; 2], Failure> {
         true => Err(Failure::Argument("--from and --to are equal".to_owned())),
         false => Ok([from, to]),
     }
+}
+
+/// The table with outputs that go on where their formulas jump.
+fn with_turns(machine: &Machine, table: Table) -> Result<Table, Failure> {
+    let jumps = machine.about.outputs.iter().zip(&machine.about.output_angles);
+    let mut jumps = jumps.filter_map(|(output, angle)| Some((&output.text, (*angle)?.jump?)));
+    let found = jumps.try_fold(table, |table, (name, jump)| table.on_turns(name, jump));
+    found.map_err(|error| Failure::Argument(error.to_string()))
 }
 
 /// The error of a motion; that of damaged code if there is one.

@@ -9,6 +9,7 @@ mod motions;
 mod numbers;
 mod pages;
 mod pictures;
+mod reports;
 mod simulations;
 mod tables;
 mod turns;

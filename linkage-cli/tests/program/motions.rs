@@ -192,8 +192,7 @@ fn circuits_have_charts() {
 fn wrong_arguments_of_motions() {
     let folder = folder();
     for (arguments, code, message) in [
-        ("circuits four.linkage --branch phi_psi=left", 2, "circuits have all positions: leave out --branch"),
-        ("circuits odd.linkage --guess s=1", 2, "circuits have all positions: leave out --guess"),
+        ("circuits four.linkage --guess phi=1", 2, "positions of `FourBar` need no guess: choose one by --branch"),
         (
             "circuits four.linkage --at theta=1 --from 0",
             2,

@@ -38,8 +38,9 @@ pub(super) fn dwells<E>(
     let mut parts: Vec<[f64; 2]> = Vec::new();
     let mut begin = None;
     let mut before: Option<(f64, f64)> = None;
-    // It rests where it turns, however short that is.
-    let turned = course.turning_points.iter().map(|place| (place.input, 0.0));
+    // It rests where it turns, however short that is; not at a kink.
+    let turned: Vec<(f64, f64)> =
+        course.turning_points.iter().map(|place| (place.input, rate_at(place.input).unwrap_or(0.0))).collect();
     let mut rates: Vec<(f64, f64)> =
         course.samples.iter().map(|(input, motion)| (*input, motion.rate)).chain(turned).collect();
     rates.sort_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -82,8 +83,10 @@ pub(super) fn dwells<E>(
 fn dwell(course: &Course, [from, to]: [f64; 2], length: f64) -> Dwell {
     let sampled = course.samples.iter().map(|(input, motion)| (*input, motion.value));
     let turned = course.turning_points.iter().chain(&course.ends).map(|place| (place.input, place.value));
-    let within = |input: f64| (from <= input && input <= to) || (from <= input + length && input + length <= to);
-    let inside = sampled.chain(turned).filter(|(input, _)| within(*input));
+    // An angle that turns is farther by its turns a cycle later.
+    let [first, last] = course.ends.map(|end| end.value);
+    let both = |(input, value): (f64, f64)| [(input, value), (input + length, value + (last - first))];
+    let inside = sampled.chain(turned).flat_map(both).filter(|(input, _)| from <= *input && *input <= to);
     let values = inside
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], (_, value)| [least.min(value), most.max(value)]);
     Dwell { from, to, share: (to - from) / length, values }

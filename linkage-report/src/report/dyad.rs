@@ -8,6 +8,7 @@ use linkage_runtime::derivation::GroupForm;
 use linkage_runtime::{OutputMotion, Real};
 
 use super::local::{Local, Vector};
+use super::output_angles::has_name;
 
 /// The kind of a dyad, with R for a joint that turns and P for one that slides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,10 +72,32 @@ impl Dyad {
             found.next()
         };
         let of_group = |group: usize| {
+            if Self::is_cylinder(local, group) {
+                return None;
+            }
             let dyad = Self::of(local, group).map(|dyad| (vec![group], dyad));
             dyad.or_else(|| sliders(group))
         };
         groups.clone().filter_map(of_group).collect()
+    }
+
+    /// True for a length along a line through a pivot, whose angle is in no other equation and in no output: a cylinder. Its
+    /// angle with the normal of its own line is 90 degrees everywhere, and no force is transmitted across it.
+    pub(super) fn is_cylinder(local: &Local<'_>, group: usize) -> bool {
+        let (&[first, second], &[one, other]) = (local.equations(group), local.unknowns(group)) else { return false };
+        if local.form(group) != Some(GroupForm::AngleAndTurningLength) {
+            return false;
+        }
+        let (angle, length) = if local.is_angle(one) { (one, other) } else { (other, one) };
+        let [arm, line] = [angle, length].map(|unknown| local.column(unknown, [first, second]));
+        // The sum of the two products of the scalar one has an error of some ulps.
+        let is_through_pivot = dot(arm, line).abs() <= 8.0 * f64::EPSILON * (dot(arm, arm) * dot(line, line)).sqrt();
+        let derivation = local.derivation;
+        let Some(symbol) = derivation.unknowns.get(angle) else { return false };
+        let mut entries = derivation.jacobian_unknowns.entries.iter();
+        let is_used = entries.any(|entry| entry.column == angle && entry.row != first && entry.row != second)
+            || derivation.outputs.iter().flat_map(|output| output.value).any(|of| has_name(of.right, symbol.name));
+        is_through_pivot && !is_used
     }
 
     /// The dyad of a link and a slider, each solved alone from one row of a loop.

@@ -76,6 +76,21 @@ impl<'a> Local<'a> {
         rows.map(|row| self.jacobian.get(row * count + unknown).copied().unwrap_or(f64::NAN))
     }
 
+    /// Unknowns, of which a length is 0 where it is zero up to rounding errors of the lengths in its equations.
+    pub(super) fn rounded(&self, unknowns: &[f64]) -> Vec<f64> {
+        let (count, all) = (self.derivation.unknowns.len(), unknowns.iter().copied());
+        let round = |(place, value): (usize, f64)| {
+            let group = self.groups.iter().find(|[_, unknowns]| unknowns.contains(&place));
+            let rows = group.into_iter().flat_map(|[equations, _]| equations);
+            // The column of the angle of a link is as long as the link.
+            let entries = rows.flat_map(|row| self.jacobian.iter().skip(row * count).take(count).enumerate());
+            let lengths = entries.filter(|(column, _)| self.is_angle(*column)).map(|(_, entry)| entry.abs());
+            let scale = lengths.fold(0.0, f64::max);
+            if !self.is_angle(place) && value.abs() <= 16.0 * f64::EPSILON * scale { 0.0 } else { value }
+        };
+        all.enumerate().map(round).collect()
+    }
+
     /// The rates at which one coordinate moves with rate 1; unknowns come before inputs.
     pub(super) fn unit(&self, coordinate: usize) -> Vec<f64> {
         let count = self.derivation.unknowns.len() + self.derivation.inputs.len();

@@ -34,6 +34,7 @@ mod mobility;
 mod modes;
 mod motion;
 mod options;
+mod output_angles;
 mod page;
 pub(crate) mod prose;
 mod strokes;
@@ -50,7 +51,7 @@ pub use dyad::DyadKind;
 pub use four_bar::{FourBarLoop, GrashofClass};
 pub use local::Local;
 pub use mobility::{LinksAndJoints, Mobility};
-pub use modes::{ListedMode, ListedMotion, Modes, SingularInput};
+pub use modes::{ListedMode, ListedMotion, MOST_MODES, Modes, SingularInput};
 pub use motion::{MotionReport, NearMissInput, QuantityReport};
 pub use options::{DwellOptions, ReportOptions};
 pub use strokes::Stroke;
@@ -75,7 +76,8 @@ pub struct Report<N: BorrowedName = &'static str> {
     /// One motion from end to end; none for a mechanism with several inputs, which has as many motions as paths of its
     /// inputs.
     pub motion: Option<MotionReport<N>>,
-    /// The reason why a report of data follows no motion, where one is known.
+    /// The reason why the report follows no motion, where one is known; of a report with one, why it follows none from the
+    /// modes before.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub no_motion: Option<String>,
 }
@@ -116,6 +118,7 @@ impl Report {
         if let ReportedModes::Listed(modes) = &mut modes {
             for (mode, local) in modes.modes.iter_mut().zip(at_modes) {
                 mode.transmission = transmission::at(local);
+                mode.unknowns = local.rounded(&mode.unknowns);
             }
         }
         let of_loop = |local: &Local<'_>| {
@@ -216,6 +219,21 @@ impl<N: BorrowedName> Report<N> {
         Self::without_motion(mechanism, derivation, modes)
     }
 
+    /// The report of a mechanism with one input, with its modes and circuits at the input of a position, without a motion.
+    pub fn of_circuits<M>(
+        mechanism: &M,
+        derivation: &Derivation<'_>,
+        start: &M::Coordinates,
+        options: &ReportOptions,
+    ) -> Self
+    where
+        M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
+    {
+        let modes = Modes::of(mechanism, derivation, start, options.circuits);
+        let modes = modes.map_or_else(ReportedModes::Failed, ReportedModes::Listed);
+        Self::without_motion(mechanism, derivation, modes)
+    }
+
     fn with_modes<M>(
         range: &RangeOfMotion<'_, M>,
         derivation: &Derivation<'_>,
@@ -225,10 +243,12 @@ impl<N: BorrowedName> Report<N> {
     where
         M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
     {
-        let modes = Modes::of(range.mechanism(), derivation, start, options.circuits);
-        let modes = modes.map_or_else(ReportedModes::Failed, ReportedModes::Listed);
-        let motion = MotionReport::of(range, derivation, M::inputs(start)[0], options)?;
-        Ok(Self { motion: Some(motion), ..Self::without_motion(range.mechanism(), derivation, modes) })
+        let report = Self::of_circuits(range.mechanism(), derivation, start, options);
+        // Its modes and circuits are known where a quantity along the motion is not.
+        Ok(match MotionReport::of(range, derivation, M::inputs(start)[0], options) {
+            Ok(motion) => Self { motion: Some(motion), ..report },
+            Err(error) => Self { no_motion: Some(error.to_string()), ..report },
+        })
     }
 
     fn without_motion<M>(mechanism: &M, derivation: &Derivation<'_>, modes: ReportedModes<N>) -> Self

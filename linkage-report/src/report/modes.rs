@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use linkage_runtime::circuits::{CircuitError, CircuitOptions, Circuits, CurveEnd, CurveEvent, MotionCurve};
 use linkage_runtime::derivation::Derivation;
-use linkage_runtime::{BorrowedName, Branches, D, Kinematic, Mechanism};
+use linkage_runtime::{BorrowedName, Branches, D, Kinematic, Mechanism, PositionError};
 
 use super::local::Local;
 use super::transmission;
@@ -15,14 +15,18 @@ use super::transmission;
 pub struct Modes {
     /// The inputs at which the modes are listed.
     pub inputs: Vec<f64>,
-    /// The modes: all positions at these inputs.
+    /// The modes: the positions at these inputs in the declared ranges, at most [`MOST_MODES`].
     pub modes: Vec<ListedMode>,
-    /// The motions through the modes; none with several inputs.
+    /// The motions through the modes, at most 16; none with several inputs.
     pub motions: Vec<ListedMotion>,
     /// The motions of each circuit, by index: those that can be reached from each other without taking the mechanism apart.
     pub circuits: Vec<Vec<usize>>,
     /// The mode from which the motion of the report is followed, by index.
     pub followed: Option<usize>,
+    /// The number of further modes, which are not listed; the largest that is possible, if they are not counted.
+    pub left_out: usize,
+    /// Why the motion of a mode is not followed, if one cannot be.
+    pub not_followed: Option<String>,
 }
 
 /// A position at the inputs of the list.
@@ -33,7 +37,7 @@ pub struct ListedMode {
     pub branch: String,
     /// The unknowns, in the order of their names.
     pub unknowns: Vec<f64>,
-    /// Its motion, by index.
+    /// Its motion, by index; none if it is not followed.
     pub motion: Option<usize>,
     /// The transmission angle of each dyad, with the unknowns of the dyad, in a report of a motion or of data.
     pub transmission: Vec<(String, f64)>,
@@ -65,11 +69,18 @@ pub struct SingularInput {
     pub groups: Vec<String>,
 }
 
+/// The most modes that a report lists, and the most motions through them that it follows: a chain of n dyads has 2^n.
+pub const MOST_MODES: usize = 64;
+const MOST_MOTIONS: usize = 16;
+
+/// The positions of a mechanism in the ranges that it declares, and whether there are more than are listed.
+type Listing<M> = (Vec<(<M as Mechanism>::Branch, <M as Mechanism>::Coordinates)>, usize);
+
 impl Modes {
     /// The modes and circuits at the input of a position.
     ///
     /// # Errors
-    /// Those of [`Circuits::of`].
+    /// [`CircuitError::Position`].
     pub(super) fn of<M>(
         mechanism: &M,
         derivation: &Derivation<'_>,
@@ -79,19 +90,34 @@ impl Modes {
     where
         M: Kinematic<Scalar = f64, V = D<1>> + Branches,
     {
-        let input = M::inputs(start)[0];
-        let circuits = Circuits::of(mechanism, input, options)?;
-        let positions = circuits.modes.iter().map(|mode| mode.position);
-        let followed = nearest(mechanism, positions, start);
-        let modes = circuits.modes.iter().map(|mode| ListedMode {
-            branch: format!("{:?}", mode.branch),
-            unknowns: M::unknowns(&mode.position).as_slice().to_vec(),
-            motion: Some(mode.motion),
-            transmission: transmission::at(&Local::of(mechanism, derivation, &mode.position)),
+        let (listed, left_out) = listing(mechanism, start)?;
+        let (circuits, motions, error) = Circuits::of_some(mechanism, &listed, MOST_MOTIONS, options);
+        let followed = nearest(mechanism, listed.iter().map(|(_, position)| *position), start);
+        let modes = listed.iter().zip(motions).map(|((branch, position), motion)| {
+            let local = Local::of(mechanism, derivation, position);
+            ListedMode {
+                branch: format!("{branch:?}"),
+                unknowns: local.rounded(M::unknowns(position).as_slice()),
+                motion,
+                transmission: transmission::at(&local),
+            }
         });
         let modes = modes.collect();
-        let motions = circuits.motions.iter().map(listed).collect();
-        Ok(Self { inputs: vec![input], modes, motions, circuits: circuits.circuits, followed })
+        let motions = circuits.motions.iter().map(curve).collect();
+        Ok(Self {
+            inputs: vec![M::inputs(start)[0]],
+            modes,
+            motions,
+            circuits: circuits.circuits,
+            followed,
+            left_out,
+            not_followed: error.map(|error| match error {
+                CircuitError::Path { mode, error } => {
+                    format!("that of mode {} is not followed, since {error}", mode + 1)
+                }
+                other => other.to_string(),
+            }),
+        })
     }
 
     /// The modes at the inputs of a position, without circuits.
@@ -102,8 +128,7 @@ impl Modes {
     where
         M: Branches<Scalar = f64>,
     {
-        let inputs = M::inputs(start);
-        let all: Vec<_> = mechanism.all_positions(inputs.into())?.collect();
+        let (all, left_out) = listing(mechanism, start)?;
         let followed = nearest(mechanism, all.iter().map(|(_, position)| *position), start);
         let modes = all.iter().map(|(branch, position)| ListedMode {
             branch: format!("{branch:?}"),
@@ -111,8 +136,22 @@ impl Modes {
             motion: None,
             transmission: Vec::new(),
         });
-        let inputs = inputs.as_slice().to_vec();
-        Ok(Self { inputs, modes: modes.collect(), motions: Vec::new(), circuits: Vec::new(), followed })
+        let inputs = M::inputs(start).as_slice().to_vec();
+        Ok(Self { modes: modes.collect(), followed, left_out, ..Self::only(inputs, Vec::new()) })
+    }
+
+    /// Modes at these inputs, without motions.
+    #[must_use]
+    pub fn only(inputs: Vec<f64>, modes: Vec<ListedMode>) -> Self {
+        Self {
+            inputs,
+            modes,
+            motions: Vec::new(),
+            circuits: Vec::new(),
+            followed: None,
+            left_out: 0,
+            not_followed: None,
+        }
     }
 
     /// The circuit of the mode from which the motion is followed, by index.
@@ -123,7 +162,7 @@ impl Modes {
     }
 }
 
-fn listed<Q: Copy, N: BorrowedName>(motion: &MotionCurve<Q, f64, N>) -> ListedMotion {
+fn curve<Q: Copy, N: BorrowedName>(motion: &MotionCurve<Q, f64, N>) -> ListedMotion {
     let singular = |input: f64, event: Option<CurveEvent<N>>| {
         let group = match event {
             Some(CurveEvent::DeadPoint { group } | CurveEvent::ChangePoint { group }) => vec![group.to_string()],
@@ -138,6 +177,24 @@ fn listed<Q: Copy, N: BorrowedName>(motion: &MotionCurve<Q, f64, N>) -> ListedMo
         dead_points: motion.dead_points().map(|at| singular(at.point.input, at.point.event)).collect(),
         change_points: motion.change_points().map(|at| singular(at.point.input, at.point.event)).collect(),
     }
+}
+
+/// The first positions at the inputs of another, and how many more there are.
+fn listing<M: Branches<Scalar = f64>>(
+    mechanism: &M,
+    start: &M::Coordinates,
+) -> Result<Listing<M>, CircuitError<M::Name>> {
+    let (mut listed, mut more) = (Vec::new(), 0);
+    for (branch, position) in mechanism.all_positions(M::inputs(start).into())? {
+        if !mechanism.is_within_ranges(&position).map_err(PositionError::from)? {
+            continue;
+        }
+        match listed.len() < MOST_MODES {
+            true => listed.push((branch, position)),
+            false => more += 1,
+        }
+    }
+    Ok((listed, more))
 }
 
 /// The position nearest to another, by index, whole turns of angles aside.

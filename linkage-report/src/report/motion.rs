@@ -2,11 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use linkage_runtime::derivation::{Derivation, Formula, FormulaView, notation::Name};
-use linkage_runtime::extremes::{Course, Extremes, courses};
+use linkage_runtime::derivation::Derivation;
+use linkage_runtime::extremes::{Course, Extreme, Extremes, courses_on_turns};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion};
-use linkage_runtime::{BorrowedName, D, Dim, Kinematic, Mechanism, OutputMotion, PathError, PathErrorOf};
+use linkage_runtime::{BorrowedName, D, Dim, Kinematic, OutputMotion, PathError, PathErrorOf, PositionError};
 
 use super::dwells::{Dwell, dwells};
 use super::dyad::Dyad;
@@ -14,6 +14,7 @@ use super::four_bar::{self, FourBarLoop};
 use super::local::{Local, listed};
 use super::modes::SingularInput;
 use super::options::ReportOptions;
+use super::output_angles::of_output;
 use super::strokes::{Stroke, strokes, time_ratio};
 use super::transmission::{NoTransmission, Transmission};
 
@@ -75,13 +76,31 @@ pub struct QuantityReport {
     pub dwells: Vec<Dwell>,
     /// Inputs and values along the motion, for a curve.
     pub curve: Vec<[f64; 2]>,
+    /// The values at both ends.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) ends: [Extreme; 2],
+    /// As that of a course.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(super) resolution: (f64, Vec<(f64, f64)>),
 }
 
+/// Values that differ by no more than this many times what rounding errors change in them are the same.
+pub(super) const SAME: f64 = 16.0;
+
 impl QuantityReport {
-    /// The whole turns from the least input to the largest; none of a length.
-    pub(super) fn turns(&self) -> Option<f64> {
-        let ([_, from], [_, to]) = (self.curve.first()?, self.curve.last()?);
-        self.is_angle.then(|| ((to - from) / TAU).round())
+    /// What it turns by each time a motion closes: an angle that moves in one direction, or by whole turns.
+    pub(super) fn turned(&self) -> Option<f64> {
+        let [from, to] = self.ends;
+        let turned = to.value - from.value;
+        let error = SAME * (self.resolution_at(from.input) + self.resolution_at(to.input));
+        let is_whole = (turned - (turned / TAU).round() * TAU).abs() <= error;
+        (self.is_angle && turned.abs() > error && (is_whole || self.strokes.is_empty())).then_some(turned)
+    }
+
+    /// What rounding errors change in its value at an input.
+    pub(super) fn resolution_at(&self, input: f64) -> f64 {
+        let (between, singular) = &self.resolution;
+        singular.iter().find(|(at, _)| *at == input).map_or(*between, |(_, change)| change.max(*between))
     }
 }
 
@@ -104,7 +123,8 @@ impl<N: BorrowedName> MotionReport<N> {
             all.extend(dyads.iter().map(|(_, dyad)| dyad.angle(&local, &rates)));
             all
         };
-        let all = courses(range, quantities)?;
+        let jumps = derivation.outputs.iter().map(|output| of_output(m, output.value)?.jump);
+        let all = courses_on_turns(range, jumps, quantities)?;
         let (named, of_dyads) = all.split_at(all.len() - dyads.len());
         let mut reports = Vec::new();
         let outputs = named.len() - m.dims().0.count();
@@ -114,15 +134,20 @@ impl<N: BorrowedName> MotionReport<N> {
         let name = |place: usize| m.group(place).map(|group| group.name.to_string()).unwrap_or_default();
         let transmission = dyads.iter().zip(of_dyads);
         let is_dyad = |group: &usize| dyads.iter().any(|(groups, _)| groups.contains(group));
-        let kind = |group: usize| derivation.groups.get(group).map(|group| group.kind).unwrap_or_default();
+        let kind = |group: usize| match Dyad::is_cylinder(&local, group) {
+            true => CYLINDER.to_owned(),
+            false => derivation.groups.get(group).map(|group| group.kind.to_owned()).unwrap_or_default(),
+        };
         let without = (0..m.groups().count())
             .filter(|group| !is_dyad(group))
-            .map(|group| NoTransmission { group: name(group), kind: kind(group).to_owned() });
+            .map(|group| NoTransmission { group: name(group), kind: kind(group) });
         let singular = range.crossings().map(|crossing| SingularInput {
             input: crossing.input,
             groups: crossing.groups.iter().map(|group| group.to_string()).collect(),
         });
         let ends = range.inputs();
+        let dead =
+            |groups: &[usize]| singular_inputs(range, &groups.iter().map(|&group| name(group)).collect::<Vec<_>>());
         Ok(Self {
             start,
             range: ends,
@@ -136,7 +161,7 @@ impl<N: BorrowedName> MotionReport<N> {
             transmission: transmission
                 .map(|((groups, dyad), course)| {
                     let names = groups.iter().map(|&group| name(group)).collect::<Vec<_>>();
-                    Transmission::of(&names.join(", "), dyad, course)
+                    Transmission::of(&names.join(", "), dyad, course, &dead(groups))
                 })
                 .collect(),
             without_transmission: without.collect(),
@@ -149,6 +174,24 @@ impl<N: BorrowedName> MotionReport<N> {
     pub fn is_closed(&self) -> bool {
         matches!(self.ends[1], MotionEnd::Closed { .. })
     }
+}
+
+/// The reason why a cylinder has no transmission angle.
+const CYLINDER: &str = "it is a cylinder, or a slot through its own pivot, and nothing follows from its angle";
+
+/// The inputs at which one of these groups is singular.
+fn singular_inputs<M>(range: &RangeOfMotion<'_, M>, groups: &[String]) -> Vec<f64>
+where
+    M: Kinematic<Scalar = f64, V = D<1>>,
+{
+    let is_one = |name: M::Name| groups.contains(&name.to_string());
+    let ends = range.ends().into_iter().zip(range.inputs()).filter(|(end, _)| match end {
+        MotionEnd::DeadPoint { group } => is_one(*group),
+        MotionEnd::ChangePoint { groups } => groups.iter().any(is_one),
+        _ => false,
+    });
+    let crossings = range.crossings().filter(|crossing| crossing.groups.iter().any(is_one));
+    ends.map(|(_, input)| input).chain(crossings.map(|crossing| crossing.input)).collect()
 }
 
 /// The outputs, then the unknowns, with their derivatives.
@@ -178,13 +221,25 @@ where
 {
     let m = range.mechanism();
     let (name, is_angle) = match place.checked_sub(outputs) {
-        None => (m.output_name(place), derivation.outputs.get(place).is_some_and(|output| is_angle(m, output.value))),
+        None => {
+            (m.output_name(place), derivation.outputs.get(place).is_some_and(|of| of_output(m, of.value).is_some()))
+        }
         Some(unknown) => (m.unknown_name(unknown), m.unknown_angles().get(unknown) == Some(&true)),
     };
     let is_closed = range.is_closed();
-    let rate = |input| {
-        let all = quantities::<M>(&range.motion(input, 1.0, 0.0)?);
-        Ok::<_, PathErrorOf<M>>(all.get(place).map_or(f64::NAN, |quantity| quantity.rate))
+    let motion = |input| range.motion(input, 1.0, 0.0);
+    let rate = |input: f64| {
+        let found = match motion(input) {
+            // At a kink that after it.
+            Err(PathError::Position(PositionError::NotFinite { .. })) => motion(
+                input
+                    + 4.0
+                        * f64::EPSILON
+                        * range.inputs().into_iter().fold(input.abs(), |size, end| size.max(end.abs())),
+            ),
+            found => found,
+        };
+        Ok::<_, PathErrorOf<M>>(quantities::<M>(&found?).get(place).map_or(f64::NAN, |quantity| quantity.rate))
     };
     let dwells = dwells(course, is_closed, options.dwell, rate)?;
     let strokes = strokes(course, is_closed);
@@ -202,20 +257,7 @@ where
         strokes,
         dwells,
         curve,
-    })
-}
-
-/// True if a formula is an angle of the mechanism, or a sum with one.
-fn is_angle<M: Mechanism>(mechanism: &M, value: &[linkage_runtime::derivation::Equation<'_>]) -> bool {
-    let is_coordinate = |formula: Formula<'_>| match formula.view() {
-        FormulaView::Name(Name::Plain(name)) => {
-            let mut are_angles = mechanism.unknown_angles().iter().chain(mechanism.input_angles()).enumerate();
-            are_angles.any(|(column, is_angle)| *is_angle && mechanism.coordinate_name(column).to_string() == name)
-        }
-        _ => false,
-    };
-    value.iter().all(|equation| match equation.right.view() {
-        FormulaView::Sum(terms) => terms.iter().any(|(_, term)| is_coordinate(term)),
-        _ => is_coordinate(equation.right),
+        ends: course.ends,
+        resolution: course.resolution.clone(),
     })
 }

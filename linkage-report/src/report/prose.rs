@@ -3,10 +3,11 @@
 use std::fmt;
 
 use linkage_runtime::circuits::CurveEnd;
-use linkage_runtime::extremes::Extremes;
+use linkage_runtime::extremes::{Extreme, Extremes};
 use linkage_runtime::range_of_motion::MotionEnd;
 use linkage_runtime::{BorrowedName, RangeEnd};
 
+use super::motion::SAME;
 use super::{
     DyadKind, FourBarLoop, GrashofClass, ListedMode, ListedMotion, Mobility, Modes, MotionReport, QuantityReport,
     Report, ReportedModes, SingularInput, Transmission,
@@ -62,7 +63,9 @@ pub(super) fn sections<N: BorrowedName>(report: &Report<N>) -> Vec<Section> {
             sections.push(section("Motion", vec![why]));
         }
         Some(motion) => {
-            sections.push(section("Motion", writer.motion(motion)));
+            let passed_over =
+                report.no_motion.iter().map(|why| format!("No motion is followed from the modes before: {why}."));
+            sections.push(section("Motion", writer.motion(motion).into_iter().chain(passed_over).collect()));
             sections.push(section(CLASS, writer.classes(&motion.four_bars)));
             sections.push(section("Transmission angles", writer.transmission(motion)));
             let (outputs, unknowns) = motion.quantities.iter().partition::<Vec<_>, _>(|quantity| quantity.is_output);
@@ -157,7 +160,10 @@ impl<N: BorrowedName> Writer<'_, N> {
     fn listed(&self, modes: &Modes) -> Vec<String> {
         let inputs = self.report.inputs.iter().zip(&modes.inputs);
         let at = list_of(inputs.map(|(input, &value)| format!("{} = {}", input.name, written(value, input.is_angle))));
-        let count = modes.modes.len();
+        let (count, left_out) = (modes.modes.len(), modes.left_out);
+        if count == 0 {
+            return vec![format!("At {at} there is no mode in the declared ranges.")];
+        }
         let are = if count == 1 { "is" } else { "are" };
         let on = match modes.motions.len() {
             0 => String::new(),
@@ -169,6 +175,20 @@ impl<N: BorrowedName> Writer<'_, N> {
             ),
         };
         let mut paragraphs = vec![format!("At {at} there {are} {}{on}.", counted(count, "mode", "modes"))];
+        if left_out > 0 {
+            paragraphs[0] = format!(
+                "At {at} the first {} are listed{on}; up to {left_out} more are left out.",
+                counted(count, "mode", "modes")
+            );
+        }
+        let not_followed = modes.modes.iter().filter(|mode| mode.motion.is_none()).count();
+        if !modes.motions.is_empty() && not_followed > 0 && modes.not_followed.is_none() {
+            paragraphs.push(format!(
+                "The motions through {} of them are not followed.",
+                if not_followed == 1 { "one".to_owned() } else { not_followed.to_string() }
+            ));
+        }
+        paragraphs.extend(modes.not_followed.iter().map(|why| format!("Not all motions are known: {why}.")));
         paragraphs.extend(modes.modes.iter().zip(1..).map(|(mode, number)| self.mode(mode, number)));
         let followed = modes.followed.and_then(|mode| modes.modes.get(mode)?.motion);
         for (place, circuit) in modes.circuits.iter().enumerate() {
@@ -213,18 +233,20 @@ impl<N: BorrowedName> Writer<'_, N> {
             CurveEnd::Limits => format!("{input} goes {} and ends at limits of its range", self.between(motion.range)),
             CurveEnd::Open => format!("the motion does not close {}", self.between(motion.range)),
         };
-        let dead = self.singular(&motion.dead_points, ["dead point", "dead points"]);
-        let change = self.singular(&motion.change_points, ["change point", "change points"]);
+        // Where it turns fully all turns are the same; else inputs are in the range that is written.
+        let at = |input: f64| if motion.full_turns != 0 { self.at(input) } else { self.exactly(input) };
+        let dead = self.singular(&motion.dead_points, ["dead point", "dead points"], at);
+        let change = self.singular(&motion.change_points, ["change point", "change points"], at);
         let sentence = capital(&way);
         format!("{sentence}; {dead}, {change}.")
     }
 
     /// "2 dead points, at theta = 30° (phi, psi) and 120° (phi, psi)", or "no dead point".
-    fn singular(&self, all: &[SingularInput], [one, several]: [&str; 2]) -> String {
+    fn singular(&self, all: &[SingularInput], [one, several]: [&str; 2], at: impl Fn(f64) -> String) -> String {
         if all.is_empty() {
             return format!("no {one}");
         }
-        let places = all.iter().map(|at| format!("{} ({})", self.at(at.input), at.groups.join("; ")));
+        let places = all.iter().map(|of| format!("{} ({})", at(of.input), of.groups.join("; ")));
         format!("{} at {} = {}", counted(all.len(), one, several), self.input, list_of(places))
     }
 
@@ -249,7 +271,7 @@ impl<N: BorrowedName> Writer<'_, N> {
                 )
             }
         }];
-        let crossings = self.singular(&motion.change_points, ["change point", "change points"]);
+        let crossings = self.singular(&motion.change_points, ["change point", "change points"], |input| self.at(input));
         let near = motion.near_misses.iter().map(|miss| {
             format!("{} (at a distance of about {})", self.at(miss.input), number(two_digits(miss.regularity)))
         });
@@ -330,7 +352,7 @@ impl<N: BorrowedName> Writer<'_, N> {
 
     fn quantity(&self, quantity: &QuantityReport, motion: &MotionReport<N>) -> String {
         let QuantityReport { strokes, dwells, .. } = quantity;
-        let written = |value| valued(value, quantity);
+        let written = |at: Extreme| valued(at, quantity);
         let mut text = self.extremes(quantity, motion);
         if quantity.is_constant {
             text.push('.');
@@ -346,8 +368,8 @@ impl<N: BorrowedName> Writer<'_, N> {
                     " From {} to {} it moves from {} to {}, in {} % of the motion.",
                     self.at(stroke.from.input),
                     self.at(stroke.to.input),
-                    written(stroke.from.value),
-                    written(stroke.to.value),
+                    written(stroke.from),
+                    written(stroke.to),
                     number(percent(stroke.share)),
                 ));
             }
@@ -359,7 +381,7 @@ impl<N: BorrowedName> Writer<'_, N> {
             text.push_str(" It has no dwell.");
         }
         for dwell in dwells {
-            let [low, high] = dwell.values.map(written);
+            let [low, high] = dwell.values.map(|value| written(Extreme { input: dwell.from, value }));
             text.push_str(&format!(
                 " It dwells between {low} and {high} from {} to {}, in {} % of the motion.",
                 self.at(dwell.from),
@@ -374,13 +396,12 @@ impl<N: BorrowedName> Writer<'_, N> {
     fn extremes(&self, quantity: &QuantityReport, motion: &MotionReport<N>) -> String {
         let QuantityReport { name, extremes: Extremes { least, largest }, .. } = quantity;
         if quantity.is_constant {
-            return format!("{name} is {} all the time", valued(least.value, quantity));
+            return format!("{name} is {} all the time", valued(*least, quantity));
         }
-        let turns = quantity.turns().filter(|turns| motion.is_closed() && *turns != 0.0);
-        if let Some(turns) = turns {
-            return format!("{name} turns by {} each time the motion closes", in_degrees(360.0 * turns));
+        if let Some(turned) = quantity.turned().filter(|_| motion.is_closed()) {
+            return format!("{name} turns by {} each time the motion closes", written(turned, true));
         }
-        let texts = [least.value, largest.value].map(|value| valued(value, quantity));
+        let texts = [*least, *largest].map(|at| valued(at, quantity));
         format!("{name} goes {}", self.extent([least.input, largest.input], texts))
     }
 
@@ -389,8 +410,10 @@ impl<N: BorrowedName> Writer<'_, N> {
         format!("from {least} (at {input} = {first}) to {largest} (at {input} = {second})", input = self.input)
     }
 
-    fn between(&self, [low, high]: [f64; 2]) -> String {
-        format!("between {} and {}", self.at(low), self.at(high))
+    /// Ends of the input in their order, which are not on other turns of an angle.
+    fn between(&self, ends: [f64; 2]) -> String {
+        let [low, high] = ends.map(|end| self.exactly(end));
+        format!("between {low} and {high}")
     }
 
     /// A value of the input.
@@ -398,8 +421,15 @@ impl<N: BorrowedName> Writer<'_, N> {
         if self.is_turn && self.is_angle {
             in_degrees(rounded(input.to_degrees()).rem_euclid(360.0))
         } else {
-            written(input, self.is_angle)
+            self.exactly(input)
         }
+    }
+
+    /// A value of the input with its turns; 0 where it is zero up to rounding errors of the ends of the motion.
+    fn exactly(&self, input: f64) -> String {
+        let ends = self.report.motion.iter().flat_map(|motion| motion.range);
+        let scale = ends.fold(0.0, |scale: f64, end| scale.max(end.abs()));
+        written(if input.abs() <= 8.0 * f64::EPSILON * scale { 0.0 } else { input }, self.is_angle)
     }
 }
 
@@ -429,11 +459,10 @@ pub(crate) fn written(value: f64, is_angle: bool) -> String {
     if is_angle { in_degrees(rounded(value.to_degrees())) } else { number(value) }
 }
 
-/// A value of a quantity; 0 where rounding errors alone remain of its extremes.
-fn valued(value: f64, quantity: &QuantityReport) -> String {
-    let Extremes { least, largest } = quantity.extremes;
-    let scale = least.value.abs().max(largest.value.abs());
-    written(if value.abs() > 1e-12 * scale { value } else { 0.0 }, quantity.is_angle)
+/// A value of a quantity at an input; 0 where it is zero up to rounding errors.
+fn valued(Extreme { input, value }: Extreme, quantity: &QuantityReport) -> String {
+    let is_zero = value.abs() <= SAME * quantity.resolution_at(input);
+    written(if is_zero { 0.0 } else { value }, quantity.is_angle)
 }
 
 fn in_degrees(degrees: f64) -> String {

@@ -2,6 +2,8 @@
 
 use linkage_runtime::extremes::{Course, Extreme};
 
+use super::motion::SAME;
+
 /// A part of a motion in which a quantity moves in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -14,9 +16,6 @@ pub struct Stroke {
     pub share: f64,
 }
 
-/// Strokes shorter than this are rounding errors, divided by the distance between the extremes.
-const NOISE: f64 = 1e-12;
-
 /// The strokes of a course, in the order of the input; of a closed motion the last one ends where the first begins. A
 /// quantity that moves in one direction all the time has none in a closed motion.
 pub(super) fn strokes(course: &Course, is_closed: bool) -> Vec<Stroke> {
@@ -25,18 +24,36 @@ pub(super) fn strokes(course: &Course, is_closed: bool) -> Vec<Stroke> {
     if course.is_constant {
         return Vec::new();
     }
-    let travel = course.extremes.largest.value - course.extremes.least.value;
-    let mut places = course.turning_points.clone();
-    // Where it hardly moves, a rounding error may turn it twice.
-    while let Some(at) = places.windows(2).position(|pair| (pair[1].value - pair[0].value).abs() <= NOISE * travel) {
-        places.drain(at..at + 2);
+    let begin = (!is_closed).then_some(first);
+    let end = (!is_closed).then_some(last);
+    let mut places: Vec<Extreme> = begin.into_iter().chain(course.turning_points.iter().copied()).chain(end).collect();
+    // Where it hardly moves, as at an extreme of higher order, a rounding error may turn it twice.
+    let is_same = |one: &Extreme, other: &Extreme| {
+        let resolution = course.resolution_at(one.input) + course.resolution_at(other.input);
+        (one.value - other.value).abs() <= SAME * resolution
+    };
+    while let Some(at) = places.windows(2).position(|pair| is_same(&pair[0], &pair[1])) {
+        match (is_closed, at == 0, at + 2 == places.len()) {
+            // There is one stroke at least.
+            (false, true, true) => break,
+            (false, true, false) => _ = places.remove(1),
+            (false, false, true) => _ = places.remove(at),
+            _ => _ = places.drain(at..at + 2),
+        }
     }
     if is_closed {
+        // An angle that turns is farther by its turns at the end.
+        let again =
+            |begin: Extreme| Extreme { input: begin.input + length, value: begin.value + (last.value - first.value) };
+        let turned = |place: &Extreme| Extreme { value: again(*place).value, ..*place };
+        if let [first, .., last] = places.as_slice()
+            && is_same(last, &turned(first))
+        {
+            places.pop();
+            places.remove(0);
+        }
         let Some(&begin) = places.first() else { return Vec::new() };
-        places.push(Extreme { input: begin.input + length, value: begin.value });
-    } else {
-        places.insert(0, first);
-        places.push(last);
+        places.push(again(begin));
     }
     let strokes = places.windows(2).map(|pair| {
         let [from, to] = [pair[0], pair[1]];

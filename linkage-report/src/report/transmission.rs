@@ -55,8 +55,22 @@ pub(super) fn at(local: &Local<'_>) -> Vec<(String, f64)> {
 }
 
 impl Transmission {
-    pub(super) fn of(group: &str, dyad: &Dyad, course: &Course) -> Self {
-        let Extremes { least, largest } = course.extremes;
+    /// `singular` are the inputs at which the dyad is singular: there both directions are in line.
+    pub(super) fn of(group: &str, dyad: &Dyad, course: &Course, singular: &[f64]) -> Self {
+        let Extremes { mut least, mut largest } = course.extremes;
+        for &input in singular {
+            // Next to it the angle has the square root of a rounding error.
+            let nearest = course
+                .samples
+                .iter()
+                .min_by(|(one, _), (other, _)| (one - input).abs().total_cmp(&(other - input).abs()));
+            match nearest {
+                Some((_, motion)) if motion.value < PI / 2.0 => least = Extreme { input, value: 0.0 },
+                Some(_) => largest = Extreme { input, value: PI },
+                None => {}
+            }
+        }
+        let extremes = Extremes { least, largest };
         let acute = |at: Extreme| Extreme { value: at.value.min(PI - at.value), ..at };
         let (one, other) = (acute(least), acute(largest));
         let (worst, best) = if other.value < one.value { (other, one) } else { (one, other) };
@@ -69,7 +83,7 @@ impl Transmission {
         Self {
             group: group.to_owned(),
             kind: dyad.kind,
-            between: dyad.has_sides().then_some(course.extremes),
+            between: dyad.has_sides().then_some(extremes),
             least: worst,
             largest: crossing.map_or(best, |input| Extreme { input, value: PI / 2.0 }),
         }

@@ -259,6 +259,33 @@ impl Table {
         Ok(self)
     }
 
+    /// Lets an output that is an angle go on where its formula jumps, by a whole turn where an `atan2` goes from pi to -pi: each
+    /// row is on the turn nearest to the last one, with the columns of its rate and of `time` if there are such.
+    ///
+    /// # Errors
+    /// [`TableError::UnknownColumn`].
+    pub fn on_turns(mut self, name: &str, jump: f64) -> Result<Self, TableError> {
+        self.find(name)?;
+        let column = |name: &str| self.column(name).map(<[f64]>::to_vec).unwrap_or_default();
+        let (times, rates) = (column("time"), column(&format!("{name}_rate")));
+        let turning = |from: usize, to: usize| {
+            let of = |all: &[f64], row: usize| all.get(row).copied();
+            let (before, after) = (of(&rates, from)?, of(&rates, to)?);
+            let moved = (before + after) / 2.0 * (of(&times, to)? - of(&times, from)?);
+            moved.is_finite().then_some(moved)
+        };
+        let Some(column) = self.columns.iter_mut().find(|column| column.name == name) else { return Ok(self) };
+        let mut last: Option<(usize, f64)> = None;
+        for (row, value) in column.values.iter_mut().enumerate().filter(|(_, value)| value.is_finite()) {
+            if let Some((before, from)) = last {
+                let expected = from + turning(before, row).unwrap_or_default();
+                *value += ((expected - *value) / jump).round() * jump;
+            }
+            last = Some((row, *value));
+        }
+        Ok(self)
+    }
+
     fn turn_to_degrees(&mut self, places: &[usize]) {
         for &place in places {
             let column = &mut self.columns[place];

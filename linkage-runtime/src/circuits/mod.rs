@@ -42,13 +42,14 @@ mod modes;
 mod motion;
 mod options;
 
+use std::vec;
 use std::vec::Vec;
 
 pub use error::CircuitError;
 pub use motion::{CurveEnd, CurveEvent, CurveMeeting, CurvePoint, MotionCurve};
 pub use options::CircuitOptions;
 
-use crate::{BorrowedName, Branches, D, Real};
+use crate::{BorrowedName, Branches, D, Mechanism, Real};
 use follow::Follower;
 use modes::Modes;
 
@@ -74,6 +75,44 @@ pub struct Circuits<Q, B, T = f64, N = &'static str> {
     pub motions: Vec<MotionCurve<Q, T, N>>,
     /// The motions of each circuit, by index. Several motions are one circuit if they cross at change points.
     pub circuits: Vec<Vec<usize>>,
+}
+
+/// Motions, that of each mode by index, and why the first mode that cannot be followed is not.
+type Motions<M> = (
+    Vec<MotionCurve<<M as Mechanism>::Coordinates, <M as Mechanism>::Scalar, <M as Mechanism>::Name>>,
+    Vec<Option<usize>>,
+    Option<CircuitError<<M as Mechanism>::Name>>,
+);
+
+/// The motions through modes, at most so many; modes that cannot be followed are passed over, or end the search.
+fn followed<M>(follower: &Follower<'_, M>, modes: usize, most: usize, passes_over: bool) -> Motions<M>
+where
+    M: Branches<V = D<1>>,
+{
+    let (mut motions, mut motion_of, mut first) = (Vec::new(), vec![None; modes], None);
+    for mode in 0..modes {
+        if motion_of[mode].is_some() {
+            continue;
+        }
+        if motions.len() == most {
+            break;
+        }
+        match follower.motion(mode) {
+            Ok(motion) => {
+                for passed in motion.modes() {
+                    motion_of[passed] = Some(motions.len());
+                }
+                motions.push(motion);
+            }
+            Err(error) => {
+                first.get_or_insert(error);
+                if !passes_over {
+                    break;
+                }
+            }
+        }
+    }
+    (motions, motion_of, first)
 }
 
 impl<Q: Copy, B: Copy, T: Real, N: BorrowedName> Circuits<Q, B, T, N> {
@@ -105,17 +144,9 @@ impl<Q: Copy, B: Copy, T: Real, N: BorrowedName> Circuits<Q, B, T, N> {
     {
         let modes = Modes::list(mechanism, inputs)?;
         let follower = Follower::new(mechanism, &modes, &options);
-        let mut motion_of = vec![None; modes.positions.len()];
-        let mut motions: Vec<MotionCurve<Q, T, N>> = Vec::new();
-        for mode in 0..modes.positions.len() {
-            if motion_of[mode].is_some() {
-                continue;
-            }
-            let motion = follower.motion(mode)?;
-            for passed in motion.modes() {
-                motion_of[passed] = Some(motions.len());
-            }
-            motions.push(motion);
+        let (motions, motion_of, first) = followed(&follower, modes.positions.len(), usize::MAX, false);
+        if let Some(error) = first {
+            return Err(error);
         }
         let circuits = join::circuits(&motions, |one, other| modes.are_near(one, other));
         let numbered = modes.branches.iter().zip(&modes.positions).zip(motion_of);
@@ -125,10 +156,58 @@ impl<Q: Copy, B: Copy, T: Real, N: BorrowedName> Circuits<Q, B, T, N> {
         Ok(Self { modes, motions, circuits })
     }
 
+    /// The circuits through some of the positions at one input, such as the first of many; they are in the ranges that the
+    /// mechanism declares. At most so many motions are followed. With them, the motion of each position, by index, or none if
+    /// it is left out or cannot be followed, and the first reason why one cannot.
+    pub fn of_some<M>(
+        mechanism: &M,
+        positions: &[(B, Q)],
+        most_motions: usize,
+        options: CircuitOptions<T>,
+    ) -> (Self, Vec<Option<usize>>, Option<CircuitError<N>>)
+    where
+        M: Branches<Scalar = T, Name = N, V = D<1>, Coordinates = Q, Branch = B>,
+    {
+        let modes = Modes::of(mechanism, positions);
+        let follower = Follower::new(mechanism, &modes, &options);
+        let (motions, motion_of, first) = followed(&follower, positions.len(), most_motions, true);
+        let circuits = join::circuits(&motions, |one, other| modes.are_near(one, other));
+        let followed = positions.iter().zip(&motion_of);
+        let modes = followed
+            .filter_map(|(&(branch, position), motion)| Some(CircuitMode { branch, position, motion: (*motion)? }))
+            .collect();
+        (Self { modes, motions, circuits }, motion_of, first)
+    }
+
     /// The number of motions on which the input turns fully: they close without a dead point.
     #[must_use]
     pub fn full_turns(&self) -> usize {
         self.motions.iter().filter(|motion| motion.turns_fully()).count()
+    }
+
+    /// One circuit alone, by index: its modes and motions have other numbers.
+    #[must_use]
+    pub fn only(&self, circuit: usize) -> Self {
+        let motions = self.circuits.get(circuit).cloned().unwrap_or_default();
+        let place = |motion: usize| motions.iter().position(|other| *other == motion);
+        let kept: Vec<Option<usize>> = self.modes.iter().map(|mode| place(mode.motion)).collect();
+        let number = |mode: usize| {
+            let before = kept.get(..mode)?.iter().flatten().count();
+            kept.get(mode).copied().flatten().map(|_| before)
+        };
+        let modes = self.modes.iter().zip(&kept);
+        let modes = modes.filter_map(|(mode, motion)| Some(CircuitMode { motion: (*motion)?, ..*mode })).collect();
+        let of_motion = |motion: &MotionCurve<Q, T, N>| {
+            let mut motion = motion.clone();
+            for point in &mut motion.points {
+                if let Some(CurveEvent::Mode(Some(mode))) = point.event {
+                    point.event = Some(CurveEvent::Mode(number(mode)));
+                }
+            }
+            motion
+        };
+        let all = motions.iter().filter_map(|motion| self.motions.get(*motion)).map(of_motion).collect::<Vec<_>>();
+        Self { modes, circuits: vec![(0..all.len()).collect()], motions: all }
     }
 
     /// The circuit of a motion, by index.

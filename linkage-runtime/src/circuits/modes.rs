@@ -23,7 +23,7 @@ impl<'a, M: Branches<V = D<1>>> Modes<'a, M> {
         mechanism: &'a M,
         inputs: impl IntoIterator<Item = M::Scalar>,
     ) -> Result<Self, PositionErrorOf<M>> {
-        let mut modes = Self { mechanism, inputs: Vec::new(), branches: Vec::new(), positions: Vec::new(), same: None };
+        let mut modes = Self::none(mechanism);
         for input in inputs {
             if !input.is_finite() {
                 return Err(PositionError::NotFinite {
@@ -47,6 +47,22 @@ impl<'a, M: Branches<V = D<1>>> Modes<'a, M> {
             }
         }
         Ok(modes)
+    }
+
+    fn none(mechanism: &'a M) -> Self {
+        Self { mechanism, inputs: Vec::new(), branches: Vec::new(), positions: Vec::new(), same: None }
+    }
+
+    /// Positions at one input.
+    pub(super) fn of(mechanism: &'a M, positions: &[(M::Branch, M::Coordinates)]) -> Self {
+        let mut modes = Self::none(mechanism);
+        for (branch, position) in positions {
+            modes.same.get_or_insert_with(|| SamePosition::at(mechanism, position));
+            modes.branches.push(*branch);
+            modes.positions.push(*position);
+        }
+        modes.inputs.extend(positions.first().map(|(_, position)| <M as Mechanism>::inputs(position)[0]));
+        modes
     }
 
     /// The mode at this position.
