@@ -2,6 +2,7 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::derivation::Derivation;
+use linkage_compiler::graph::NodeId;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::model::{Kind, Name, OutputAngle, Request, output_angles};
 use linkage_compiler::program::Position;
@@ -19,6 +20,8 @@ use crate::symbols::Symbols;
 pub struct About {
     pub name: String,
     pub inputs: Vec<Coordinate>,
+    /// The ends of the range of each input that are declared, as formulas of the derivation.
+    pub input_ends: Vec<[Option<NodeId>; 2]>,
     pub unknowns: Vec<Coordinate>,
     pub points: Vec<Named>,
     pub outputs: Vec<Named>,
@@ -80,6 +83,10 @@ impl About {
             let of = &mechanism.coordinates[*id];
             Coordinate { name: named(&of.name), is_angle: of.kind == Kind::Angle }
         };
+        let ends = |id: &CoordinateId| {
+            let name = &mechanism.coordinates[*id].name.text;
+            mechanism.ranges.iter().find(|range| range.name == *name).map_or([None; 2], |range| range.ends)
+        };
         let position = &lowered.program.position;
         let of_list = position.modes.iter().map(|group| group.unknowns.as_str());
         let of_guess = position.open.iter().map(|(unknowns, _)| unknowns.as_str());
@@ -93,6 +100,7 @@ impl About {
             groups: Group::all(position),
             name: driver.name.to_string(),
             inputs: driver.inputs.iter().map(coordinate).collect(),
+            input_ends: driver.inputs.iter().map(ends).collect(),
             unknowns: driver.unknowns.iter().map(coordinate).collect(),
             points: mechanism.points.iter().map(|point| named(&point.name)).collect(),
             outputs: mechanism.outputs.iter().map(|output| named(&output.name)).collect(),

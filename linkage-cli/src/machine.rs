@@ -25,6 +25,8 @@ pub struct Machine {
     /// Its positions without regard to a motion.
     pub solver: Solver,
     start: Start,
+    /// The ends of the declared range of each input.
+    ranges: Vec<[Option<f64>; 2]>,
 }
 
 impl Machine {
@@ -83,13 +85,15 @@ impl Machine {
         }
         let scene = scene(&about)?.map(|place| &about.scenes[place]);
         let (design, scene) = valued(&about, &mechanism, scene, &numbers.set)?;
-        let parameters = about.parameters.iter().cloned().zip(design.parameters().iter().copied()).collect();
+        let values = design.parameters().iter().copied();
+        let parameters: Vec<(String, f64)> = about.parameters.iter().cloned().zip(values).collect();
         let branch = branch(&about, &mechanism, &numbers.branch)?;
         let start = start(&about, &mechanism, numbers)?;
         let (inputs, unknowns) = (about.inputs.clone(), about.unknowns.clone());
         let (points, outputs) = (about.points.clone(), about.outputs.clone());
         let solver = Solver { inputs, unknowns, points, outputs, design, branch };
-        Ok((Self { about, parameters, solver, start }, scene, result))
+        let ranges = ranges(&about, &parameters)?;
+        Ok((Self { about, parameters, solver, start, ranges }, scene, result))
     }
 
     /// The parameters with their values.
@@ -130,6 +134,11 @@ impl Machine {
     pub fn input(&self, name: &str) -> Result<usize, Failure> {
         let names: Vec<&str> = self.about.inputs.iter().map(|input| input.name.text.as_str()).collect();
         place(&self.about.name, "input", name, &names)
+    }
+
+    /// The ends of the range that is declared for an input.
+    pub fn declared(&self, input: usize) -> [Option<f64>; 2] {
+        self.ranges.get(input).copied().unwrap_or_default()
     }
 
     /// Position, velocity and acceleration at the position that the branch or the guess chooses; rates are constant.
@@ -205,6 +214,16 @@ fn valued(
     let scene = scene.map(|scene| design.scene(&scene.name)).transpose();
     let scene = scene.map_err(|error| Failure::Outside(error.to_string()))?;
     Ok((design, scene.map(|scene| scene.with_parameters(of_scene))))
+}
+
+/// The ends of the declared range of each input.
+fn ranges(about: &About, parameters: &[(String, f64)]) -> Result<Vec<[Option<f64>; 2]>, Failure> {
+    let given = Given { parameters, inputs: &[], unknowns: &[] };
+    let value = |end: Option<NodeId>| {
+        let found = about.symbols.evaluate(&about.derivation.graph, end.as_slice(), given)?;
+        Ok::<_, Failure>(found.first().copied())
+    };
+    about.input_ends.iter().map(|[least, most]| Ok([value(*least)?, value(*most)?])).collect()
 }
 
 /// The branch: the first position of each group where none is chosen, and no additional turns.
