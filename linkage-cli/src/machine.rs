@@ -205,9 +205,9 @@ fn valued(
     let begun = scene.map(|scene| design.scene(&scene.name)).transpose();
     let begun = begun.map_err(|error| Failure::Outside(error.to_string()))?;
     let own = about.parameters.iter().zip(&about.defaults).zip(design.parameters());
-    let own = own.map(|((name, (_, kind)), value)| (name.as_str(), *kind, *value));
+    let own = own.map(|((name, (_, measure)), value)| (name.as_str(), *measure, *value));
     let of_scene = scene.iter().flat_map(|scene| &scene.parameters).zip(begun.iter().flat_map(SceneDesign::parameters));
-    let of_scene = of_scene.map(|((name, kind), value)| (name.as_str(), *kind, *value));
+    let of_scene = of_scene.map(|((name, measure), value)| (name.as_str(), *measure, *value));
     let values = Parameters::of(&about.name, own.chain(of_scene)).with(set)?;
     let (own, of_scene) = values.split_at(about.parameters.len());
     let design = mechanism.design().with_parameters(own);

@@ -11,4 +11,5 @@ mod pages;
 mod pictures;
 mod simulations;
 mod tables;
+mod units;
 mod written_names;
