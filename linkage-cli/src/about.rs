@@ -4,7 +4,7 @@ use linkage_compiler::Lowered;
 use linkage_compiler::derivation::Derivation;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::ids::CoordinateId;
-use linkage_compiler::model::{Kind, Name, OutputAngle, Request, output_angles};
+use linkage_compiler::model::{Kind, Measure, Name, OutputAngle, Request, output_angles};
 use linkage_compiler::program::Position;
 use linkage_interpreter::{Mechanism, Program};
 
@@ -27,8 +27,8 @@ pub struct About {
     pub outputs: Vec<Named>,
     pub output_angles: Vec<Option<OutputAngle>>,
     pub parameters: Vec<String>,
-    /// The default of each parameter as written, and its kind.
-    pub defaults: Vec<(Option<String>, Kind)>,
+    /// The default of each parameter with its unit, and what it measures.
+    pub defaults: Vec<(Option<String>, Measure)>,
     /// The groups that have several positions.
     pub groups: Vec<Group>,
     /// The functions that are declared by `extern fn`.
@@ -106,7 +106,7 @@ impl About {
             outputs: mechanism.outputs.iter().map(|output| named(&output.name)).collect(),
             output_angles: output_angles(mechanism),
             parameters: mechanism.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
-            defaults: mechanism.parameters.iter().map(|of| (of.default_text.clone(), of.kind)).collect(),
+            defaults: mechanism.parameters.iter().map(|of| (of.default_in_words(), of.measure)).collect(),
             functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),
             scenes: AboutScene::all(&lowered),
             symbols: Symbols::of(mechanism, driver),

@@ -27,6 +27,8 @@ pub struct Machine {
     /// Its positions without regard to a motion.
     pub solver: Solver,
     start: Start,
+    /// The ends of the declared range of each input.
+    ranges: Vec<[Option<f64>; 2]>,
 }
 
 impl Machine {
@@ -85,13 +87,15 @@ impl Machine {
         }
         let scene = scene(&about)?.map(|place| &about.scenes[place]);
         let (design, scene) = valued(&about, &mechanism, scene, &numbers.set)?;
-        let parameters = about.parameters.iter().cloned().zip(design.parameters().iter().copied()).collect();
+        let values = design.parameters().iter().copied();
+        let parameters: Vec<(String, f64)> = about.parameters.iter().cloned().zip(values).collect();
         let branch = branch(&about, &mechanism, &numbers.branch)?;
         let start = start(&about, &mechanism, numbers)?;
         let (inputs, unknowns) = (about.inputs.clone(), about.unknowns.clone());
         let (points, outputs) = (about.points.clone(), about.outputs.clone());
         let solver = Solver { inputs, unknowns, points, outputs, design, branch };
-        Ok((Self { about, parameters, solver, start }, scene, result))
+        let ranges = ranges(&about, &parameters)?;
+        Ok((Self { about, parameters, solver, start, ranges }, scene, result))
     }
 
     /// The parameters with their values.
@@ -136,9 +140,7 @@ impl Machine {
 
     /// The ends of the range that is declared for an input.
     pub fn declared(&self, input: usize) -> [Option<f64>; 2] {
-        // Formulas of parameters.
-        let value = |node: NodeId| self.formulas_at(&[node], &[], &[]).ok()?.first().copied();
-        self.about.input_ends.get(input).copied().unwrap_or_default().map(|end| end.and_then(value))
+        self.ranges.get(input).copied().unwrap_or_default()
     }
 
     /// The first value of an input: that of its declared range, of another angle 60 degrees, none of another length.
@@ -271,15 +273,25 @@ fn valued(
     let begun = scene.map(|scene| design.scene(&scene.name)).transpose();
     let begun = begun.map_err(|error| Failure::Outside(error.to_string()))?;
     let own = about.parameters.iter().zip(&about.defaults).zip(design.parameters());
-    let own = own.map(|((name, (_, kind)), value)| (name.as_str(), *kind, *value));
+    let own = own.map(|((name, (_, measure)), value)| (name.as_str(), *measure, *value));
     let of_scene = scene.iter().flat_map(|scene| &scene.parameters).zip(begun.iter().flat_map(SceneDesign::parameters));
-    let of_scene = of_scene.map(|((name, kind), value)| (name.as_str(), *kind, *value));
+    let of_scene = of_scene.map(|((name, measure), value)| (name.as_str(), *measure, *value));
     let values = Parameters::of(&about.name, own.chain(of_scene)).with(set)?;
     let (own, of_scene) = values.split_at(about.parameters.len());
     let design = mechanism.design().with_parameters(own);
     let scene = scene.map(|scene| design.scene(&scene.name)).transpose();
     let scene = scene.map_err(|error| Failure::Outside(error.to_string()))?;
     Ok((design, scene.map(|scene| scene.with_parameters(of_scene))))
+}
+
+/// The ends of the declared range of each input.
+fn ranges(about: &About, parameters: &[(String, f64)]) -> Result<Vec<[Option<f64>; 2]>, Failure> {
+    let given = Given { parameters, inputs: &[], unknowns: &[] };
+    let value = |end: Option<NodeId>| {
+        let found = about.symbols.evaluate(&about.derivation.graph, end.as_slice(), given)?;
+        Ok::<_, Failure>(found.first().copied())
+    };
+    about.input_ends.iter().map(|[least, most]| Ok([value(*least)?, value(*most)?])).collect()
 }
 
 /// The branch: the first position of each group where none is chosen, and no additional turns.

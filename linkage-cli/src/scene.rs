@@ -2,7 +2,7 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::lower::Code;
-use linkage_compiler::model::{Kind, Parameter, SceneRequest};
+use linkage_compiler::model::{Measure, Parameter, SceneRequest};
 use linkage_compiler::program::SceneProgram;
 
 use crate::failure::Failure;
@@ -11,9 +11,9 @@ use crate::names::{listed, place};
 /// The names of a scene, and what it has.
 pub struct AboutScene {
     pub name: String,
-    /// Its parameters that the mechanism does not have, with their kinds.
-    pub parameters: Vec<(String, Kind)>,
-    /// The default of each as written.
+    /// Its parameters that the mechanism does not have, with what they measure.
+    pub parameters: Vec<(String, Measure)>,
+    /// The default of each with its unit.
     pub defaults: Vec<Option<String>>,
     pub has_inertia: bool,
     pub has_equilibrium: bool,
@@ -27,20 +27,14 @@ impl AboutScene {
             let parameters = || scene.parameters.iter().map(|id| &mechanism.scene_parameters[*id]);
             Self {
                 name: scene.name.to_string(),
-                parameters: parameters().map(|one| (one.name.text.clone(), kind(one))).collect(),
-                defaults: parameters().map(|one| one.default_text.clone()).collect(),
+                parameters: parameters().map(|one| (one.name.text.clone(), one.measure)).collect(),
+                defaults: parameters().map(Parameter::default_in_words).collect(),
                 has_inertia: scene.inertia.is_some(),
                 has_equilibrium: scene.requests.contains(&SceneRequest::Equilibrium),
             }
         };
         lowered.program.scenes.iter().map(of).collect()
     }
-}
-
-/// The kind of a parameter: one whose default has the unit of an angle is an angle.
-fn kind(of: &Parameter) -> Kind {
-    let is_in_degrees = of.default_text.as_deref().is_some_and(|text| text.ends_with("deg"));
-    if is_in_degrees { Kind::Angle } else { of.kind }
 }
 
 /// The use of a scene: that it has what is needed, and the statement that gives it.

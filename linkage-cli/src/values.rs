@@ -42,6 +42,16 @@ impl Value {
         }
     }
 
+    /// The number as a parameter that is the rate of an angle, in radians per second without a unit.
+    pub fn rate_of_angle(self, name: &str) -> Result<f64, String> {
+        match self.measures {
+            Some(what) if what == Unit::Degrees.of() => {
+                Err(format!("`{name}` is a speed, and this is a unit of {what}: write such as `45rpm`"))
+            }
+            _ => Ok(self.number),
+        }
+    }
+
     /// The number as the rate of an angle or a length.
     pub fn rate(self, of: &str, is_angle: bool) -> Result<f64, String> {
         match self.measures {

@@ -8,7 +8,7 @@ export type Refusal = { why: string };
 export type Mistake = { from: number; to: number; line: number; column: number; text: string; help: string | null };
 
 export type Quantity = { name: string; is_angle: boolean };
-export type Parameter = { name: string; is_angle: boolean; value: number; text: string | null };
+export type Parameter = { name: string; is_angle: boolean; unit: string | null; value: number; text: string | null };
 export type About = {
     name: string;
     /** The doc comment, paragraph by paragraph, as plain text. */

@@ -21,10 +21,11 @@ export class Slider {
     /** Somebody writes in the field. */
     #isEdited = false;
 
-    constructor(quantity: Quantity, set_: (value: number) => void) {
+    constructor(quantity: Quantity & Partial<Pick<Parameter, "unit">>, set_: (value: number) => void) {
         this.#isAngle = quantity.is_angle;
         this.field = h("input", { type: "text", inputmode: "text", autocomplete: "off", class: "number" });
-        const name = h("span", { class: "name" }, quantity.name);
+        const label = quantity.unit ? `${quantity.name} [${quantity.unit}]` : quantity.name;
+        const name = h("span", { class: "name" }, label);
         this.element = h("div", { class: "slider" }, name, this.badge, this.field, this.range);
         set(this.range, "aria-label", quantity.name);
         set(this.field, "aria-label", word().value(quantity.name));

@@ -14,6 +14,8 @@ pub struct Quantity {
 pub struct Parameter {
     pub name: String,
     pub is_angle: bool,
+    /// The unit of its value, if it is the rate of an angle.
+    pub unit: Option<String>,
     /// Its default, or 1.
     pub value: f64,
     /// The default as written.

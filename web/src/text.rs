@@ -4,7 +4,7 @@ use linkage_compiler::graph::Number;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::lower::Code;
 use linkage_compiler::model::VECTOR_FUNCTIONS;
-use linkage_compiler::model::{Kind, Mechanism, Parameter as Declared, Request, output_angles};
+use linkage_compiler::model::{Kind, Measure, Mechanism, Parameter as Declared, Request, output_angles};
 use linkage_compiler::program::SceneProgram;
 use linkage_compiler::syntax::{EFFECTS, KEYWORDS, PROPERTIES};
 
@@ -131,15 +131,15 @@ fn scene(of: &SceneProgram<Code>) -> Scene {
 }
 
 fn parameter(mechanism: &Mechanism, of: &Declared) -> Parameter {
-    let is_in_degrees = of.default_text.as_deref().is_some_and(|text| text.ends_with("deg"));
     let graph = &mechanism.graph;
     let default =
         of.default.and_then(|node| graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node)));
     Parameter {
         name: of.name.text.clone(),
-        is_angle: of.kind == Kind::Angle || is_in_degrees,
+        is_angle: of.measure == Measure::Angle,
+        unit: (of.measure == Measure::Rate).then(|| "rad/s".to_owned()),
         value: default.unwrap_or(1.0),
-        text: of.default_text.clone(),
+        text: of.default_in_words(),
     }
 }
 

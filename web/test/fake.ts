@@ -9,7 +9,7 @@ function about() {
     return {
         name: "FourBar",
         paragraphs: ["A four-bar."],
-        parameters: Object.entries(lengths).map(([name, value]) => ({ name, is_angle: false, value, text: String(value) })),
+        parameters: Object.entries(lengths).map(([name, value]) => ({ name, is_angle: false, unit: null, value, text: String(value) })),
         inputs: [{ name: "theta2", is_angle: true }],
         unknowns: [{ name: "theta3", is_angle: true }, { name: "theta4", is_angle: true }],
         points: ["B", "C"],
@@ -39,7 +39,7 @@ let traced: string | null = null;
 function picture(parameters: number[], place: Place, show: Show, side: number): Moved | { why: string } {
     const theta2 = place.inputs[0] ?? 0;
     const found = solve(parameters, theta2, side);
-    if (found === null) return { why: "group theta3, theta4 does not close by a relative gap of 1.1e0" };
+    if (found === null) return { why: "group theta3, theta4 does not close, its links do not reach each other" };
     const { b, c } = found;
     const d = [parameters[0] ?? 0, 0];
     const line = (p: number[], q: number[], kind: string): string =>

@@ -16,15 +16,15 @@ pub struct Certify {
     /// The input that moves [default: the first]
     #[arg(long, value_name = "INPUT")]
     pub along: Option<String>,
-    /// The value at which the motion begins [default: that of --at; of a length: the least of its declared range]
+    /// The value at which the motion begins [default: that of --at, or the least one of a declared range]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub from: Option<Value>,
-    /// The value at which the motion ends [default: after a full turn of an angle; of a length: the largest of its declared range]
+    /// The value at which the motion ends [default: the largest one of a declared range; of another angle after a full turn]
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true)]
     pub to: Option<Value>,
-    /// The number of full turns; wheels are at their start again after several
-    #[arg(long, value_name = "NUMBER", default_value = "1", conflicts_with = "to", value_parser = clap::value_parser!(u32).range(1..=1000))]
-    pub turns: u32,
+    /// The number of full turns [default: 1]; wheels are at their start again after several
+    #[arg(long, value_name = "NUMBER", conflicts_with = "to", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub turns: Option<u32>,
     /// Certify the motion as a closed curve, through dead points where the input turns back
     #[arg(long, conflicts_with_all = ["to", "turns"])]
     pub curve: bool,

@@ -17,7 +17,7 @@ use crate::machine::Machine;
 use crate::motion::held;
 use crate::one_input::{Inputs, prepared};
 use crate::progress;
-use crate::proved::{all_proved, proved};
+use crate::proved::{ends, largest, least, proved};
 
 /// The mechanism of a certificate.
 type Certified<'p> = CertifiableAtRunTime<'p, Inputs>;
@@ -32,15 +32,13 @@ pub fn run(arguments: &arguments::Certify) -> Result<(), Failure> {
     if from.is_some() && place.at.iter().any(|at| at.name == *name) {
         return Err(Failure::Argument(format!("--at {name} and --from are both the first value: leave out one")));
     }
-    let first = from.map(|value| input.value(value)).transpose()?;
+    let is_whole = arguments.curve || arguments.turns.is_some();
+    let [least, most] = if is_whole { [None; 2] } else { machine.declared(moving) };
     let to = arguments.to.map(|value| input.value(value)).transpose()?;
-    let is_given = from.or(arguments.to).is_some() || place.at.iter().any(|at| at.name == *name);
-    // A length without values goes over its declared range.
-    let [first, to] = match machine.declared(moving) {
-        [Some(least), Some(most)] if !input.is_angle && !is_given && !arguments.curve => [Some(least), Some(most)],
-        _ => [first, to],
-    };
+    let is_free = to.is_none() && place.at.iter().all(|at| at.name != *name);
+    let first = from.map(|value| input.value(value)).transpose()?.or(least.filter(|_| is_free));
     let inputs = held(&machine, &place.at, first.map(|first| (moving, first)))?;
+    let to = to.or(most);
     match to {
         None if !input.is_angle && !arguments.curve => {
             let message = format!("`{name}` is a length and has no turn: write --to VALUE, or --curve");
@@ -81,7 +79,7 @@ impl Asked<'_> {
         let start = at(&unknowns).ok_or_else(|| Failure::Outside("too many numbers".to_owned()))?;
         // The motion may arrive at another one; not all mechanisms have a list.
         let others = self.machine.positions(self.inputs).unwrap_or_default();
-        let mut certify = Certify::new(mechanism).input(self.moving).turns(arguments.turns);
+        let mut certify = Certify::new(mechanism).input(self.moving).turns(arguments.turns.unwrap_or(1));
         if let Some(part) = arguments.tolerance {
             certify = certify.tolerance(part.0);
         }
@@ -105,7 +103,10 @@ impl Asked<'_> {
         let (name, shown) = (&input.name.text, |value: f64| shown(value, input.is_angle));
         let between = |of: &Interval| match [of.least(), of.most()].map(shown) {
             [one, other] if one == other => format!("at {name} = {one}"),
-            [one, other] => format!("between {name} = {one} and {other}"),
+            _ => {
+                let [least, most] = ends(*of, input.is_angle);
+                format!("between {name} = {least} and {most}")
+            }
         };
         Failure::Outside(match error {
             CertifyError::DeadPoint { group, limit, .. } => {
@@ -203,7 +204,7 @@ impl Asked<'_> {
             within_a_turn: self.within_a_turn(&quantities),
             quantities: quantities.into_iter().map(|((name, is_angle), of)| Bounds::of(name, of, is_angle)).collect(),
             velocity_ratios: Vec::new(),
-            ranges: ranges.iter().map(Range::of).collect(),
+            ranges: ranges.iter().map(|range| self.of_range(range)).collect(),
         }
     }
 }
@@ -220,6 +221,16 @@ impl Asked<'_> {
             of_name.any(|(_, of)| of.largest.most() - of.least.least() >= jump * (1.0 - 4.0 * f64::EPSILON))
         };
         jumps.filter(|(name, jump)| is_cut(name, *jump)).map(|(name, _)| name.clone()).collect()
+    }
+
+    /// The proof of a range. That of the moving input needs none: the ends of the motion are numbers.
+    fn of_range(&self, range: &CertifiedRange<&str>) -> Range {
+        let input = &self.machine.about.inputs[self.moving];
+        let Some(to) = self.to.filter(|_| range.of == input.name.text) else { return Range::of(range) };
+        let from = self.inputs[self.moving];
+        let [least, most] = self.machine.declared(self.moving);
+        let is_within = least.is_none_or(|least| least <= from.min(to)) && most.is_none_or(|most| from.max(to) <= most);
+        if is_within { Range { of: range.of.to_owned(), proof: "within" } } else { Range::of(range) }
     }
 }
 
@@ -290,8 +301,8 @@ impl Bounds {
     }
 
     fn row(&self) -> Vec<String> {
-        let [least, largest] = all_proved(self.both, self.is_angle);
-        vec![self.name.clone(), least, largest]
+        let [of_least, of_largest] = self.both;
+        vec![self.name.clone(), least(of_least, self.is_angle), largest(of_largest, self.is_angle)]
     }
 }
 
@@ -333,9 +344,11 @@ impl Proof {
         text += &format!("proved by {} boxes, as all digits of these numbers are\n", self.boxes);
         let dead_point = |of: &DeadPoint| {
             let input = Interval::new(of.input[0], of.input[1]).unwrap_or(Interval::ENTIRE);
-            let kind = if of.is_largest { "largest" } else { "least" };
-            let at = proved(input, self.is_angle);
-            format!("{kind} {} {at}, a dead point of {}\n", self.input, of.group)
+            let at = match of.is_largest {
+                true => format!("largest {} {}", self.input, largest(input, self.is_angle)),
+                false => format!("least {} {}", self.input, least(input, self.is_angle)),
+            };
+            format!("{at}, a dead point of {}\n", of.group)
         };
         text.extend(self.dead_points.iter().map(dead_point));
         text.extend(self.ranges.iter().map(|range| range.in_words() + "\n"));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use linkage_compiler::model::{Kind, Request};
+use linkage_compiler::model::{Measure, Request};
 use serde::Serialize;
 
 use crate::about::{About, all};
@@ -77,13 +77,13 @@ impl Scene {
         Self {
             name: about.name.clone(),
             commands: commands.into_iter().filter(|(_, takes)| *takes).map(|(command, _)| command).collect(),
-            parameters: parameters.map(|((name, kind), default)| Parameter::of(name, default, *kind)).collect(),
+            parameters: parameters.map(|((name, measure), default)| Parameter::of(name, default, *measure)).collect(),
         }
     }
 }
 
 impl Parameter {
-    fn of(name: &str, default: &Option<String>, kind: Kind) -> Self {
+    fn of(name: &str, default: &Option<String>, kind: Measure) -> Self {
         Self { name: name.to_owned(), default: default.clone(), kind: kind.to_string() }
     }
 
@@ -98,7 +98,7 @@ impl List {
         let texts = |names: &[Named]| names.iter().map(|name| name.text.clone()).collect::<Vec<_>>();
         let unknowns: Vec<String> = about.unknowns.iter().map(|unknown| unknown.name.text.clone()).collect();
         let parameters = about.parameters.iter().zip(&about.defaults);
-        let parameters = parameters.map(|(name, (default, kind))| Parameter::of(name, default, *kind));
+        let parameters = parameters.map(|(name, (default, measure))| Parameter::of(name, default, *measure));
         let inputs = about.inputs.iter().map(|input| Input {
             name: input.name.text.clone(),
             kind: if input.is_angle { "angle in radians" } else { "length or number" },

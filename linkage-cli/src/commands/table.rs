@@ -4,6 +4,7 @@ use linkage_compiler::diagnostics::{is_near, suggestion};
 use linkage_report::Table;
 
 use super::summary::Summary;
+use crate::about::About;
 use crate::aligned::aligned;
 use crate::arguments::{self, TableFormat};
 use crate::columns;
@@ -65,9 +66,20 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
             let input = &machine.about.inputs[path.moving].name.text;
             Summary::of(&table, &units, input, &summed(&machine, &table, &asked))?.to_text(format, digits)?
         }
-        false => written(table, &asked, digits, format)?,
+        false => {
+            // For readers, rates that are all zero are left out.
+            let is_at_rest = format == TableFormat::Text && rate == 0.0 && asked.is_empty();
+            let asked = if is_at_rest { at_rest(&machine) } else { asked };
+            written(table, &asked, digits, format)?
+        }
     };
     output::write(&arguments.output, text.as_bytes(), &arguments.numbers.source.file)
+}
+
+/// The columns of a position.
+fn at_rest(machine: &Machine) -> Vec<String> {
+    let About { inputs, unknowns, points, outputs, .. } = &machine.about;
+    columns::names_at_rest([inputs, unknowns], [points, outputs])
 }
 
 /// The table in a form: these columns of it, or all.
@@ -148,9 +160,8 @@ fn summed(machine: &Machine, table: &Table, asked: &[String]) -> Vec<String> {
     }
     let is_moving = table.column("time").is_some();
     let is_given = |name: &str| name == "time" || machine.about.inputs.iter().any(|input| input.name.text == name);
-    let is_rate = |name: &str| columns::OF_RATES.iter().any(|end| name.ends_with(end));
-    let names = table.names().into_iter().filter(|name| !is_given(name) && (is_moving || !is_rate(name)));
-    names.map(str::to_owned).collect()
+    let all = if is_moving { table.names().into_iter().map(str::to_owned).collect() } else { at_rest(machine) };
+    all.into_iter().filter(|name| !is_given(name)).collect()
 }
 
 /// The table with the unit of time, and with angles in degrees if these are asked for.
@@ -158,15 +169,12 @@ pub fn with_units(machine: &Machine, mut table: Table, is_in_degrees: bool) -> R
     if table.column("time").is_some() {
         table = table.unit("time", "s").map_err(wrong)?;
     }
-    if is_in_degrees {
-        let coordinates =
-            machine.about.inputs.iter().chain(&machine.about.unknowns).filter(|coordinate| coordinate.is_angle);
-        let outputs =
-            machine.about.outputs.iter().zip(&machine.about.output_angles).filter(|(_, angle)| angle.is_some());
-        let names = coordinates.map(|angle| &angle.name.text).chain(outputs.map(|(output, _)| &output.text));
-        table = table.degrees_of(names).map_err(wrong)?;
-    }
-    Ok(table)
+    let coordinates =
+        machine.about.inputs.iter().chain(&machine.about.unknowns).filter(|coordinate| coordinate.is_angle);
+    let outputs = machine.about.outputs.iter().zip(&machine.about.output_angles).filter(|(_, angle)| angle.is_some());
+    let names = coordinates.map(|angle| &angle.name.text).chain(outputs.map(|(output, _)| &output.text));
+    // A chart has angles in degrees also where the table has radians.
+    if is_in_degrees { table.degrees_of(names) } else { table.angles_of(names) }.map_err(wrong)
 }
 
 /// The numbers of a row after inputs and time.

@@ -174,3 +174,80 @@ fn what_is_not_proved() {
     let message = "error: `Cam` calls `l`, which a program in Rust has to give it\n";
     folder.run("certify cam.linkage").fails(1, message);
 }
+
+/// The numbers after a name in a line of the table of a certificate.
+fn bounds(text: &str, name: &str) -> [String; 2] {
+    let line = text.lines().find(|line| line.trim_start().starts_with(&format!("{name} "))).unwrap_or(text);
+    let parts: Vec<&str> = line.trim().split("  ").filter(|part| !part.is_empty()).collect();
+    [parts[1], parts[2]].map(|part| part.trim().to_owned())
+}
+
+/// The least value of the table is not above the least one, the largest not below the largest one, each with its own digits.
+#[test]
+fn bounds_are_rounded_outward() {
+    let folder = folder();
+    let text = "mechanism M { param a = 40, b = 120, c = 80, d = 100; input t; unknown p, q; \
+                loop a@t + b@p = d@0 + c@q; output g = exp(1/(1.01 + cos(t))); output h = cos(t)/3; \
+                output i = 1e-9*cos(t)/3; output j = atan2(sin(t), 2 + cos(t)); }";
+    folder.write("m.linkage", text);
+    let shown = folder.run("certify m.linkage --at t=40deg").works("");
+    let found = json(&folder, "certify m.linkage --at t=40deg");
+    let quantities = found["quantities"].as_array().unwrap().iter().chain(found["velocity_ratios"].as_array().unwrap());
+    for of in quantities {
+        let [least, largest] = bounds(&shown, of["name"].as_str().unwrap());
+        let unit = if of["is_angle"] == true { 1_f64.to_degrees() } else { 1.0 };
+        let end = |text: &str, place: usize| -> f64 {
+            let ends: Vec<&str> = text.trim_end_matches('°').split(" to ").collect();
+            ends[place.min(ends.len() - 1)].parse().unwrap()
+        };
+        // Of an interval in degrees the ends are rounded outward before.
+        let error = |value: f64| 4.0 * f64::EPSILON * value.abs();
+        let proved = |side: &str, place: usize| of[side][place].as_f64().unwrap() * unit;
+        let (low, high) = (proved("least", 0), proved("largest", 1));
+        assert!(end(&least, 0) <= low + error(low) && end(&largest, 1) >= high - error(high), "{of} {shown}");
+        assert!((end(&least, 0) - low).abs() <= 2e-7 * low.abs(), "{of} {shown}");
+        assert!((end(&largest, 1) - high).abs() <= 2e-7 * high.abs(), "{of} {shown}");
+    }
+    // exp(1/2.01), exp(100), 1/3: computed independently.
+    let [least, largest] = bounds(&shown, "g");
+    assert!(least.starts_with("1.6446") && largest == "2.6881172e43", "{shown}");
+    assert_eq!(bounds(&shown, "h"), ["-0.33333334", "0.33333334"]);
+    assert_eq!(bounds(&shown, "i"), ["-3.3333334e-10", "3.3333334e-10"]);
+    assert_eq!(bounds(&shown, "j"), ["-30.000001°", "30.000001°"]);
+    // With tolerances a dead point has two ends.
+    let curve =
+        folder.run("certify rocker.linkage --along theta --at tilt=0,theta=60deg --curve --tolerance 0.2%").works("");
+    let line = |start: &str| curve.lines().find(|line| line.contains(start)).unwrap_or_default().to_owned();
+    assert_eq!(line("turns back at").matches(" to ").count(), 2, "{curve}");
+    assert!(line("largest theta").contains(" to ") && line("least theta").contains(" to -"), "{curve}");
+    // With wider ones one of the two dead points is not found for sure: nothing is proved.
+    let wide = folder.run("certify rocker.linkage --along theta --at tilt=0,theta=60deg --curve --tolerance 0.5%");
+    assert!(wide.code == Some(1) && wide.messages.contains("the bounds are too wide"), "{wide:?}");
+}
+
+/// Without `--to`, a motion goes over the declared range of its input.
+#[test]
+fn a_declared_range_is_that_of_the_motion() {
+    let folder = folder();
+    for (name, input, ends) in [
+        ("both", "input theta in 20deg..90deg;", "20° to 90°"),
+        ("capital", "param T = 0.5; input theta in -T..T;", "-28.64789° to 28.64789°"),
+        ("largest", "input theta in ..90deg;", "60° to 90°"),
+    ] {
+        folder.write(&format!("{name}.linkage"), CRANK_ROCKER.replace("input theta;", input));
+        let text = folder.run(&format!("certify {name}.linkage")).works("");
+        assert!(text.contains(&format!("without dead points, theta from {ends}\n")), "{text}");
+        assert!(text.contains("theta stays in its range"), "{text}");
+    }
+    let at = folder.run("certify both.linkage --at theta=50deg").works("");
+    assert!(at.contains("theta from 50° to 90°\n"), "{at}");
+    let whole = folder.run("certify both.linkage --turns 1").works("");
+    assert!(
+        whole.contains("theta from 60° to 420°, at its start again") && whole.contains("theta goes above its range"),
+        "{whole}"
+    );
+    let slider = "mechanism Cylinder { param a = 2, b = 3; input s in 2..4.5; unknown p, q; loop a@p = b@0 + s@q; point P = a@p; }";
+    folder.write("cylinder.linkage", slider);
+    let text = folder.run("certify cylinder.linkage").works("");
+    assert!(text.contains("s from 2 to 4.5\n") && text.contains("s stays in its range\n"), "{text}");
+}

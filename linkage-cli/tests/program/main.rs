@@ -13,5 +13,6 @@ mod reports;
 mod simulations;
 mod tables;
 mod turns;
+mod units;
 mod which_motion;
 mod written_names;

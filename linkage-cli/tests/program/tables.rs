@@ -266,7 +266,7 @@ fn names_of_a_mechanism() {
     for line in [
         "Cranks",
         "parameters (--set)",
-        "  bend     20deg  number",
+        "  bend     20deg  angle in radians",
         "inputs (--at, --along)",
         "  theta  angle in radians",
         "  phi_psi   left or right   The joint of phi and psi is left or right of the line from B to (ground, 0).",

@@ -393,6 +393,9 @@ impl Resolver<'_> {
             if !self.kinds.known.contains_key(&symbol) {
                 self.kinds.supposed.insert(symbol);
             }
+            if !self.mode.is_of_loads() {
+                self.kinds.of_places.insert(symbol);
+            }
         }
     }
 
@@ -406,6 +409,9 @@ impl Resolver<'_> {
     fn mark(&mut self, node: NodeId, kind: Kind, region: Region) -> bool {
         let mut agrees = true;
         for symbol in bare_symbols(&self.graph, node) {
+            if kind == Kind::Length && !self.mode.is_of_loads() {
+                self.kinds.of_places.insert(symbol);
+            }
             match *self.kinds.known.entry(symbol).or_insert(kind) {
                 before if before == kind => {}
                 before => {

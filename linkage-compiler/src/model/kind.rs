@@ -6,7 +6,7 @@ use std::fmt;
 use super::output_angles::angle;
 use crate::diagnostics::Region;
 use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
-use crate::syntax::ExpressionId;
+use crate::syntax::{ExpressionId, Unit};
 
 /// The kind of quantity of a parameter or coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,6 +36,8 @@ pub(super) struct Kinds {
     pub(super) known: BTreeMap<SymbolId, Kind>,
     /// Lengths unless another use says otherwise.
     pub(super) supposed: BTreeSet<SymbolId>,
+    /// Lengths by a use that is none in a load: `g` in `gravity (0, -g)` is no length.
+    pub(super) of_places: BTreeSet<SymbolId>,
     /// Components of vectors in loops.
     pub(super) lengths_of_loops: BTreeSet<SymbolId>,
     /// The operands of the sums of scalars, and the sides of equations.
@@ -87,6 +89,43 @@ impl Kinds {
                     left.extend(equations_of.get(&symbol).into_iter().flatten());
                 }
             }
+        }
+    }
+}
+
+/// What the numbers of a parameter measure, as far as it is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Measure {
+    /// Not known: a ratio, a mass, a load.
+    #[default]
+    Number,
+    /// Radians.
+    Angle,
+    /// The rate of an angle, in radians per second: its default is written in `rpm`.
+    Rate,
+    /// The unit of all lengths.
+    Length,
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Number => "number",
+            Self::Angle => "angle in radians",
+            Self::Rate => "rate of an angle in rad/s",
+            Self::Length => "length",
+        })
+    }
+}
+
+impl Kinds {
+    /// What a parameter measures whose default has this unit.
+    pub(super) fn measure(&self, symbol: SymbolId, unit: Unit) -> Measure {
+        match (self.of(symbol), unit) {
+            (Kind::Angle, _) | (_, Unit::Degrees | Unit::Radians) => Measure::Angle,
+            (_, Unit::TurnsPerMinute) => Measure::Rate,
+            (Kind::Length, Unit::None) if self.of_places.contains(&symbol) => Measure::Length,
+            _ => Measure::Number,
         }
     }
 }

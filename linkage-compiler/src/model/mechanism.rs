@@ -6,7 +6,7 @@ use proc_macro2::{Ident, Span};
 use syn::{Attribute, Expr, ExprLit, Lit, Meta, MetaNameValue, Visibility};
 
 use super::chain::Chain;
-use super::kind::Kind;
+use super::kind::{Kind, Measure};
 use super::name::{Name, TypeName};
 use super::opened::Opened;
 use super::request::Request;
@@ -18,7 +18,7 @@ use crate::ids::{
     UnknownId,
 };
 use crate::structure::{StructurallySingular, System};
-use crate::syntax::{ExpressionId, Range};
+use crate::syntax::{ExpressionId, Range, Unit};
 
 /// A mechanism with resolved names.
 pub struct Mechanism {
@@ -78,7 +78,20 @@ pub struct Parameter {
     pub default: Option<NodeId>,
     /// The default as written, without spaces.
     pub default_text: Option<String>,
+    /// The unit that is written in the default.
+    pub unit: Unit,
     pub kind: Kind,
+    pub measure: Measure,
+}
+
+impl Parameter {
+    /// The default with its unit, as an argument can be: `60rpm`, `45deg`, `0.5`.
+    #[must_use]
+    pub fn default_in_words(&self) -> Option<String> {
+        let is_plain = |text: &str| text.trim_start_matches('-').parse::<f64>().is_ok();
+        let unit = Unit::ALL.into_iter().find(|(_, unit)| *unit == self.unit).map_or("", |(name, _)| name);
+        self.default_text.as_ref().map(|text| if is_plain(text) { format!("{text}{unit}") } else { text.clone() })
+    }
 }
 
 /// A coordinate of q.

@@ -35,7 +35,7 @@ pub use chain::{Chain, Link};
 pub use functions::VECTOR_FUNCTIONS;
 pub use guess::{Guess, GuessedGroup};
 pub use joints::Joints;
-pub use kind::Kind;
+pub use kind::{Kind, Measure};
 pub use kinematic_chain::{ChainJoint, ChainLink, KinematicChain};
 pub use mechanism::{
     Call, Constraint, Coordinate, Driver, ExternalFunction, Extreme, JointRange, Mechanism, Output, Parameter, Point,

@@ -1,13 +1,15 @@
 //! Outputs that are angles.
 //!
 //! The terms of a sum are of one kind: it is an angle if one of them is, and none is a length. A term is an angle if it is a
-//! coordinate or a parameter that is one, an inverse function such as `atan2`, or a number times one of these. A product of two
-//! names is none: `r * theta` may be a length.
+//! coordinate or a parameter that is one, an inverse function such as `atan2`, the magnitude of an angle, or a number times an
+//! angle, also times a sum that is one. A product of two names is none: `r * theta` may be a length.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::{Kind, Mechanism};
+use rustc_hash::FxHashMap;
+
+use super::{Kind, Measure, Mechanism, Parameter};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 
 /// An output that is an angle.
@@ -20,51 +22,77 @@ pub struct OutputAngle {
 /// The outputs that are angles, in their order.
 #[must_use]
 pub fn output_angles(mechanism: &Mechanism) -> Vec<Option<OutputAngle>> {
-    let parameters = mechanism.parameters.iter().map(|of| (of.symbol, of.kind));
+    // One with a default in degrees is an angle, also where its use does not say so.
+    let kind = |of: &Parameter| if of.measure == Measure::Angle { Kind::Angle } else { of.kind };
+    let parameters = mechanism.parameters.iter().map(|of| (of.symbol, kind(of)));
     let coordinates = mechanism.coordinates.iter().map(|of| (of.symbol, of.kind));
     let kinds: BTreeMap<SymbolId, Kind> = coordinates.chain(parameters).collect();
     mechanism.outputs.iter().map(|output| angle(&mechanism.graph, output.value, &kinds)).collect()
 }
 
-/// A term of a sum.
-enum Term {
-    Angle,
-    /// An `atan2` times a number.
-    Jumping(f64),
+/// What the numbers of an expression are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Found {
+    Angle(OutputAngle),
     Length,
     Other,
 }
 
-pub(super) fn angle(graph: &Graph, sum: NodeId, kinds: &BTreeMap<SymbolId, Kind>) -> Option<OutputAngle> {
-    let term = |number: Number, of: NodeId| match graph.node(of) {
-        Node::Symbol(symbol) => match kinds.get(symbol) {
-            Some(Kind::Angle) => Term::Angle,
-            Some(Kind::Length) => Term::Length,
-            Some(Kind::Number) | None => Term::Other,
-        },
-        Node::Call(Function::Atan2, _) => Term::Jumping(TAU * number.to_f64().abs()),
-        Node::Call(Function::Asin | Function::Acos | Function::Atan, _) => Term::Angle,
-        Node::Call(Function::Abs, of) if of.iter().all(|of| angle(graph, *of, kinds).is_some()) => Term::Angle,
-        _ => Term::Other,
-    };
-    // A number times a term is a product.
-    let scaled = |number: Number, of: NodeId| match graph.node(of) {
-        Node::Product { coefficient, factors } => match factors.as_slice() {
-            [(base, 1)] => term(number.multiply(*coefficient), *base),
-            _ => term(number, of),
-        },
-        _ => term(number, of),
-    };
-    let terms: Vec<Term> = match graph.node(sum) {
-        Node::Sum { terms, .. } => terms.iter().map(|(number, of)| scaled(*number, *of)).collect(),
-        _ => vec![scaled(Number::ONE, sum)],
-    };
-    let jumps = terms.iter().filter_map(|term| match term {
-        Term::Jumping(jump) => Some(*jump),
+impl Found {
+    fn angle(jump: Option<f64>) -> Self {
+        Self::Angle(OutputAngle { jump })
+    }
+
+    /// This times a number.
+    fn times(self, number: Number) -> Self {
+        match self {
+            Self::Angle(OutputAngle { jump }) => Self::angle(jump.map(|jump| jump * number.to_f64().abs())),
+            other => other,
+        }
+    }
+
+    /// The sum of terms.
+    fn sum(terms: impl Iterator<Item = Self>) -> Self {
+        terms.fold(Self::Other, |sum, term| match (sum, term) {
+            (Self::Length, _) | (_, Self::Length) => Self::Length,
+            (Self::Angle(one), Self::Angle(other)) => {
+                Self::angle(one.jump.into_iter().chain(other.jump).reduce(f64::min))
+            }
+            (Self::Angle(angle), Self::Other) | (Self::Other, Self::Angle(angle)) => Self::Angle(angle),
+            (Self::Other, Self::Other) => Self::Other,
+        })
+    }
+}
+
+/// The angle that a formula is, from its parts to the whole.
+pub(super) fn angle(graph: &Graph, formula: NodeId, kinds: &BTreeMap<SymbolId, Kind>) -> Option<OutputAngle> {
+    let mut found: FxHashMap<NodeId, Found> = FxHashMap::default();
+    for id in graph.reachable(&[formula]) {
+        let of = |part: NodeId| found.get(&part).copied().unwrap_or(Found::Other);
+        let here = match graph.node(id) {
+            Node::Symbol(symbol) => match kinds.get(symbol) {
+                Some(Kind::Angle) => Found::angle(None),
+                Some(Kind::Length) => Found::Length,
+                Some(Kind::Number) | None => Found::Other,
+            },
+            Node::Call(Function::Atan2, _) => Found::angle(Some(TAU)),
+            Node::Call(Function::Asin | Function::Acos | Function::Atan, _) => Found::angle(None),
+            // The magnitude of an angle by `atan2` is pi on both sides of its jump.
+            Node::Call(Function::Abs, parts) => match Found::sum(parts.iter().map(|part| of(*part))) {
+                Found::Angle(_) => Found::angle(None),
+                other => other,
+            },
+            Node::Product { coefficient, factors } => match factors.as_slice() {
+                [(base, 1)] => of(*base).times(*coefficient),
+                _ => Found::Other,
+            },
+            Node::Sum { terms, .. } => Found::sum(terms.iter().map(|(number, term)| of(*term).times(*number))),
+            _ => Found::Other,
+        };
+        found.insert(id, here);
+    }
+    match found.get(&formula) {
+        Some(Found::Angle(angle)) => Some(*angle),
         _ => None,
-    });
-    let jump = jumps.reduce(f64::min);
-    let is_one = terms.iter().all(|term| !matches!(term, Term::Length))
-        && terms.iter().any(|term| matches!(term, Term::Angle | Term::Jumping(_)));
-    is_one.then_some(OutputAngle { jump })
+    }
 }

@@ -144,6 +144,9 @@ impl Resolver<'_> {
         }
         for symbol in symbols {
             self.kinds.known.entry(symbol).or_insert(kind);
+            if kind == Kind::Length {
+                self.kinds.of_places.insert(symbol);
+            }
         }
     }
 }

@@ -6,7 +6,7 @@ use syn::spanned::Spanned;
 use syn::{Attribute, Path};
 
 use super::chain::{Chain, Chains};
-use super::kind::Kind;
+use super::kind::{Kind, Measure};
 use super::links::Links;
 use super::mechanism::{Coordinate, Driver, ExternalFunction, JointRange, Mechanism, Output, Parameter, Point};
 use super::name::{Name, TypeName};
@@ -18,7 +18,7 @@ use crate::diagnostics::{Diagnostics, suggestion};
 use crate::graph::SymbolId;
 use crate::ids::CoordinateId;
 use crate::structure::System;
-use crate::syntax::{self, Declared, KEYWORD_AS_NAME, StatementKind};
+use crate::syntax::{self, Declared, KEYWORD_AS_NAME, StatementKind, Unit};
 
 /// The largest number of expressions of a mechanism; its derivatives have several times as many.
 const LARGEST: usize = 25_000;
@@ -74,6 +74,7 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     result.externals = externals;
     for parameter in result.parameters.iter_mut().chain(result.scene_parameters.iter_mut()) {
         parameter.kind = kinds.of(parameter.symbol);
+        parameter.measure = kinds.measure(parameter.symbol, parameter.unit);
     }
     for coordinate in result.coordinates.iter_mut() {
         coordinate.kind = kinds.of(coordinate.symbol);
@@ -178,7 +179,9 @@ impl Resolver<'_> {
                                 symbol,
                                 default: None,
                                 default_text: None,
+                                unit: Unit::None,
                                 kind: Kind::Number,
+                                measure: Measure::Number,
                             });
                         }
                     }
@@ -253,6 +256,7 @@ impl Resolver<'_> {
                         if let Some(parameter) = result.parameters.iter_mut().find(|p| p.name.text == text) {
                             parameter.default = node;
                             parameter.default_text = node.map(|node| self.written(*default, node));
+                            parameter.unit = self.unit_of(*default);
                         }
                     }
                 }

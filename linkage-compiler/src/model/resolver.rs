@@ -40,8 +40,17 @@ pub(super) enum Mode {
     Loop,
     /// The default of a parameter depends on no names.
     Default,
+    /// The field of gravity.
+    Field,
     /// In the law of a scene `rate` and `t` are allowed.
     Law,
+}
+
+impl Mode {
+    /// True where a vector is a load: its components are no lengths.
+    pub(super) fn is_of_loads(self) -> bool {
+        matches!(self, Self::Field | Self::Law)
+    }
 }
 
 /// The kinds and the symbols of names that may be undeclared, from their use.

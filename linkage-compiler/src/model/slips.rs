@@ -41,6 +41,24 @@ impl Resolver<'_> {
         }
     }
 
+    /// The unit of a default: that of a plain number, or the only one of a number times a plain number or of a sum.
+    pub(super) fn unit_of(&self, id: ExpressionId) -> Unit {
+        match self.expressions.get(id) {
+            Expression::Number { unit, .. } => *unit,
+            Expression::Negate(inner) => self.unit_of(*inner),
+            Expression::Sum(operands) => {
+                let mut units = operands.iter().map(|(_, operand)| self.unit_of(*operand));
+                units.next().filter(|first| units.all(|unit| unit == *first)).unwrap_or(Unit::None)
+            }
+            Expression::Product(operands) => {
+                let units = operands.iter().map(|(operator, operand)| (*operator, self.unit_of(*operand)));
+                let units: Vec<_> = units.filter(|(_, unit)| *unit != Unit::None).collect();
+                if let [(Operator::Direct, only)] = units.as_slice() { *only } else { Unit::None }
+            }
+            _ => Unit::None,
+        }
+    }
+
     /// True if a division is written in an expression.
     fn divides(&self, id: ExpressionId) -> bool {
         let expression = self.expressions.get(id);

@@ -54,7 +54,7 @@ impl<M: Certifiable> fmt::Display for Curve<M> {
         write!(f, "{}: one closed curve, on which {name} ", system.mechanism.name())?;
         for (place, point) in dead_points.iter().enumerate() {
             f.write_str(if place == 0 { "turns back at " } else { ", " })?;
-            system.shown_input(point.input.middle()).fmt(f)?;
+            f.write_str(&system.shown_place(point.input))?;
         }
         f.write_str(if dead_points.is_empty() { "never turns back" } else { "" })?;
         f.write_str(system.shown_tolerances())
@@ -190,6 +190,13 @@ impl<M: Certifiable> Certify<'_, M> {
         };
         let (tubes, tests) = (motion.tubes, motion.tests);
         let dead_points = dead_points(&system, &tubes)?;
+        // A largest and a smallest input take turns: with wide tolerances, one may be in the overlap of two tubes and in none of
+        // them for sure.
+        let next = dead_points.iter().cycle().skip(1);
+        if dead_points.iter().zip(next).any(|(one, next)| one.is_largest == next.is_largest) {
+            let input = dead_points.iter().map(|point| point.input).reduce(Interval::hull).unwrap_or(Interval::ENTIRE);
+            return Err(CertifyError::Undecided { mechanism: system.mechanism.name(), input });
+        }
         Ok(Curve { system, tubes, dead_points, turns, input_turns, tests })
     }
 }

@@ -122,6 +122,20 @@ impl<M: Certifiable> System<M> {
         Shown { value, is_angle: self.is_angle(self.count()) }
     }
 
+    /// A place of the moving input: a number where its interval is narrow, else both ends, rounded outward.
+    pub(super) fn shown_place(&self, of: Interval) -> String {
+        /// The width of an interval that is one number for readers, as a part of it.
+        const ONE_NUMBER: f64 = 1e-7;
+
+        if of.width() <= ONE_NUMBER * of.magnitude() || !of.magnitude().is_finite() {
+            return self.shown_input(of.middle()).to_string();
+        }
+        let is_angle = self.is_angle(self.count());
+        let in_degrees = || of * Interval::from(180.0) / Interval::pi();
+        let (of, unit) = if is_angle { (in_degrees(), "°") } else { (of, "") };
+        format!("{} to {}{unit}", of.rounded_least(), of.rounded_most())
+    }
+
     /// The words about parameters that have tolerances.
     pub(super) fn shown_tolerances(&self) -> &'static str {
         if self.has_tolerances() { ", for all parameters within their tolerances" } else { "" }

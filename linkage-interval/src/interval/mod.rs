@@ -2,6 +2,7 @@
 
 mod angle;
 mod arithmetic;
+mod decimal;
 mod exponential;
 mod number;
 mod rounding;

@@ -2,7 +2,7 @@
 
 use super::{Axis, Chart, Curve, Line, Look, Polar, Unit};
 use crate::Table;
-use crate::table::{Column, Quantity, TableError};
+use crate::table::{Column, Quantity, TableError, Units};
 
 /// The most letters of a title: more do not fit above a chart.
 const LONGEST_TITLE: usize = 50;
@@ -24,19 +24,23 @@ impl Chart {
         let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
         let all_in_degrees = columns.iter().all(|column| is_angle(column));
         // The title names the curves: the axis has their unit.
-        let of_first = unit(first).filter(|of_first| columns.iter().all(|column| unit(column) == Some(*of_first)));
+        let of_first =
+            unit(first).filter(|of_first| columns.iter().all(|column| unit(column).as_ref() == Some(of_first)));
+        let is_one = of_first.is_some() || columns.iter().all(|column| unit(column).is_none());
         let up = match of_first {
             Some(unit) if !all_in_degrees => Axis::linear(format!("[{unit}]")),
             _ => Axis::linear("").unit(if all_in_degrees { Unit::Degrees } else { Unit::Number }),
         };
         let across = match is_angle(x) {
             true => Axis::linear(&*x.name).unit(Unit::Degrees),
-            false => Axis::linear(x.head()),
+            false => Axis::linear(with_unit(x)),
         };
         let mut chart = Self::new(title(&names, &x.name), across, up);
         for (colour, column) in columns.iter().enumerate() {
             let [across, up] = [numbers(x, is_angle(x)), numbers(column, all_in_degrees)];
-            let curve = curve(&column.name, across.zip(up));
+            // Curves of several units have their own.
+            let name = if is_one || all_in_degrees { column.name.clone() } else { with_unit(column) };
+            let curve = curve(&name, across.zip(up));
             chart.curves.push(Curve { colour, ..curve });
         }
         if chart.curves.iter().all(|curve| curve.points.iter().all(Option::is_none)) {
@@ -63,7 +67,7 @@ impl Polar {
     /// # Errors
     /// [`TableError::UnknownColumn`] with the nearest name, and [`TableError::NoNumbers`] if no row has both numbers.
     pub fn of(table: &Table, x: &str, y: &str) -> Result<Self, TableError> {
-        let unit = unit(table.find(x)?).map_or_else(String::new, |unit| format!("[{unit}]"));
+        let unit = table.find(x)?.unit.as_ref().map_or_else(String::new, |unit| format!("[{unit}]"));
         Self::new(name(x, y), unit).and(table, x, y)
     }
 
@@ -96,8 +100,15 @@ fn is_angle(column: &Column) -> bool {
     matches!(column.quantity, Quantity::Angle(0) | Quantity::Degrees(0))
 }
 
-fn unit(column: &Column) -> Option<&str> {
-    column.unit.as_deref()
+/// The unit of a column, also of an angle that has none in its head.
+fn unit(column: &Column) -> Option<String> {
+    let of_angle = || matches!(column.quantity, Quantity::Angle(_)).then(|| column.quantity.unit(Some(Units::SI)));
+    column.unit.clone().or_else(|| of_angle().flatten())
+}
+
+/// The name of a column with its unit.
+fn with_unit(column: &Column) -> String {
+    unit(column).map_or_else(|| column.name.clone(), |unit| format!("{} [{unit}]", column.name))
 }
 
 /// The numbers of a column; for an axis of angles in radians.

@@ -243,18 +243,8 @@ impl Table {
     /// [`TableError::UnknownColumn`], and [`TableError::NotAnAngle`] for a length, a time or a force.
     pub fn degrees_of(mut self, names: impl IntoIterator<Item = impl AsRef<str>>) -> Result<Self, TableError> {
         for name in names {
-            let name = name.as_ref();
-            if !self.find(name)?.may_be_angle() {
-                return Err(TableError::NotAnAngle { name: name.to_owned() });
-            }
-            let family = ["", "_rate", "_acceleration"].map(|end| format!("{name}{end}"));
-            for (order, name) in (0..).zip(&family) {
-                let Some(place) = self.columns.iter().position(|column| column.name == *name) else { continue };
-                if self.columns[place].quantity == Quantity::Plain {
-                    self.columns[place].quantity = Quantity::Angle(order);
-                }
-                self.turn_to_degrees(&[place]);
-            }
+            let places = self.family(name.as_ref())?;
+            self.turn_to_degrees(&places);
         }
         Ok(self)
     }
@@ -284,6 +274,35 @@ impl Table {
             last = Some((row, *value));
         }
         Ok(self)
+    }
+
+    /// Says that these columns are angles in radians, such as outputs, with their columns `_rate` and `_acceleration`: a chart has
+    /// them in degrees. The numbers remain.
+    ///
+    /// # Errors
+    /// Those of [`degrees_of`](Self::degrees_of).
+    pub fn angles_of(mut self, names: impl IntoIterator<Item = impl AsRef<str>>) -> Result<Self, TableError> {
+        for name in names {
+            self.family(name.as_ref())?;
+        }
+        Ok(self)
+    }
+
+    /// The columns of an angle, its rate and its acceleration.
+    fn family(&mut self, name: &str) -> Result<Vec<usize>, TableError> {
+        if !self.find(name)?.may_be_angle() {
+            return Err(TableError::NotAnAngle { name: name.to_owned() });
+        }
+        let mut places = Vec::new();
+        for (order, end) in (0..).zip(["", "_rate", "_acceleration"]) {
+            let name = format!("{name}{end}");
+            let Some(place) = self.columns.iter().position(|column| column.name == name) else { continue };
+            if self.columns[place].quantity == Quantity::Plain {
+                self.columns[place].quantity = Quantity::Angle(order);
+            }
+            places.push(place);
+        }
+        Ok(places)
     }
 
     fn turn_to_degrees(&mut self, places: &[usize]) {

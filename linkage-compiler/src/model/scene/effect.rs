@@ -84,7 +84,8 @@ impl Resolver<'_> {
                 }
             }
             EffectKind::Gravity { field, bodies } => {
-                let Some((x, y)) = self.vector(*field) else { return };
+                let field_vector = self.within(Mode::Field, |resolver| resolver.vector(*field));
+                let Some((x, y)) = field_vector else { return };
                 for part in [x, y] {
                     self.still(*field, part, "the field of gravity");
                 }
