@@ -183,10 +183,8 @@ impl Solver {
             tried += 1;
             match self.design.call("assemble", &[Self::given(inputs), branch.clone()]) {
                 Ok(pose) => {
-                    let (unknowns, are_directions) = self.of_pose(&pose);
                     let data = Data::fields([("branch", branch.clone()), ("pose", pose)]);
-                    let motion = Motion { inputs: inputs.to_vec(), unknowns, are_directions, data };
-                    found.push((words(&branch, &turns), motion));
+                    found.push((words(&branch, &turns), self.of_data(inputs, data)?));
                 }
                 Err(error) => _ = first.get_or_insert_with(|| error.to_string()),
             }
