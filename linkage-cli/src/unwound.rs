@@ -1,7 +1,7 @@
 //! Angles that go on from row to row, instead of back by a turn at pi.
 //!
 //! The unknowns of a motion that is followed count turns. Those of a position on a branch have the turns nearest to the last row,
-//! unless the equations do not hold there: an angle of which another is a part in an equation has other positions on other turns.
+//! unless the equations do not hold there, as where another angle is half of one.
 //! An output is its formula at these unknowns, as in the library, whose motions count turns. `atan2` in an output that is an
 //! angle goes on as an unknown does.
 

@@ -1,6 +1,7 @@
 //! The turns of angles at run time: a pose has the coordinates that it is made of, and one that a function finds solves the
 //! equations with its numbers, not with its directions alone.
 
+use linkage::certify::{Certify, CertifyError};
 use linkage::continuation::{Direction, Path};
 use linkage::position::newton;
 use linkage::{Branches as _, Build as _, D, Kinematic as _, Mechanism as _};
@@ -25,6 +26,7 @@ const WHEELS: &str = "
         equation w = 3*z;
         loop a@t + b@p - c@s - d@0 = 0;
         loop a@t + e@(p - 1.263) + f@u - h@w - k@0 = 0;
+        derive intervals;
     }
     mechanism Reeled {
         param a = 3, b = 2.5, c = 3, d = 1;
@@ -98,7 +100,7 @@ fn positions_that_are_found_solve_the_equations() {
 fn paths_keep_the_turns() {
     each(&["Between"], |m| {
         for turn in [-3.0, 0.0, 2.0] {
-            let t = (100.0 + 360.0 * turn).to_radians();
+            let t = f64::to_radians(100.0 + 360.0 * turn);
             let found = m.all_positions([t].into()).expect("a list").map(|(_, q)| q);
             let q =
                 found.min_by(|one, other| (one.unknowns[3] + 0.7).abs().total_cmp(&(other.unknowns[3] + 0.7).abs()));
@@ -140,4 +142,27 @@ fn data_of_a_pose_has_coordinates() {
         }
     }
     assert!(design.coordinates(&Data::Nothing).is_err());
+}
+
+/// A start off an equation that determines its unknown is no dead point of that unknown.
+#[test]
+fn a_wheel_is_never_singular() {
+    let design = design("Before");
+    let prepared = design.prepared().expect("within the capacities");
+    let m = prepared.certifiable::<D<1>>().expect("formulas over intervals");
+    let plain: Wheel<'_> = prepared.with_inputs().expect("one input");
+    let (_, q) = plain.all_positions([4.359].into()).expect("a list").next().expect("a position");
+    assert!(Certify::new(&m).range(&q, 4.4).is_ok());
+    let off = CoordinatesAtRunTime {
+        unknowns: plain
+            .dims()
+            .0
+            .column(|place| q.unknowns[place] - if place == 0 { 4.0 * std::f64::consts::PI } else { 0.0 }),
+        ..q
+    };
+    match Certify::new(&m).range(&off, 4.4) {
+        Err(CertifyError::NoPosition { group, .. }) => assert_eq!(group, "t, p, s, u"),
+        Err(error) => panic!("{error}"),
+        Ok(_) => {}
+    }
 }

@@ -172,7 +172,7 @@ fn angles_by_equations() {
         assert!(closed.contains(", at its start again\n"), "{closed}");
         assert!(!statement(turns - 1).contains("at its start again"), "{name}");
     }
-    // A rack with a number for its radius is a length, and a factor has no kind.
+    // A rack with a number for its radius is a length, and a product may be anything.
     for text in [
         "mechanism Rack { input s; unknown psi; equation 2 * psi = s; loop_ }",
         "mechanism Rack { param k = 2; input x; unknown psi; equation psi = k*x; point P = 1@psi; }",

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::output_angles::angle;
 use crate::diagnostics::Region;
-use crate::graph::{Graph, Node, NodeId, Number, SymbolId};
+use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 use crate::syntax::{ExpressionId, Unit};
 
 /// The kind of quantity of a parameter or coordinate.
@@ -62,7 +62,7 @@ impl Kinds {
     }
 
     /// Finds the coordinates that equations make angles: the terms of a sum are of one kind, and an equation is a sum that is
-    /// zero. Numbers of teeth and radii are factors, and have no kind from it.
+    /// zero. It counts if its terms are names and numbers, since a product, as of a radius and an angle, may be anything.
     pub(super) fn angles_of_equations(
         &mut self,
         graph: &Graph,
@@ -80,7 +80,7 @@ impl Kinds {
             left.extend((!symbols.is_empty()).then_some(equation));
         }
         while let Some(equation) = left.pop() {
-            if angle(graph, equation, &kinds).is_none() {
+            if !has_simple_terms(graph, equation) || angle(graph, equation, &kinds).is_none() {
                 continue;
             }
             for symbol in bare_symbols(graph, equation) {
@@ -128,6 +128,18 @@ impl Kinds {
             _ => Measure::Number,
         }
     }
+}
+
+/// True for a sum of names times numbers, numbers, and inverse functions.
+fn has_simple_terms(graph: &Graph, sum: NodeId) -> bool {
+    let is_simple = |id: NodeId| match graph.node(id) {
+        Node::Symbol(_) => true,
+        Node::Call(function, _) => {
+            matches!(function, Function::Asin | Function::Acos | Function::Atan | Function::Atan2)
+        }
+        _ => graph.constant_value(id).is_some(),
+    };
+    matches!(graph.node(sum), Node::Sum { terms, .. } if terms.iter().all(|(_, term)| is_simple(*term)))
 }
 
 /// The symbols with the same kind as the expression: its terms that are a symbol, possibly times a

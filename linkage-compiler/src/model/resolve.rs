@@ -51,11 +51,12 @@ pub fn resolve(tree: syntax::Mechanism, budget: &Budget) -> (Mechanism, Diagnost
     result.requests = result.requests_at.keys().copied().collect();
     resolver.report_fault(result.name.span());
     resolver.report_undeclared(&statements);
-    let coordinates = result.coordinates.iter().map(|coordinate| coordinate.symbol);
-    resolver.kinds.angles_of_equations(&resolver.graph, &result.rows_of_constraints(1), coordinates);
     resolver.kinds_of_ranges(&result);
     resolver.kinds_of_numbers(&statements);
     resolver.kinds_of_sums(&result);
+    // After the messages about kinds, which are about uses.
+    let coordinates = result.coordinates.iter().map(|coordinate| coordinate.symbol);
+    resolver.kinds.angles_of_equations(&resolver.graph, &result.rows_of_constraints(1), coordinates);
     if resolver.diagnostics.is_empty() {
         resolver.unused_lets(&statements, &result);
         let chains = resolver.chains(&statements);
