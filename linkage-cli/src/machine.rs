@@ -1,5 +1,7 @@
 //! A mechanism with numbers: values of its parameters, a branch, and the inputs that are held.
 
+use std::f64::consts::TAU;
+
 use linkage_compiler::Lowered;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::model::Request;
@@ -9,7 +11,6 @@ use linkage_runtime::Ranged;
 use crate::about::{About, chosen};
 use crate::arguments::Numbers;
 use crate::failure::Failure;
-use crate::motion::HELD;
 use crate::names::{once, place};
 use crate::parameters::Parameters;
 use crate::scene::AboutScene;
@@ -19,6 +20,9 @@ use crate::source::read;
 use crate::start::{Among, Near, Start, choices};
 use crate::symbols::Given;
 use crate::values::{Assignment, Choice};
+
+/// The angle at which an input without a range is held without a value: every crank can be there.
+const HELD: f64 = TAU / 6.0;
 
 /// A mechanism with values for all but its inputs.
 pub struct Machine {

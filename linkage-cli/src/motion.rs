@@ -8,9 +8,6 @@ use crate::machine::Machine;
 use crate::names::once;
 use crate::values::{Assignment, Value};
 
-/// The angle at which an input without a range is held without a value: every crank can be there.
-pub const HELD: f64 = TAU / 6.0;
-
 /// The values of all inputs at each step.
 pub struct Path {
     held: Vec<f64>,
