@@ -158,6 +158,12 @@ impl Solver {
         all.list().iter().map(position).collect()
     }
 
+    /// True if there are more than 256 branches of sides.
+    pub fn has_many_branches(&self) -> bool {
+        let [sides, ..] = self.design.mechanism().branch_fields();
+        sides.len() > 8
+    }
+
     /// The first positions at these inputs, at most so many, and how many more there may be. Of few branches all positions are
     /// listed; of many, branch after branch is assembled until there are enough.
     pub fn first_positions(&self, inputs: &[f64], most: usize) -> Result<(Vec<(String, Motion)>, usize), String> {

@@ -2,9 +2,10 @@
 
 use linkage_interpreter::BranchAtRunTime;
 use linkage_report::drawing::CircuitChart;
-use linkage_runtime::Mechanism;
+use linkage_report::report::MOST_MODES;
 use linkage_runtime::circuits::{self, CircuitError, CircuitOptions};
 use linkage_runtime::continuation::Options;
+use linkage_runtime::{Branches as _, Column, Mechanism, PositionError};
 use serde::Serialize;
 
 use super::draw::undrawn;
@@ -25,6 +26,9 @@ const WITHIN: f64 = 0.381_966_011_250_105;
 
 /// The longest step of a curve in a chart, in the units of a path: it looks smooth.
 const SMOOTH: f64 = 1.0 / 16.0;
+
+/// The most motions that are followed where there are many positions.
+const MOST_MOTIONS: usize = 16;
 
 const FORMS: [Form; 4] = [("text", &["txt"]), ("JSON", &["json"]), ("HTML", &["html", "htm"]), ("SVG", &["svg"])];
 
@@ -47,12 +51,21 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     let inputs = held(machine, at, (!given).then_some((moving, first)))?;
     let prepared = prepared(machine)?;
     let mechanism = one_input(&prepared, &inputs, moving)?;
+    let still = vec![0.0; inputs.len()];
+    let chosen = match numbers.choose() && machine.solver.has_many_branches() {
+        true => Some(machine.place(&inputs, &still).map_err(Failure::Outside)?),
+        false => None,
+    };
     let found = progress::during("following".to_owned(), || {
         let path = match charted.as_slice() {
             [] => Options::default(),
             _ => Options { longest_step: SMOOTH, ..Options::default() },
         };
-        Found::over(&mechanism, starts.iter().copied(), CircuitOptions { path, ..CircuitOptions::default() })
+        let options = CircuitOptions { path, ..CircuitOptions::default() };
+        match machine.solver.has_many_branches() {
+            false => Found::over(&mechanism, starts.iter().copied(), options),
+            true => some(&mechanism, first, chosen.as_deref(), options),
+        }
     });
     if let Some(failure) = prepared.failure() {
         return Err(Failure::Outside(failure.to_string()));
@@ -67,7 +80,10 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     if found.modes.is_empty() {
         return Err(Failure::Outside(none(machine, &inputs, starts.len())));
     }
-    let found = if numbers.choose() { circuit_of_chosen(machine, &inputs, moving, found)? } else { found };
+    let found = match numbers.choose() && chosen.is_none() {
+        true => circuit_of_chosen(machine, &inputs, moving, found)?,
+        false => found,
+    };
     let list = Circuits::of(machine, &inputs, moving, &found)?;
     let charts = charted.iter().map(|unknown| {
         let chart = CircuitChart::of(&mechanism, &found, unknown).map_err(undrawn)?;
@@ -105,6 +121,47 @@ fn charted<'m>(machine: &'m Machine, asked: &[String], format: CircuitsFormat) -
     }
 }
 
+/// The circuits through the first of many positions at a value of the input, or through the chosen one; what is left out is said.
+fn some<'p>(
+    mechanism: &OneInput<'p>,
+    input: f64,
+    chosen: Option<&[f64]>,
+    options: CircuitOptions,
+) -> Result<Found<'p>, CircuitError<&'p str>> {
+    let mut listed = Vec::new();
+    for (branch, position) in mechanism.all_positions(Column::from([input]))? {
+        if mechanism.is_within_ranges(&position).map_err(PositionError::from)? {
+            listed.push((branch, position));
+        }
+    }
+    if let Some(unknowns) = chosen {
+        let off = |(_, position): &(_, At)| off(mechanism.unknown_angles(), position, unknowns);
+        let nearest = listed.iter().min_by(|one, other| off(one).total_cmp(&off(other)));
+        listed = nearest.copied().into_iter().collect();
+    }
+    listed.truncate(MOST_MODES);
+    let (found, _, error) = Found::of_some(mechanism, &listed, MOST_MOTIONS, options);
+    match error.filter(|_| found.modes.is_empty()) {
+        Some(error) => Err(error),
+        None if chosen.is_some() => Ok(found),
+        None => {
+            let count = found.motions.len();
+            anstream::eprintln!(
+                "there are many positions: these are the circuits of {count} motions, others are left out"
+            );
+            Ok(found)
+        }
+    }
+}
+
+/// The largest difference of a position from unknowns, whole turns of angles aside.
+fn off(are_angles: &[bool], position: &At, unknowns: &[f64]) -> f64 {
+    let listed = OneInput::unknowns(position);
+    let each = listed.iter().zip(unknowns).zip(are_angles);
+    each.map(|((one, other), is_angle)| if *is_angle { ((one - other) / 2.0).sin() } else { one - other })
+        .fold(0.0, |most: f64, off| most.max(off.abs()))
+}
+
 /// The circuit of the position that the branch or the guess chooses at the first value that has one.
 fn circuit_of_chosen<'p>(
     machine: &Machine,
@@ -125,12 +182,8 @@ fn circuit_of_chosen<'p>(
         }
     });
     let Some((value, unknowns)) = chosen else { return Err(Failure::Outside(why.unwrap_or_default())) };
-    let off = |mode: &circuits::CircuitMode<At, BranchAtRunTime<'p>>| {
-        let listed = OneInput::unknowns(&mode.position);
-        let each = listed.iter().zip(&unknowns).zip(&machine.about.unknowns);
-        each.map(|((one, other), of)| if of.is_angle { ((one - other) / 2.0).sin() } else { one - other })
-            .fold(0.0, |most: f64, off| most.max(off.abs()))
-    };
+    let are_angles: Vec<bool> = machine.about.unknowns.iter().map(|of| of.is_angle).collect();
+    let off = |mode: &circuits::CircuitMode<At, BranchAtRunTime<'p>>| off(&are_angles, &mode.position, &unknowns);
     let there = found.modes.iter().filter(|mode| mode.position.parameter == value);
     let nearest = there.min_by(|one, other| off(one).total_cmp(&off(other)));
     let circuit = nearest.and_then(|mode| found.circuit_of(mode.motion)).unwrap_or_default();

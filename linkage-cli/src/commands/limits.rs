@@ -1,5 +1,6 @@
 //! `linkage limits`: the ends of the motion through each position at one choice of inputs.
 
+use linkage_report::report::MOST_MODES;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOptions};
 use serde::Serialize;
 
@@ -36,9 +37,15 @@ pub fn run(arguments: &arguments::Limits) -> Result<(), Failure> {
     form.write(format, &limits, Limits::to_text, &numbers.source.file)
 }
 
-/// All positions at these inputs, each with its branch.
+/// The first positions at these inputs, each with its branch; how many are left out is said.
 pub fn listed(machine: &Machine, inputs: &[f64]) -> Result<Vec<(String, Vec<f64>)>, Failure> {
-    let all = machine.positions(inputs).map_err(Failure::Outside)?;
+    let (all, more) = machine.first_positions(inputs, MOST_MODES).map_err(Failure::Outside)?;
+    if more > 0 {
+        let count = all.len();
+        anstream::eprintln!(
+            "these are the first {count} positions, and up to {more} more are left out: --branch chooses one"
+        );
+    }
     if all.is_empty() {
         // The reason is that of the position on the first branch.
         let why = machine.motion(inputs, &vec![0.0; inputs.len()]).err();

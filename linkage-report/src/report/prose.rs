@@ -190,7 +190,8 @@ impl<N: BorrowedName> Writer<'_, N> {
         }
         paragraphs.extend(modes.not_followed.iter().map(|why| format!("Not all motions are known: {why}.")));
         paragraphs.extend(modes.modes.iter().zip(1..).map(|(mode, number)| self.mode(mode, number)));
-        let followed = modes.followed.and_then(|mode| modes.modes.get(mode)?.motion);
+        let followed = modes.followed.filter(|_| self.report.motion.is_some());
+        let followed = followed.and_then(|mode| modes.modes.get(mode)?.motion);
         for (place, circuit) in modes.circuits.iter().enumerate() {
             for &at in circuit {
                 let Some(motion) = modes.motions.get(at) else { continue };

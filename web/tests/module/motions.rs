@@ -229,3 +229,35 @@ fn numbers_and_joints_are_those_of_emitted_code() {
         assert!((found[0] - c.x).hypot(found[1] - c.y) < 1e-13 * parameters[0], "{found:?} {c}");
     }
 }
+
+/// A report has the modes in the declared ranges, the circuits of a mechanism whose output has a kink, and angles that turn.
+#[test]
+fn reports_of_ranges_kinks_and_turns() {
+    let mut page = Page::with(
+        "mechanism Ranged { param crank = 2, frame = 3; input theta, z; unknown phi, s in 1.5..4.5;
+             loop crank@theta = (frame + z)@0 + s@phi; }
+         mechanism Kink { param a = 2, b = 5, c = 4, d = 5; input t; unknown p, s; loop a@t + b@p = d@0 + c@s;
+             point B = a@t; output o = angle(B); output k = abs(sin(t)); }",
+    );
+    let crank = 60_f64.to_radians();
+    let report = |page: &mut Page, mechanism: usize, place: Value| {
+        let parameters = page.defaults(mechanism);
+        let at = json!({ "mechanism": mechanism, "parameters": parameters, "place": place });
+        page.at(&at, &json!({ "do": "report" }))["html"].as_str().unwrap().to_owned()
+    };
+    // s = -sqrt 7 is not in its range.
+    let place = json!({ "inputs": [crank, 0.0], "unknowns": [3_f64.sqrt().atan2(-2.0), 7_f64.sqrt()] });
+    let text = report(&mut page, 0, place);
+    assert!(text.contains("there is 1 mode.") && !text.contains("Mode 2"), "{text}");
+    let place =
+        json!({ "inputs": [crank], "unknowns": [-73.444_902_47_f64.to_radians(), -130.077_900_4_f64.to_radians()] });
+    let text = report(&mut page, 1, place);
+    for part in [
+        "2 modes on 2 motions, which form 2 circuits",
+        "Circuit 2: mode 2, which this report follows.",
+        "o turns by 360° each time the motion closes",
+        "k goes from 0 (at t = 180°) to 1 (at t = 90°)",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
