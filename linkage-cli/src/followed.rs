@@ -7,7 +7,7 @@ use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::{Kinematic, PathError};
 
-use crate::ends::why;
+use crate::ends::Reason;
 use crate::failure::Failure;
 use crate::machine::{Machine, Motion};
 use crate::motion::Path;
@@ -65,7 +65,7 @@ impl<'p> Followed<'p> {
             let Some(at) = coordinates(&mechanism, &unknowns, value) else { continue };
             match followed(mechanism, &at, path.ends) {
                 Ok(range) => return Ok(with(Some(range))),
-                Err(error) => first.get_or_insert(why(&error)),
+                Err(error) => first.get_or_insert(machine.about.reasons.of_path(&error)),
             };
             trials += 1;
             if trials == MOST_TRIALS {
@@ -84,7 +84,7 @@ impl<'p> Followed<'p> {
             rates[self.path.moving] = rate;
             return self.machine.motion(&inputs, &rates);
         };
-        let found = range.motion(value, rate, 0.0).map_err(|error| why(&error))?;
+        let found = range.motion(value, rate, 0.0).map_err(|error| self.machine.about.reasons.of_path(&error))?;
         Ok(self.numbers(inputs, found))
     }
 
@@ -116,6 +116,24 @@ impl<'p> Followed<'p> {
     pub fn repeats(&self) -> bool {
         self.range.is_none() || self.period().is_some_and(|period| (period / TAU).fract().abs() < EQUAL)
     }
+}
+
+/// The reasons of both ends of a motion, of which one input moves; none of an end of a closed motion.
+pub fn ends(machine: &Machine, range: &Range<'_>) -> Result<[Option<Reason>; 2], Failure> {
+    let mut reasons = range.ends().map(Reason::of);
+    for (reason, input) in reasons.iter_mut().zip(range.inputs()) {
+        let Some(known) = reason.take() else { continue };
+        let singular = match range.at(input) {
+            Ok(at) => {
+                let inputs: Vec<f64> = at.inputs.iter().copied().collect();
+                let unknowns: Vec<f64> = at.unknowns.iter().copied().collect();
+                machine.singular(&inputs, &unknowns)?
+            }
+            Err(_) => Vec::new(),
+        };
+        *reason = Some(known.where_singular(&singular));
+    }
+    Ok(reasons)
 }
 
 /// The inputs of the change points that a motion passes: at those at its ends it goes back.

@@ -2,6 +2,7 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::graph::NodeId;
+use linkage_compiler::ids::Id;
 use linkage_compiler::model::Request;
 use linkage_interpreter::{Data, Design, Mechanism, SceneDesign};
 
@@ -17,6 +18,10 @@ use crate::source::read;
 use crate::start::Start;
 use crate::symbols::Given;
 use crate::values::{Assignment, Choice};
+
+/// The share of its scale up to which a determinant counts as zero: at an end of a motion, whose input has half of its digits as
+/// errors of the unknowns.
+const SINGULAR: f64 = 1e-6;
 
 /// A mechanism with values for all but its inputs.
 pub struct Machine {
@@ -91,7 +96,8 @@ impl Machine {
         let start = start(&about, &mechanism, numbers)?;
         let (inputs, unknowns) = (about.inputs.clone(), about.unknowns.clone());
         let (points, outputs) = (about.points.clone(), about.outputs.clone());
-        let solver = Solver { inputs, unknowns, points, outputs, design, branch };
+        let reasons = about.reasons.clone();
+        let solver = Solver { inputs, unknowns, points, outputs, design, branch, reasons };
         let ranges = ranges(&about, &parameters)?;
         Ok((Self { about, parameters, solver, start, ranges }, scene, result))
     }
@@ -185,6 +191,22 @@ impl Machine {
         let outputs = self.about.derivation.outputs.iter();
         let nodes: Vec<NodeId> = outputs.flat_map(|output| output.value.iter().copied()).collect();
         self.formulas_at(&nodes, inputs, unknowns)
+    }
+
+    /// The groups that are singular at a position, or nearly so: their determinants are small against their scales.
+    pub fn singular(&self, inputs: &[f64], unknowns: &[f64]) -> Result<Vec<String>, Failure> {
+        let mut names = Vec::new();
+        for group in self.about.derivation.groups.iter() {
+            let Some(determinant) = group.determinant else { continue };
+            let found = self.formulas_at(&[determinant.value, determinant.scale], inputs, unknowns)?;
+            if let [value, scale] = found.as_slice()
+                && value.abs() <= SINGULAR * scale.abs()
+            {
+                let of = group.unknowns.iter().filter_map(|id| self.about.unknowns.get(id.index()));
+                names.push(of.map(|unknown| unknown.name.text.as_str()).collect::<Vec<_>>().join(", "));
+            }
+        }
+        Ok(names)
     }
 
     /// The values of formulas at a position.

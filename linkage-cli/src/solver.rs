@@ -1,10 +1,14 @@
 //! Positions, velocities and accelerations: calls of the functions of a mechanism.
 
-use linkage_interpreter::{Data, Design};
+use std::rc::Rc;
+
+use linkage_interpreter::{CallError, Data, Design};
 use linkage_runtime::lane::arctangent2;
 use linkage_runtime::{OutputMotion, PointMotion};
 
+use crate::ends::shown;
 use crate::failure::Failure;
+use crate::reasons::Reasons;
 use crate::values::Value;
 
 /// A name as written, and that of its field.
@@ -35,7 +39,7 @@ impl Coordinate {
     pub fn shown(&self, value: f64) -> String {
         match self.is_angle {
             true => format!("{}°", (value.to_degrees() * 1e6).round() / 1e6),
-            false => value.to_string(),
+            false => shown(value, false),
         }
     }
 }
@@ -81,6 +85,8 @@ pub struct Solver {
     pub outputs: Vec<Named>,
     pub design: Design,
     pub branch: Data,
+    /// The words about positions that do not exist.
+    pub reasons: Rc<Reasons>,
 }
 
 impl Solver {
@@ -136,7 +142,7 @@ impl Solver {
     /// The unknowns at the position on the branch, which may have a number.
     pub fn on_branch(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
         let pose = self.design.call("assemble", &[Self::given(inputs), self.branch.clone()]);
-        let pose = pose.map_err(|error| error.to_string())?;
+        let pose = pose.map_err(|error| self.why(&error, inputs))?;
         Ok(self.of_pose(&pose).0)
     }
 
@@ -147,13 +153,18 @@ impl Solver {
         }
         let [_, _, turns] = self.design.mechanism().branch_fields();
         let turns: Vec<&str> = turns.iter().map(|(name, _)| *name).collect();
-        let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| error.to_string())?;
+        let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| self.why(&error, inputs))?;
         let position = |data: &Data| {
             let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
             let motion = Motion { inputs: inputs.to_vec(), unknowns, are_directions, data: data.clone() };
             (data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion)
         };
         Ok(all.list().iter().map(position).collect())
+    }
+
+    /// The reason why a call has no value at these inputs.
+    fn why(&self, error: &CallError, inputs: &[f64]) -> String {
+        self.reasons.of_call(error, [self.design.parameters(), inputs], &self.branch)
     }
 
     /// Inputs as an argument.
@@ -170,7 +181,7 @@ impl Solver {
         let arguments = [from, self.branch.clone(), Self::given(rates), Self::given(&still)];
         let has_quantities = !self.points.is_empty() || !self.outputs.is_empty();
         let function = if has_quantities { function } else { function.trim_start_matches("full_") };
-        let data = self.design.call(function, &arguments).map_err(|error| error.to_string())?;
+        let data = self.design.call(function, &arguments).map_err(|error| self.why(&error, inputs))?;
         let (unknowns, are_directions) = data.get("pose").map(|pose| self.of_pose(pose)).unwrap_or_default();
         Ok(Motion { inputs: inputs.to_vec(), unknowns, are_directions, data })
     }

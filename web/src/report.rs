@@ -29,7 +29,7 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
     // The page says of a mode without a picture that it has none.
     let picture = |q: &Coordinates| drawing(&mechanism, q)?.to_svg().map_err(Refusal::new);
     let pictures = listed.iter().map(|(_, q)| picture(q).unwrap_or_default()).collect::<Vec<_>>();
-    let text = match whole(&prepared, &derivation, at) {
+    let text = match whole(machine, &prepared, &derivation, at) {
         Ok(report) => written(report, &listed, &pictures),
         Err(why) => {
             let part = Report::at(&mechanism, &derivation, &q);
@@ -43,14 +43,20 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
 }
 
 /// The report of the motion of a mechanism with one input.
-fn whole<'p>(prepared: &'p Prepared<'p>, derivation: &Derivation<'_>, at: &At) -> Result<Report<&'p str>, Refusal> {
+fn whole<'p>(
+    machine: &Machine,
+    prepared: &'p Prepared<'p>,
+    derivation: &Derivation<'_>,
+    at: &At,
+) -> Result<Report<&'p str>, Refusal> {
     let mechanism = prepared.with_inputs::<D<1>>().map_err(Refusal::new)?;
     let few = || Refusal::new("the position has other numbers than the mechanism");
     let start = linkage_interpreter::CoordinatesAtRunTime {
         unknowns: Column::from_slice(&at.place.unknowns).ok_or_else(few)?,
         inputs: Column::from_slice(&at.place.inputs).ok_or_else(few)?,
     };
-    Report::of(&mechanism, derivation, &start, &ReportOptions::default()).map_err(Refusal::new)
+    let report = Report::of(&mechanism, derivation, &start, &ReportOptions::default());
+    report.map_err(|error| Refusal::of_path(&machine.about, &error))
 }
 
 fn written<N: BorrowedName>(mut report: Report<N>, listed: &[(String, Coordinates)], pictures: &[String]) -> String {

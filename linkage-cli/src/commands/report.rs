@@ -9,7 +9,6 @@ use linkage_runtime::{BorrowedName, Branches, Column, D};
 
 use super::draw::svg_or_message;
 use crate::arguments;
-use crate::ends::why;
 use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::machine::{Machine, Motion};
@@ -86,7 +85,7 @@ fn whole<'p>(
         { starts }.find_map(|(_, start)| match Report::of(&mechanism, derivation, &start, &ReportOptions::default()) {
             Ok(report) => Some(report),
             Err(error) => {
-                first.get_or_insert_with(|| why(&error));
+                first.get_or_insert_with(|| machine.about.reasons.of_path(&error));
                 None
             }
         })

@@ -3,6 +3,7 @@
 mod bad_input;
 mod examples;
 mod motions;
+mod words;
 mod written;
 
 use std::fs;
