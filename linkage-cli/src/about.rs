@@ -1,5 +1,7 @@
 //! The names of the mechanisms of a file, and their formulas.
 
+use std::rc::Rc;
+
 use linkage_compiler::Lowered;
 use linkage_compiler::derivation::Derivation;
 use linkage_compiler::graph::NodeId;
@@ -12,6 +14,7 @@ use crate::failure::Failure;
 use crate::mistakes::{Mistakes, Source};
 use crate::names::{listed, place};
 use crate::progress;
+use crate::reasons::Reasons;
 use crate::scene::AboutScene;
 use crate::solver::{Coordinate, Named};
 use crate::symbols::Symbols;
@@ -40,6 +43,7 @@ pub struct About {
     pub derivation: Derivation,
     /// The places of the values of its symbols.
     pub symbols: Symbols,
+    pub reasons: Rc<Reasons>,
 }
 
 /// A group that has several positions.
@@ -87,6 +91,11 @@ impl About {
             let name = &mechanism.coordinates[*id].name.text;
             mechanism.ranges.iter().find(|range| range.name == *name).map_or([None; 2], |range| range.ends)
         };
+        let output_angles = output_angles(mechanism);
+        let of_coordinates = mechanism.coordinates.iter().filter(|of| of.kind == Kind::Angle).map(|of| &of.name);
+        let of_outputs = mechanism.outputs.iter().zip(&output_angles).filter(|(_, angle)| angle.is_some());
+        let names = of_coordinates.chain(of_outputs.map(|(output, _)| &output.name));
+        let angles = names.flat_map(|name| [name.text.clone(), name.field.clone()]).collect();
         let position = &lowered.program.position;
         let of_list = position.modes.iter().map(|group| group.unknowns.as_str());
         let of_guess = position.open.iter().map(|(unknowns, _)| unknowns.as_str());
@@ -104,12 +113,13 @@ impl About {
             unknowns: driver.unknowns.iter().map(coordinate).collect(),
             points: mechanism.points.iter().map(|point| named(&point.name)).collect(),
             outputs: mechanism.outputs.iter().map(|output| named(&output.name)).collect(),
-            output_angles: output_angles(mechanism),
+            output_angles,
             parameters: mechanism.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
             defaults: mechanism.parameters.iter().map(|of| (of.default_in_words(), of.measure)).collect(),
             functions: mechanism.externals.iter().filter_map(|of| Some(of.names.first()?.text.clone())).collect(),
             scenes: AboutScene::all(&lowered),
             symbols: Symbols::of(mechanism, driver),
+            reasons: Rc::new(Reasons::of(&lowered, angles)),
             derivation: lowered.derivation,
         }
     }

@@ -1,7 +1,7 @@
 //! Ends and events of motions in words.
 
+use linkage_runtime::RangeEnd;
 use linkage_runtime::range_of_motion::MotionEnd;
-use linkage_runtime::{PathError, PositionError, RangeEnd};
 use serde::Serialize;
 
 /// The reason of an end.
@@ -30,6 +30,17 @@ impl Reason {
         }
     }
 
+    /// The reason where these groups are singular. Several of them at once are a change point of all: rounding errors decide which of
+    /// them is met first, and at the mirrored end it may be another.
+    pub fn where_singular(self, groups: &[String]) -> Self {
+        match (self, groups) {
+            (Self::DeadPoint { .. } | Self::ChangePoint { .. }, [others @ .., last]) if !others.is_empty() => {
+                Self::ChangePoint { group: format!("{} and {last}", others.join("; ")) }
+            }
+            (reason, _) => reason,
+        }
+    }
+
     /// The reason of an end of a declared range.
     pub fn range(of: &str, end: RangeEnd) -> Self {
         let end = if end == RangeEnd::Least { "least" } else { "largest" };
@@ -43,23 +54,6 @@ impl Reason {
             Self::Range { of, end } => format!("the {end} value of {of}"),
             Self::GoesOn => "it goes on".to_owned(),
         }
-    }
-}
-
-/// The reason why a motion is not followed from a position.
-pub fn why(error: &PathError<&str>) -> String {
-    match error {
-        PathError::NoDirection { mechanism } => format!("{mechanism} is at a dead point"),
-        PathError::Position(PositionError::Singular { mechanism, group, .. }) => {
-            format!("{mechanism} is at a dead point or a change point of {group}")
-        }
-        PathError::ChangePoint { mechanism, group } => {
-            format!("motions of {mechanism} cross at a change point of {group}")
-        }
-        PathError::TooManySteps { mechanism, steps } => {
-            format!("the motion of {mechanism} is not followed to its end in {steps} steps")
-        }
-        other => other.to_string(),
     }
 }
 

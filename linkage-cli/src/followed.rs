@@ -8,7 +8,7 @@ use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::{Kinematic, PathError};
 
-use crate::ends::why;
+use crate::ends::Reason;
 use crate::failure::Failure;
 use crate::machine::{Machine, Motion};
 use crate::motion::Path;
@@ -17,12 +17,24 @@ use crate::one_input::{Followable, OneInput, coordinates, one_input};
 /// The share of an input up to which it counts as an end of the range.
 pub const EQUAL: f64 = 1e-12;
 
-/// The reason why there is no motion, in words.
-struct Why(String);
+/// The reason why there is no motion.
+enum Why<'p> {
+    Words(String),
+    Path(PathError<&'p str>),
+}
 
-impl From<PathError<&str>> for Why {
-    fn from(error: PathError<&str>) -> Self {
-        Self(why(&error))
+impl<'p> From<PathError<&'p str>> for Why<'p> {
+    fn from(error: PathError<&'p str>) -> Self {
+        Self::Path(error)
+    }
+}
+
+impl Why<'_> {
+    fn in_words(&self, machine: &Machine) -> String {
+        match self {
+            Self::Words(words) => words.clone(),
+            Self::Path(error) => machine.about.reasons.of_path(error),
+        }
     }
 }
 
@@ -58,14 +70,17 @@ impl<'p> Followed<'p> {
         let still = vec![0.0; machine.about.inputs.len()];
         let mechanism = one_input(prepared, &path.at(path.ends[0]), path.moving)?;
         let position = |value: f64| {
-            let unknowns = machine.place(&path.at(value), &still).map_err(Why)?;
+            let unknowns = machine.place(&path.at(value), &still).map_err(Why::Words)?;
             let at = coordinates(&mechanism, &unknowns, value);
-            at.ok_or_else(|| Why(format!("`{}` has too many coordinates", machine.about.name)))
+            at.ok_or_else(|| Why::Words(format!("`{}` has too many coordinates", machine.about.name)))
         };
         let range = Range::chosen(mechanism, values, position, RangeOptions::through_change_points());
         match range {
             Ok(range) => Ok(with(Some(range))),
-            Err(Why(why)) => Err(Failure::Outside(prepared.failure().map_or(why, |failure| failure.to_string()))),
+            Err(why) => {
+                let words = || why.in_words(machine);
+                Err(Failure::Outside(prepared.failure().map_or_else(words, |failure| failure.to_string())))
+            }
         }
     }
 
@@ -77,7 +92,7 @@ impl<'p> Followed<'p> {
             rates[self.path.moving] = rate;
             return self.machine.motion(&inputs, &rates);
         };
-        let found = range.motion(value, rate, 0.0).map_err(|error| why(&error))?;
+        let found = range.motion(value, rate, 0.0).map_err(|error| self.machine.about.reasons.of_path(&error))?;
         Ok(self.numbers(inputs, found))
     }
 
@@ -109,6 +124,24 @@ impl<'p> Followed<'p> {
     pub fn repeats(&self) -> bool {
         self.range.is_none() || self.period().is_some_and(|period| (period / TAU).fract().abs() < EQUAL)
     }
+}
+
+/// The reasons of both ends of a motion, of which one input moves; none of an end of a closed motion.
+pub fn ends(machine: &Machine, range: &Range<'_>) -> Result<[Option<Reason>; 2], Failure> {
+    let mut reasons = range.ends().map(Reason::of);
+    for (reason, input) in reasons.iter_mut().zip(range.inputs()) {
+        let Some(known) = reason.take() else { continue };
+        let singular = match range.at(input) {
+            Ok(at) => {
+                let inputs: Vec<f64> = at.inputs.iter().copied().collect();
+                let unknowns: Vec<f64> = at.unknowns.iter().copied().collect();
+                machine.singular(&inputs, &unknowns)?
+            }
+            Err(_) => Vec::new(),
+        };
+        *reason = Some(known.where_singular(&singular));
+    }
+    Ok(reasons)
 }
 
 /// The inputs of the change points that a motion passes: at those at its ends it goes back.

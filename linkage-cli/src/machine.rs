@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use linkage_compiler::Lowered;
 use linkage_compiler::graph::NodeId;
+use linkage_compiler::ids::Id;
 use linkage_compiler::model::Request;
 use linkage_interpreter::{Data, Design, Mechanism, SceneDesign};
 use linkage_runtime::Ranged;
@@ -23,6 +24,10 @@ use crate::values::{Assignment, Choice};
 
 /// The angle at which an input without a range is held without a value: every crank can be there.
 const HELD: f64 = TAU / 6.0;
+
+/// The share of its scale up to which a determinant counts as zero: at an end of a motion, whose input has half of its digits as
+/// errors of the unknowns.
+const SINGULAR: f64 = 1e-6;
 
 /// A mechanism with values for all but its inputs.
 pub struct Machine {
@@ -97,7 +102,8 @@ impl Machine {
         let start = start(&about, &mechanism, numbers)?;
         let (inputs, unknowns) = (about.inputs.clone(), about.unknowns.clone());
         let (points, outputs) = (about.points.clone(), about.outputs.clone());
-        let solver = Solver { inputs, unknowns, points, outputs, design, branch };
+        let reasons = about.reasons.clone();
+        let solver = Solver { inputs, unknowns, points, outputs, design, branch, reasons };
         let ranges = ranges(&about, &parameters)?;
         Ok((Self { about, parameters, solver, start, ranges }, scene, result))
     }
@@ -257,6 +263,22 @@ impl Machine {
         let residual = self.formulas_at(&derivation.residual, inputs, unknowns)?;
         let scales = self.formulas_at(&derivation.residual_scales, inputs, unknowns)?;
         Ok(residual.iter().zip(scales).all(|(residual, scale)| residual.abs() <= scale * f64::EPSILON.sqrt()))
+    }
+
+    /// The groups that are singular at a position, or nearly so: their determinants are small against their scales.
+    pub fn singular(&self, inputs: &[f64], unknowns: &[f64]) -> Result<Vec<String>, Failure> {
+        let mut names = Vec::new();
+        for group in self.about.derivation.groups.iter() {
+            let Some(determinant) = group.determinant else { continue };
+            let found = self.formulas_at(&[determinant.value, determinant.scale], inputs, unknowns)?;
+            if let [value, scale] = found.as_slice()
+                && value.abs() <= SINGULAR * scale.abs()
+            {
+                let of = group.unknowns.iter().filter_map(|id| self.about.unknowns.get(id.index()));
+                names.push(of.map(|unknown| unknown.name.text.as_str()).collect::<Vec<_>>().join(", "));
+            }
+        }
+        Ok(names)
     }
 
     /// The values of formulas at a position.

@@ -28,6 +28,7 @@ mod picture;
 mod position;
 mod progress;
 mod proved;
+mod reasons;
 mod said;
 mod scene;
 mod solver;

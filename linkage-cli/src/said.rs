@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use linkage_runtime::Mechanism as _;
 
 use crate::ends::{Reason, shown};
-use crate::followed::{EQUAL, Followed, passed};
+use crate::followed::{EQUAL, Followed, ends, passed};
 use crate::one_input::coordinates;
 
 /// The most places that are named.
@@ -48,8 +48,8 @@ impl Followed<'_> {
     fn ends(&self) -> Option<String> {
         let range = self.range.as_ref()?;
         let input = &self.machine.about.inputs[self.path.moving];
-        let ends = range.inputs().into_iter().zip(range.ends());
-        let of_end = |(at, end)| match Reason::of(end) {
+        let ends = range.inputs().into_iter().zip(ends(self.machine, range).ok()?);
+        let of_end = |(at, end)| match end {
             None | Some(Reason::GoesOn) => Vec::new(),
             Some(reason) => {
                 let within = self.repeated(at);

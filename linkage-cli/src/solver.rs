@@ -1,9 +1,13 @@
 //! Positions, velocities and accelerations: calls of the functions of a mechanism.
 
-use linkage_interpreter::{Data, Design};
+use std::rc::Rc;
+
+use linkage_interpreter::{CallError, Data, Design};
 use linkage_runtime::{OutputMotion, PointMotion};
 
+use crate::ends::shown;
 use crate::failure::Failure;
+use crate::reasons::Reasons;
 use crate::values::Value;
 
 /// A name as written, and that of its field.
@@ -34,7 +38,7 @@ impl Coordinate {
     pub fn shown(&self, value: f64) -> String {
         match self.is_angle {
             true => format!("{}°", (value.to_degrees() * 1e6).round() / 1e6),
-            false => value.to_string(),
+            false => shown(value, false),
         }
     }
 }
@@ -85,6 +89,8 @@ pub struct Solver {
     pub outputs: Vec<Named>,
     pub design: Design,
     pub branch: Data,
+    /// The words about positions that do not exist.
+    pub reasons: Rc<Reasons>,
 }
 
 impl Solver {
@@ -139,7 +145,7 @@ impl Solver {
     /// The unknowns at the position on the branch, which may have a number.
     pub fn on_branch(&self, inputs: &[f64]) -> Result<Vec<f64>, String> {
         let pose = self.design.call("assemble", &[Self::given(inputs), self.branch.clone()]);
-        let pose = pose.map_err(|error| error.to_string())?;
+        let pose = pose.map_err(|error| self.why(&error, inputs))?;
         self.of_pose(&pose)
     }
 
@@ -150,7 +156,7 @@ impl Solver {
         }
         let [_, _, turns] = self.design.mechanism().branch_fields();
         let turns: Vec<&str> = turns.iter().map(|(name, _)| *name).collect();
-        let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| error.to_string())?;
+        let all = self.design.call("branches", &[Self::given(inputs)]).map_err(|error| self.why(&error, inputs))?;
         let position = |data: &Data| {
             let motion = self.of_data(inputs, data.clone())?;
             Ok((data.get("branch").map(|branch| words(branch, &turns)).unwrap_or_default(), motion))
@@ -192,13 +198,18 @@ impl Solver {
                     let data = Data::fields([("branch", branch.clone()), ("pose", pose)]);
                     found.push((words(&branch, &turns), self.of_data(inputs, data)?));
                 }
-                Err(error) => _ = first.get_or_insert_with(|| error.to_string()),
+                Err(error) => _ = first.get_or_insert_with(|| self.why(&error, inputs)),
             }
         }
         match first.filter(|_| found.is_empty()) {
             Some(why) => Err(why),
             None => Ok((found, branches.unwrap_or(usize::MAX).saturating_sub(tried))),
         }
+    }
+
+    /// The reason why a call has no value at these inputs.
+    fn why(&self, error: &CallError, inputs: &[f64]) -> String {
+        self.reasons.of_call(error, [self.design.parameters(), inputs], &self.branch)
     }
 
     /// Inputs as an argument.
@@ -215,7 +226,7 @@ impl Solver {
         let arguments = [from, self.branch.clone(), Self::given(rates), Self::given(&still)];
         let has_quantities = !self.points.is_empty() || !self.outputs.is_empty();
         let function = if has_quantities { function } else { function.trim_start_matches("full_") };
-        let data = self.design.call(function, &arguments).map_err(|error| error.to_string())?;
+        let data = self.design.call(function, &arguments).map_err(|error| self.why(&error, inputs))?;
         self.of_data(inputs, data)
     }
 
@@ -227,7 +238,7 @@ impl Solver {
 
     /// The unknowns of a pose, as the equations have them.
     fn of_pose(&self, pose: &Data) -> Result<Vec<f64>, String> {
-        let all = self.design.coordinates(pose).map_err(|error| error.to_string())?;
+        let all = self.design.coordinates(pose).map_err(|error| self.reasons.of_error(&error))?;
         let number = |of: &Coordinate| all.get(&of.name.field).and_then(Data::number).unwrap_or(f64::NAN);
         Ok(self.unknowns.iter().map(number).collect())
     }

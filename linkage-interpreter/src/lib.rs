@@ -54,6 +54,7 @@ mod program;
 mod tape;
 #[cfg(feature = "compiler")]
 mod translate;
+mod words;
 mod written;
 
 pub use at_run_time::{
@@ -70,6 +71,7 @@ pub use error::{Error, Mistake};
 pub use linkage_compiler::text::Message;
 pub use machine::Defect;
 pub use mechanism::{Design, Mechanism, SceneDesign};
+pub use words::Words;
 
 /// The mechanisms of a text. One with several choices of inputs is several.
 #[derive(Debug, Clone)]

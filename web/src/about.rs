@@ -46,3 +46,11 @@ pub struct About {
     /// The reason why it cannot be moved.
     pub refusal: Option<String>,
 }
+
+impl About {
+    /// True for the name of a coordinate or an output that is an angle.
+    pub(crate) fn is_angle(&self, name: &str) -> bool {
+        let all = self.inputs.iter().chain(&self.unknowns).chain(&self.outputs);
+        all.filter(|one| one.is_angle).any(|one| one.name == name)
+    }
+}

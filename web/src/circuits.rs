@@ -66,7 +66,8 @@ pub fn circuits(machine: &Machine, parameters: &[f64], inputs: &[f64], along: us
     let one = one_input(mechanism, inputs, along)?;
     let options =
         CircuitOptions { path: Options { longest_step: SMOOTH, ..Options::default() }, ..CircuitOptions::default() };
-    let found = Circuits::of(&one, at, options).map_err(Refusal::new)?;
+    let found = Circuits::of(&one, at, options);
+    let found = found.map_err(|error| Refusal::of_circuits(&machine.about, &error))?;
     if let Some(failure) = prepared.failure() {
         return Err(Refusal::new(failure));
     }

@@ -141,8 +141,9 @@ fn reshape(machine: &Machine, from: At, to: &Aim) -> Result<Reached, Refusal> {
                 step /= 2.0;
                 if step < LEAST_CHANGE {
                     let there = machine.design(&to.parameters);
-                    let limit =
-                        why_not(&there, &from.place.inputs).map_or(limit, |Refusal { why }| Limit::Error { why });
+                    let why = why_not(&there, &from.place.inputs);
+                    let why = why.map(|why| machine.explained(why, &to.parameters));
+                    let limit = why.map_or(limit, |Refusal { why, .. }| Limit::Error { why });
                     return Ok((at, stop(limit)));
                 }
             }
@@ -189,7 +190,7 @@ impl Shape {
         let found = newton(&mechanism, &coordinates(&mechanism, &guess)?);
         Ok(found
             .map(|found| Self::at(&mechanism, &found.coordinates))
-            .map_err(|error| Limit::Error { why: error.to_string() }))
+            .map_err(|error| Limit::Error { why: Refusal::of_position(&error).why }))
     }
 
     fn at(mechanism: &Moving<'_>, q: &Coordinates) -> Self {

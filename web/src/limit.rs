@@ -1,5 +1,6 @@
 //! The reasons why a motion goes no further. The page has their words, one table for each language.
 
+use linkage_interpreter::Words;
 use linkage_runtime::{PathError, RangeEnd};
 use serde::Serialize;
 
@@ -52,7 +53,7 @@ impl From<&PathError<&str>> for Limit {
             PathError::JointRange { of, end, .. } => Self::range(of, end),
             PathError::NoDirection { .. } => Self::NoDirection,
             PathError::TooManySteps { steps, .. } => Self::TooLong { steps },
-            _ => Self::Error { why: error.to_string() },
+            _ => Self::Error { why: Words::new(&|_| false).path(error) },
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A mechanism of a text: its names, its compiled functions, and its documents.
 
+use linkage_compiler::derivation::Reach;
 use linkage_interpreter::{Design, Mechanism, Prepared, Program};
 use linkage_lent::Documents;
 use serde::{Deserialize, Serialize};
@@ -12,6 +13,8 @@ pub struct Machine {
     pub about: About,
     pub documents: Documents,
     pub mechanism: Mechanism,
+    /// The formulas that say which links do not reach; none of a mechanism that was compiled before.
+    pub reach: Option<Reach>,
 }
 
 /// The names and the documents of a mechanism, as they are written.
@@ -34,6 +37,17 @@ impl Machine {
         self.mechanism.design().with_parameters(parameters)
     }
 
+    /// A reason with the links that do not reach each other at these values of the parameters, on the first branch.
+    pub fn explained(&self, refusal: Refusal, parameters: &[f64]) -> Refusal {
+        let missing = |(cannot, inputs): &(String, Vec<f64>)| {
+            Some(format!("{cannot}, since {}", self.reach.as_ref()?.missing(parameters, inputs, &[])?))
+        };
+        match refusal.apart.as_ref().and_then(missing) {
+            Some(why) => Refusal { why, ..refusal },
+            None => refusal,
+        }
+    }
+
     /// Mechanisms that were compiled, for a file.
     #[cfg(feature = "compiler")]
     pub fn written(machines: Vec<Self>) -> Result<String, Refusal> {
@@ -46,7 +60,8 @@ impl Machine {
     pub fn all(text: &str) -> Result<Vec<Self>, Refusal> {
         let All { machines, program }: All<Program> = serde_json::from_str(text).map_err(Refusal::new)?;
         let pairs = program.mechanisms().iter().cloned().zip(machines);
-        Ok(pairs.map(|(mechanism, Written { about, documents })| Self { about, documents, mechanism }).collect())
+        let machine = |(mechanism, Written { about, documents })| Self { about, documents, mechanism, reach: None };
+        Ok(pairs.map(machine).collect())
     }
 }
 

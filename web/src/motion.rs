@@ -54,7 +54,8 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
     let is_angle = mechanism.input_angles().get(along).copied().unwrap_or_default();
     let scale = if is_angle { TAU } else { mechanism.length_scale(&mechanism.pose_at(&q)) };
     let asked = [parameter - scale, parameter + scale];
-    let range = RangeOfMotion::over(one, &start, asked, RangeOptions::through_change_points()).map_err(Refusal::new)?;
+    let range = RangeOfMotion::over(one, &start, asked, RangeOptions::through_change_points())
+        .map_err(|error| Refusal::of_path(&machine.about, &error))?;
     if let Some(failure) = prepared.failure() {
         return Err(Refusal::new(failure));
     }

@@ -34,7 +34,7 @@ pub fn positions(machine: &Machine, parameters: &[f64], inputs: &[f64]) -> Resul
     let design = machine.design(parameters);
     let prepared = prepared(&design)?;
     let mechanism = moving(&prepared)?;
-    let all = mechanism.all_positions(inputs_of(&mechanism, inputs)?).map_err(Refusal::new)?;
+    let all = mechanism.all_positions(inputs_of(&mechanism, inputs)?).map_err(|error| Refusal::of_position(&error))?;
     let listed = all.map(|(branch, q)| {
         let svg = drawing(&mechanism, &q)?.to_svg().map_err(Refusal::new)?;
         Ok(Listed { branch: branch.to_string(), unknowns: place(&q).unknowns, svg })
@@ -60,7 +60,7 @@ pub fn why_not(design: &Design, inputs: &[f64]) -> Option<Refusal> {
         [only] => Data::from(*only),
         several => Data::from(several),
     };
-    design.call("assemble", &[given, Data::fields(words.chain(numbers))]).err().map(Refusal::new)
+    design.call("assemble", &[given, Data::fields(words.chain(numbers))]).err().map(|error| Refusal::of_call(&error))
 }
 
 /// A position to begin with: near another one if that is given, else at the first value of each input, which is that of its
@@ -140,7 +140,7 @@ fn at_inputs(
             });
             let found: Vec<Coordinates> = guesses.flatten().take(1).collect();
             if found.is_empty() {
-                return Err(Refusal::new(error));
+                return Err(Refusal::of_position(&error));
             }
             found
         }

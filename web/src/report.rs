@@ -32,7 +32,7 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
     // The page says of a mode without a picture that it has none.
     let picture = |q: &Coordinates| drawing(&mechanism, q)?.to_svg().map_err(Refusal::new);
     let pictures = listed.iter().map(|(_, q)| picture(q).unwrap_or_default()).collect::<Vec<_>>();
-    let text = match whole(&prepared, &derivation, at) {
+    let text = match whole(machine, &prepared, &derivation, at) {
         Ok(report) => written(report, &listed, &pictures),
         Err(why) => {
             let part = Report::at(&mechanism, &derivation, &q);
@@ -46,7 +46,12 @@ pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
 }
 
 /// The report of the motion of a mechanism with one input.
-fn whole<'p>(prepared: &'p Prepared<'p>, derivation: &Derivation<'_>, at: &At) -> Result<Report<&'p str>, Refusal> {
+fn whole<'p>(
+    machine: &Machine,
+    prepared: &'p Prepared<'p>,
+    derivation: &Derivation<'_>,
+    at: &At,
+) -> Result<Report<&'p str>, Refusal> {
     let mechanism = prepared.with_inputs::<D<1>>().map_err(Refusal::new)?;
     let few = || Refusal::new("the position has other numbers than the mechanism");
     let start = linkage_interpreter::CoordinatesAtRunTime {
@@ -55,7 +60,7 @@ fn whole<'p>(prepared: &'p Prepared<'p>, derivation: &Derivation<'_>, at: &At) -
     };
     let options = ReportOptions::default();
     Ok(Report::of(&mechanism, derivation, &start, &options).unwrap_or_else(|why| Report {
-        no_motion: Some(why.to_string()),
+        no_motion: Some(Refusal::of_path(&machine.about, &why).why),
         ..Report::of_circuits(&mechanism, derivation, &start, &options)
     }))
 }

@@ -51,11 +51,15 @@ impl Session {
                 let design = self.machine(mechanism)?.design(&parameters);
                 let prepared = prepared(&design)?;
                 let moving = moving(&prepared)?;
-                let q = positions::begin(self.machine(mechanism)?, &moving, &design, near.as_ref())?;
+                let machine = self.machine(mechanism)?;
+                let q = positions::begin(machine, &moving, &design, near.as_ref())
+                    .map_err(|why| machine.explained(why, &parameters))?;
                 self.moved(At { mechanism, parameters, place: place(&q) }, show, None)
             }
             Question::Positions { mechanism, parameters, inputs } => {
-                let positions = positions::positions(self.machine(mechanism)?, &parameters, &inputs)?;
+                let machine = self.machine(mechanism)?;
+                let positions = positions::positions(machine, &parameters, &inputs)
+                    .map_err(|why| machine.explained(why, &parameters))?;
                 Ok(json!({ "positions": value(&positions)? }))
             }
             Question::Picture { at, show } => self.moved(at, show, None),

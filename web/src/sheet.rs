@@ -36,7 +36,7 @@ fn numbers(machine: &Machine, at: &At, rate: Option<f64>) -> Result<MotionNumber
     let mechanism = moving(&prepared)?;
     let q = coordinates(&mechanism, &at.place)?;
     let [moved, zero] = [rate.unwrap_or_default(), 0.0].map(|rate| rates(&mechanism, 0, rate));
-    let motion = mechanism.motion(&q, moved, zero).map_err(Refusal::new)?;
-    let numbers = MotionNumbers::of(&mechanism, &motion).map_err(Refusal::new)?;
+    let motion = mechanism.motion(&q, moved, zero).map_err(|error| Refusal::of_position(&error))?;
+    let numbers = MotionNumbers::of(&mechanism, &motion).map_err(|error| Refusal::of_position(&error))?;
     Ok(MotionNumbers { has_rates: rate.is_some(), ..numbers })
 }

@@ -45,7 +45,8 @@ pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f6
     let (place, rates) = start(&scene, asked)?;
     let q = coordinates(scene.mechanism(), &place)?;
     let start = Start { t: 0.0, q, input_rates: inputs_of(scene.mechanism(), &rates)? };
-    let mut simulation = begin(&scene, start, asked.to, asked.tolerance).map_err(Refusal::new)?;
+    let mut simulation =
+        begin(&scene, start, asked.to, asked.tolerance).map_err(|error| Refusal::of_motion(&machine.about, &error))?;
     let steps = asked.steps.clamp(1, MOST_STEPS);
     let times = (0..=steps).map(|step| {
         progress(f64::from(step) / f64::from(steps));
@@ -60,8 +61,9 @@ pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f6
         Cause::Motion(error) => Some(error),
         _ => None,
     });
-    let ended =
-        error.filter(|_| reached != asked.to).map(|error| format!("the motion ends at {reached:.6} s: {error}"));
+    let why = |error| Refusal::of_motion(&machine.about, error).why;
+    let ended = error.filter(|_| reached != asked.to);
+    let ended = ended.map(|error| format!("the motion ends at {reached:.6} s: {}", why(error)));
     let page = Page::of_simulation(&scene, &table, ended.as_deref()).map_err(Refusal::new)?;
     let mut lines = Vec::new();
     let mut sections = Vec::new();

@@ -1,5 +1,6 @@
 //! Texts: their mechanisms, or their mistakes with the places that editors count.
 
+use linkage_compiler::derivation::Reach;
 use linkage_compiler::graph::Number;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::lower::Code;
@@ -54,12 +55,14 @@ pub fn words() -> Words {
 pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
     let compiled = Program::compile_with_within(text, MOST_STEPS, &[Request::Drawing], |lowered| {
         let documents = Documents::of(&lowered);
-        (About { paragraphs: documents.about().to_vec(), ..about(&lowered) }, documents)
+        let (mechanism, driver) = (lowered.program.signatures.mechanism, lowered.program.signatures.driver);
+        let reach = Reach::of(mechanism, driver, &lowered.derivation);
+        (About { paragraphs: documents.about().to_vec(), ..about(&lowered) }, documents, reach)
     });
     let compiled =
         compiled.map_err(|messages| messages.iter().map(|message| mistake(text, message)).collect::<Vec<_>>())?;
-    let machines = compiled.into_iter().map(|(mechanism, (about, documents))| {
-        let mut machine = Machine { about, documents, mechanism };
+    let machines = compiled.into_iter().map(|(mechanism, (about, documents, reach))| {
+        let mut machine = Machine { about, documents, mechanism, reach: Some(reach) };
         let refusal = || machine.mechanism.design().prepared().err().map(|error| error.to_string());
         machine.about.refusal = machine.about.refusal.take().or_else(refusal);
         machine

@@ -12,7 +12,7 @@ use super::draw::undrawn;
 use super::list::{moving, to_json};
 use crate::arguments::{self, CircuitsFormat};
 use crate::curve::{Event, Motion};
-use crate::ends::{shown, why};
+use crate::ends::shown;
 use crate::failure::Failure;
 use crate::machine::Machine;
 use crate::motion::{held, usual_ends};
@@ -73,7 +73,11 @@ pub fn run(arguments: &arguments::Circuits) -> Result<(), Failure> {
     let found = found.map_err(|error| match error {
         CircuitError::Path { mode, error } => {
             let other = if given { "--at" } else { "--starts" };
-            Failure::Outside(format!("from position {}, {}: write another {other}", mode + 1, why(&error)))
+            Failure::Outside(format!(
+                "from position {}, {}: write another {other}",
+                mode + 1,
+                machine.about.reasons.of_path(&error)
+            ))
         }
         other => Failure::Outside(other.to_string()),
     })?;

@@ -30,7 +30,8 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
     // A scene without drives and laws of time takes the guess only.
     let of_time = given.len().saturating_sub(1);
     let given: Vec<Data> = std::iter::repeat_n(Data::from(time.number), of_time).chain([guess]).collect();
-    let found = design.call(function, &given).map_err(|error| Failure::Outside(error.to_string()))?;
+    let found = design.call(function, &given);
+    let found = found.map_err(|error| Failure::Outside(machine.about.reasons.of_error(&error)))?;
     let value = |of: &Coordinate| {
         let value = found.get(&of.name.field).and_then(Data::number);
         value.ok_or_else(|| Failure::Outside(format!("the position has no number `{}`", of.name.text)))

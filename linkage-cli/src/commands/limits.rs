@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use super::list::moving;
 use crate::arguments;
-use crate::ends::{Reason, shown, why};
+use crate::ends::{Reason, shown};
 use crate::failure::Failure;
-use crate::followed::{Range, passed};
+use crate::followed::{Range, ends, passed};
 use crate::machine::Machine;
 use crate::motion::held;
 use crate::one_input::{coordinates, one_input, prepared};
@@ -111,20 +111,23 @@ impl Limits {
             match Range::of(mechanism, &start, RangeOptions::through_change_points()) {
                 Ok(range) => {
                     let [from, to] = range.inputs();
-                    let [lower, upper] = range.ends();
+                    let [lower, upper] = match ends(machine, &range) {
+                        Ok(ends) => ends,
+                        Err(failure) => return Some(Err(failure)),
+                    };
                     let end = |input: f64, reason: Option<Reason>| reason.map(|reason| End { input, reason });
-                    position.from = end(from, Reason::of(lower));
-                    position.to = end(to, Reason::of(upper));
-                    if let MotionEnd::Closed { turns } = upper {
+                    position.from = end(from, lower);
+                    position.to = end(to, upper);
+                    if let [_, MotionEnd::Closed { turns }] = range.ends() {
                         position.closes_after_turns = Some(turns);
                     }
                     position.change_points = passed(&range);
                 }
-                Err(error) => position.fails = Some(why(&error)),
+                Err(error) => position.fails = Some(machine.about.reasons.of_path(&error)),
             }
-            Some(position)
+            Some(Ok(position))
         };
-        let positions = all.iter().filter_map(position).collect();
+        let positions = all.iter().filter_map(position).collect::<Result<_, Failure>>()?;
         if let Some(failure) = prepared.failure() {
             return Err(Failure::Outside(failure.to_string()));
         }

@@ -9,7 +9,6 @@ use linkage_runtime::{BorrowedName, Column, D, Mechanism as _};
 
 use super::draw::svg_or_message;
 use crate::arguments;
-use crate::ends::why;
 use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::machine::{Machine, Motion};
@@ -125,7 +124,7 @@ fn whole<'p>(
         let found = starts.iter().find_map(|start| match Report::of(&mechanism, derivation, start, &options) {
             Ok(report) => Some(report),
             Err(error) => {
-                first.get_or_insert_with(|| why(&error));
+                first.get_or_insert_with(|| machine.about.reasons.of_path(&error));
                 None
             }
         });

@@ -18,6 +18,7 @@ use crate::failure::Failure;
 use crate::machine::Machine;
 use crate::output::{self, Form, form};
 use crate::progress;
+use crate::reasons::Reasons;
 use crate::scene::{Need, chosen};
 use running::{Running, is_event};
 use start::start;
@@ -37,7 +38,8 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     let prepared = design.prepared().map_err(|error| Failure::Outside(error.to_string()))?;
     let scene: Running<'_> = prepared.with_inputs().map_err(|error| Failure::Outside(error.to_string()))?;
     let start = start(&machine, &scene, arguments, from)?;
-    let mut simulation = simulate(&scene, start, to, tolerance).map_err(|error| outside(&prepared, error))?;
+    let mut simulation =
+        simulate(&scene, start, to, tolerance).map_err(|error| outside(&machine, &prepared, &error))?;
     // The columns are known, and names that do not exist are found, before the work.
     let all = Table::simulated_at(&mut simulation, []);
     let asked = asked(&all.names().into_iter().map(str::to_owned).collect::<Vec<_>>(), &arguments.shown.columns)?;
@@ -53,8 +55,9 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
         return Err(Failure::Outside(failure.to_string()));
     }
     let table = with_turns(&machine, table)?;
-    let (marks, ended) = (table.marks().to_vec(), ended(&simulation, &table, to));
-    let incomplete = if ended.is_none() { incomplete(&table) } else { None };
+    let reasons = &machine.about.reasons;
+    let (marks, ended) = (table.marks().to_vec(), ended(reasons, &simulation, &table, to));
+    let incomplete = if ended.is_none() { incomplete(reasons, &table) } else { None };
     let digits = arguments.shown.digits.or((format == SimulationFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.shown.degrees)?;
     let text = match (arguments.shown.summary, format.as_table()) {
@@ -131,28 +134,30 @@ fn with_turns(machine: &Machine, table: Table) -> Result<Table, Failure> {
 }
 
 /// The error of a motion; that of damaged code if there is one.
-fn outside<N: BorrowedName>(prepared: &PreparedScene<'_>, error: MotionError<N>) -> Failure {
-    Failure::Outside(prepared.failure().map_or_else(|| error.to_string(), |failure| failure.to_string()))
+fn outside<N: BorrowedName>(machine: &Machine, prepared: &PreparedScene<'_>, error: &MotionError<N>) -> Failure {
+    let why = || machine.about.reasons.of_motion(error);
+    Failure::Outside(prepared.failure().map_or_else(why, |failure| failure.to_string()))
 }
 
 /// The reason why a simulation has not reached its end.
-fn ended(simulation: &Simulation<'_, Running<'_>>, table: &Table, to: f64) -> Option<String> {
+fn ended(reasons: &Reasons, simulation: &Simulation<'_, Running<'_>>, table: &Table, to: f64) -> Option<String> {
     let reached = simulation.state().t;
     let motion = table.missing().iter().rev().find_map(|missing| match &missing.cause {
         Cause::Motion(error) => Some(error),
         _ => None,
     });
     // Without an error, the loads of single rows may be missing.
-    motion.filter(|_| reached != to).map(|error| format!("the motion ends at {reached:.6} s: {error}"))
+    let error = motion.filter(|_| reached != to)?;
+    Some(format!("the motion ends at {reached:.6} s: {}", reasons.of_motion(error)))
 }
 
 /// The number of rows with empty cells, with the time and the reason of the first; none if all cells have numbers.
-fn incomplete(table: &Table) -> Option<String> {
+fn incomplete(reasons: &Reasons, table: &Table) -> Option<String> {
     let (missing, times) = (table.missing(), table.column("time").unwrap_or_default());
     let first = missing.first()?;
     let at = times.get(first.row).map(|t| format!(", at {t:.6} s")).unwrap_or_default();
     let rows = if missing.len() == 1 { "1 row has" } else { &format!("{} rows have", missing.len()) };
-    Some(format!("{rows} empty cells; the first{at}: {}", first.cause))
+    Some(format!("{rows} empty cells; the first{at}: {}", reasons.of_cells(&first.cause)))
 }
 
 /// Says on standard error which events there were; kinks of laws are none.

@@ -9,6 +9,7 @@ mod motions;
 mod numbers;
 mod pages;
 mod pictures;
+mod reasons;
 mod reports;
 mod simulations;
 mod tables;

@@ -5,6 +5,7 @@ mod examples;
 mod first_values;
 mod motions;
 mod turns;
+mod words;
 mod written;
 
 use std::fs;
