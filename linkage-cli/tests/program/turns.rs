@@ -76,7 +76,7 @@ const RIGHT: &str = "--branch p_q=right,r_s=right";
 fn a_wheel_between_groups() {
     let folder = folder();
     for name in ["between", "once"] {
-        for degrees in (10..360).step_by(50).chain([100]) {
+        for degrees in (10..360).step_by(90).chain([100]) {
             let limits = json(&folder, &format!("limits {name}.linkage --at t={degrees}deg"));
             let positions = limits["positions"].as_array().unwrap();
             assert_eq!(positions.len(), 4);

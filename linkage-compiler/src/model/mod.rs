@@ -7,6 +7,7 @@ mod chains;
 mod check;
 mod displaced;
 mod equation;
+mod equation_angles;
 mod expression;
 mod functions;
 mod guess;
