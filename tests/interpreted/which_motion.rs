@@ -1,4 +1,4 @@
-//! Which motion an answer is about: the first row that has the position asked for chooses it, and each row is at its own turn.
+//! The motion that an answer is about: the first row that has the position asked for chooses it, and each row is at its own turn.
 
 use std::f64::consts::TAU;
 

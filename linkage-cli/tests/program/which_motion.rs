@@ -1,4 +1,4 @@
-//! Which motion an answer is about: the position asked for, the first row that has it, and the turn of each row.
+//! The motion that an answer is about: the position asked for, the first row that has it, and the turn of each row.
 
 use super::folder::Folder;
 
