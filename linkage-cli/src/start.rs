@@ -17,7 +17,7 @@ pub enum Start {
     Guess(Vec<f64>),
     /// A position by its number, in the branch.
     Listed,
-    /// Of all positions the nearest to a guess.
+    /// The position that is nearest to a guess, of all.
     Near(Near),
 }
 

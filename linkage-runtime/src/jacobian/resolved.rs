@@ -2,8 +2,8 @@
 //!
 //! [`first_zero`] takes the cubic through values and slopes for the function. Where the function oscillates between two
 //! points, that says nothing. So a way is halved until the function is like its cubic: at three places, none at the same share
-//! of a period from both ends, it deviates by little of what the cubic deviates from its chord, or by less than what is left to
-//! zero. A part of up to two radians of a wave is like its cubic. The values at these places may be near those of the
+//! of a period from both ends, it deviates by little of what the cubic deviates from its chord, or by little of its distance
+//! from zero. A part of up to two radians of a wave is like its cubic. The values at these places may be near those of the
 //! function: they only say where it is divided.
 
 use super::first_zero::{Sample, first_zero};
