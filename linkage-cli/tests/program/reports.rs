@@ -1,5 +1,5 @@
 //! Reports of mechanisms in files: which position they are about, quantities that do not move, that jump or have a kink, and
-//! what is left out. Figures were computed independently.
+//! the modes that they leave out. Figures were computed independently.
 
 use super::folder::Folder;
 

@@ -2,8 +2,6 @@
 
 use linkage_runtime::extremes::{Course, Extreme};
 
-use super::motion::SAME;
-
 /// A part of a motion in which a quantity moves in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -15,6 +13,9 @@ pub struct Stroke {
     /// Its share of the motion, by the input: at a constant input rate, of the time.
     pub share: f64,
 }
+
+/// Values that differ by no more than this many times what rounding errors change in them are the same.
+pub(super) const SAME: f64 = 16.0;
 
 /// The strokes of a course, in the order of the input; of a closed motion the last one ends where the first begins. A
 /// quantity that moves in one direction all the time has none in a closed motion.
