@@ -1,6 +1,6 @@
 //! Strokes of a quantity, and the time ratio of working and return stroke.
 
-use linkage_runtime::extremes::{Course, Extreme};
+use linkage_runtime::extremes::{Course, Extreme, Extremes};
 
 /// A part of a motion in which a quantity moves in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +52,14 @@ pub(super) fn strokes(course: &Course, is_closed: bool) -> Vec<Stroke> {
         {
             places.pop();
             places.remove(0);
+        }
+        if let [only] = places.as_slice()
+            && is_same(only, &turned(only))
+        {
+            // It rests at its other end, where the motion begins.
+            let Extremes { least, largest } = course.extremes;
+            places.push(if is_same(only, &least) { largest } else { least });
+            places.sort_by(|one, other| one.input.total_cmp(&other.input));
         }
         let Some(&begin) = places.first() else { return Vec::new() };
         places.push(again(begin));

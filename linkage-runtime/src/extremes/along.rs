@@ -17,7 +17,7 @@ use crate::kinematic::MotionOf;
 use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
 use crate::scalar::larger;
-use crate::{OutputMotion, PathErrorOf, real};
+use crate::{OutputMotion, PathErrorOf, Real, real};
 
 /// The distance of two inputs that are neighbours, as a part of a step: a motion is hardly seen, and rounding errors are others.
 const NEIGHBOUR: f64 = 1.0 / 1024.0;
@@ -150,6 +150,8 @@ where
                 let [from, to] = [&pair[0], &pair[1]].map(|(s, all)| piece.slope_at(*s, &all[place]));
                 search.within_step(piece, place, [from, to], &mut course.turning_points)?;
             }
+            let rests = resting(piece, place, &samples, &course.turning_points[before..]);
+            course.turning_points.extend(rests);
             course.turning_points[before..].sort_by(|one, other| one.input.partial_cmp(&other.input).unwrap_or(Equal));
             of_piece.push(next_to);
         }
@@ -170,6 +172,26 @@ where
         course.find_extremes();
     }
     Ok(courses)
+}
+
+/// The places at which a quantity rests and then goes back, as that of a cam: its derivative has no sign there.
+fn resting<T: Real>(
+    piece: &Piece<T>,
+    place: usize,
+    samples: &[Quantities<T>],
+    turning_points: &[Extreme<T>],
+) -> Vec<Extreme<T>> {
+    let moving = samples.iter().enumerate().filter(|(_, (_, all))| !all[place].rate.is_zero());
+    let moving: Vec<(usize, T)> = moving.map(|(index, (_, all))| (index, all[place].rate)).collect();
+    let goes_back = moving.windows(2).filter_map(|pair| {
+        let [(before, from), (after, to)] = [pair[0], pair[1]];
+        let [low, high] = [before, after].map(|index| piece.input(samples[index].0));
+        let is_known = turning_points.iter().any(|at| at.input >= low && at.input <= high);
+        let (s, all) = samples.get(before + 1)?;
+        let at = Extreme { input: piece.input(*s), value: all[place].value };
+        (after > before + 1 && from * to < T::zero() && !is_known).then_some(at)
+    });
+    goes_back.collect()
 }
 
 /// The quantities at a place.
