@@ -358,7 +358,8 @@ impl Proof {
             text += "\n";
             text += &aligned(std::iter::once(head).chain(rows).collect());
             text.extend(self.within_a_turn.iter().map(|name| {
-                format!("{name} is an angle whose formula jumps by a turn: these are bounds of one turn; `linkage report` says by how much it turns\n")
+                format!("{name} is an angle whose formula jumps by a turn: these are bounds of one turn; `linkage report` says \
+                     by how much it turns\n")
             }));
         }
         text

@@ -125,7 +125,8 @@ fn charted<'m>(machine: &'m Machine, asked: &[String], format: CircuitsFormat) -
     }
 }
 
-/// The circuits through the first of many positions at a value of the input, or through the chosen one; what is left out is said.
+/// The circuits through the first of many positions at a value of the input, or through the chosen one; it says if others
+/// are left out.
 fn some<'p>(
     mechanism: &OneInput<'p>,
     input: f64,

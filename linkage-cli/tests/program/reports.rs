@@ -1,5 +1,5 @@
 //! Reports of mechanisms in files: which position they are about, quantities that do not move, that jump or have a kink, and
-//! what is left out. Figures were computed independently.
+//! the modes that they leave out. Figures were computed independently.
 
 use super::folder::Folder;
 
@@ -19,7 +19,8 @@ const FILES: [(&str, &str); 8] = [
     (
         "kink",
         "mechanism Kink { param a = 2, b = 5, c = 4, d = 5; input t; unknown p, s; loop a@t + b@p = d@0 + c@s;
-             output o = abs(t - 2); output k = abs(sin(t)); output n = norm(a@t - (a, 0)); }",
+             output o = abs(t - 2); output k = abs(sin(t)); output n = norm(a@t - (a, 0));
+             output h = (sin(t) + abs(sin(t)))/2; }",
     ),
     (
         "flat",
@@ -138,6 +139,9 @@ fn kinks_are_turning_points() {
             "From 60° to 114.5916° it moves from 54.59156° to 0°",
             "k goes from 0 (at t = 180°) to 1 (at t = 90°). From 90° to 180° it moves from 1 to 0, in 25 % of the motion.",
             "n goes from 0 (at t = 0°) to 4 (at t = 180°).",
+            // It rests for half a turn.
+            "it moves from 1 to 0, in 25.",
+            "it moves from 0 to 1, in 74.",
         ],
     );
 }

@@ -47,7 +47,7 @@ pub(crate) fn numbers<S: Single, const N: usize>(value: &Value) -> Result<[S; N]
     each(all)
 }
 
-/// As many numbers.
+/// The numbers of values, as many as there are.
 pub(crate) fn each<S: Single, const N: usize>(values: &[Value]) -> Result<[S; N], Defect> {
     let mut numbers = [S::zero(); N];
     for (number, value) in numbers.iter_mut().zip(values) {

@@ -15,7 +15,7 @@ use super::local::{Local, listed};
 use super::modes::SingularInput;
 use super::options::ReportOptions;
 use super::output_angles::of_output;
-use super::strokes::{Stroke, strokes, time_ratio};
+use super::strokes::{SAME, Stroke, strokes, time_ratio};
 use super::transmission::{NoTransmission, Transmission};
 
 /// One motion from end to end.
@@ -79,16 +79,13 @@ pub struct QuantityReport {
     /// The values at both ends.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) ends: [Extreme; 2],
-    /// As that of a course.
+    /// The resolution of its course.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) resolution: (f64, Vec<(f64, f64)>),
 }
 
-/// Values that differ by no more than this many times what rounding errors change in them are the same.
-pub(super) const SAME: f64 = 16.0;
-
 impl QuantityReport {
-    /// What it turns by each time a motion closes: an angle that moves in one direction, or by whole turns.
+    /// The angle by which it turns each time a motion closes, if it is an angle that moves in one direction, or by whole turns.
     pub(super) fn turned(&self) -> Option<f64> {
         let [from, to] = self.ends;
         let turned = to.value - from.value;
@@ -97,7 +94,7 @@ impl QuantityReport {
         (self.is_angle && turned.abs() > error && (is_whole || self.strokes.is_empty())).then_some(turned)
     }
 
-    /// What rounding errors change in its value at an input.
+    /// The change of its value at an input by rounding errors.
     pub(super) fn resolution_at(&self, input: f64) -> f64 {
         let (between, singular) = &self.resolution;
         singular.iter().find(|(at, _)| *at == input).map_or(*between, |(_, change)| change.max(*between))

@@ -7,7 +7,7 @@ use linkage_runtime::extremes::{Extreme, Extremes};
 use linkage_runtime::range_of_motion::MotionEnd;
 use linkage_runtime::{BorrowedName, RangeEnd};
 
-use super::motion::SAME;
+use super::strokes::SAME;
 use super::{
     DyadKind, FourBarLoop, GrashofClass, ListedMode, ListedMotion, Mobility, Modes, MotionReport, QuantityReport,
     Report, ReportedModes, SingularInput, Transmission,

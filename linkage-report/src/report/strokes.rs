@@ -1,8 +1,6 @@
 //! Strokes of a quantity, and the time ratio of working and return stroke.
 
-use linkage_runtime::extremes::{Course, Extreme};
-
-use super::motion::SAME;
+use linkage_runtime::extremes::{Course, Extreme, Extremes};
 
 /// A part of a motion in which a quantity moves in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +13,9 @@ pub struct Stroke {
     /// Its share of the motion, by the input: at a constant input rate, of the time.
     pub share: f64,
 }
+
+/// Values that differ by no more than this many times what rounding errors change in them are the same.
+pub(super) const SAME: f64 = 16.0;
 
 /// The strokes of a course, in the order of the input; of a closed motion the last one ends where the first begins. A
 /// quantity that moves in one direction all the time has none in a closed motion.
@@ -51,6 +52,14 @@ pub(super) fn strokes(course: &Course, is_closed: bool) -> Vec<Stroke> {
         {
             places.pop();
             places.remove(0);
+        }
+        if let [only] = places.as_slice()
+            && is_same(only, &turned(only))
+        {
+            // It rests at its other end, where the motion begins.
+            let Extremes { least, largest } = course.extremes;
+            places.push(if is_same(only, &least) { largest } else { least });
+            places.sort_by(|one, other| one.input.total_cmp(&other.input));
         }
         let Some(&begin) = places.first() else { return Vec::new() };
         places.push(again(begin));

@@ -11,12 +11,12 @@ use std::vec::Vec;
 
 use super::at_input::Search;
 use super::course::Course;
-use super::{Extreme, Extremes, STEPS, constant};
-use crate::jacobian::Sample;
+use super::piece::{Piece, next_to};
+use super::{Extreme, Extremes, constant};
 use crate::kinematic::MotionOf;
 use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
-use crate::scalar::{larger, to_f64};
+use crate::scalar::larger;
 use crate::{OutputMotion, PathErrorOf, Real, real};
 
 /// The distance of two inputs that are neighbours, as a part of a step: a motion is hardly seen, and rounding errors are others.
@@ -24,9 +24,6 @@ const NEIGHBOUR: f64 = 1.0 / 1024.0;
 
 /// The places of a part at which rounding errors are measured.
 const PLACES: u32 = 12;
-
-/// The most turns that are searched with 360 steps each; a longer range has longer steps.
-const MOST_TURNS: f64 = 64.0;
 
 /// The extremes of a quantity along a motion, ends included, each input to an ulp.
 ///
@@ -153,6 +150,8 @@ where
                 let [from, to] = [&pair[0], &pair[1]].map(|(s, all)| piece.slope_at(*s, &all[place]));
                 search.within_step(piece, place, [from, to], &mut course.turning_points)?;
             }
+            let rests = resting(piece, place, &samples, &course.turning_points[before..]);
+            course.turning_points.extend(rests);
             course.turning_points[before..].sort_by(|one, other| one.input.partial_cmp(&other.input).unwrap_or(Equal));
             of_piece.push(next_to);
         }
@@ -173,6 +172,26 @@ where
         course.find_extremes();
     }
     Ok(courses)
+}
+
+/// The places at which a quantity rests and then goes back, as that of a cam: its derivative has no sign there.
+fn resting<T: Real>(
+    piece: &Piece<T>,
+    place: usize,
+    samples: &[Quantities<T>],
+    turning_points: &[Extreme<T>],
+) -> Vec<Extreme<T>> {
+    let moving = samples.iter().enumerate().filter(|(_, (_, all))| !all[place].rate.is_zero());
+    let moving: Vec<(usize, T)> = moving.map(|(index, (_, all))| (index, all[place].rate)).collect();
+    let goes_back = moving.windows(2).filter_map(|pair| {
+        let [(before, from), (after, to)] = [pair[0], pair[1]];
+        let [low, high] = [before, after].map(|index| piece.input(samples[index].0));
+        let is_known = turning_points.iter().any(|at| at.input >= low && at.input <= high);
+        let (s, all) = samples.get(before + 1)?;
+        let at = Extreme { input: piece.input(*s), value: all[place].value };
+        (after > before + 1 && from * to < T::zero() && !is_known).then_some(at)
+    });
+    goes_back.collect()
 }
 
 /// The quantities at a place.
@@ -209,7 +228,7 @@ where
     Ok(may_be.into_iter().zip(&pairs).map(|(may_be, pairs)| may_be && constant::is_constant(pairs)).collect())
 }
 
-/// What an ulp of the input and rounding errors change in a quantity, between the ends of a part and at both.
+/// The change of a quantity by an ulp of the input and by rounding errors, between the ends of a part and at both.
 type Resolution<T> = (T, [T; 2]);
 
 /// The resolution of each quantity in a part.
@@ -245,63 +264,4 @@ where
         }
     }
     Ok(found)
-}
-
-/// The inputs next to one, by some ulps of the largest.
-pub(super) fn next_to<M: Driven>(range: &RangeOfMotion<'_, M>, input: M::Scalar) -> [M::Scalar; 2] {
-    let size = range.inputs().into_iter().fold(input.abs(), |size, end| larger(size, end.abs()));
-    let some = size * M::Scalar::default_epsilon() * real(4.0);
-    [input - some, input + some]
-}
-
-/// A part of a motion without change points between its ends.
-pub(super) struct Piece<T> {
-    low: T,
-    high: T,
-    steps: u32,
-}
-
-impl<T: Real> Piece<T> {
-    fn all<M: Driven<Scalar = T>>(range: &RangeOfMotion<'_, M>) -> Vec<Self> {
-        let [first, last] = range.inputs();
-        let mut bounds = Vec::from([first]);
-        let crossings = range.crossings().map(|crossing| crossing.input);
-        bounds.extend(crossings.filter(|&input| input > first && input < last));
-        bounds.push(last);
-        let pairs = bounds.windows(2).map(|pair| (pair[0], pair[1]));
-        let piece = |(low, high): (T, T)| {
-            let turns = if range.mechanism().input_angles()[0] { to_f64((high - low) / T::two_pi()) } else { 1.0 };
-            // At most 64 times 360.
-            Self { low, high, steps: (f64::from(STEPS) * turns.clamp(1.0, MOST_TURNS)) as u32 }
-        };
-        pairs.map(piece).collect()
-    }
-
-    /// The middles of equal steps of s.
-    fn places(&self) -> impl Iterator<Item = T> {
-        let steps = f64::from(self.steps);
-        (0..self.steps).map(move |step| real((f64::from(step) + 0.5) / steps))
-    }
-
-    /// low + (high - low) sin^2(pi s / 2), from the nearer end.
-    pub(super) fn input(&self, s: T) -> T {
-        let (sine, cosine) = (T::frac_pi_2() * s).sine_cosine();
-        let length = self.high - self.low;
-        if sine < cosine { self.low + length * sine * sine } else { self.high - length * cosine * cosine }
-    }
-
-    /// The place s of an input.
-    pub(super) fn place(&self, input: T) -> T {
-        let [below, above] = [input - self.low, self.high - input].map(|part| part.max(T::zero()).sqrt());
-        below.arctangent2(above) / T::frac_pi_2()
-    }
-
-    /// The derivative by s of a quantity with its own: its rate and acceleration are by the input.
-    pub(super) fn slope_at(&self, s: T, motion: &OutputMotion<T>) -> Sample<T> {
-        let (sine, cosine) = (T::pi() * s).sine_cosine();
-        let half = (self.high - self.low) * real(0.5);
-        let (first, second) = (half * T::pi() * sine, half * T::pi() * T::pi() * cosine);
-        let slope = motion.acceleration * first * first + motion.rate * second;
-        Sample { at: s, value: motion.rate * first, slope }
-    }
 }

@@ -1,7 +1,7 @@
 //! Quantities at an input of a motion, with their derivatives, also where these do not exist for all.
 
-use super::along::{Piece, next_to};
 use super::on_turns::OnTurns;
+use super::piece::{Piece, next_to};
 use super::{Extreme, MOST_IN_A_STEP, ulp};
 use crate::jacobian::{Sample, first_zero, root};
 use crate::kinematic::MotionOf;
@@ -84,8 +84,8 @@ where
             // A kink has no derivative: that is one of both next to it.
             Err(error @ PathError::Position(PositionError::NotFinite { .. })) => {
                 let next = next_to(self.range, input);
-                let beside = |at| self.range.motion(at, M::Scalar::one(), M::Scalar::zero()).ok();
-                let motion = next.into_iter().find_map(beside).and_then(|motion| self.moved_to(motion, input));
+                let next_motion = |at| self.range.motion(at, M::Scalar::one(), M::Scalar::zero()).ok();
+                let motion = next.into_iter().find_map(next_motion).and_then(|motion| self.moved_to(motion, input));
                 Ok((self.quantities)(&motion.ok_or(error)?).as_ref().to_vec())
             }
             // Where motions touch the tangent is known still.
@@ -120,8 +120,8 @@ where
             Err(error @ PathError::Position(PositionError::NotFinite { .. })) => {
                 let [before, after] = next_to(self.range, input);
                 let order = if is_after { [after, before] } else { [before, after] };
-                let beside = |at| along_tangent(self.range, at).ok();
-                let found = order.into_iter().find_map(beside);
+                let next_motion = |at| along_tangent(self.range, at).ok();
+                let found = order.into_iter().find_map(next_motion);
                 let found = found.and_then(|(motion, along)| Some((self.moved_to(motion, input)?, along)));
                 found.ok_or(error)
             }

@@ -1,6 +1,6 @@
 //! Quantities that do not move.
 //!
-//! What the values of a constant quantity differ by are rounding errors, and at another input nearby these are others; where
+//! The values of a constant quantity differ by rounding errors, and at another input nearby these are others; where
 //! it moves, its values there are nearly the same. So it is constant if its values are no farther apart than those at two
 //! neighbouring inputs. No derivative is asked, which has rounding errors too, nor a size of the quantity.
 

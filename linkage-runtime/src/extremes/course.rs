@@ -20,8 +20,8 @@ pub struct Course<T = f64> {
     pub ends: [Extreme<T>; 2],
     /// The values between them, in the order of the input, with derivatives by the input.
     pub samples: Vec<(T, OutputMotion<T>)>,
-    /// What an ulp of the input and rounding errors change in a value: between the ends, and at the ends and the change points
-    /// that the motion passes, each with its input.
+    /// The change of a value by an ulp of the input and by rounding errors: between the ends, and at the ends and the change
+    /// points that the motion passes, each with its input.
     pub resolution: (T, Vec<(T, T)>),
 }
 
@@ -38,7 +38,7 @@ impl<T: Real> Course<T> {
         }
     }
 
-    /// What an ulp of the input and rounding errors change in the value at an input of the motion.
+    /// The change of the value at an input of the motion by an ulp of the input and by rounding errors.
     #[must_use]
     pub fn resolution_at(&self, input: T) -> T {
         let (between, singular) = &self.resolution;

@@ -34,6 +34,8 @@ mod constant;
 mod course;
 #[cfg(feature = "std")]
 mod on_turns;
+#[cfg(feature = "std")]
+mod piece;
 
 #[cfg(feature = "std")]
 pub use along::{courses, courses_on_turns, over};
