@@ -99,3 +99,15 @@ fn a_table_at_rest_has_no_rates() {
     let names: Vec<&str> = summary.lines().skip(1).filter_map(|line| line.split(',').next()).collect();
     assert_eq!(names, ["p", "q", "P_x", "P_y", "mu", "pulse_rate"]);
 }
+
+/// An input that is neither an angle nor a length is a number.
+#[test]
+fn inputs_have_no_false_kind() {
+    let folder = Folder::new();
+    let text = "mechanism Odd { param a = 1; input x; unknown s; equation s + exp(s) = a*x; }";
+    folder.write("odd.linkage", text);
+    let message = "error: `x` is a plain number, and this is a unit of angles\n";
+    folder.run("draw odd.linkage --at x=3deg --guess s=0").fails(2, message);
+    let message = "error: `x` is a number and has no turn: write --to VALUE, or --curve\n";
+    folder.run("certify odd.linkage --at x=3 --guess s=0").fails(2, message);
+}
