@@ -32,11 +32,11 @@ fn defaults_have_their_units() {
     let of_scene = names[0]["scenes"][0]["parameters"].as_array().unwrap();
     let table =
         |more: &str| folder.run(&format!("table geared.linkage --from 20deg --to 90deg --steps 2 {more}")).works("");
+    let usual = table("");
     for of in own.iter().chain(of_scene) {
         let (name, default) = (of["name"].as_str().unwrap(), of["default"].as_str().unwrap());
-        let is_own = own.contains(of);
-        if is_own {
-            assert_eq!(table(&format!("--set {name}={default}")), table(""), "{name} {default}");
+        if ["w", "big", "a"].contains(&name) {
+            assert_eq!(table(&format!("--set {name}={default}")), usual, "{name} {default}");
         }
         let kind = match name {
             "w" => "rate of an angle in rad/s",
