@@ -85,7 +85,7 @@ impl About {
         let named = |name: &Name| Named { text: name.text.clone(), field: name.field.clone() };
         let coordinate = |id: &CoordinateId| {
             let of = &mechanism.coordinates[*id];
-            Coordinate { name: named(&of.name), is_angle: of.kind == Kind::Angle }
+            Coordinate { name: named(&of.name), is_angle: of.kind == Kind::Angle, is_length: of.kind == Kind::Length }
         };
         let ends = |id: &CoordinateId| {
             let name = &mechanism.coordinates[*id].name.text;

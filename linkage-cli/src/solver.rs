@@ -22,14 +22,17 @@ pub struct Named {
 pub struct Coordinate {
     pub name: Named,
     pub is_angle: bool,
+    /// True for a length; a coordinate that is used as neither is a number.
+    pub is_length: bool,
 }
 
 impl Coordinate {
     /// The number of an argument as its value.
     pub fn value(&self, value: Value) -> Result<f64, Failure> {
-        match self.is_angle {
-            true => value.angle(&self.name.text),
-            false => value.length(&self.name.text),
+        match (self.is_angle, self.is_length) {
+            (true, _) => value.angle(&self.name.text),
+            (_, true) => value.length(&self.name.text),
+            _ => value.plain(&self.name.text),
         }
         .map_err(Failure::Argument)
     }

@@ -52,6 +52,14 @@ impl Value {
         }
     }
 
+    /// The number as one that is neither an angle nor a length.
+    pub fn plain(self, name: &str) -> Result<f64, String> {
+        match self.measures {
+            None => Ok(self.number),
+            Some(what) => Err(format!("`{name}` is a plain number, and this is a unit of {what}")),
+        }
+    }
+
     /// The number as the rate of an angle or a length.
     pub fn rate(self, of: &str, is_angle: bool) -> Result<f64, String> {
         match self.measures {

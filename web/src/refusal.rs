@@ -15,7 +15,7 @@ use crate::about::About;
 pub struct Refusal {
     /// The sentence.
     pub why: String,
-    /// Of links that do not reach each other: the beginning of the sentence, and the inputs. Where the formulas are known, they say
+    /// If links do not reach each other, the beginning of the sentence, and the inputs. Where the formulas are known, they say
     /// which links, and by how much.
     #[serde(skip)]
     pub(crate) apart: Option<(String, Vec<f64>)>,

@@ -41,7 +41,8 @@ pub fn run(arguments: &arguments::Certify) -> Result<(), Failure> {
     let to = to.or(most);
     match to {
         None if !input.is_angle && !arguments.curve => {
-            let message = format!("`{name}` is a length and has no turn: write --to VALUE, or --curve");
+            let what = if input.is_length { "length" } else { "number" };
+            let message = format!("`{name}` is a {what} and has no turn: write --to VALUE, or --curve");
             return Err(Failure::Argument(message));
         }
         Some(to) if to == inputs[moving] => {

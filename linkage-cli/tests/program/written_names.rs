@@ -55,9 +55,7 @@ fn all_answers_are_those_of_small_names() {
     for command in [
         "names small.linkage".to_owned(),
         "table small.linkage --set c=3.5 --steps 6 --rate 2".to_owned(),
-        "table small.linkage --branch pa_qb=right --steps 6 --degrees --format text".to_owned(),
         format!("draw small.linkage {at} -o small.svg"),
-        format!("sheet small.linkage {at} --rate 1 -o small.html"),
         format!("sheet small.linkage {at} --rate 1 -o small.txt"),
         format!("certify small.linkage {at}"),
         format!("report small.linkage {at} -o small.html"),

@@ -55,7 +55,7 @@ impl Kinds {
     }
 }
 
-/// What the numbers of a parameter measure, as far as it is known.
+/// The quantity of a parameter, as far as it is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Measure {
     /// Not known: a ratio, a mass, a load.
@@ -81,7 +81,7 @@ impl fmt::Display for Measure {
 }
 
 impl Kinds {
-    /// What a parameter measures whose default has this unit.
+    /// The quantity of a parameter whose default has this unit.
     pub(super) fn measure(&self, symbol: SymbolId, unit: Unit) -> Measure {
         match (self.of(symbol), unit) {
             (Kind::Angle, _) | (_, Unit::Degrees | Unit::Radians) => Measure::Angle,

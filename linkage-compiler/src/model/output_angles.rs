@@ -30,7 +30,7 @@ pub fn output_angles(mechanism: &Mechanism) -> Vec<Option<OutputAngle>> {
     mechanism.outputs.iter().map(|output| angle(&mechanism.graph, output.value, &kinds)).collect()
 }
 
-/// What the numbers of an expression are.
+/// The quantity of an expression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Found {
     Angle(OutputAngle),

@@ -1,10 +1,10 @@
-//! What a number is, as far as a text says it: an angle, the rate of one, a length.
+//! Quantities as far as a text says them: an angle, the rate of one, a length.
 
 use linkage_compiler::budget::Budget;
 use linkage_compiler::model::{Measure, output_angles};
 use linkage_compiler::text;
 
-/// What each parameter of a text and of its scenes measures, with its default.
+/// The quantity of each parameter of a text and of its scenes, with its default.
 fn parameters(text: &str) -> Vec<(String, Measure, Option<String>)> {
     let compiled = text::compile(text, &Budget::default(), |_| ()).unwrap_or_else(|wrong| panic!("{text}: {wrong:?}"));
     let mechanism = &compiled[0].mechanism;

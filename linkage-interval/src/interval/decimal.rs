@@ -33,7 +33,15 @@ fn rounded(value: f64, side: i64) -> String {
     // Infinity has no digits.
     let Some((digits, exponent, shown)) = read() else { return nearest };
     let is_beyond = if side < 0 { shown > value } else { shown < value };
-    decimal(digits + if is_beyond { side } else { 0 }, exponent + 1 - DIGITS as i32)
+    let unit = exponent + 1 - DIGITS as i32;
+    match is_beyond {
+        false => decimal(digits, unit),
+        // Next to a power of ten, on the side of zero, units are smaller.
+        true if digits.unsigned_abs() == 10_u64.pow(DIGITS as u32 - 1) && digits.signum() != side => {
+            decimal(10 * digits + side, unit - 1)
+        }
+        true => decimal(digits + side, unit),
+    }
 }
 
 /// A whole number of units, each a power of ten, without zeros at the end.
