@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use serde_json::Value;
 
 use super::algebra::bounds;
-use super::linkage::{Linear, Linkage, derivatives, place};
+use super::linkage::{Form, Linear, Linkage, Output, derivatives, place};
 use super::program::Program;
 use super::steps::{Node, Part, Stepped, UNITS, Why};
 
@@ -193,7 +193,10 @@ impl<'a> Comparison<'a> {
                 let form = match place {
                     Some(place) if place == moving => return Some(rounding),
                     Some(place) => Linear::of(place),
-                    None => self.linkage.outputs.iter().find(|of| of.name == *name)?.form.clone(),
+                    None => match &self.linkage.outputs.iter().find(|of| of.name == *name)?.form {
+                        Form::Linear(form) => form.clone(),
+                        Form::Angle(_) => return None,
+                    },
                 };
                 let (errors, ratios) = (self.stepped.errors(&node.q)?, self.stepped.ratios(&node.q)?);
                 let slope: f64 = form.terms.iter().map(|(factor, place)| factor * ratios[*place]).sum();
@@ -256,15 +259,13 @@ impl<'a> Comparison<'a> {
         }
         self.circuits(&listed);
         // The position near the start, or another one.
-        let (branch, q) = listed[if self.random[0] < 0.5 {
-            chosen
-        } else {
-            (self.random[0] * listed.len() as f64) as usize % listed.len()
-        }]
-        .clone();
-        if self.wrong(&q).is_some() || !self.stepped.is_within(&q) {
-            return self.count("the chosen position is outside of ranges");
-        }
+        let other = (self.random[0] * listed.len() as f64) as usize % listed.len();
+        let (branch, q) = match &listed[other] {
+            (branch, q) if self.random[0] > 0.5 && self.wrong(q).is_none() && self.stepped.is_within(q) => {
+                (branch.clone(), q.clone())
+            }
+            _ => (listed[chosen].0.clone(), own),
+        };
         let Some(motion) = self.motion(&q) else { return self.count("not followed by small steps") };
         self.table(&branch, &q, &motion);
         self.certify(&branch, &q, &motion);
@@ -323,19 +324,52 @@ impl<'a> Comparison<'a> {
     }
 
     fn table(&mut self, branch: &str, start: &[f64], motion: &Motion) {
-        let moving = self.stepped.moving;
-        let of = &self.linkage.coordinates[moving];
-        let first = self.at[moving];
+        let of = &self.linkage.coordinates[self.stepped.moving];
         let by = if of.is_angle {
             [TAU, -TAU, 1.0, 2.0 * TAU, -1.5][(self.random[1] * 5.0) as usize]
         } else {
             self.random[1] - 0.5
         };
+        let first = self.at[self.stepped.moving];
+        self.rows(branch, [first, first + by], Some((start, motion)));
+        // The first row that has the position asked for chooses.
+        let from = first + if of.is_angle { 6.0 } else { 1.0 } * (self.random[2] - 0.5);
+        self.rows(branch, [from, from + by], None);
+    }
+
+    /// The motion that is chosen by the first of these inputs at which there is a position on a branch.
+    fn chosen(&mut self, branch: &str, inputs: &[f64]) -> Option<(Vec<f64>, Motion)> {
+        let moving = self.stepped.moving;
+        let at = self.at.clone();
+        for value in inputs {
+            self.at[moving] = *value;
+            let mut asked = words("limits --format=json");
+            asked.extend(self.held(true));
+            asked.extend(self.along());
+            let answer = self.program.ask(&asked);
+            self.at.clone_from(&at);
+            let listed = answer.ok().and_then(|answer| answer["positions"].as_array().cloned()).unwrap_or_default();
+            let Some(here) = listed.into_iter().find(|of| of["branch"] == branch) else { continue };
+            let q = self.full(&numbers(&here["unknowns"]), *value);
+            let is_regular = self.stepped.errors(&q).is_some_and(|all| all.iter().all(|of| *of < 1e-8));
+            if !is_regular || self.wrong(&q).is_some() {
+                return None;
+            }
+            if self.stepped.is_within(&q) {
+                let motion = self.motion(&q)?;
+                return Some((q, motion));
+            }
+        }
+        None
+    }
+
+    fn rows(&mut self, branch: &str, [first, last]: [f64; 2], known: Option<(&[f64], &Motion)>) {
+        let moving = self.stepped.moving;
+        let of = &self.linkage.coordinates[moving];
         let steps = 10;
         let mut question = words("table --format=json --rate");
-        let rate = if by > 0.0 { 1.0 } else { -1.0 };
+        let rate = if last > first { 1.0 } else { -1.0 };
         *question.last_mut().expect("words") = format!("--rate={rate}");
-        let last = first + by;
         question.extend(Self::branch(branch));
         question.extend(self.held(false));
         question.extend(self.along());
@@ -346,14 +380,29 @@ impl<'a> Comparison<'a> {
         ]);
         let table = match self.program.ask(&question) {
             Ok(table) => table,
-            Err(why) => return self.fails(&format!("table: {}", class(&why)), &question, why, start),
+            Err(why) => {
+                return match known {
+                    Some((start, _)) => self.fails(&format!("table: {}", class(&why)), &question, why, start),
+                    None => self.count(&format!("table from another value: {}", class(&why))),
+                };
+            }
         };
-        self.count("table: compared");
         let column = |name: &str| -> Vec<f64> {
             let found = table["columns"].as_array().into_iter().flatten().find(|of| of["name"] == name);
             found.map(|of| numbers(&of["values"])).unwrap_or_default()
         };
         let inputs = column(&of.name);
+        let found;
+        let (start, motion) = match known {
+            Some(known) => known,
+            None => {
+                found = self.chosen(branch, &inputs);
+                let Some((start, motion)) = &found else { return self.count("table from another value: not compared") };
+                (start.as_slice(), motion)
+            }
+        };
+        let first = start[moving];
+        self.count(if known.is_some() { "table: compared" } else { "table from another value: compared" });
         let n = self.linkage.unknowns;
         let unknowns: Vec<[Vec<f64>; 2]> = self.linkage.coordinates[..n]
             .iter()
@@ -390,7 +439,7 @@ impl<'a> Comparison<'a> {
                         let shifted = (-3..=3)
                             .map(|turn| value + f64::from(turn) * TAU)
                             .find(|value| is_in(*value))
-                            .filter(|_| of.is_angle);
+                            .filter(|_| of.is_angle && of.range.is_none());
                         let is_edge = (-3..=3).any(|turn| {
                             [least, most].iter().any(|end| (value + f64::from(turn) * TAU - end).abs() <= 2.0 * edge)
                         });
@@ -527,6 +576,10 @@ impl<'a> Comparison<'a> {
                 .map(|of| of as usize - 1)
                 .collect();
             let Some(start) = members.first().map(|place| positions[*place].clone()) else { continue };
+            if self.wrong(&start).is_some() {
+                self.fails("circuits: a position does not satisfy the equations", &question, start, "residual 0");
+                continue;
+            }
             let Some(curve) = self.curve(&start) else {
                 self.count("circuits: not followed by small steps");
                 continue;
@@ -588,9 +641,25 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// The values of a quantity along a motion.
-    fn values(nodes: &[Node], of: impl Fn(&[f64]) -> f64) -> Vec<f64> {
-        nodes.iter().map(|node| of(&node.q)).collect()
+    /// The values of the quantities that the program has bounds of, along a motion: points, outputs.
+    fn quantities(&self, nodes: &[Node]) -> Vec<(String, bool, Vec<f64>)> {
+        let mut all = Vec::new();
+        for (name, sum) in &self.linkage.points {
+            for (axis, letter) in ["x", "y"].into_iter().enumerate() {
+                let values = nodes.iter().map(|node| place(sum, &node.q)[axis]).collect();
+                all.push((format!("{name}_{letter}"), false, values));
+            }
+        }
+        all.extend(self.linkage.outputs.iter().map(|of| self.of_output(of, nodes)));
+        all
+    }
+
+    fn of_output(&self, output: &Output, nodes: &[Node]) -> (String, bool, Vec<f64>) {
+        let is_angle = match &output.form {
+            Form::Angle(_) => true,
+            Form::Linear(form) => form.terms.iter().all(|(_, place)| self.linkage.coordinates[*place].is_angle),
+        };
+        (output.name.clone(), is_angle, output.form.along(nodes.iter().map(|node| node.q.as_slice())))
     }
 
     fn certify(&mut self, branch: &str, start: &[f64], motion: &Motion) {
@@ -638,16 +707,7 @@ impl<'a> Comparison<'a> {
                     .filter(|node| node.q[moving] >= first && node.q[moving] <= first + TAU)
                     .cloned()
                     .collect();
-                let mut quantities: Vec<(String, Vec<f64>)> = Vec::new();
-                for (name, sum) in &self.linkage.points {
-                    for (axis, letter) in ["x", "y"].into_iter().enumerate() {
-                        quantities.push((format!("{name}_{letter}"), Self::values(&nodes, |q| place(sum, q)[axis])));
-                    }
-                }
-                for output in &self.linkage.outputs {
-                    quantities.push((output.name.clone(), Self::values(&nodes, |q| output.form.at(q))));
-                }
-                for (name, values) in quantities {
+                for (name, is_angle, values) in self.quantities(&nodes) {
                     let Some(of) =
                         proof["quantities"].as_array().into_iter().flatten().find(|of| of["name"] == name.as_str())
                     else {
@@ -658,10 +718,13 @@ impl<'a> Comparison<'a> {
                     let [low, high] = [f64::min, f64::max].map(|of| values.iter().copied().fold(values[0], of));
                     let slack = second_difference(&values);
                     let rounding = 1e-9 * (1.0 + low.abs().max(high.abs()));
-                    let is_right = least[0] <= low + rounding
-                        && low <= least[1] + slack + rounding
-                        && high - rounding <= largest[1]
-                        && high >= largest[0] - slack - rounding;
+                    // The turn of an angle may be another one.
+                    let is_right = (-3..=3).map(|turn| f64::from(turn) * if is_angle { TAU } else { 0.0 }).any(|by| {
+                        least[0] + by <= low + rounding
+                            && low <= least[1] + by + slack + rounding
+                            && high - rounding <= largest[1] + by
+                            && high >= largest[0] + by - slack - rounding
+                    });
                     if !is_right {
                         self.fails("certify: bounds do not hold the motion", &question, of, (low, high));
                     }
@@ -687,52 +750,66 @@ impl<'a> Comparison<'a> {
     }
 
     fn report(&mut self, listed: &[(String, Vec<f64>)]) {
-        if self.linkage.coordinates.len() - self.linkage.unknowns > 1 {
-            return;
-        }
         let question: Vec<String> = words("report").into_iter().chain(self.held(true)).collect();
         let report = match self.program.ask(&question) {
             Ok(report) => report.as_str().unwrap_or_default().replace('\u{2212}', "-"),
             Err(why) => return self.fails(&format!("report: {}", class(&why)), &question, why, "a report"),
         };
-        let Some(followed) = report.lines().find(|line| line.contains("which this report follows")) else {
+        let within = listed.iter().filter(|(_, q)| self.stepped.is_within(q)).count();
+        let modes = report.lines().filter(|line| line.starts_with("Mode ")).count();
+        if modes != within {
+            self.fails("report: another number of modes", &question, modes, within);
+        }
+        if self.linkage.coordinates.len() - self.linkage.unknowns > 1 {
+            return;
+        }
+        if !report.contains("which this report follows") {
             let why = report.lines().find(|line| line.contains("follows no motion")).unwrap_or("no motion").to_owned();
             return self.fails(&format!("report: {}", class(&why)), &question, why, "a motion");
-        };
-        let mode = followed.split("mode ").nth(1).or_else(|| followed.split("modes ").nth(1)).unwrap_or_default();
-        let _ = mode;
+        }
         // The first position from which a motion can be followed.
         let Some((_, start)) = listed.iter().find(|(_, q)| {
             self.stepped.is_within(q) && self.stepped.errors(q).is_some_and(|all| all.iter().all(|of| *of < 1e-8))
         }) else {
             return;
         };
+        if self.wrong(start).is_some() {
+            return self.count("report: the first position is wrong");
+        }
         let Some(motion) = self.motion(start) else { return self.count("report: not followed by small steps") };
         self.count("report: compared");
-        let section = report.split("\nUnknowns\n").nth(1).unwrap_or_default().to_owned();
+        let mut all: Vec<(String, bool, Vec<f64>)> = Vec::new();
         for (place, of) in self.linkage.coordinates[..self.linkage.unknowns].iter().enumerate() {
-            let values = Self::values(&motion.nodes, |q| q[place]);
+            all.push((of.name.clone(), of.is_angle, motion.nodes.iter().map(|node| node.q[place]).collect()));
+        }
+        all.extend(self.linkage.outputs.iter().map(|of| self.of_output(of, &motion.nodes)));
+        for (name, is_angle, values) in all {
             let [low, high] = [f64::min, f64::max].map(|of| values.iter().copied().fold(values[0], of));
-            let Some(line) = section.lines().find(|line| line.starts_with(&format!("{} ", of.name))) else {
-                self.fails("report: an unknown is missing", &question, &section, &of.name);
+            let Some(line) = report.lines().find(|line| line.starts_with(&format!("{name} "))) else {
+                self.fails("report: a quantity is missing", &question, &report, &name);
                 continue;
             };
-            let numbers: Vec<f64> = numbers_in(&line[of.name.len()..])
-                .into_iter()
-                .map(|of_line| if of.is_angle { of_line.to_radians() } else { of_line })
-                .collect();
-            let turned = motion.closes.as_ref().map_or(0.0, |(_, by)| by[place]);
+            let scale = if line.contains('\u{b0}') { TAU / 360.0 } else { 1.0 };
+            let sentence = line.split(". ").next().unwrap_or_default();
+            let words = sentence.split(" (at ").map(|part| part.split_once(')').map_or(part, |(_, rest)| rest));
+            let first = sentence.split(" (at ").next().unwrap_or_default().to_owned();
+            let plain = first + " " + &words.skip(1).collect::<Vec<_>>().join(" ");
+            let ends: Vec<f64> = numbers_in(&plain[name.len()..]).into_iter().map(|of_line| of_line * scale).collect();
+            let turned = match (&motion.closes, values.first(), values.last()) {
+                (Some(_), Some(first), Some(last)) => last - first,
+                _ => 0.0,
+            };
             let slack = second_difference(&values) + 2e-6 * (1.0 + low.abs().max(high.abs()));
             let is_near = |one: f64, other: f64| (one - other).abs() <= slack;
             let is_right = if line.contains("turns by") {
-                numbers.first().is_some_and(|by| is_near(by.abs(), turned.abs()) && turned.abs() > 1.0)
+                ends.first().is_some_and(|by| is_near(by.abs(), turned.abs()) && turned.abs() > 1.0)
             } else if line.contains("goes from") {
-                let ends: Vec<f64> = numbers.clone();
                 // An angle may be told some turns away.
-                let is_it = |by: f64| {
-                    ends.iter().any(|one| is_near(one + by, low)) && ends.iter().any(|one| is_near(one + by, high))
+                let is_it = |by: f64| match ends.as_slice() {
+                    [one, other, ..] => is_near(one + by, low) && is_near(other + by, high),
+                    _ => false,
                 };
-                (-4..=4).map(|turn| if of.is_angle { f64::from(turn) * TAU } else { 0.0 }).any(is_it)
+                turned.abs() < 1.0 && (-4..=4).map(|turn| if is_angle { f64::from(turn) * TAU } else { 0.0 }).any(is_it)
             } else if line.contains("all the time") {
                 high - low <= slack
             } else {
@@ -740,7 +817,7 @@ impl<'a> Comparison<'a> {
                 true
             };
             if !is_right {
-                self.fails("report: the range of an unknown", &question, line, (low, high, turned));
+                self.fails("report: the range of a quantity", &question, line, (low, high, turned));
             }
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rand::Rng;
 use rand::rngs::SmallRng;
 
-use super::linkage::{Coordinate, Linear, Linkage, Output, Row, Sum, Vector, negative, place, vector};
+use super::linkage::{Coordinate, Form, Linear, Linkage, Output, Row, Sum, Vector, negative, place, vector};
 
 pub const FAMILIES: [&str; 9] = [
     "dyads",
@@ -209,11 +209,10 @@ impl Built<'_> {
             .map(|(name, is_angle, _)| Coordinate { name: name.clone(), is_angle: *is_angle, range: None })
             .collect();
         let last = n - 1;
-        let mut outputs = vec![Output {
-            name: "o".to_owned(),
-            form: Linear { terms: vec![(1.0, last)], constant: 0.0 },
-            range: None,
-        }];
+        let mut outputs = vec![
+            Output { name: "o".to_owned(), form: Form::Linear(Linear::of(last)), range: None },
+            Output { name: "d".to_owned(), form: Form::Angle(point.clone()), range: None },
+        ];
         if has_ranges {
             let mut range = |value: f64| {
                 Some([
@@ -224,14 +223,16 @@ impl Built<'_> {
             let input = range(start[n]);
             let unknown = range(start[last]);
             let output = range(start[0]);
-            outputs.push(Output { name: "w".to_owned(), form: Linear::of(0), range: None });
-            match self.random.random_range(0..4) {
+            outputs.push(Output { name: "w".to_owned(), form: Form::Linear(Linear::of(0)), range: None });
+            match self.random.random_range(0..5) {
                 0 => coordinates[n].range = input,
+                // More than a turn.
+                4 => coordinates[n].range = Some([rounded(start[n] - 5.0), rounded(start[n] + 7.0)]),
                 1 => coordinates[last].range = unknown,
-                2 => outputs[1].range = output,
+                2 => outputs[2].range = output,
                 _ => {
                     coordinates[n].range = input;
-                    outputs[1].range = output;
+                    outputs[2].range = output;
                 }
             }
         }

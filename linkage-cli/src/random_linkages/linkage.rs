@@ -1,5 +1,6 @@
 //! A linkage as rows of equations, which is written as text, and whose residual and derivatives are computed without that text.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 /// A linear form of the coordinates.
@@ -125,9 +126,49 @@ pub struct Coordinate {
 }
 
 #[derive(Debug, Clone)]
+pub enum Form {
+    Linear(Linear),
+    /// The direction of a vector.
+    Angle(Sum),
+}
+
+impl Form {
+    pub fn at(&self, q: &[f64]) -> f64 {
+        match self {
+            Self::Linear(form) => form.at(q),
+            Self::Angle(sum) => {
+                let [x, y] = place(sum, q);
+                y.atan2(x)
+            }
+        }
+    }
+
+    fn text(&self, all: &[Coordinate]) -> String {
+        match self {
+            Self::Linear(form) => form.text(all),
+            Self::Angle(sum) => format!("angle({})", sum_text(sum, all)),
+        }
+    }
+
+    /// The values at positions next to each other, on the turn nearest to the last one.
+    pub fn along<'q>(&self, all: impl Iterator<Item = &'q [f64]>) -> Vec<f64> {
+        let mut last: Option<f64> = None;
+        let next = |q: &[f64]| {
+            let mut value = self.at(q);
+            if let (Self::Angle(_), Some(last)) = (self, last) {
+                value += ((last - value) / TAU).round() * TAU;
+            }
+            last = Some(value);
+            value
+        };
+        all.map(next).collect()
+    }
+}
+
+#[derive(Debug, Clone)]
 pub struct Output {
     pub name: String,
-    pub form: Linear,
+    pub form: Form,
     pub range: Option<[f64; 2]>,
 }
 

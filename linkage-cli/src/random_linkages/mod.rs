@@ -92,6 +92,10 @@ impl Answers {
         for (kind, Kind { families, shortest, found }) in &self.failures {
             let count: usize = families.values().sum();
             let Found { question, answer, right, .. } = found;
+            let has_forces = question.starts_with("equilibrium") || question.starts_with("simulate");
+            let is_needed =
+                |line: &&str| has_forces || !["    body", "    scene"].iter().any(|of| line.starts_with(of));
+            let shortest: String = shortest.lines().filter(is_needed).map(|line| line.to_owned() + "\n").collect();
             let _ = writeln!(
                 text,
                 "\n## {kind}: {count} {families:?}\n{shortest}linkage {question}\nanswer: {answer}\nright: {right}"

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::algebra::{bounds, dot, norm, solve};
-use super::linkage::Linkage;
+use super::linkage::{Form, Linkage, Output};
 
 /// The longest and the shortest step, of angles in radians and lengths.
 const LONGEST: f64 = 0.05;
@@ -212,13 +212,23 @@ impl<'l> Stepped<'l> {
         Some((node, first.map_or(which, |(name, is_most, _)| (name, is_most))))
     }
 
+    /// True for an angle that means the same after a turn; one with a range is a number, as in an output with a range.
+    fn is_direction(&self, place: usize) -> bool {
+        let of = &self.linkage.coordinates[place];
+        let is_in = |output: &Output| match &output.form {
+            Form::Linear(form) => output.range.is_some() && form.terms.iter().any(|(_, of)| *of == place),
+            Form::Angle(_) => false,
+        };
+        of.is_angle && of.range.is_none() && !self.linkage.outputs.iter().any(is_in)
+    }
+
     /// The turns of the input if the start lies between two nodes.
     fn closes(&self, start: &Node, from: &Node, next: &Node) -> Option<i64> {
         let free = self.free();
         let difference = |node: &Node| -> Vec<f64> {
             let each = free.iter().map(|place| {
                 let by = node.q[*place] - start.q[*place];
-                if self.linkage.coordinates[*place].is_angle { by - (by / TAU).round() * TAU } else { by }
+                if self.is_direction(*place) { by - (by / TAU).round() * TAU } else { by }
             });
             each.collect()
         };
