@@ -39,6 +39,13 @@ pub struct Part {
     pub why: Why,
 }
 
+/// The motion through dead points.
+pub struct Curve {
+    pub nodes: Vec<Node>,
+    pub why: Why,
+    pub has_dead_points: bool,
+}
+
 /// A linkage whose inputs but one are held.
 pub struct Stepped<'l> {
     pub linkage: &'l Linkage,
@@ -182,6 +189,29 @@ impl<'l> Stepped<'l> {
             length = (1.3 * length).min(LONGEST);
         }
         Some(Part { nodes, why: Why::Long })
+    }
+
+    /// The motion through dead points.
+    pub fn curve(&self, q: &[f64]) -> Option<Curve> {
+        let mut upper = self.follow(self.begin(q, 1.0)?, true)?;
+        let mut nodes = Vec::new();
+        match upper.why {
+            Why::Long => return None,
+            Why::Range(..) => {
+                // The other way from the start, with directions along the curve.
+                let lower = self.follow(self.begin(q, -1.0)?, true)?;
+                nodes.extend(lower.nodes.into_iter().rev().map(|mut node| {
+                    node.tangent.iter_mut().for_each(|of| *of = -*of);
+                    node
+                }));
+                upper.nodes.remove(0);
+            }
+            _ => {}
+        }
+        nodes.append(&mut upper.nodes);
+        let last = self.linkage.unknowns;
+        let has_dead_points = nodes.windows(2).any(|two| two[0].tangent[last] * two[1].tangent[last] < 0.0);
+        Some(Curve { nodes, why: upper.why, has_dead_points })
     }
 
     /// The node within a step at which a function is zero, which is positive at its start.
