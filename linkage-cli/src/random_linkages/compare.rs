@@ -755,11 +755,12 @@ impl<'a> Comparison<'a> {
             let why = report.lines().find(|line| line.contains("follows no motion")).unwrap_or("no motion").to_owned();
             return self.fails(&format!("report: {}", class(&why)), &question, why, "a motion");
         }
-        // The first position from which a motion can be followed.
-        let Some((_, start)) = listed.iter().find(|(_, q)| {
-            self.stepped.is_within(q) && self.stepped.errors(q).is_some_and(|all| all.iter().all(|of| *of < 1e-8))
-        }) else {
-            return;
+        // The number of the mode is the last before these words.
+        let before = report.split(", which this report follows").next().unwrap_or_default();
+        let mode = before.rsplit(|of: char| !of.is_ascii_digit()).find_map(|word| word.parse::<usize>().ok());
+        let within: Vec<&Vec<f64>> = listed.iter().map(|(_, q)| q).filter(|q| self.stepped.is_within(q)).collect();
+        let Some(start) = mode.and_then(|mode| within.get(mode.checked_sub(1)?)).copied() else {
+            return self.fails("report: the mode that is followed", &question, mode, within.len());
         };
         if self.wrong(start).is_some() {
             return self.count("report: the first position is wrong");

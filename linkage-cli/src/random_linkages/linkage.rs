@@ -112,6 +112,11 @@ fn sum_text(sum: &Sum, all: &[Coordinate]) -> String {
     sum.iter().map(one).collect::<Vec<_>>().join(" + ").replace("+ -", "- ")
 }
 
+fn range_text([least, most]: [f64; 2], is_angle: bool) -> String {
+    let unit = if is_angle { "rad" } else { "" };
+    format!("{least}{unit}..{most}{unit}")
+}
+
 #[derive(Debug, Clone)]
 pub enum Row {
     Loop(Sum),
@@ -189,7 +194,7 @@ impl Linkage {
     pub fn text(&self) -> String {
         let declared = |of: &Coordinate| match of.range {
             None => of.name.clone(),
-            Some([least, most]) => format!("{} in {least}..{most}", of.name),
+            Some(range) => format!("{} in {}", of.name, range_text(range, of.is_angle)),
         };
         let (unknowns, inputs) = self.coordinates.split_at(self.unknowns);
         let list = |all: &[Coordinate]| all.iter().map(declared).collect::<Vec<_>>().join(", ");
@@ -205,7 +210,11 @@ impl Linkage {
             let _ = writeln!(text, "    point {name} = {};", sum_text(sum, &self.coordinates));
         }
         for output in &self.outputs {
-            let range = output.range.map(|[least, most]| format!(" in {least}..{most}")).unwrap_or_default();
+            let is_angle = match &output.form {
+                Form::Angle(_) => true,
+                Form::Linear(form) => form.terms.iter().all(|(_, place)| self.coordinates[*place].is_angle),
+            };
+            let range = output.range.map(|range| format!(" in {}", range_text(range, is_angle))).unwrap_or_default();
             let _ = writeln!(text, "    output {}{range} = {};", output.name, output.form.text(&self.coordinates));
         }
         text +=
