@@ -137,9 +137,10 @@ impl Comparison<'_> {
             let why = report.lines().find(|line| line.contains("follows no motion")).unwrap_or("no motion").to_owned();
             return self.fails(&format!("report: {}", class(&why)), &question, why, "a motion");
         }
-        // The number of the mode is the last before these words.
-        let before = report.split(", which this report follows").next().unwrap_or_default();
-        let mode = before.rsplit(|of: char| !of.is_ascii_digit()).find_map(|word| word.parse::<usize>().ok());
+        // `Circuit 1: modes 1 and 3, which this report follows.`: the motion is that of the first of these modes.
+        let line = report.lines().find(|line| line.contains("which this report follows")).unwrap_or_default();
+        let modes = line.split("mode").nth(1).unwrap_or_default();
+        let mode = modes.split(|of: char| !of.is_ascii_digit()).find_map(|word| word.parse::<usize>().ok());
         let within: Vec<&Vec<f64>> = listed.iter().map(|(_, q)| q).filter(|q| self.stepped.is_within(q)).collect();
         let Some(start) = mode.and_then(|mode| within.get(mode.checked_sub(1)?)).copied() else {
             return self.fails("report: the mode that is followed", &question, mode, within.len());
