@@ -28,6 +28,8 @@ mod picture;
 mod position;
 mod progress;
 mod proved;
+#[cfg(test)]
+mod random_linkages;
 mod reasons;
 mod said;
 mod scene;

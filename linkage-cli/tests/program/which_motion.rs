@@ -168,7 +168,7 @@ fn no_later_row_chooses() {
         let ran = folder.run(&format!(
             "table m.linkage --from 120deg --to 280deg --steps {steps} --branch p_q=right,r_s=right --columns p,r --degrees"
         ));
-        assert_eq!(ran.code, Some(0), "{}", ran.errors);
+        assert_eq!(ran.code, Some(0), "{}", ran.messages);
         let [p, r] = ["p", "r"].map(|name| column(&ran.output, name)[0]);
         assert!((p - 176.373_571).abs() < 1e-6 && (r + 33.283_351).abs() < 1e-6, "{p} {r}");
     }
