@@ -144,6 +144,9 @@ fn kinks_are_turning_points() {
             "it moves from 0 to 1, in 74.",
         ],
     );
+    // It rests for half a turn, and has two strokes.
+    let line = text.lines().find(|line| line.starts_with("h goes")).unwrap_or_default();
+    assert!(line.matches("it moves from").count() == 2 && !line.contains("from 1 to 1"), "{line}");
 }
 
 /// No stroke goes from a number to itself: at an extreme of fourth order, of third order, at ends.
