@@ -70,7 +70,7 @@ impl Group {
                 group.unknowns, group.most
             ),
         });
-        let turns = position.turns.iter().filter(|_| position.is_closed).map(|turn| Self {
+        let turns = position.turns_of_branch().iter().map(|turn| Self {
             name: turn.field.clone(),
             words: Vec::new(),
             meaning: format!("The whole turns that are added to `{}`, 0 without it.", turn.coordinate),

@@ -69,7 +69,7 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
         inputs: numbers(named(&mut of.inputs.iter())),
         points: numbers(points),
         outputs: numbers(outputs),
-        turns: numbers(position.turns.iter().map(|turn| turn.field.clone()).collect()),
+        turns: numbers(position.turns_of_branch().iter().map(|turn| turn.field.clone()).collect()),
         sides: position
             .sides
             .iter()

@@ -2,9 +2,10 @@
 //! equations with its numbers, not with its directions alone.
 
 use linkage::certify::{Certify, CertifyError};
+use linkage::circuits::{CircuitOptions, Circuits};
 use linkage::continuation::{Direction, Path};
 use linkage::position::newton;
-use linkage::{Branches as _, Build as _, D, Kinematic as _, Mechanism as _};
+use linkage::{Assembly as _, Branches as _, Build as _, D, Kinematic as _, Mechanism as _};
 use linkage_interpreter::{AtRunTime, CoordinatesAtRunTime, Data, Design, Program};
 
 /// A wheel between two dyads, one that turns three times as fast before two loops together, and an angle whose range is
@@ -27,6 +28,14 @@ const WHEELS: &str = "
         loop a@t + b@p - c@s - d@0 = 0;
         loop a@t + e@(p - 1.263) + f@u - h@w - k@0 = 0;
         derive intervals;
+    }
+    mechanism Doubled {
+        input z;
+        unknown a, b, w, p, q, r, s;
+        loop 0.798@z + 3.288@a = 3.777@0 + 1.319@b;
+        equation w = 2*b;
+        loop 2.64@p + 1.168@(q - 0.835) = 3.45@0 + 3.442@r;
+        loop 2.64@p + 1.685@(q + 1.389) = 3.987@0.084 + 0.565@w + 2.53@s;
     }
     mechanism Reeled {
         param a = 3, b = 2.5, c = 3, d = 1;
@@ -165,4 +174,20 @@ fn a_wheel_is_never_singular() {
         Err(error) => panic!("{error}"),
         Ok(_) => {}
     }
+}
+
+/// The branch of a group whose positions are listed has no turns, whatever angle before it is counted.
+#[test]
+fn listed_positions_have_their_own_turns() {
+    each(&["Doubled"], |m| {
+        let all: Vec<_> = m.all_positions([1.092].into()).expect("a list").collect();
+        assert!(all.len() > 4, "{}", all.len());
+        for (branch, q) in &all {
+            assert!(off(m, q) < 1e-14, "{branch}");
+            let found = m.assemble_near(q, *branch).expect("the position");
+            assert!(off(m, &Wheel::coordinates_of(&found)) < 1e-14, "{branch}");
+        }
+        let found = Circuits::over(m, [1.092], CircuitOptions::default()).expect("circuits");
+        assert_eq!(found.modes.len(), all.len());
+    });
 }

@@ -191,7 +191,7 @@ impl<'p, 'm> Values<'p, 'm> {
             let field = ident(&modes.field);
             quote!(#field: n.position().map_or(::linkage::AssemblyMode::OfGuess, ::linkage::AssemblyMode::Number))
         });
-        let turns = self.position.turns.iter().map(|turn| {
+        let turns = self.position.turns_of_branch().iter().map(|turn| {
             let field = ident(&turn.field);
             quote!(#field: n.turns())
         });

@@ -21,7 +21,7 @@ pub struct Position {
     pub sides: Vec<Side>,
     /// The groups whose positions are listed by number; empty unless every group has a closed form or such a list.
     pub modes: Vec<Modes>,
-    /// The solved angles that a pose stores as numbers; empty unless every group has a closed form.
+    /// The solved angles that a pose stores as numbers.
     pub turns: Vec<AngleTurn>,
     /// The number of groups.
     pub groups: usize,
@@ -129,6 +129,12 @@ impl Position {
     /// The largest number of branches that `branches` assembles: at a microsecond each, it takes a tenth of a second. For
     /// more it is a stub with this reason.
     pub const MOST_BRANCHES: usize = 1 << 16;
+
+    /// The turns that the branch has: without a closed form they come from the guess, or are those of the listed position.
+    #[must_use]
+    pub fn turns_of_branch(&self) -> &[AngleTurn] {
+        if self.is_closed { &self.turns } else { &[] }
+    }
 
     pub fn new(
         (mechanism, driver): (&Mechanism, &Driver),

@@ -410,8 +410,7 @@ impl Plan<'_, '_> {
 
     fn branch_of(&mut self) {
         let Arguments { pose, branch, turn, .. } = self.signatures.arguments.clone();
-        // Without a closed form the turns come from the guess.
-        let turns = if self.position.is_closed { self.position.turns.as_slice() } else { &[] };
+        let turns = self.position.turns_of_branch();
         let of = Type::Bare(self.signatures.types.branch.clone());
         let on = Expression::name(&pose);
         let sides = self.assembly.chords.iter().zip(&self.position.sides).filter_map(|(chord, side)| {

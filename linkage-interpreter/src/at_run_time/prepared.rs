@@ -196,9 +196,10 @@ impl<'d> Prepared<'d> {
         self.pose.map_leaves(&mut |_| numbers.next().map_or(Value::Absent, |number| Value::Number(*number)))
     }
 
-    /// True if a guess chooses the turns of angles.
+    /// True if a guess chooses the turns of angles: emitted code then has a function of the trait for it.
     pub(crate) fn counts_turns(&self) -> bool {
-        !self.driver.turns.is_empty()
+        let of_assembly = self.driver.traits.iter().filter(|one| one.of == "Assembly").flat_map(|one| &one.functions);
+        of_assembly.into_iter().any(|function| function.name == "assemble_near")
     }
 
     /// The number of unknowns, and of groups.

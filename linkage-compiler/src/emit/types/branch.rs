@@ -14,8 +14,7 @@ use crate::program::{Modes, Position, Program, Side};
 pub(super) fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
     let visibility = &program.signatures.mechanism.visibility;
     let (driver, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
-    let Position { sides, modes, turns, is_closed, .. } = &program.position;
-    let turns = if *is_closed { turns.as_slice() } else { &[] };
+    let (Position { sides, modes, .. }, turns) = (&program.position, program.position.turns_of_branch());
     let derives = derives(program.signatures.mechanism, root);
     let title = comment(&match program.signatures.is_open() {
         true => format!(" The branch of [`{driver}`]: an open chain has a single one."),
