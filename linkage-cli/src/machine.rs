@@ -250,6 +250,18 @@ impl Machine {
         Ok(nearest.map(|(branch, _)| branch).unwrap_or_default())
     }
 
+    /// True if two positions at the same inputs are one, up to whole turns and to half of the digits.
+    pub fn are_same(&self, one: &[f64], other: &[f64]) -> bool {
+        let each = || one.iter().zip(other).zip(&self.about.unknowns);
+        let lengths = each().filter(|(_, of)| !of.is_angle);
+        let size = lengths.fold(0.0, |size: f64, ((one, other), _)| size.max(one.abs()).max(other.abs()));
+        let near = f64::EPSILON.sqrt();
+        each().all(|((one, other), of)| match of.is_angle {
+            true => ((one - other) / 2.0).sin().abs() <= near,
+            false => (one - other).abs() <= near * size,
+        })
+    }
+
     /// The outputs by their formulas at these values of the unknowns, whose angles may be on other turns.
     pub fn outputs_at(&self, inputs: &[f64], unknowns: &[f64]) -> Result<Vec<f64>, Failure> {
         let outputs = self.about.derivation.outputs.iter();

@@ -1,13 +1,16 @@
 //! `linkage equilibrium`: the position at which the forces of a scene are in equilibrium.
 
 use linkage_interpreter::Data;
+use linkage_runtime::range_of_motion::RangeOptions;
 use serde::Serialize;
 
 use crate::arguments;
 use crate::ends::shown;
 use crate::failure::Failure;
+use crate::followed::Range;
 use crate::machine::{Coordinate, Machine};
 use crate::motion::held;
+use crate::one_input::{coordinates, one_input};
 use crate::scene::{Need, chosen};
 
 const NEED: Need = Need { is_met: |scene| scene.has_equilibrium, statement: "equilibrium;" };
@@ -36,8 +39,16 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
         let value = found.get(&of.name.field).and_then(Data::number);
         value.ok_or_else(|| Failure::Outside(format!("the position has no number `{}`", of.name.text)))
     };
+    let from = (inputs.as_slice(), unknowns.as_slice());
     let inputs = machine.about.inputs.iter().map(value).collect::<Result<Vec<f64>, Failure>>()?;
     let unknowns = machine.about.unknowns.iter().map(value).collect::<Result<Vec<f64>, Failure>>()?;
+    let on_motion = is_on_motion(&machine, from, (&inputs, &unknowns));
+    if on_motion == Some(false) {
+        anstream::eprintln!(
+            "the motion through the position at {} does not pass this one, which is on another branch or beyond a dead point",
+            machine.at(from.0)
+        );
+    }
     let outputs = machine.about.outputs.iter().zip(machine.outputs_at(&inputs, &unknowns)?);
     let coordinates = all().zip(inputs.iter().chain(&unknowns));
     let coordinates =
@@ -47,14 +58,38 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
         value,
         is_angle: angle.is_some(),
     });
-    let rest = Rest { scene: design.name().to_owned(), coordinates: coordinates.collect(), outputs: outputs.collect() };
+    let rest = Rest {
+        scene: design.name().to_owned(),
+        on_motion,
+        coordinates: coordinates.collect(),
+        outputs: outputs.collect(),
+    };
     form.write(format, &rest, Rest::to_text, &numbers.source.file)
+}
+
+/// True if the motion from one position to the input of the other passes the other, without a dead point between them; nothing
+/// is known of several inputs, and of a mechanism that is not followed. Newton's method stays near the first position, but not on its motion.
+fn is_on_motion(machine: &Machine, from: (&[f64], &[f64]), to: (&[f64], &[f64])) -> Option<bool> {
+    let (&[first], &[last]) = (from.0, to.0) else { return None };
+    if machine.about.unknowns.is_empty() {
+        return None;
+    }
+    let prepared = machine.solver.design.prepared().ok()?;
+    let mechanism = one_input(&prepared, from.0, 0).ok()?;
+    let start = coordinates(&mechanism, from.1, first)?;
+    let range = Range::over(mechanism, &start, [first, last], RangeOptions::through_change_points());
+    let there = range.ok().and_then(|range| range.at(last).ok());
+    let is_on = there.is_some_and(|there| machine.are_same(there.unknowns.as_slice(), to.1));
+    prepared.failure().is_none().then_some(is_on)
 }
 
 /// A position of equilibrium.
 #[derive(Serialize)]
 struct Rest {
     scene: String,
+    /// True if the motion through the position that is asked for passes this one; nothing if that is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on_motion: Option<bool>,
     /// The inputs, then the unknowns.
     coordinates: Vec<Number>,
     outputs: Vec<Number>,

@@ -267,3 +267,30 @@ fn crests_of_outputs_are_limits() {
     let ran = folder.run("table m.linkage --from=-4.6rad --to 4.6rad --steps 92 --columns t,o");
     assert!(ran.output.lines().count() == 94 && ran.messages.contains("the largest value of o"), "{}", ran.messages);
 }
+
+/// A position of equilibrium is said to be off the motion, where it is on another branch or a negative length.
+#[test]
+fn an_equilibrium_is_on_the_motion_or_it_is_said() {
+    let rest = "body b { mass 1; inertia 0.5; center P; angle p; } scene Rest { equilibrium; force (0.3, -1) at P; }";
+    // The parallelogram is on the right branch, the antiparallelogram on the left one; both computed independently.
+    let parallelogram = format!(
+        "mechanism M {{ input z; unknown p, q; loop 1.495@z + 2.359@p = 2.359@0 + 1.495@q; point P = 1.495@z + 2.359@p; {rest} }}"
+    );
+    let cylinder = format!(
+        "mechanism M {{ input c; unknown p, q; loop 4.625@q - 2.541@0.187 = c@p; point P = 1.214@(q - 1.283); {rest} }}"
+    );
+    let crank =
+        format!("mechanism M {{ input z; unknown p, q; loop 1@z + 3@p = 3@0 + 2.5@q; point P = 1@z + 3@p; {rest} }}");
+    let asked = [
+        (&parallelogram, "--branch p_q=left --at z=-2.315rad", false),
+        (&cylinder, "--branch p_q=right --at c=2.099", false),
+        (&crank, "--branch p_q=left --at z=-2rad", true),
+        (&crank, "--branch p_q=right --at z=-2rad", true),
+    ];
+    for (text, options, is_on) in asked {
+        let ran = folder(text).run(&format!("equilibrium m.linkage --format json {options}"));
+        assert_eq!(ran.code, Some(0), "{}", ran.messages);
+        assert!(ran.output.contains(&format!("\"on_motion\": {is_on}")), "{options}: {}", ran.output);
+        assert_eq!(ran.messages.contains("does not pass this one"), !is_on, "{}", ran.messages);
+    }
+}

@@ -43,7 +43,10 @@ impl Comparison<'_> {
                 "residual 0",
             );
         }
-        if inputs == 1 && !self.on_curve(curve, &q) {
+        // Newton's method may find another one, and says so.
+        if rest["on_motion"] == false {
+            self.count("equilibrium: not on the motion");
+        } else if inputs == 1 && !self.on_curve(curve, &q) {
             return self.fails(
                 "equilibrium: the position is on another motion",
                 &question,
