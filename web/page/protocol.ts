@@ -18,6 +18,8 @@ export type About = {
     unknowns: Quantity[];
     points: string[];
     outputs: Quantity[];
+    /** The jump of each output that is an angle, where an atan2 in its formula goes from pi to -pi. */
+    jumps: (number | null)[];
     scenes: { name: string; parameters: Parameter[]; simulates: boolean }[];
     /** Why it cannot be moved: it calls functions in Rust, or is too large. */
     refusal: string | null;

@@ -1,6 +1,9 @@
 //! The names and values of a mechanism, for the page.
 
+use linkage_report::Table;
 use serde::{Deserialize, Serialize};
+
+use crate::Refusal;
 
 /// A coordinate or an output by name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -42,6 +45,8 @@ pub struct About {
     pub unknowns: Vec<Quantity>,
     pub points: Vec<String>,
     pub outputs: Vec<Quantity>,
+    /// The jump of each output that is an angle, where an `atan2` in its formula goes from pi to -pi.
+    pub jumps: Vec<Option<f64>>,
     pub scenes: Vec<Scene>,
     /// The reason why it cannot be moved.
     pub refusal: Option<String>,
@@ -52,5 +57,14 @@ impl About {
     pub(crate) fn is_angle(&self, name: &str) -> bool {
         let all = self.inputs.iter().chain(&self.unknowns).chain(&self.outputs);
         all.filter(|one| one.is_angle).any(|one| one.name == name)
+    }
+
+    /// A table whose outputs go on where their formulas jump, and which says what is an angle.
+    pub(crate) fn with_angles(&self, table: Table) -> Result<Table, Refusal> {
+        let jumps = self.outputs.iter().zip(&self.jumps);
+        let mut jumps = jumps.filter_map(|(output, jump)| Some((&output.name, (*jump)?)));
+        let table = jumps.try_fold(table, |table, (name, jump)| table.on_turns(name, jump));
+        let angles = self.outputs.iter().filter(|one| one.is_angle).map(|one| &one.name);
+        table.and_then(|table| table.angles_of(angles)).map_err(Refusal::new)
     }
 }

@@ -11,7 +11,7 @@ use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
 use serde::Serialize;
 
 use crate::Refusal;
-use crate::about::{About, Quantity};
+use crate::about::Quantity;
 use crate::at::{coordinates, moving, one_input};
 use crate::limit::Limit;
 use crate::machine::{Machine, prepared};
@@ -67,11 +67,8 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
     let table = Table::over(&range, inputs, rate);
     let film = Animation::over(&range).ok();
     let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().map(limit).collect() };
-    let About { inputs, unknowns, outputs, .. } = &machine.about;
-    let angles = || inputs.iter().chain(unknowns).chain(outputs).filter(|one| one.is_angle).map(|one| &one.name);
-    let table =
-        table.angles_of(outputs.iter().filter(|one| one.is_angle).map(|one| &one.name)).map_err(Refusal::new)?;
-    let column = |name: &str| Quantity { name: name.to_owned(), is_angle: angles().any(|one| one == name) };
+    let table = machine.about.with_angles(table)?;
+    let column = |name: &str| Quantity { name: name.to_owned(), is_angle: machine.about.is_angle(name) };
     let columns = table.names().into_iter().map(column).collect();
     let about = Range { least, largest, is_angle, ends, turns: range.is_closed(), columns };
     Ok((Followed { of: (at.mechanism, at.parameters.clone()), along, table, film }, about))

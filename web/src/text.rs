@@ -109,11 +109,9 @@ fn about(lowered: &Lowered<'_>) -> About {
     let function = mechanism.externals.iter().find_map(|of| Some(of.names.first()?.text.clone()));
     let refusal = function
         .map(|function| format!("`{}` calls `{function}`, which a program in Rust has to give it", driver.name));
-    let outputs = mechanism
-        .outputs
-        .iter()
-        .zip(output_angles(mechanism))
-        .map(|(output, angle)| Quantity { name: output.name.text.clone(), is_angle: angle.is_some() });
+    let angles = output_angles(mechanism);
+    let outputs = mechanism.outputs.iter().zip(&angles);
+    let outputs = outputs.map(|(output, angle)| Quantity { name: output.name.text.clone(), is_angle: angle.is_some() });
     About {
         name: driver.name.to_string(),
         paragraphs: Vec::new(),
@@ -122,6 +120,7 @@ fn about(lowered: &Lowered<'_>) -> About {
         unknowns: driver.unknowns.iter().map(coordinate).collect(),
         points: mechanism.points.iter().map(|point| point.name.text.clone()).collect(),
         outputs: outputs.collect(),
+        jumps: angles.iter().map(|angle| angle.and_then(|angle| angle.jump)).collect(),
         scenes: lowered.program.scenes.iter().map(scene).collect(),
         refusal,
     }

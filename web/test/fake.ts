@@ -14,6 +14,7 @@ function about() {
         unknowns: [{ name: "theta3", is_angle: true }, { name: "theta4", is_angle: true }],
         points: ["B", "C"],
         outputs: [{ name: "mu", is_angle: true }],
+        jumps: [null],
         scenes: [{ name: "Running", parameters: [], simulates: true }],
         refusal: null,
     };

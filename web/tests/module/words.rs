@@ -54,3 +54,25 @@ fn links_that_do_not_reach() {
         assert!(!asked.to_string().contains(word) && !stopped.to_string().contains(word));
     }
 }
+
+/// An output by `atan2` goes on where that goes from pi to -pi, in tables and charts of a motion as in its report.
+#[test]
+fn angles_go_on_at_the_cut() {
+    let text = "mechanism Cut { param a = 2, b = 5, c = 4, d = 5; input t; unknown p, s; loop a@t + b@p = d@0 + c@s; \
+                point B = a@t; output o = angle(B); output half = angle(B)/2; }";
+    let mut page = Page::with(text);
+    let parameters = values(&page.about[0]["parameters"]);
+    let at = page.begin(0, &parameters);
+    page.at(&at, &json!({ "do": "motion", "along": 0, "rate": 1.0, "steps": 36 }));
+    let csv = page.ask(&json!({ "do": "csv" }))["text"].as_str().unwrap().to_owned();
+    let names: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| -> Vec<f64> {
+        let place = names.iter().position(|other| *other == name).unwrap();
+        csv.lines().skip(1).map(|row| row.split(',').nth(place).unwrap().parse().unwrap()).collect()
+    };
+    let [t, o, half] = ["t", "o", "half"].map(column);
+    for row in 1..t.len() {
+        let moved = t[row] - t[0];
+        assert!((o[row] - o[0] - moved).abs() < 1e-12 && (half[row] - half[0] - moved / 2.0).abs() < 1e-12, "{row}");
+    }
+}
