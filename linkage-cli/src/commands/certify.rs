@@ -14,7 +14,7 @@ use crate::arguments;
 use crate::ends::shown;
 use crate::failure::Failure;
 use crate::machine::Machine;
-use crate::motion::held;
+use crate::motion::{held, usual_ends};
 use crate::one_input::{Inputs, prepared};
 use crate::progress;
 use crate::proved::{ends, largest, least, proved};
@@ -33,7 +33,9 @@ pub fn run(arguments: &arguments::Certify) -> Result<(), Failure> {
         return Err(Failure::Argument(format!("--at {name} and --from are both the first value: leave out one")));
     }
     let is_whole = arguments.curve || arguments.turns.is_some();
-    let [least, most] = if is_whole { [None; 2] } else { machine.declared(moving) };
+    // An angle whose range has one end goes over a turn to it, or from it, as in a table.
+    let has_range = !is_whole && machine.declared(moving).iter().any(Option::is_some);
+    let [least, most] = if has_range { usual_ends(&machine, moving) } else { [None; 2] };
     let to = arguments.to.map(|value| input.value(value)).transpose()?;
     let is_free = to.is_none() && place.at.iter().all(|at| at.name != *name);
     let first = from.map(|value| input.value(value)).transpose()?.or(least.filter(|_| is_free));

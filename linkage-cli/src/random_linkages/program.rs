@@ -20,7 +20,7 @@ pub struct Program {
     pub seconds: RefCell<BTreeMap<String, f64>>,
 }
 
-/// What a command wrote, or why it did not.
+/// The value that a command wrote, or the reason why it wrote none.
 pub type Answer = Result<Value, String>;
 
 impl Program {

@@ -192,7 +192,6 @@ fn circuits_have_charts() {
 fn wrong_arguments_of_motions() {
     let folder = folder();
     for (arguments, code, message) in [
-        ("circuits four.linkage --guess phi=1", 2, "positions of `FourBar` need no guess: choose one by --branch"),
         (
             "circuits four.linkage --at theta=1 --from 0",
             2,

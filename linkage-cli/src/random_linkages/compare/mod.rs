@@ -17,7 +17,7 @@ use super::steps::{Node, Part, Stepped, UNITS, Why};
 /// Two answers that differ.
 #[derive(Debug, Clone)]
 pub struct Found {
-    /// The same for failures that are alike.
+    /// The kind, which failures that are alike share.
     pub kind: String,
     pub question: String,
     pub answer: String,
@@ -42,7 +42,7 @@ pub struct Comparison<'a> {
     /// A number from 0 to 1 for what is chosen at random.
     pub random: [f64; 4],
     pub found: Vec<Found>,
-    /// What was compared, and what was not, with the reason.
+    /// The answers that were compared, and those that were not, with the reason.
     pub counts: Vec<String>,
 }
 
