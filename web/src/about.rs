@@ -1,9 +1,8 @@
 //! The names and values of a mechanism, for the page.
 
 use linkage_report::Table;
+use linkage_report::table::TableError;
 use serde::{Deserialize, Serialize};
-
-use crate::Refusal;
 
 /// A coordinate or an output by name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -60,11 +59,11 @@ impl About {
     }
 
     /// A table whose outputs go on where their formulas jump, and which says what is an angle.
-    pub(crate) fn with_angles(&self, table: Table) -> Result<Table, Refusal> {
+    pub(crate) fn with_angles(&self, table: Table) -> Result<Table, TableError> {
         let jumps = self.outputs.iter().zip(&self.jumps);
         let mut jumps = jumps.filter_map(|(output, jump)| Some((&output.name, (*jump)?)));
         let table = jumps.try_fold(table, |table, (name, jump)| table.on_turns(name, jump));
         let angles = self.outputs.iter().filter(|one| one.is_angle).map(|one| &one.name);
-        table.and_then(|table| table.angles_of(angles)).map_err(Refusal::new)
+        table.and_then(|table| table.angles_of(angles))
     }
 }

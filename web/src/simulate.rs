@@ -52,7 +52,7 @@ pub fn simulate(machine: &Machine, asked: &Simulate, progress: &mut dyn FnMut(f6
         progress(f64::from(step) / f64::from(steps));
         if step == steps { asked.to } else { asked.to * f64::from(step) / f64::from(steps) }
     });
-    let table = machine.about.with_angles(Table::simulated_at(&mut simulation, times))?;
+    let table = machine.about.with_angles(Table::simulated_at(&mut simulation, times)).map_err(Refusal::new)?;
     if let Some(failure) = prepared.failure() {
         return Err(Refusal::new(failure));
     }
