@@ -141,7 +141,8 @@ fn kinks_are_turning_points() {
             "n goes from 0 (at t = 0°) to 4 (at t = 180°).",
         ],
     );
-    // It rests for half a turn, somewhere in which it turns back, and has two strokes.
+    // It rests for half a turn. The place in the rest at which it is said to turn back is not known, so that the shares of both
+    // strokes are not those of the cam: 25 % each.
     let line = text.lines().find(|line| line.starts_with("h goes")).unwrap_or_default();
     says(
         line,

@@ -83,13 +83,14 @@ impl Comparison<'_> {
                     let [least, largest] = ["least", "largest"].map(|end| numbers(&of[end]));
                     let [low, high] = [f64::min, f64::max].map(|of| values.iter().copied().fold(values[0], of));
                     let slack = second_difference(&values);
-                    let rounding = 1e-9 * (1.0 + low.abs().max(high.abs()));
+                    // A search ends at this part of the largest magnitude.
+                    let width = 1e-9 * low.abs().max(high.abs());
                     // The turn of an angle may be another one.
                     let is_right = (-3..=3).map(|turn| f64::from(turn) * if is_angle { TAU } else { 0.0 }).any(|by| {
-                        least[0] + by <= low + rounding
-                            && low <= least[1] + by + slack + rounding
-                            && high - rounding <= largest[1] + by
-                            && high >= largest[0] + by - slack - rounding
+                        least[0] + by <= low + width
+                            && low <= least[1] + by + slack + width
+                            && high - width <= largest[1] + by
+                            && high >= largest[0] + by - slack - width
                     });
                     if !is_right {
                         self.fails("certify: bounds do not hold the motion", &question, of, (low, high));

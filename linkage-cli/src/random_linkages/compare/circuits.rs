@@ -97,7 +97,7 @@ impl Comparison<'_> {
                 let [least, most] = [f64::min, f64::max].map(|of| values.iter().copied().fold(values[0], of));
                 let [given_least, given_most] =
                     ["least", "largest"].map(|end| motion[end].as_f64().unwrap_or(f64::NAN));
-                let is_near = |one: f64, other: f64| (one - other).abs() <= slack + 1e-9;
+                let is_near = |one: f64, other: f64| (one - other).abs() <= slack + 1e-9 * (most - least);
                 let is_shifted = (0..=4)
                     .map(|turn| f64::from(turn - 2) * TAU)
                     .any(|by| is_near(given_least + by, least) && is_near(given_most + by, most));
