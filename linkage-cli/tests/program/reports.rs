@@ -141,12 +141,15 @@ fn kinks_are_turning_points() {
             "n goes from 0 (at t = 0°) to 4 (at t = 180°).",
         ],
     );
-    // It rests for half a turn. The place in the rest at which it is said to turn back is not known, so that the shares of both
-    // strokes are not those of the cam: 25 % each.
+    // It rests for half a turn, which is part of no stroke.
     let line = text.lines().find(|line| line.starts_with("h goes")).unwrap_or_default();
     says(
         line,
-        &["it moves from 1 to 0, in", "it moves from 0 to 1, in", "It dwells between 0 and 0 from 180° to 0°, in 50 %"],
+        &[
+            "From 90° to 180° it moves from 1 to 0, in 25 % of the motion. From 0° to 90° it moves from 0 to 1, in 25 %",
+            "The time ratio of both strokes is 1.",
+            "It dwells between 0 and 0 from 180° to 0°, in 50 %",
+        ],
     );
     assert_eq!(line.matches("it moves from").count(), 2, "{line}");
 }

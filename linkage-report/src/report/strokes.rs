@@ -1,6 +1,6 @@
 //! Strokes of a quantity, and the time ratio of working and return stroke.
 
-use linkage_runtime::extremes::{Course, Extreme, Extremes};
+use linkage_runtime::extremes::{Course, Extreme};
 
 /// A part of a motion in which a quantity moves in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,22 +53,39 @@ pub(super) fn strokes(course: &Course, is_closed: bool) -> Vec<Stroke> {
             places.pop();
             places.remove(0);
         }
-        if let [only] = places.as_slice()
-            && is_same(only, &turned(only))
-        {
-            // It rests at its other end, where the motion begins.
-            let Extremes { least, largest } = course.extremes;
-            places.push(if is_same(only, &least) { largest } else { least });
-            places.sort_by(|one, other| one.input.total_cmp(&other.input));
-        }
         let Some(&begin) = places.first() else { return Vec::new() };
         places.push(again(begin));
     }
     let strokes = places.windows(2).map(|pair| {
-        let [from, to] = [pair[0], pair[1]];
+        // From the end of a rest to the begin of the next.
+        let [[_, from], [to, _]] = [pair[0], pair[1]].map(|place| rest(course, is_closed, place));
         Stroke { from, to, share: (to.input - from.input) / length }
     });
     strokes.filter(|stroke| stroke.share > 0.0).collect()
+}
+
+/// The begin and the end of the rest at a place; twice the place where there is none.
+fn rest(course: &Course, is_closed: bool, place: Extreme) -> [Extreme; 2] {
+    let [first, last] = course.ends;
+    let later = |at: Extreme, turns: f64| Extreme {
+        input: at.input + turns * (last.input - first.input),
+        value: at.value + turns * (last.value - first.value),
+    };
+    let mut rests = course.rests.clone();
+    // The two parts of a rest about the input at which a closed motion begins.
+    if let [[begin, to], .., [from, end]] = rests[..]
+        && is_closed
+        && begin.input == first.input
+        && end.input == last.input
+    {
+        rests.remove(0);
+        rests.pop();
+        rests.push([from, later(to, 1.0)]);
+    }
+    let cycles: &[f64] = if is_closed { &[0.0, -1.0, 1.0] } else { &[0.0] };
+    let all = cycles.iter().flat_map(|turns| rests.iter().map(|rest| rest.map(|end| later(end, *turns))));
+    let mut around = all.filter(|[from, to]| from.input <= place.input && place.input <= to.input);
+    around.next().unwrap_or([place; 2])
 }
 
 /// The duration of the longer stroke divided by that of the shorter one, of a quantity that moves forth and back once in a

@@ -12,12 +12,12 @@ use std::vec::Vec;
 use super::at_input::Search;
 use super::course::Course;
 use super::piece::{Piece, next_to};
-use super::{Extreme, Extremes, constant};
+use super::{Extreme, Extremes, constant, rests};
 use crate::kinematic::MotionOf;
 use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
 use crate::scalar::larger;
-use crate::{OutputMotion, PathErrorOf, Real, real};
+use crate::{OutputMotion, PathErrorOf, real};
 
 /// The distance of two inputs that are neighbours, as a part of a step: a motion is hardly seen, and rounding errors are others.
 const NEIGHBOUR: f64 = 1.0 / 1024.0;
@@ -133,7 +133,6 @@ where
                 course.resolution.0 = course.resolution.0.max(*between);
                 course.resolution.1.extend([piece.low, piece.high].into_iter().zip(*at_ends));
             }
-            let before = course.turning_points.len();
             let mut next_to = [M::Scalar::zero(); 2];
             if is_constant {
                 of_piece.push(next_to);
@@ -146,13 +145,17 @@ where
                 next_to[at] = if turning.is_some() { -rates[1] } else { rates[1] };
                 course.turning_points.extend(turning);
             }
-            for pair in samples.windows(2) {
-                let [from, to] = [&pair[0], &pair[1]].map(|(s, all)| piece.slope_at(*s, &all[place]));
+            let of_place: Vec<_> = samples.iter().map(|(s, all)| (*s, all[place])).collect();
+            let between = resolution.get(place).map_or(M::Scalar::zero(), |(between, _)| *between);
+            let rests = rests::runs(&of_place, between);
+            for (at, pair) in of_place.windows(2).enumerate() {
+                // Where it rests, its derivative is one of rounding errors.
+                if rests.iter().any(|[first, last]| (*first..*last).contains(&at)) {
+                    continue;
+                }
+                let [from, to] = [pair[0], pair[1]].map(|(s, motion)| piece.slope_at(s, &motion));
                 search.within_step(piece, place, [from, to], &mut course.turning_points)?;
             }
-            let rests = resting(piece, place, &samples, &course.turning_points[before..]);
-            course.turning_points.extend(rests);
-            course.turning_points[before..].sort_by(|one, other| one.input.partial_cmp(&other.input).unwrap_or(Equal));
             of_piece.push(next_to);
         }
         signs.push(of_piece);
@@ -168,30 +171,13 @@ where
                 course.turning_points.push(Extreme { input, value });
             }
         }
+        if !course.is_constant {
+            rests::add(range, &mut search, place, course)?;
+        }
         course.turning_points.sort_by(|one, other| one.input.partial_cmp(&other.input).unwrap_or(Equal));
         course.find_extremes();
     }
     Ok(courses)
-}
-
-/// The places at which a quantity rests and then goes back, as that of a cam: its derivative has no sign there.
-fn resting<T: Real>(
-    piece: &Piece<T>,
-    place: usize,
-    samples: &[Quantities<T>],
-    turning_points: &[Extreme<T>],
-) -> Vec<Extreme<T>> {
-    let moving = samples.iter().enumerate().filter(|(_, (_, all))| !all[place].rate.is_zero());
-    let moving: Vec<(usize, T)> = moving.map(|(index, (_, all))| (index, all[place].rate)).collect();
-    let goes_back = moving.windows(2).filter_map(|pair| {
-        let [(before, from), (after, to)] = [pair[0], pair[1]];
-        let [low, high] = [before, after].map(|index| piece.input(samples[index].0));
-        let is_known = turning_points.iter().any(|at| at.input >= low && at.input <= high);
-        let (s, all) = samples.get(before + 1)?;
-        let at = Extreme { input: piece.input(*s), value: all[place].value };
-        (after > before + 1 && from * to < T::zero() && !is_known).then_some(at)
-    });
-    goes_back.collect()
 }
 
 /// The quantities at a place.

@@ -11,9 +11,13 @@ use crate::{OutputMotion, Real};
 pub struct Course<T = f64> {
     /// The least and the largest value, ends included; of a constant quantity twice the same.
     pub extremes: Extremes<T>,
-    /// The places at which it turns: its derivative changes its sign. They are in the order of the input, with that at
+    /// The places at which it turns: its derivative changes its sign, or a rest begins after which it
+    /// goes back. They are in the order of the input, with that at
     /// which a closed motion begins, without other ends.
     pub turning_points: Vec<Extreme<T>>,
+    /// The parts in which it rests: its values are no farther apart than rounding errors are, and no part is shorter than a step
+    /// of the search. Of a rest about the input at which a closed motion begins there are two parts.
+    pub rests: Vec<[Extreme<T>; 2]>,
     /// True if it does not move: its values are no farther apart than rounding errors are.
     pub is_constant: bool,
     /// The values at both ends.
@@ -31,6 +35,7 @@ impl<T: Real> Course<T> {
         Self {
             extremes,
             turning_points: Vec::new(),
+            rests: Vec::new(),
             is_constant: true,
             ends: [at; 2],
             samples: Vec::new(),

@@ -36,6 +36,8 @@ mod course;
 mod on_turns;
 #[cfg(feature = "std")]
 mod piece;
+#[cfg(feature = "std")]
+mod rests;
 
 #[cfg(feature = "std")]
 pub use along::{courses, courses_on_turns, over};

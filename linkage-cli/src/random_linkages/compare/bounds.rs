@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::linkage::{Form, Output, place};
-use super::super::steps::{Node, Why};
+use super::super::steps::{Node, UNITS, Why};
 use super::{Comparison, Motion, class, numbers, second_difference, words};
 
 impl Comparison<'_> {
@@ -54,7 +54,11 @@ impl Comparison<'_> {
                         most,
                     );
                 }
-                if !has_turn {
+                let name = &self.linkage.coordinates[moving].name;
+                // A proof goes over the declared range of the input, and over a turn without one.
+                let is_end_of_input = |why: &Why| matches!(why, Why::Range(of, _) if of == name);
+                let declared = self.linkage.coordinates[moving].range.filter(|[least, most]| most - least <= TAU);
+                if !has_turn && !(declared.is_some() && motion.ends.iter().all(is_end_of_input)) {
                     let is_said = proof["ranges"].as_array().into_iter().flatten().any(|of| of["proof"] != "within");
                     return if is_said {
                         self.count("certify: a range is left, and said")
@@ -67,12 +71,22 @@ impl Comparison<'_> {
                         )
                     };
                 }
+                let [from, to] = declared.unwrap_or([first, first + TAU]);
+                let inputs = numbers(&proof["inputs"]);
+                let is_near =
+                    |one: f64, other: f64| (one - other).abs() <= UNITS * f64::EPSILON * from.abs().max(to.abs());
+                if !(inputs.len() == 2 && is_near(inputs[0], from) && is_near(inputs[1], to)) {
+                    return self.fails("certify: another range of the input", &question, &proof["inputs"], [from, to]);
+                }
                 let nodes: Vec<Node> = motion
                     .nodes
                     .iter()
-                    .filter(|node| node.q[moving] >= first && node.q[moving] <= first + TAU)
+                    .filter(|node| node.q[moving] >= from && node.q[moving] <= to)
                     .cloned()
                     .collect();
+                if nodes.len() < 3 {
+                    return self.count("certify: a range of a few steps");
+                }
                 for (name, is_angle, values) in self.quantities(&nodes) {
                     let Some(of) =
                         proof["quantities"].as_array().into_iter().flatten().find(|of| of["name"] == name.as_str())

@@ -127,7 +127,8 @@ impl Comparison<'_> {
                         let shifted = (-3..=3)
                             .map(|turn| value + f64::from(turn) * TAU)
                             .find(|value| is_in(*value))
-                            .filter(|_| of.is_angle && of.range.is_none());
+                            // The range of an input of at most a turn is one of directions.
+                            .filter(|_| of.is_angle && of.range.is_none_or(|[least, most]| most - least <= TAU));
                         let is_edge = (-3..=3).any(|turn| {
                             [least, most].iter().any(|end| (value + f64::from(turn) * TAU - end).abs() <= 2.0 * edge)
                         });
