@@ -67,6 +67,15 @@ impl Motion {
         Self { least, largest, kind, turns, positions, events: events.iter().map(Event::of).collect() }
     }
 
+    /// The motion with the reasons of its events where these groups are singular, by the input and the unknowns.
+    pub fn where_singular<E>(mut self, groups: impl Fn(f64, &[f64]) -> Result<Vec<String>, E>) -> Result<Self, E> {
+        for event in &mut self.events {
+            let reason = event.reason.clone();
+            event.reason = reason.where_singular(&groups(event.input, &event.unknowns)?);
+        }
+        Ok(self)
+    }
+
     /// The range of the input.
     pub fn in_words(&self, input: &str, is_angle: bool) -> String {
         let [least, largest] = [self.least, self.largest].map(|end| shown(end, is_angle));

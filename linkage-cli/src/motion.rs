@@ -29,13 +29,12 @@ impl Path {
         let usual = usual_ends(machine, moving);
         let ends = [given(&along.from)?.or(usual[0]), given(&along.to)?.or(usual[1])];
         let [Some(from), Some(to)] = ends else {
-            let name = &input.name.text;
             let missing = match ends {
                 [None, None] => "--from and --to",
                 [None, _] => "--from",
                 _ => "--to",
             };
-            return Err(Failure::Argument(format!("`{name}` is a length: write {missing}")));
+            return Err(Failure::Argument(format!("`{}` is {}: write {missing}", input.name.text, input.kind())));
         };
         if from == to {
             return Err(Failure::Argument("--from and --to are equal".to_owned()));

@@ -37,6 +37,20 @@ impl Coordinate {
         .map_err(Failure::Argument)
     }
 
+    /// The number of an argument as its rate.
+    pub fn rate(&self, value: Value) -> Result<f64, Failure> {
+        value.rate(&self.name.text, self.kind(), self.is_angle).map_err(Failure::Argument)
+    }
+
+    /// What it is, for messages.
+    pub fn kind(&self) -> &'static str {
+        match (self.is_angle, self.is_length) {
+            (true, _) => "an angle",
+            (_, true) => "a length",
+            _ => "a plain number",
+        }
+    }
+
     /// A value for readers, an angle in degrees to the millionth.
     pub fn shown(&self, value: f64) -> String {
         match self.is_angle {

@@ -60,13 +60,13 @@ impl Value {
         }
     }
 
-    /// The number as the rate of an angle or a length.
-    pub fn rate(self, of: &str, is_angle: bool) -> Result<f64, String> {
+    /// The number as the rate of an angle, or of something that is no angle, such as `a length`.
+    pub fn rate(self, of: &str, kind: &str, is_angle: bool) -> Result<f64, String> {
         match self.measures {
             Some(what) if what == Unit::Degrees.of() => {
                 Err(format!("--rate is a speed, and this is a unit of {what}: write such as `45rpm`"))
             }
-            Some(what) if !is_angle => Err(format!("`{of}` is a length, and this is a unit of {what} of rotation")),
+            Some(what) if !is_angle => Err(format!("`{of}` is {kind}, and this is a unit of {what} of rotation")),
             _ => Ok(self.number),
         }
     }

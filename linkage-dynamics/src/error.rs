@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use linkage_runtime::__shared::to_f64;
+use linkage_runtime::__shared::{Shown, to_f64};
 use linkage_runtime::{InputError, Name, PathError, PositionError, Real};
 
 /// The reason why forces, accelerations or a motion cannot be computed.
@@ -254,8 +254,13 @@ struct At(Option<f64>);
 
 impl fmt::Display for At {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.map_or(Ok(()), |t| write!(f, " at t = {t}"))
+        self.0.map_or(Ok(()), |t| write!(f, " at t = {}", seconds(t)))
     }
+}
+
+/// A time for readers, whose digits are those of other numbers.
+fn seconds(t: f64) -> Shown {
+    Shown { value: t, is_angle: false }
 }
 
 impl<N: Name> fmt::Display for MotionError<N> {
@@ -298,32 +303,44 @@ impl<N: Name> fmt::Display for MotionError<N> {
             }
             Self::LeftStop { scene, stop, gap, t } => write!(
                 f,
-                "the {stop} in {scene} is left by {gap:.1e} at t = {t}, although it holds: the position jumps"
+                "the {stop} in {scene} is left by {gap:.1e} at t = {t}, although it holds: the position jumps",
+                t = seconds(*t)
             ),
             Self::DriveJumps { scene, coordinate, t } => write!(
                 f,
-                "the drive of {coordinate} in {scene} jumps in position at t = {t}: write a law without jumps"
+                "the drive of {coordinate} in {scene} jumps in position at t = {t}: write a law without jumps",
+                t = seconds(*t)
             ),
             Self::KinksWithoutEnd { scene, effect, t } => write!(
                 f,
-                "the law of {effect} in {scene} has kinks without end at t = {t}: write a smooth law there, or a friction"
+                "the law of {effect} in {scene} has kinks without end at t = {t}: write a smooth law there, or a friction",
+                t = seconds(*t)
             ),
-            Self::NotFinite { quantity, t } => write!(f, "{quantity} is not a finite number at t = {t}"),
+            Self::NotFinite { quantity, t } => {
+                write!(f, "{quantity} is not a finite number at t = {t}", t = seconds(*t))
+            }
             Self::StepTooSmall { t, step } => write!(
                 f,
-                "the step has shrunk to {step:.1e}, too small for t = {t}: the equations are singular or jump here"
+                "the step has shrunk to {step:.1e}, too small for t = {t}: the equations are singular or jump here",
+                t = seconds(*t)
             ),
             Self::TooManySteps { t, steps } => {
-                write!(f, "the limit of {steps} steps is reached at t = {t}: raise `most_steps` or the tolerance")
+                write!(
+                    f,
+                    "the limit of {steps} steps is reached at t = {t}: raise `most_steps` or the tolerance",
+                    t = seconds(*t)
+                )
             }
             Self::Stiff { t, product } => write!(
                 f,
                 "the equations are stiff at t = {t}: a motion that decays within a step limits it, h |lambda| = \
-                 {product:.1}; give it less damping, or leave it out"
+                 {product:.1}; give it less damping, or leave it out",
+                t = seconds(*t)
             ),
             Self::EventsWithoutEnd { t, event } => write!(
                 f,
-                "event {event} repeats without end at t = {t}: let its action stop, or restart where it does not occur"
+                "event {event} repeats without end at t = {t}: let its action stop, or restart where it does not occur",
+                t = seconds(*t)
             ),
             Self::ChangePoint { scene, group, crossing } => {
                 write!(f, "motions of {scene} cross here, where group {group} is singular")?;
@@ -341,7 +358,8 @@ impl<N: Name> fmt::Display for MotionError<N> {
             Self::ContactWithoutEnd { scene, contact, t } => write!(
                 f,
                 "{contact} of {scene} changes again and again within the rounding error of t = {t}: end the simulation \
-                 before it"
+                 before it",
+                t = seconds(*t)
             ),
             Self::Position(error) => error.fmt(f),
             Self::Path(error) => error.fmt(f),

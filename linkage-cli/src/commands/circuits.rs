@@ -220,7 +220,7 @@ fn starts(machine: &Machine, moving: usize, arguments: &arguments::Circuits) -> 
     let [given_from, given_to] = given;
     let ends = [given_from?.or(usual[0]), given_to?.or(usual[1])];
     let [Some(from), Some(to)] = ends else {
-        return wrong(format!("`{name}` is a length: write --at {name}=VALUE, or --from and --to"));
+        return wrong(format!("`{name}` is {}: write --at {name}=VALUE, or --from and --to", input.kind()));
     };
     if from >= to {
         return wrong("--from is less than --to".to_owned());
@@ -266,6 +266,13 @@ impl Circuits {
             let branch = machine.branch_at(&here, &unknowns).map_err(Failure::Outside)?;
             Ok(Position { input, branch, unknowns, motion: mode.motion + 1 })
         };
+        let motion = |motion| {
+            Motion::of(motion).where_singular(|input, unknowns| {
+                let mut here = inputs.to_vec();
+                here[moving] = input;
+                machine.singular(&here, unknowns)
+            })
+        };
         let input = &machine.about.inputs[moving];
         let others = machine.about.inputs.iter().zip(inputs).enumerate().filter(|(place, _)| *place != moving);
         let held = others.map(|(_, (of, value))| format!("{} = {}", of.name.text, shown(*value, of.is_angle)));
@@ -276,7 +283,7 @@ impl Circuits {
             held: held.collect::<Vec<_>>().join(", "),
             inputs: inputs.to_vec(),
             positions: found.modes.iter().map(position).collect::<Result<_, Failure>>()?,
-            motions: found.motions.iter().map(|motion| Motion::of(motion)).collect(),
+            motions: found.motions.iter().map(motion).collect::<Result<_, Failure>>()?,
             circuits: found.circuits.iter().map(|motions| motions.iter().map(|motion| motion + 1).collect()).collect(),
         })
     }

@@ -1,16 +1,17 @@
 //! `linkage equilibrium`: the position at which the forces of a scene are in equilibrium.
 
-use linkage_interpreter::Data;
-use linkage_runtime::range_of_motion::RangeOptions;
+use linkage_interpreter::{CoordinatesAtRunTime, Data};
+use linkage_runtime::Column;
+use linkage_runtime::continuation::{Along, AlongCoordinates, Line};
+use linkage_runtime::range_of_motion::{RangeOfMotion, RangeOptions};
 use serde::Serialize;
 
 use crate::arguments;
 use crate::ends::shown;
 use crate::failure::Failure;
-use crate::followed::Range;
 use crate::machine::{Coordinate, Machine};
 use crate::motion::held;
-use crate::one_input::{coordinates, one_input};
+use crate::one_input::Inputs;
 use crate::scene::{Need, chosen};
 
 const NEED: Need = Need { is_met: |scene| scene.has_equilibrium, statement: "equilibrium;" };
@@ -43,11 +44,14 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
     let inputs = machine.about.inputs.iter().map(value).collect::<Result<Vec<f64>, Failure>>()?;
     let unknowns = machine.about.unknowns.iter().map(value).collect::<Result<Vec<f64>, Failure>>()?;
     let on_motion = is_on_motion(&machine, from, (&inputs, &unknowns));
-    if on_motion == Some(false) {
-        anstream::eprintln!(
-            "the motion through the position at {} does not pass this one, which is on another branch or beyond a dead point",
-            machine.at(from.0)
-        );
+    let start = machine.at(from.0);
+    match on_motion {
+        Some(true) => {}
+        Some(false) => anstream::eprintln!(
+            "the motion through the position at {start} does not pass this one, which is on another branch or beyond a dead point"
+        ),
+        None if machine.about.unknowns.is_empty() => {}
+        None => anstream::eprintln!("it is not known if a motion from the position at {start} passes this one"),
     }
     let outputs = machine.about.outputs.iter().zip(machine.outputs_at(&inputs, &unknowns)?);
     let coordinates = all().zip(inputs.iter().chain(&unknowns));
@@ -67,20 +71,22 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
     form.write(format, &rest, Rest::to_text, &numbers.source.file)
 }
 
-/// True if the motion from one position to the input of the other passes the other, without a dead point between them; nothing
-/// is known of several inputs, and of a mechanism that is not followed. Newton's method stays near the first position, but not on its motion.
+/// True if the motion from one position to the inputs of the other, all in a straight line, passes the other, without a dead point
+/// between them; several inputs may get there on another way, so that a line that misses it says nothing. Nothing is known of a
+/// mechanism that is not followed. Newton's method stays near the first position, but not on its motion.
 fn is_on_motion(machine: &Machine, from: (&[f64], &[f64]), to: (&[f64], &[f64])) -> Option<bool> {
-    let (&[first], &[last]) = (from.0, to.0) else { return None };
     if machine.about.unknowns.is_empty() {
         return None;
     }
     let prepared = machine.solver.design.prepared().ok()?;
-    let mechanism = one_input(&prepared, from.0, 0).ok()?;
-    let start = coordinates(&mechanism, from.1, first)?;
-    let range = Range::over(mechanism, &start, [first, last], RangeOptions::through_change_points());
-    let there = range.ok().and_then(|range| range.at(last).ok());
+    let [first, last] = [from.0, to.0].map(Column::<f64, Inputs>::from_slice);
+    let mechanism = Along { mechanism: prepared.with_inputs().ok()?, inputs: Line { from: first?, to: last? } };
+    let q = CoordinatesAtRunTime { unknowns: Column::from_slice(from.1)?, inputs: first? };
+    let start = AlongCoordinates { q, parameter: 0.0 };
+    let range = RangeOfMotion::over(mechanism, &start, [0.0, 1.0], RangeOptions::through_change_points());
+    let there = range.ok().and_then(|range| range.at(1.0).ok());
     let is_on = there.is_some_and(|there| machine.are_same(there.unknowns.as_slice(), to.1));
-    prepared.failure().is_none().then_some(is_on)
+    (prepared.failure().is_none() && (is_on || from.0.len() == 1)).then_some(is_on)
 }
 
 /// A position of equilibrium.

@@ -114,7 +114,7 @@ fn rate(machine: &Machine, path: &Path, arguments: &arguments::Table) -> Result<
     let Some(value) = arguments.rate else { return Ok(0.0) };
     let input = &machine.about.inputs[path.moving];
     let name = &input.name.text;
-    let rate = value.rate(name, input.is_angle).map_err(Failure::Argument)?;
+    let rate = input.rate(value)?;
     let [from, to] = path.ends;
     if rate == 0.0 {
         return Err(Failure::Argument(format!(

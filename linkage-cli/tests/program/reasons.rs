@@ -26,9 +26,18 @@ fn folder() -> Folder {
     let point = "mechanism Point { param a = 3, b = 2.5, d = 4; input z; unknown x, y; \
                  equation norm((x, y)) = a; equation norm((x - d - z, y)) = b; }";
     let two = "mechanism Two { param l = 3; input t; unknown p, q; loop l@t + (2*l)@p = (l + 9)@0 + l@q; }";
-    for (name, text) in
-        [("four", FOUR_BAR), ("six", SIX_BAR), ("slider", slider), ("angle", angle), ("point", point), ("two", two)]
-    {
+    let guide =
+        "mechanism Guide { param a = 1, d = 2, h = 0.5; input t; unknown p, s; loop a@t = d@0 + s@p + h@(p + 90deg); }";
+    let all = [
+        ("four", FOUR_BAR),
+        ("six", SIX_BAR),
+        ("slider", slider),
+        ("angle", angle),
+        ("point", point),
+        ("two", two),
+        ("guide", guide),
+    ];
+    for (name, text) in all {
         folder.write(&format!("{name}.linkage"), text);
     }
     folder
@@ -73,6 +82,11 @@ fn links_that_do_not_reach() {
         (
             "two.linkage --at t=180deg",
             "Two cannot be assembled at t = 180°: group p, q does not close, since `2*l` and `l` together are 6 too short: their ends are 15 apart",
+        ),
+        (
+            "guide.linkage --set h=1.25 --at t=0deg",
+            "Guide cannot be assembled at t = 0°: group p, s does not close, since its joints are 0.25 too near: they are only 1 apart, and the line that turns \
+             passes 1.25 beside one of them",
         ),
     ] {
         folder.run(&format!("draw {arguments}")).fails(1, &format!("error: {message}\n"));
@@ -166,6 +180,9 @@ fn mirrored_ends_have_one_name() {
         folder.write("twin.linkage", &text);
         let limits = folder.run("limits twin.linkage --at t=30deg").works("");
         assert_eq!(limits.matches("(change point of P, q and u, v)").count(), 8, "{limits}");
+        let circuits = folder.run("circuits twin.linkage --at t=30deg").works("");
+        assert!(circuits.contains("change point of P, q and u, v at t ="), "{circuits}");
+        assert!(!circuits.contains("point of P, q at") && !circuits.contains("point of u, v at"), "{circuits}");
     }
     let ran = folder.run("table twin.linkage --from 30deg --to 90deg --steps 6");
     assert!(ran.messages.contains("51.89338° (change point of P, q and u, v)"), "{ran:?}");

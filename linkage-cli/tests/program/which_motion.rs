@@ -297,4 +297,12 @@ fn an_equilibrium_is_on_the_motion_or_it_is_said() {
         assert!(ran.output.contains(&format!("\"on_motion\": {is_on}")), "{options}: {}", ran.output);
         assert_eq!(ran.messages.contains("does not pass this one"), !is_on, "{}", ran.messages);
     }
+    // Two inputs move there in a straight line; where that line does not get there, another way may.
+    let two = |frame: f64| {
+        format!(
+            "mechanism M {{ input y, z; unknown p, q; loop 1@y + 3@p = {frame}@0 + 1@z + 3@q; point P = 1@y + 3@p; {rest} }}"
+        )
+    };
+    let ran = folder(&two(3.0)).run("equilibrium m.linkage --format json --branch p_q=left --at y=-2rad,z=-1rad");
+    assert!(ran.output.contains("\"on_motion\": true") && ran.messages.is_empty(), "{}{}", ran.output, ran.messages);
 }

@@ -30,7 +30,7 @@ pub fn start(machine: &Machine, scene: &Running<'_>, arguments: &Simulate, t: f6
     }
     for rate in &arguments.rate {
         let place = machine.input(&rate.name)?;
-        rates[place] = rate.value.rate(&rate.name, inputs[place].is_angle).map_err(Failure::Argument)?;
+        rates[place] = inputs[place].rate(rate.value)?;
     }
     let values = inputs.iter().zip(values).map(|(input, value)| {
         let name = &input.name.text;

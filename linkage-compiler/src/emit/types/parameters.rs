@@ -88,11 +88,11 @@ pub(super) fn parameters(
     }
 }
 
-/// The user's doc comment of a parameter, or its name and kind; then its default.
+/// The user's doc comment of a parameter, or its name and quantity; then its default.
 pub(in crate::emit) fn docs_of_parameter(mechanism: &Mechanism, parameter: &Parameter) -> TokenStream {
-    let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.kind));
+    let docs = docs(&parameter.attributes, &format!("`{}`: {}.", parameter.name.text, parameter.measure));
     let default = parameter.default.map(|default| {
-        let written = parameter.default_text.clone().unwrap_or_else(|| mechanism.graph.text(default));
+        let written = parameter.default_in_words().unwrap_or_else(|| mechanism.graph.text(default));
         let text = comment(&format!(" Default: {written}."));
         quote!(#[doc = ""] #[doc = #text])
     });
