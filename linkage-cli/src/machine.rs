@@ -238,18 +238,6 @@ impl Machine {
         self.solver.first_positions(inputs, most)
     }
 
-    /// The branch in words of a position that is listed.
-    pub fn branch_at(&self, inputs: &[f64], unknowns: &[f64]) -> Result<String, String> {
-        let off = |listed: &[f64]| -> f64 {
-            let each = listed.iter().zip(unknowns).zip(&self.about.unknowns);
-            each.map(|((one, other), of)| if of.is_angle { ((one - other) / 2.0).sin() } else { one - other })
-                .fold(0.0, |most, off| most.max(off.abs()))
-        };
-        let all = self.positions(inputs)?.into_iter();
-        let nearest = all.min_by(|(_, one), (_, other)| off(&one.unknowns).total_cmp(&off(&other.unknowns)));
-        Ok(nearest.map(|(branch, _)| branch).unwrap_or_default())
-    }
-
     /// True if two positions at the same inputs are one, up to whole turns and to half of the digits.
     pub fn are_same(&self, one: &[f64], other: &[f64]) -> bool {
         let each = || one.iter().zip(other).zip(&self.about.unknowns);

@@ -261,10 +261,7 @@ impl Circuits {
         let position = |mode: &circuits::CircuitMode<At, BranchAtRunTime<'_>>| {
             let input = mode.position.parameter;
             let unknowns: Vec<f64> = OneInput::unknowns(&mode.position).iter().copied().collect();
-            let mut here = inputs.to_vec();
-            here[moving] = input;
-            let branch = machine.branch_at(&here, &unknowns).map_err(Failure::Outside)?;
-            Ok(Position { input, branch, unknowns, motion: mode.motion + 1 })
+            Position { input, branch: mode.branch.to_string(), unknowns, motion: mode.motion + 1 }
         };
         let motion = |motion| {
             Motion::of(motion).where_singular(|input, unknowns| {
@@ -282,7 +279,7 @@ impl Circuits {
             is_angle: input.is_angle,
             held: held.collect::<Vec<_>>().join(", "),
             inputs: inputs.to_vec(),
-            positions: found.modes.iter().map(position).collect::<Result<_, Failure>>()?,
+            positions: found.modes.iter().map(position).collect(),
             motions: found.motions.iter().map(motion).collect::<Result<_, Failure>>()?,
             circuits: found.circuits.iter().map(|motions| motions.iter().map(|motion| motion + 1).collect()).collect(),
         })
