@@ -48,7 +48,8 @@ pub(super) fn largest_errors(of: &dyn Listed<f64>) -> [Worst; 3] {
         let data = reference.data(&mut random, branches);
         let Some(motions) = run(of, &data) else {
             missed += 1;
-            assert!(missed < 50 * poses().max(40), "{file}: hardly anything can be assembled");
+            // Two groups of four unknowns assemble at few random inputs.
+            assert!(missed < 400 * poses().max(40), "{file}: hardly anything can be assembled");
             continue;
         };
         let of_unknowns = |motion: &Motion| -> Vec<f64> {
