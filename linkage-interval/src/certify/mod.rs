@@ -47,11 +47,13 @@ mod extremes;
 mod jet;
 mod joint_ranges;
 mod motion;
+mod on_turns;
 mod reason;
 mod system;
 mod tube;
 mod turn;
 mod turned;
+mod unwound;
 
 use linkage_runtime::{Certifiable, Column};
 
