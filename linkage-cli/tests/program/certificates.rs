@@ -291,7 +291,7 @@ fn bounds_of_angles_go_on_at_the_cut() {
     let of = json(&folder, "certify turns.linkage --at theta=60deg --curve");
     let o = &of["quantities"][2];
     let turned = o["largest"][1].as_f64().unwrap() - o["least"][0].as_f64().unwrap();
-    assert!(o["is_sharp"] == true && turned >= TAU && turned < TAU + 1.0, "{of}");
+    assert!(o["is_sharp"] == true && (TAU..TAU + 1.0).contains(&turned), "{of}");
     // A point that comes to the origin has no direction there.
     folder.write(
         "origin.linkage",
