@@ -13,7 +13,7 @@ use crate::series::Series;
 pub(super) enum Measure {
     /// A coordinate of a point or an output, by its number.
     Quantity(usize),
-    /// The same without the jumps of its formula, which are multiples of one. A value is known up to these, until it is
+    /// Such a quantity without the jumps of its formula, which are multiples of one. A value is known up to these, until it is
     /// [turned](Measure::turned).
     OnTurns {
         /// The number of the quantity.
