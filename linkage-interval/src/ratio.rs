@@ -1,5 +1,9 @@
 //! Ratios of integers, exactly: factors of angles, such as a ratio of numbers of teeth.
 
+use linkage_runtime::Number;
+
+use crate::Interval;
+
 /// n / d 2^e, where n and d are odd, d is positive and they have no common factor; zero is 0 / 1 2^0.
 ///
 /// Every double is one, and another unit of length changes the exponent alone. A result whose n or d has more than 127
@@ -88,6 +92,30 @@ impl Ratio {
         Self::reduced(self.denominator, self.numerator, self.exponent.checked_neg()?)
     }
 
+    /// The largest ratio of which both are whole multiples, where neither is zero.
+    pub(crate) fn common_part(self, other: Self) -> Option<Self> {
+        let numerator = common_divisor(self.numerator, other.numerator);
+        let shared = common_divisor(self.denominator, other.denominator);
+        let denominator = (self.denominator / shared).checked_mul(other.denominator)?;
+        Self::reduced(numerator, denominator, self.exponent.min(other.exponent))
+    }
+
+    pub(crate) fn magnitude(self) -> Self {
+        if self.numerator < 0 { self.negative() } else { self }
+    }
+
+    /// An interval that contains it.
+    pub(crate) fn enclosure(self) -> Interval {
+        let is_double = |integer: i128| integer.unsigned_abs() < 1 << 53;
+        let of = |integer: i128| {
+            if is_double(integer) { Interval::exactly(integer as f64) } else { Interval::near(integer as f64) }
+        };
+        // A power that is no double leaves nothing known.
+        let power = 2_f64.powi(self.exponent);
+        let power = if power > 0.0 { Interval::exactly(power) } else { Interval::ENTIRE };
+        of(self.numerator) / of(self.denominator) * power
+    }
+
     pub(crate) fn negative(self) -> Self {
         // The magnitude of a numerator is at most 2^127 - 1: it is odd.
         Self { numerator: self.numerator.wrapping_neg(), ..self }
@@ -124,6 +152,21 @@ mod tests {
         // 0.1 + 0.2 is not the double 0.3.
         let sum = Ratio::of(0.1).unwrap().plus(Ratio::of(0.2).unwrap());
         assert!(sum.is_some() && sum != Ratio::of(0.3));
+    }
+
+    #[test]
+    fn common_parts() {
+        for (one, other, part) in [
+            ([4.0, 1.0], [6.0, 1.0], [2.0, 1.0]),
+            ([1.0, 3.0], [1.0, 2.0], [1.0, 6.0]),
+            ([-3.0, 10.0], [1.0, 5.0], [1.0, 10.0]),
+            ([2.0, 3.0], [2.0, 3.0], [2.0, 3.0]),
+        ] {
+            let [one, other, part] = [one, other, part].map(|[above, below]| ratio(above, below));
+            assert_eq!(one.common_part(other), Some(part));
+            assert!(part.enclosure().width() <= f64::EPSILON && one.magnitude().enclosure().least() > 0.0);
+        }
+        assert!(ratio(-1.0, 3.0).enclosure().contains(-1.0 / 3.0) && Ratio::of(0.3).unwrap().enclosure() == 0.3.into());
     }
 
     /// The unit of length has no effect, up to the smallest double.

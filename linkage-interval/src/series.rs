@@ -44,6 +44,17 @@ impl<N: Number> Series<N> {
         Self { value, first: rate, second: N::zero() }
     }
 
+    /// The two derivatives of the angle of (x, y), y = `self`, on both sides of its jump: theta' = (x y' - y x') / r^2, and its
+    /// derivative.
+    pub(crate) fn angle_rates(self, x: Self) -> [N; 2] {
+        let y = self;
+        let squared = x.value.square() + y.value.square();
+        let first = (x.value * y.first - y.value * x.first) / squared;
+        let along = x.value * x.first + y.value * y.first;
+        let second = (x.value * y.second - y.value * x.second - double(first * along)) / squared;
+        [first, second]
+    }
+
     /// f(x) from f and its two derivatives at the value: `f' x'`, `f'' x'^2 + f' x''`.
     fn chain(self, value: N, by: N, twice: N) -> Self {
         Self { value, first: by * self.first, second: twice * self.first.square() + by * self.second }
@@ -165,17 +176,12 @@ impl<N: Number> Number for Series<N> {
         let by = N::one() / (N::one() + self.value.square());
         self.chain(self.value.arctangent(), by, -double(self.value * by.square()))
     }
-    /// theta' = (x y' - y x') / r^2, and its derivative. Over the negative x axis, where theta jumps, nothing is known of them:
-    /// there the value reaches pi.
+    /// Over the negative x axis, where the angle jumps, nothing is known of its derivatives: there the value reaches pi.
     fn arctangent2(self, x: Self) -> Self {
-        let y = self;
-        let value = y.value.arctangent2(x.value);
+        let value = self.value.arctangent2(x.value);
         // Zero, or unknown. A double on the axis itself has the derivative of its side.
         let cut = N::zero() / (N::pi() - value.abs() + N::exactly(f64::MIN_POSITIVE));
-        let squared = x.value.square() + y.value.square();
-        let first = (x.value * y.first - y.value * x.first) / squared;
-        let along = x.value * x.first + y.value * y.first;
-        let second = (x.value * y.second - y.value * x.second - double(first * along)) / squared;
+        let [first, second] = self.angle_rates(x);
         Self { value, first: first + cut, second: second + cut }
     }
     /// r' = (x x' + y y') / r, and its derivative.

@@ -165,7 +165,8 @@ impl Asked<'_> {
             ..self.of(
                 certificate.to_string(),
                 certificate.boxes(),
-                &certificate.quantities(),
+                |place| certificate.quantity(place),
+                |place| certificate.quantity_on_turns(place),
                 certificate.joint_ranges(),
             )
         }
@@ -179,22 +180,41 @@ impl Asked<'_> {
         });
         Proof {
             dead_points: dead_points.collect(),
-            ..self.of(curve.to_string(), curve.boxes(), &curve.quantities(), curve.joint_ranges())
+            ..self.of(
+                curve.to_string(),
+                curve.boxes(),
+                |place| curve.quantity(place),
+                |place| curve.quantity_on_turns(place),
+                curve.joint_ranges(),
+            )
         }
     }
 
-    fn of<'e>(
+    /// The proof with bounds of all quantities: of those whose formula jumps, as `atan2` does, the bounds on turns where they are
+    /// known.
+    fn of(
         &self,
         statement: String,
         boxes: usize,
-        quantities: impl IntoIterator<Item = &'e Enclosure>,
+        quantity: impl Fn(usize) -> Option<Enclosure>,
+        on_turns: impl Fn(usize) -> Option<Enclosure>,
         ranges: Vec<CertifiedRange<&str>>,
     ) -> Proof {
         let about = &self.machine.about;
-        let points = about.points.iter().flat_map(|of| ["x", "y"].map(|axis| (format!("{}_{axis}", of.text), false)));
-        let angles = about.output_angles.iter().map(Option::is_some);
-        let outputs = about.outputs.iter().map(|of| of.text.clone()).zip(angles);
-        let quantities: Vec<_> = points.chain(outputs).zip(quantities).collect();
+        let points = about.points.iter().flat_map(|of| ["x", "y"].map(|axis| (format!("{}_{axis}", of.text), None)));
+        let outputs = about.outputs.iter().map(|of| of.text.clone()).zip(about.output_angles.iter().copied());
+        let (mut quantities, mut within_a_turn) = (Vec::new(), Vec::new());
+        for (place, (name, angle)) in points.chain(outputs).enumerate() {
+            let jump = angle.and_then(|angle| angle.jump);
+            let turned = jump.and_then(|_| on_turns(place));
+            let Some(bounds) = turned.or_else(|| quantity(place)) else { continue };
+            // From pi to -pi, each rounded.
+            let is_cut = |jump: f64| bounds.values().width() >= jump * (1.0 - 4.0 * f64::EPSILON);
+            if turned.is_none() && jump.is_some_and(is_cut) {
+                within_a_turn.push(name.clone());
+            }
+            quantities.push(Bounds::of(name, &bounds, angle.is_some()));
+        }
         Proof {
             mechanism: about.name.clone(),
             statement,
@@ -204,8 +224,8 @@ impl Asked<'_> {
             end: None,
             dead_points: Vec::new(),
             boxes,
-            within_a_turn: self.within_a_turn(&quantities),
-            quantities: quantities.into_iter().map(|((name, is_angle), of)| Bounds::of(name, of, is_angle)).collect(),
+            within_a_turn,
+            quantities,
             velocity_ratios: Vec::new(),
             ranges: ranges.iter().map(|range| self.of_range(range)).collect(),
         }
@@ -213,19 +233,6 @@ impl Asked<'_> {
 }
 
 impl Asked<'_> {
-    /// The outputs whose formula jumps in the motion, as `atan2` does: their bounds are those of one turn.
-    fn within_a_turn(&self, quantities: &[((String, bool), &Enclosure)]) -> Vec<String> {
-        let about = &self.machine.about;
-        let angles = about.outputs.iter().zip(&about.output_angles);
-        let jumps = angles.filter_map(|(output, angle)| Some((&output.text, (*angle)?.jump?)));
-        let is_cut = |name: &str, jump: f64| {
-            let mut of_name = quantities.iter().filter(|((other, _), _)| other == name);
-            // From pi to -pi, each rounded.
-            of_name.any(|(_, of)| of.largest.most() - of.least.least() >= jump * (1.0 - 4.0 * f64::EPSILON))
-        };
-        jumps.filter(|(name, jump)| is_cut(name, *jump)).map(|(name, _)| name.clone()).collect()
-    }
-
     /// The proof of a range. That of the moving input needs none: the ends of the motion are numbers.
     fn of_range(&self, range: &CertifiedRange<&str>) -> Range {
         let input = &self.machine.about.inputs[self.moving];
@@ -252,7 +259,7 @@ struct Proof {
     /// Those of a curve.
     dead_points: Vec<DeadPoint>,
     boxes: usize,
-    /// The outputs whose bounds are those of one turn, since their formula jumps.
+    /// The outputs whose formula jumps, and of which it is not proved how they go on: their bounds are those of one turn.
     within_a_turn: Vec<String>,
     quantities: Vec<Bounds>,
     velocity_ratios: Vec<Bounds>,
@@ -361,8 +368,8 @@ impl Proof {
             text += "\n";
             text += &aligned(std::iter::once(head).chain(rows).collect());
             text.extend(self.within_a_turn.iter().map(|name| {
-                format!("{name} is an angle whose formula jumps by a turn: these are bounds of one turn; `linkage report` says \
-                     by how much it turns\n")
+                format!("{name} is an angle whose formula jumps by a turn, as near the origin, where it has no direction: these are \
+                     bounds of one turn\n")
             }));
         }
         text

@@ -108,7 +108,7 @@ impl Answers {
     }
 }
 
-/// The seed of the inner ring. It stays: proofs bound an angle by `atan2` within one turn only, which other linkages show.
+/// The seed of the inner ring. It stays: the test takes the range of an input for one of the number, which other linkages show.
 const SEED: u64 = 0xd017_118e_9bc0_90de;
 
 #[test]

@@ -1,6 +1,6 @@
 //! Certificates: what is proved, against the law of cosines; what is not, with the reason.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use serde_json::Value;
 
@@ -250,4 +250,53 @@ fn a_declared_range_is_that_of_the_motion() {
     folder.write("cylinder.linkage", slider);
     let text = folder.run("certify cylinder.linkage").works("");
     assert!(text.contains("s from 2 to 4.5\n") && text.contains("s stays in its range\n"), "{text}");
+}
+
+/// An angle by `atan2` goes on at pi, as in a report: one turns, others go to and fro about 180 degrees.
+#[test]
+fn bounds_of_angles_go_on_at_the_cut() {
+    let folder = folder();
+    folder.write(
+        "cut.linkage",
+        "mechanism Cut { param a = 2, b = 5, c = 4, d = 5; input t; unknown p, s; loop a@t + b@p = d@0 + c@s; \
+         point B = a@t; point C = (3, 4)@s; output o = angle(B); output twice = 2*angle(B); \
+         output swing = angle(C); output half = angle(C)/2; }",
+    );
+    let of = json(&folder, "certify cut.linkage --at t=40deg");
+    assert_eq!(of["within_a_turn"], Value::Array(Vec::new()));
+    let is = |name: &str, ends: [f64; 2]| {
+        let bounds = of["quantities"].as_array().unwrap().iter().find(|of| of["name"] == name).unwrap();
+        assert_eq!(bounds["is_sharp"], true, "{bounds}");
+        for (side, end) in ["least", "largest"].into_iter().zip(ends) {
+            assert!([0, 1].iter().all(|at| (bounds[side][at].as_f64().unwrap() - end).abs() < 1e-7), "{bounds} {end}");
+        }
+    };
+    let start = 40_f64.to_radians();
+    is("o", [start, start + TAU]);
+    is("twice", [2.0 * start, 2.0 * (start + TAU)]);
+    // The rocker is at its ends where crank and coupler are in line.
+    let end = |distance: f64| PI - ((25.0 + 16.0 - distance * distance) / 40.0).acos() + 4_f64.atan2(3.0);
+    is("swing", [7.0, 3.0].map(end));
+    is("half", [7.0, 3.0].map(|distance| 0.5 * end(distance)));
+    let report = folder.run("report cut.linkage").works("");
+    for line in ["o turns by 360°", "twice turns by 720°", "swing goes from 131.5931°", "to 196.2602°"] {
+        assert!(report.contains(line), "{report}");
+    }
+    // The coupler turns while the crank goes to and fro.
+    folder.write(
+        "turns.linkage",
+        "mechanism Turns { param ground = 4, crank = 3, coupler = 1, rocker = 3.5; input theta; unknown phi, psi; \
+         loop crank@theta + coupler@phi = ground@0 + rocker@psi; point P = coupler@phi; output o = angle(P); }",
+    );
+    let of = json(&folder, "certify turns.linkage --at theta=60deg --curve");
+    let o = &of["quantities"][2];
+    let turned = o["largest"][1].as_f64().unwrap() - o["least"][0].as_f64().unwrap();
+    assert!(o["is_sharp"] == true && (TAU..TAU + 1.0).contains(&turned), "{of}");
+    // A point that comes to the origin has no direction there.
+    folder.write(
+        "origin.linkage",
+        "mechanism Origin { input t; unknown p; equation p = t; point B = (1, 0) + 1@t; output o = angle(B); }",
+    );
+    let text = folder.run("certify origin.linkage --at t=40deg").works("");
+    assert!(text.contains("these are bounds of one turn\n"), "{text}");
 }

@@ -6,13 +6,13 @@
 
 use std::fmt;
 
-use linkage_runtime::{Build, Certifiable, Column};
+use linkage_runtime::{Build, Certifiable, Column, Dim};
 
 use super::Certify;
 use super::certificate::Moved;
 use super::dead_point::{DeadPoint, dead_points};
 use super::error::{CertifyError, CertifyErrorOf};
-use super::extremes::{Enclosure, enclosure};
+use super::extremes::{Enclosure, enclosure, enclosure_on_turns};
 use super::jet::Measure;
 use super::motion::{Motion, certified_position, unknowns_of};
 use super::reason::no_position;
@@ -121,6 +121,20 @@ impl<M: Certifiable> Curve<M> {
             .quantity_count()
             .column(|place| enclosure(&self.system, &self.tubes, Measure::Quantity(place)))
     }
+
+    /// Encloses the smallest and the largest value of one quantity, by its index; `None` if there is none of this index.
+    #[must_use]
+    pub fn quantity(&self, index: usize) -> Option<Enclosure> {
+        let measure = Measure::Quantity(index);
+        (index < self.system.mechanism.quantity_count().count()).then(|| enclosure(&self.system, &self.tubes, measure))
+    }
+
+    /// [`quantity`](Self::quantity) of an angle that goes on where its formula jumps, as
+    /// [`Certificate::quantity_on_turns`](super::Certificate::quantity_on_turns) says, once around from the start.
+    #[must_use]
+    pub fn quantity_on_turns(&self, index: usize) -> Option<Enclosure> {
+        enclosure_on_turns(&self.system, &self.tubes, index)
+    }
 }
 
 /// The direction of a motion: the coordinate that changes most, and the rates.
@@ -181,10 +195,11 @@ impl<M: Certifiable> Certify<'_, M> {
             let before = motion.joint.clone();
             along = advance(&mut motion, &along)?;
             self.check_emitted_at(&motion)?;
-            if let [_, .., last] = motion.tubes.as_slice()
+            if let [_, .., last] = motion.tubes.as_mut_slice()
                 && let Some(moved) = Moved::into_tube(&system, last, &first)
                 && is_beyond(last, &moved, &before)
             {
+                last.joint = moved.q.get(last.expansion.parameter).copied().unwrap_or(last.range);
                 break (moved.turns, moved.input_turns);
             }
         };

@@ -39,7 +39,7 @@ struct InputRate<'a, M: Certifiable> {
 impl<M: Certifiable> InputRate<'_, M> {
     /// The rate and its derivative.
     fn over(&self, c: Interval) -> Option<[Interval; 2]> {
-        let jet = Measure::Rate(self.system.count()).jet(self.system, self.tube, c)?;
+        let jet = Measure::Rate(self.system.count()).jet(self.system, self.tube, c, Interval::ENTIRE)?;
         Some([jet.value, jet.first])
     }
 

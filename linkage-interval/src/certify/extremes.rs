@@ -15,6 +15,7 @@ use super::certificate::Certificate;
 use super::jet::{Jet, Measure};
 use super::system::System;
 use super::tube::Tube;
+use super::unwound::{Segment, unwound, whole};
 use crate::Interval;
 
 /// The width of the result relative to the largest magnitude of the quantity over the motion.
@@ -35,7 +36,8 @@ pub struct Enclosure {
     pub largest: Interval,
     /// True if both are as narrow as asked for: 1e-9 of the largest magnitude of the quantity over the motion, beyond
     /// the effect of the tolerances. If not, they are enclosures all the same, as narrow as the bounded work made them; also
-    /// next to a jump, as of an angle by `atan2` at pi, whose values on both sides they contain.
+    /// next to a jump, as of an angle by `atan2` at pi, whose values on both sides they contain. Such an angle goes on by
+    /// [`Certificate::quantity_on_turns`].
     pub is_sharp: bool,
     /// The number of boxes and points at which the quantity was evaluated.
     pub evaluations: usize,
@@ -60,8 +62,7 @@ impl Enclosure {
 /// A part of a tube with an upper bound of the values in it, and the jet if it has bounds.
 struct Open {
     bound: f64,
-    tube: usize,
-    c: Interval,
+    part: Segment,
     jet: Option<Jet>,
 }
 
@@ -78,7 +79,7 @@ impl PartialOrd for Open {
 }
 impl Ord for Open {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.tube.cmp(&self.tube))
+        self.bound.total_cmp(&other.bound).then(other.part.tube.cmp(&self.part.tube))
     }
 }
 
@@ -98,9 +99,9 @@ struct Search<'a, M: Certifiable> {
 
 impl<M: Certifiable> Search<'_, M> {
     /// The jet over a part of a tube; the value in its middle counts as found.
-    fn evaluate(&mut self, tube: usize, c: Interval) -> Option<Jet> {
+    fn evaluate(&mut self, Segment { tube, c, within }: Segment) -> Option<Jet> {
         self.evaluations += 1;
-        let jet = self.measure.jet(self.system, self.tubes.get(tube)?, c)?;
+        let jet = self.measure.jet(self.system, self.tubes.get(tube)?, c, within)?;
         let signed = |x: Interval| if self.is_least { -x } else { x };
         let Jet { value, first, second, middle, slope } = jet;
         let [value, first, second, middle, slope] = [value, first, second, middle, slope].map(signed);
@@ -112,19 +113,20 @@ impl<M: Certifiable> Search<'_, M> {
         Some(Jet { value, first, second, middle, slope })
     }
 
-    fn push(&mut self, tube: usize, c: Interval) {
-        let jet = self.evaluate(tube, c);
-        let bound = jet.map_or(f64::INFINITY, |jet| jet.value.most());
+    fn push(&mut self, part: Segment) {
+        let jet = self.evaluate(part);
+        let most = if self.is_least { -part.within.least() } else { part.within.most() };
+        let bound = jet.map_or(most, |jet| jet.value.most());
         // Not over a pole, where a function may rise everywhere and jump.
         let is_monotone = |jet: &Jet| !jet.first.contains(0.0) && jet.value.magnitude().is_finite();
         if let Some(jet) = jet.filter(is_monotone) {
             // Monotone: the largest value is at an end.
-            let end = if jet.first.least() > 0.0 { c.most() } else { c.least() };
-            if !self.is_worth(bound) || self.evaluate(tube, end.into()).is_some() {
+            let end = if jet.first.least() > 0.0 { part.c.most() } else { part.c.least() };
+            if !self.is_worth(bound) || self.evaluate(part.over(end.into())).is_some() {
                 return;
             }
         }
-        self.open.push(Open { bound, tube, c, jet });
+        self.open.push(Open { bound, part, jet });
     }
 
     /// True if a bound is larger than all values found.
@@ -139,15 +141,16 @@ impl<M: Certifiable> Search<'_, M> {
 
     /// Divides a part of a tube in the middle, or reduces it to its stationary point and its ends; false if it is too
     /// narrow.
-    fn divide(&mut self, &Open { tube, c, jet, .. }: &Open) -> bool {
+    fn divide(&mut self, &Open { part, jet, .. }: &Open) -> bool {
+        let Segment { tube, c, .. } = part;
         let middle = c.middle();
         if let Some(jet) = jet.filter(|jet| !jet.second.contains(0.0)) {
             // Newton's method: f' = 0 in m - f'(m) / f''(C) only.
             let narrow = c.intersection(Interval::from(middle) - jet.slope / jet.second);
             if narrow.is_none_or(|narrow| narrow.width() < 0.5 * c.width())
-                && [c.least(), c.most()].into_iter().all(|end| self.evaluate(tube, end.into()).is_some())
+                && [c.least(), c.most()].into_iter().all(|end| self.evaluate(part.over(end.into())).is_some())
             {
-                narrow.into_iter().for_each(|narrow| self.push(tube, narrow));
+                narrow.into_iter().for_each(|narrow| self.push(part.over(narrow)));
                 return true;
             }
         }
@@ -158,15 +161,13 @@ impl<M: Certifiable> Search<'_, M> {
             return false;
         }
         let halves = [Interval::new(c.least(), middle), Interval::new(middle, c.most())];
-        halves.into_iter().flatten().for_each(|half| self.push(tube, half));
+        halves.into_iter().flatten().for_each(|half| self.push(part.over(half)));
         true
     }
 
     /// Runs the search: an interval that contains the largest value, and whether it is as narrow as asked for.
-    fn run(mut self) -> (Interval, bool, usize, f64) {
-        for (place, tube) in self.tubes.iter().enumerate() {
-            self.push(place, tube.range);
-        }
+    fn run(mut self, parts: &[Segment]) -> (Interval, bool, usize, f64) {
+        parts.iter().for_each(|part| self.push(*part));
         let (mut bound, mut is_known) = (f64::NEG_INFINITY, true);
         while let Some(next) = self.open.pop() {
             let most = self.attained.map_or(f64::NEG_INFINITY, Interval::most);
@@ -186,9 +187,23 @@ impl<M: Certifiable> Search<'_, M> {
 
 /// The extremes of a measure over tubes.
 pub(super) fn enclosure<M: Certifiable>(system: &System<M>, tubes: &[Tube], measure: Measure) -> Enclosure {
+    of_parts(system, tubes, measure, &whole(tubes))
+}
+
+/// The extremes of a quantity that goes on where its formula jumps; `None` if it cannot be followed.
+pub(super) fn enclosure_on_turns<M: Certifiable>(
+    system: &System<M>,
+    tubes: &[Tube],
+    place: usize,
+) -> Option<Enclosure> {
+    let (measure, parts) = unwound(system, tubes, place)?;
+    Some(of_parts(system, tubes, measure, &parts))
+}
+
+fn of_parts<M: Certifiable>(system: &System<M>, tubes: &[Tube], measure: Measure, parts: &[Segment]) -> Enclosure {
     let [least, largest] = [true, false].map(|is_least| {
         let (open, attained) = (BinaryHeap::new(), None);
-        Search { system, tubes, measure, is_least, open, attained, magnitude: 0.0, evaluations: 0 }.run()
+        Search { system, tubes, measure, is_least, open, attained, magnitude: 0.0, evaluations: 0 }.run(parts)
     });
     Enclosure { least: -least.0, largest: largest.0, is_sharp: least.1 && largest.1, evaluations: least.2 + largest.2 }
 }
@@ -208,6 +223,18 @@ impl<M: Certifiable> Certificate<M> {
     pub fn quantity(&self, index: usize) -> Option<Enclosure> {
         let measure = Measure::Quantity(index);
         (index < self.system.mechanism.quantity_count().count()).then(|| enclosure(&self.system, &self.tubes, measure))
+    }
+
+    /// Encloses the smallest and the largest value of one quantity that goes on where its formula jumps, as an angle by `atan2`
+    /// does at pi: one that turns counts its turns. It begins with the value of the formula at the start, for the parameters
+    /// in the middle of their tolerances; on a jump, with that on one of both sides. Sums of such angles times numbers go on
+    /// too; a quantity that does not jump is [`quantity`](Self::quantity).
+    ///
+    /// `None` if there is no quantity of this index, and if it is not proved how it goes on: if it is the direction of a point
+    /// that comes to the origin or, for bounded work, too near, and if it is another function of an angle that jumps.
+    #[must_use]
+    pub fn quantity_on_turns(&self, index: usize) -> Option<Enclosure> {
+        enclosure_on_turns(&self.system, &self.tubes, index)
     }
 
     /// Encloses the smallest and the largest derivative of each unknown by the input over the motion: the velocity

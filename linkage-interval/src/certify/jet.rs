@@ -2,19 +2,28 @@
 
 use linkage_runtime::{Certifiable, Number};
 
+use super::on_turns::OnTurns;
 use super::system::{Dimensions, System};
 use super::tube::{Part, Tube};
 use crate::Interval;
 use crate::series::Series;
 
 /// A function of the position along a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Measure {
     /// A coordinate of a point or an output, by its number.
     Quantity(usize),
+    /// Such a quantity without the jumps of its formula, which are multiples of one. A value is known up to these, until it is
+    /// [turned](Measure::turned).
+    OnTurns {
+        /// The number of the quantity.
+        place: usize,
+        /// The jump.
+        jump: Interval,
+    },
     /// The derivative of an unknown by the parameter of the tube, by the number of the unknown.
     Rate(usize),
-    /// The derivative of a quantity by the parameter of the tube.
+    /// The derivative of a quantity by the parameter of the tube, which does not jump.
     QuantityRate(usize),
 }
 
@@ -34,14 +43,28 @@ pub(super) struct Jet {
 }
 
 /// A measure over a box, and the differences of its values from those of the nominal dimensions.
-struct Bounds {
-    series: Series<Interval>,
+pub(super) struct Bounds {
+    pub(super) series: Series<Interval>,
     by_tolerances: Interval,
 }
 
 impl Measure {
+    /// The series of a quantity that is measured.
+    fn of(self, quantity: OnTurns) -> Series<Interval> {
+        if let Self::Quantity(_) = self { quantity.own } else { quantity.series() }
+    }
+
+    /// The value with the one number of jumps by which it has numbers in common with `within`; `None` if there are others.
+    pub(super) fn turned(self, value: Interval, within: Interval) -> Option<Interval> {
+        let Self::OnTurns { jump, .. } = self else { return Some(value) };
+        let nearest = ((within.middle() - value.middle()) / jump.middle()).round();
+        let [below, found, above] = [nearest - 1.0, nearest, nearest + 1.0].map(|jumps| value + jump * jumps.into());
+        let is_one = below.intersection(within).is_none() && above.intersection(within).is_none();
+        if is_one && found.intersection(within).is_some() { Some(found) } else { None }
+    }
+
     /// The jet over a part of a tube; `None` if the rates have no bounds there.
-    fn over<M: Certifiable>(
+    pub(super) fn over<M: Certifiable>(
         self,
         system: &System<M>,
         tube: &Tube,
@@ -57,15 +80,15 @@ impl Measure {
                 let (value, first) = (*rates.get(place)?, *accelerations.get(place)?);
                 Series { value, first, second: Interval::ENTIRE }
             }
-            Self::Quantity(place) | Self::QuantityRate(place) => {
+            Self::Quantity(place) | Self::OnTurns { place, .. } | Self::QuantityRate(place) => {
                 let parts = part.q.iter().zip(&rates).zip(&accelerations);
                 let q: Vec<_> = parts.map(|((&value, &first), &second)| Series { value, first, second }).collect();
-                let quantity = *system.quantities(dimensions, &q).get(place)?;
-                if self == Self::Quantity(place) {
-                    by_tolerances = spread(system, &part, place)?;
-                    quantity
-                } else {
+                let quantity = self.of(*system.quantities(dimensions, &q).get(place)?);
+                if let Self::QuantityRate(_) = self {
                     Series { value: quantity.first, first: quantity.second, second: Interval::ENTIRE }
+                } else {
+                    by_tolerances = self.spread(system, &part, place)?;
+                    quantity
                 }
             }
         };
@@ -74,21 +97,36 @@ impl Measure {
 
     /// The measure in the middle of an interval for the nominal dimensions and for all. A rate has no derivatives by the
     /// parameters here, so that its nominal values are those for all.
-    fn in_middle<M: Certifiable>(self, system: &System<M>, tube: &Tube, c: f64) -> Option<[Series<Interval>; 2]> {
-        let all = self.over(system, tube, Dimensions::All, c.into())?;
-        if !system.has_tolerances() || !matches!(self, Self::Quantity(_)) {
-            return Some([all.series; 2]);
+    pub(super) fn in_middle<M: Certifiable>(
+        self,
+        system: &System<M>,
+        tube: &Tube,
+        c: f64,
+        within: Interval,
+    ) -> Option<[Series<Interval>; 2]> {
+        let turned = |series: Series<Interval>| Some(Series { value: self.turned(series.value, within)?, ..series });
+        let Bounds { series, by_tolerances } = self.over(system, tube, Dimensions::All, c.into())?;
+        let all = turned(series)?;
+        if !system.has_tolerances() || matches!(self, Self::Rate(_) | Self::QuantityRate(_)) {
+            return Some([all; 2]);
         }
-        let nominal = self.over(system, tube, Dimensions::Nominal, c.into())?.series;
-        let value = all.series.value.intersection(nominal.value + all.by_tolerances)?;
-        Some([nominal, Series { value, ..all.series }])
+        let nominal = turned(self.over(system, tube, Dimensions::Nominal, c.into())?.series)?;
+        let value = all.value.intersection(nominal.value + by_tolerances)?;
+        Some([nominal, Series { value, ..all }])
     }
 
     /// The jet over an interval c with middle m, its values by the mean-value form f(m) + f'(C) (C - m), by Taylor's
-    /// `f(m) + f'(m) (C - m) + f''(C) (C - m)^2 / 2`, and by the mean-value form in the parameters.
-    pub(super) fn jet<M: Certifiable>(self, system: &System<M>, tube: &Tube, c: Interval) -> Option<Jet> {
+    /// `f(m) + f'(m) (C - m) + f''(C) (C - m)^2 / 2`, and by the mean-value form in the parameters. All values are `within` an
+    /// interval that is known.
+    pub(super) fn jet<M: Certifiable>(
+        self,
+        system: &System<M>,
+        tube: &Tube,
+        c: Interval,
+        within: Interval,
+    ) -> Option<Jet> {
         let m = c.middle();
-        let [nominal, all] = self.in_middle(system, tube, m)?;
+        let [nominal, all] = self.in_middle(system, tube, m, within)?;
         let (middle, slope) = (all.value, all.first);
         if c.width() == 0.0 {
             return Some(Jet { value: middle, first: slope, second: all.second, middle, slope });
@@ -98,24 +136,28 @@ impl Measure {
         let s = c - Interval::from(m);
         let mean = nominal.value + first * s;
         let taylor = nominal.value + nominal.first * s + second * s.square() * Interval::from(0.5);
+        let value = self.turned(value, within).unwrap_or(within).intersection(within)?;
         let value = value.intersection(mean.intersection(taylor)? + by_tolerances)?;
         Some(Jet { value, first, second, middle, slope })
     }
-}
 
-/// The sum over the tolerances of the derivative of a quantity by the parameter times its difference from the middle,
-/// where the unknowns follow by du/dp = -J^-1 Psi_p.
-fn spread<M: Certifiable>(system: &System<M>, part: &Part, place: usize) -> Option<Interval> {
-    if !system.has_tolerances() {
-        return Some(Interval::zero());
+    /// The sum over the tolerances of the derivative of a quantity by the parameter times its difference from the middle,
+    /// where the unknowns follow by du/dp = -J^-1 Psi_p.
+    fn spread<M: Certifiable>(self, system: &System<M>, part: &Part, place: usize) -> Option<Interval> {
+        if !system.has_tolerances() {
+            return Some(Interval::zero());
+        }
+        let by_parameters = system.by_parameters(&part.q);
+        let rates = by_parameters.iter().map(|(by, _)| {
+            let right: Vec<Interval> = by.iter().map(|&x| -x).collect();
+            part.expansion.solve(system, &part.linear, &right, Interval::zero())
+        });
+        let rates: Vec<Vec<Interval>> = rates.collect::<Option<_>>()?;
+        let quantities = system.quantities_by_parameters(&part.q, &rates);
+        let terms = quantities
+            .iter()
+            .zip(&by_parameters)
+            .map(|(by, (_, difference))| Some(self.of(*by.get(place)?).first * *difference));
+        terms.reduce(|sum, term| Some(sum? + term?)).unwrap_or(Some(Interval::zero()))
     }
-    let by_parameters = system.by_parameters(&part.q);
-    let rates = by_parameters.iter().map(|(by, _)| {
-        let right: Vec<Interval> = by.iter().map(|&x| -x).collect();
-        part.expansion.solve(system, &part.linear, &right, Interval::zero())
-    });
-    let rates: Vec<Vec<Interval>> = rates.collect::<Option<_>>()?;
-    let quantities = system.quantities_by_parameters(&part.q, &rates);
-    let terms = quantities.iter().zip(&by_parameters).map(|(by, (_, difference))| Some(*by.get(place)? * *difference));
-    terms.reduce(|sum, term| Some(sum? + term?)).unwrap_or(Some(Interval::zero()))
 }

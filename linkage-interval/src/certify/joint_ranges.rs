@@ -60,10 +60,7 @@ fn all<M: Certifiable>(system: &System<M>, tubes: &[Tube]) -> Vec<CertifiedRange
 
 /// The proof of one range.
 fn proof<M: Certifiable>(system: &System<M>, tubes: &[Tube], place: usize) -> RangeProof {
-    let turns = tubes.first().and_then(|tube| {
-        let start = if tube.is_backward { tube.range.most() } else { tube.range.least() };
-        turns_at(&ranged(system, tube, place, start.into())?)
-    });
+    let turns = tubes.first().and_then(|tube| turns_at(&ranged(system, tube, place, tube.start().into())?));
     let two_pi = Interval::pi() + Interval::pi();
     let by = two_pi * Interval::from(turns.unwrap_or_default());
     let mut result = RangeProof::Within;

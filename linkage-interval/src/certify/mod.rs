@@ -7,7 +7,8 @@
 //! - [`curve`] certifies a motion as a curve through dead points of the input, which it encloses, until it is at its start
 //!   again.
 //! - [`Certificate::quantities`] and [`Certificate::velocity_ratios`] enclose smallest and largest values over the whole
-//!   motion, such as those of a transmission angle that is declared as an output.
+//!   motion, such as those of a transmission angle that is declared as an output. [`Certificate::quantity_on_turns`] does so for
+//!   an angle by `atan2` that goes on at pi.
 //! - [`Certificate::joint_ranges`] and [`Curve::joint_ranges`] prove that the motion keeps the ranges that the mechanism declares,
 //!   or leaves one.
 //! - [`Certify`] has the options: the moving input, tolerances of parameters, other positions, the bound of the work. With
@@ -47,11 +48,13 @@ mod extremes;
 mod jet;
 mod joint_ranges;
 mod motion;
+mod on_turns;
 mod reason;
 mod system;
 mod tube;
 mod turn;
 mod turned;
+mod unwound;
 
 use linkage_runtime::{Certifiable, Column};
 

@@ -99,6 +99,7 @@ impl<'a, M: Certifiable> Motion<'a, M> {
             {
                 self.joint = part.q;
                 tube.is_backward = direction < 0.0;
+                tube.joint = to.into();
                 self.tubes.push(tube);
                 self.heading = Some((parameter, direction));
                 self.step = (self.step * LONGER).min(LONGEST_STEP);

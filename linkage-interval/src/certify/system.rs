@@ -8,13 +8,15 @@ use linkage_runtime::jacobian::ScalesOf;
 use linkage_runtime::{Build, Certifiable, Column, Dim, Formulas, Number, Ranged};
 
 use super::error::{CertifyError, CertifyErrorOf};
+use super::on_turns::OnTurns;
 use super::turned::repeats;
 use crate::Interval;
 use crate::series::{Series, lines, unit_line};
 
 /// A parameter with a tolerance: the formulas with its derivative, and the difference of its values from the middle.
-struct Tolerance<F> {
-    by: F,
+struct Tolerance<M: Certifiable> {
+    by: M::Over<Series<Interval>>,
+    quantities_by: M::Over<OnTurns>,
     difference: Interval,
 }
 
@@ -33,9 +35,11 @@ pub(super) struct System<M: Certifiable> {
     floats: M::Over<Series<f64>>,
     nominal: M::Over<Series<Interval>>,
     all: M::Over<Series<Interval>>,
+    nominal_quantities: M::Over<OnTurns>,
+    all_quantities: M::Over<OnTurns>,
     emitted: M::Over<Interval>,
     parameters: Column<Interval, <M as Certifiable>::P>,
-    tolerances: Vec<Tolerance<M::Over<Series<Interval>>>>,
+    tolerances: Vec<Tolerance<M>>,
     inputs: Vec<f64>,
     moving: usize,
     /// The scales of the residuals.
@@ -71,7 +75,11 @@ impl<M: Certifiable> System<M> {
         let tolerances = tolerances.map(|(place, (&all, &middle))| {
             let mut by = parameters.map(Series::constant);
             by[place] = Series::line(all, Interval::one());
-            Tolerance { by: mechanism.over(by), difference: all - Interval::from(middle) }
+            Tolerance {
+                by: mechanism.over(by),
+                quantities_by: mechanism.over(by.map(OnTurns::plain)),
+                difference: all - Interval::from(middle),
+            }
         });
         let scales = ScalesOf::<M>::of(mechanism, &mechanism.pose_at(start));
         let scale_or_one = |scale: f64| if scale.is_finite() && scale > 0.0 { scale } else { 1.0 };
@@ -82,6 +90,8 @@ impl<M: Certifiable> System<M> {
             floats: mechanism.over(middles.map(Series::constant)),
             nominal: mechanism.over(middles.map(|value| Series::constant(value.into()))),
             all: mechanism.over(parameters.map(Series::constant)),
+            nominal_quantities: mechanism.over(middles.map(|value| OnTurns::plain(Series::constant(value.into())))),
+            all_quantities: mechanism.over(parameters.map(|value| OnTurns::plain(Series::constant(value)))),
             emitted: mechanism.over(parameters),
             parameters,
             inputs: inputs.iter().copied().collect(),
@@ -184,9 +194,13 @@ impl<M: Certifiable> System<M> {
     }
 
     /// The quantities and their two derivatives along a curve.
-    pub(super) fn quantities(&self, dimensions: Dimensions, q: &[Series<Interval>]) -> Vec<Series<Interval>> {
+    pub(super) fn quantities(&self, dimensions: Dimensions, q: &[Series<Interval>]) -> Vec<OnTurns> {
         let (unknowns, inputs) = self.split(q);
-        self.formulas(dimensions).quantities(&unknowns, &inputs).iter().copied().collect()
+        let formulas = match dimensions {
+            Dimensions::Nominal => &self.nominal_quantities,
+            Dimensions::All => &self.all_quantities,
+        };
+        formulas.quantities(&unknowns.map(OnTurns::plain), &inputs.map(OnTurns::plain)).iter().copied().collect()
     }
 
     /// The value with a range at this place, with its ends, over a box.
@@ -199,7 +213,7 @@ impl<M: Certifiable> System<M> {
     pub(super) fn by_parameters(&self, q: &[Interval]) -> Vec<(Vec<Interval>, Interval)> {
         let q: Vec<_> = q.iter().map(|&x| Series::constant(x)).collect();
         let (unknowns, inputs) = self.split(&q);
-        let by = |tolerance: &Tolerance<M::Over<Series<Interval>>>| {
+        let by = |tolerance: &Tolerance<M>| {
             let psi = tolerance.by.residual(&unknowns, &inputs);
             (psi.iter().map(|psi| psi.first).collect(), tolerance.difference)
         };
@@ -207,10 +221,11 @@ impl<M: Certifiable> System<M> {
     }
 
     /// For each tolerance the derivative of the quantities by the parameter while the unknowns have these rates.
-    pub(super) fn quantities_by_parameters(&self, q: &[Interval], rates: &[Vec<Interval>]) -> Vec<Vec<Interval>> {
-        let by = |(tolerance, rates): (&Tolerance<M::Over<Series<Interval>>>, &Vec<Interval>)| {
+    pub(super) fn quantities_by_parameters(&self, q: &[Interval], rates: &[Vec<Interval>]) -> Vec<Vec<OnTurns>> {
+        let by = |(tolerance, rates): (&Tolerance<M>, &Vec<Interval>)| {
             let (unknowns, inputs) = self.split(&lines(q, rates));
-            tolerance.by.quantities(&unknowns, &inputs).iter().map(|quantity| quantity.first).collect()
+            let (unknowns, inputs) = (unknowns.map(OnTurns::plain), inputs.map(OnTurns::plain));
+            tolerance.quantities_by.quantities(&unknowns, &inputs).iter().copied().collect()
         };
         self.tolerances.iter().zip(rates).map(by).collect()
     }

@@ -37,6 +37,8 @@ pub(super) struct Tube {
     pub(super) range: Interval,
     /// True if the motion goes from the end of the range to its start.
     pub(super) is_backward: bool,
+    /// The value of the parameter where the next tube takes over, and of the last one that at the end of the motion.
+    pub(super) joint: Interval,
     /// The radii of all coordinates but the parameter.
     radius: Vec<f64>,
 }
@@ -74,7 +76,7 @@ impl Tube {
             if !radius.iter().zip(&scales).all(|(radius, scale)| *radius <= LARGEST_RADIUS * scale) {
                 return None;
             }
-            let tube = Self { expansion: expansion.clone(), range, is_backward: false, radius };
+            let tube = Self { expansion: expansion.clone(), range, is_backward: false, joint: range, radius };
             let z: Vec<Interval> = tube.radius.iter().map(|&radius| symmetric(radius)).collect();
             let linear = tube.expansion.linear(system, Dimensions::All, &tube.over(range));
             let k: Vec<Interval> = b.iter().zip(apply(&linear.defect, &z)).map(|(&b, part)| part - b).collect();
@@ -84,6 +86,11 @@ impl Tube {
             radius = tube.radius.iter().zip(&k).map(|(radius, k)| radius.max(INFLATION * k.magnitude())).collect();
         }
         None
+    }
+
+    /// The value of the parameter at which the motion enters.
+    pub(super) fn start(&self) -> f64 {
+        if self.is_backward { self.range.most() } else { self.range.least() }
     }
 
     /// The box at a value of the parameter, or the union of those of an interval of it.

@@ -43,6 +43,17 @@ impl Interval {
         Self { least: corner(y.least, x.least).least, most: corner(y.most, x.least).most }
     }
 
+    /// The angle of (x, y), y = `self`, on one turn: in a box that crosses the negative x axis from pi/2 to 3 pi/2. All real
+    /// numbers if the box contains the origin.
+    pub(crate) fn angle_on_one_turn(self, x: Self) -> Self {
+        let y = self;
+        match (y.contains(0.0), x.contains(0.0)) {
+            (true, true) => Self::ENTIRE,
+            (true, false) if x.most < 0.0 => STRAIGHT + (-y).angle(-x),
+            _ => y.angle(x),
+        }
+    }
+
     pub(super) fn arctangent(self) -> Self {
         Self { least: corner(self.least, 1.0).least, most: corner(self.most, 1.0).most }
     }

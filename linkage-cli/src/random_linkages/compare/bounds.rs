@@ -99,8 +99,10 @@ impl Comparison<'_> {
                     let slack = second_difference(&values);
                     // A search ends at this part of the largest magnitude.
                     let width = 1e-9 * low.abs().max(high.abs());
-                    // The turn of an angle may be another one.
-                    let is_right = (-3..=3).map(|turn| f64::from(turn) * if is_angle { TAU } else { 0.0 }).any(|by| {
+                    // The turn of an unknown may be another one; the direction of a point is that of its formula at the start.
+                    let is_direction = |of: &Output| of.name == name && matches!(of.form, Form::Angle(_));
+                    let turns = if is_angle && !self.linkage.outputs.iter().any(is_direction) { 3 } else { 0 };
+                    let is_right = (-turns..=turns).map(|turn| f64::from(turn) * TAU).any(|by| {
                         least[0] + by <= low + width
                             && low <= least[1] + by + slack + width
                             && high - width <= largest[1] + by

@@ -47,6 +47,8 @@ pub trait Shape: Copy + Debug + PartialEq + 'static {
     const POINTS: &'static [&'static [Term]] = &[];
     /// Outputs as differences of two unknowns.
     const OUTPUTS: &'static [(usize, usize)] = &[];
+    /// Further outputs: sums of multiples of the directions of points.
+    const DIRECTIONS: &'static [&'static [(f64, usize)]] = &[];
     const UNKNOWN_ANGLES: &'static [bool];
     const GROUPS: &'static [Group<'static>];
     const USER_FUNCTIONS: &'static [Option<&'static str>] = &[None];
@@ -187,9 +189,15 @@ impl<S: Shape, N: Number> Formulas for Loops<S, N> {
         let points: Vec<[N; 2]> = S::POINTS.iter().map(|terms| self.sum(terms, u, v[0])).collect();
         Column::from_fn(|place| match points.get(place / 2) {
             Some(point) => point[place % 2],
-            None => {
+            None if place - 2 * points.len() < S::OUTPUTS.len() => {
                 let (one, other) = S::OUTPUTS[place - 2 * points.len()];
                 u[one] - u[other]
+            }
+            None => {
+                let terms = S::DIRECTIONS[place - 2 * points.len() - S::OUTPUTS.len()].iter();
+                let angles =
+                    terms.map(|&(factor, point)| N::exactly(factor) * points[point][1].arctangent2(points[point][0]));
+                angles.reduce(|sum, angle| sum + angle).unwrap_or(N::zero())
             }
         })
     }

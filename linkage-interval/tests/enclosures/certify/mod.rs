@@ -5,6 +5,7 @@ mod curves;
 mod errors;
 mod extremes;
 mod loops;
+mod on_turns;
 mod random;
 mod series;
 mod shapes;

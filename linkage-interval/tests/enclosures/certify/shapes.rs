@@ -47,6 +47,31 @@ four_bar!(WrongJ, Fault::SignInJ);
 four_bar!(WrongA, Fault::SignInA);
 four_bar!(WrongGamma, Fault::SignInGamma);
 
+/// A four-bar with the directions of its crank, of the coupler seen from its end, and of the pin between coupler and rocker.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Directions;
+impl Directions {
+    /// The number of the first direction.
+    pub const FIRST: usize = 6;
+}
+impl Shape for Directions {
+    type P = D<4>;
+    type U = D<2>;
+    type Q = D<12>;
+    const LOOPS: &'static [&'static [Term]] = FourBar::LOOPS;
+    const POINTS: &'static [&'static [Term]] = &[&[crank(1)], &[minus(2, 0)], &[crank(1), link(2, 0)]];
+    const DIRECTIONS: &'static [&'static [(f64, usize)]] = &[
+        &[(1.0, 0)],
+        &[(1.0, 1)],
+        &[(2.0, 1)],
+        &[(1.0, 0), (-2.0, 1)],
+        &[(2.0, 0), (-3.0, 1)],
+        &[(-0.5, 0), (0.75, 2)],
+    ];
+    const UNKNOWN_ANGLES: &'static [bool] = FourBar::UNKNOWN_ANGLES;
+    const GROUPS: &'static [Group<'static>] = FourBar::GROUPS;
+}
+
 /// A crank and a rod that push a slider: unknowns are the angle of the rod and the place of the slider.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliderCrank;
