@@ -43,8 +43,10 @@ fn directions_of_random_cranks() {
     let mut random = Random(5);
     const STEPS: u32 = 2000;
     let mut crossed = 0;
-    for _ in 0..count("DIRECTIONS", 3, 100) {
-        let lengths = [1.0, random.between(0.1, 0.3), random.between(0.8, 1.2), random.between(0.6, 1.0)];
+    for trial in 0..count("DIRECTIONS", 4, 100) {
+        let mut lengths = [1.0, random.between(0.1, 0.3), random.between(0.8, 1.2), random.between(0.6, 1.0)];
+        // All links of every other one turn about its short ground.
+        lengths.swap(0, trial % 2);
         let (input, side) = (random.between(-PI, PI), if random.between(0.0, 1.0) < 0.5 { -1.0 } else { 1.0 });
         let Some(unknowns) = four_bar(lengths, side, input) else { continue };
         let Ok(certificate) = certify::turn(&Bar::new(lengths), &Bar::at(unknowns, input)) else { continue };
