@@ -42,7 +42,7 @@ impl Coordinate {
         value.rate(&self.name.text, self.kind(), self.is_angle).map_err(Failure::Argument)
     }
 
-    /// What it is, for messages.
+    /// Its kind in words, such as `a length`.
     pub fn kind(&self) -> &'static str {
         match (self.is_angle, self.is_length) {
             (true, _) => "an angle",

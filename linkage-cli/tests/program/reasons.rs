@@ -86,7 +86,7 @@ fn links_that_do_not_reach() {
         (
             "guide.linkage --set h=1.25 --at t=0deg",
             "Guide cannot be assembled at t = 0°: group p, s does not close, since its joints are 0.25 too near: they are only 1 apart, and the line that turns \
-             passes 1.25 beside one of them",
+             lies 1.25 away from one of them",
         ),
     ] {
         folder.run(&format!("draw {arguments}")).fails(1, &format!("error: {message}\n"));

@@ -27,8 +27,8 @@ pub enum Missing {
     TooLong { long: Length, short: Length, distance: f64 },
     /// A link is shorter than the distance of the line on which its end is.
     OffLine { link: Length, distance: f64 },
-    /// A line that turns passes beside its pivot farther away than the other joint is.
-    BesidePivot { offset: f64, distance: f64 },
+    /// A line that turns is farther from its pivot than the other joint is.
+    OffPivot { offset: f64, distance: f64 },
 }
 
 /// A number with five digits.
@@ -70,12 +70,12 @@ impl fmt::Display for Missing {
                 let (by, distance) = (Digits(distance - link.value), Digits(*distance));
                 write!(f, "{link} is {by} too short: the line on which its end is lies {distance} away")
             }
-            Self::BesidePivot { offset, distance } => {
+            Self::OffPivot { offset, distance } => {
                 let (by, offset, distance) = (Digits(offset - distance), Digits(*offset), Digits(*distance));
                 write!(
                     f,
-                    "its joints are {by} too near: they are only {distance} apart, and the line that turns passes {offset} beside one \
-                     of them"
+                    "its joints are {by} too near: they are only {distance} apart, and the line that turns lies {offset} away \
+                     from one of them"
                 )
             }
         }
@@ -178,7 +178,7 @@ impl Reach {
             _ if self.kinds[group] == GroupKind::Rpr
                 && matches!(self.graph.node(size), Node::Call(Function::Sqrt, _)) =>
             {
-                Some(Missing::BesidePivot { offset: (high - low).abs() / 2.0, distance: found(size)? })
+                Some(Missing::OffPivot { offset: (high - low).abs() / 2.0, distance: found(size)? })
             }
             // Of another group the radius may be the distance of two joints, or have the unit of a guide.
             _ if self.kinds[group] != GroupKind::Angle && self.graph.as_symbol(self.unsigned(size)).is_none() => None,

@@ -244,7 +244,8 @@ impl<M: Certifiable> Certificate<M> {
         self.system.mechanism.dims().0.column(|place| enclosure(&self.system, &self.tubes, Measure::Rate(place)))
     }
 
-    /// Encloses the smallest and the largest derivative of each quantity by the input over the motion.
+    /// Encloses the smallest and the largest derivative of each quantity by the input over the motion. An angle by `atan2` has one
+    /// at pi too, where only its value jumps.
     #[must_use]
     pub fn quantity_ratios(&self) -> Column<Enclosure, <M as Certifiable>::Q> {
         self.system

@@ -121,8 +121,9 @@ where
             self.compute(number, &mut chunk)?;
             reducer.fold(&mut part, &self.block(&chunk));
             let mut shared = lock(shared);
-            let Shared { progress, callback, error: None, .. } = &mut *shared else { return Ok(()) };
-            progress.advance(chunk.rows(), chunk.rejected(), callback)?;
+            let Shared { progress, callback, error: error @ None, .. } = &mut *shared else { return Ok(()) };
+            // Before another thread goes on: a sweep that is cancelled calls back no more.
+            *error = progress.advance(chunk.rows(), chunk.rejected(), callback).err();
             next = shared.take();
         }
         let mut shared = lock(shared);
