@@ -58,7 +58,7 @@ impl Comparison<'_> {
                 // A proof goes over the declared range of the input, and over a turn without one.
                 let is_end_of_input = |why: &Why| matches!(why, Why::Range(of, _) if of == name);
                 let declared = self.linkage.coordinates[moving].range.filter(|[least, most]| most - least <= TAU);
-                if !has_turn && !(declared.is_some() && motion.ends.iter().all(is_end_of_input)) {
+                if !(has_turn || declared.is_some() && motion.ends.iter().all(is_end_of_input)) {
                     let is_said = proof["ranges"].as_array().into_iter().flatten().any(|of| of["proof"] != "within");
                     return if is_said {
                         self.count("certify: a range is left, and said")
