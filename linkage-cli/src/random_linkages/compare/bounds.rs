@@ -55,10 +55,10 @@ impl Comparison<'_> {
                     );
                 }
                 let name = &self.linkage.coordinates[moving].name;
-                // A proof goes over the declared range of the input, and over a turn without one.
+                // A proof goes on to the end of the declared range of the input, and over a turn without one.
                 let is_end_of_input = |why: &Why| matches!(why, Why::Range(of, _) if of == name);
                 let declared = self.linkage.coordinates[moving].range.filter(|[least, most]| most - least <= TAU);
-                if !(has_turn || declared.is_some() && motion.ends.iter().all(is_end_of_input)) {
+                if !(has_turn || declared.is_some() && is_end_of_input(&motion.ends[1])) {
                     let is_said = proof["ranges"].as_array().into_iter().flatten().any(|of| of["proof"] != "within");
                     return if is_said {
                         self.count("certify: a range is left, and said")
@@ -71,7 +71,7 @@ impl Comparison<'_> {
                         )
                     };
                 }
-                let [from, to] = declared.unwrap_or([first, first + TAU]);
+                let [from, to] = [first, declared.map_or(first + TAU, |[_, most]| most)];
                 let inputs = numbers(&proof["inputs"]);
                 let is_near =
                     |one: f64, other: f64| (one - other).abs() <= UNITS * f64::EPSILON * from.abs().max(to.abs());
