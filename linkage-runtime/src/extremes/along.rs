@@ -149,7 +149,7 @@ where
             let between = resolution.get(place).map_or(M::Scalar::zero(), |(between, _)| *between);
             let rests = rests::runs(&of_place, between);
             for (at, pair) in of_place.windows(2).enumerate() {
-                // Where it rests, its derivative is one of rounding errors.
+                // In a rest the sign of the derivative is that of rounding errors.
                 if rests.iter().any(|[first, last]| (*first..*last).contains(&at)) {
                     continue;
                 }

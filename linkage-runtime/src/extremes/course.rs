@@ -15,8 +15,8 @@ pub struct Course<T = f64> {
     /// goes back. They are in the order of the input, with that at
     /// which a closed motion begins, without other ends.
     pub turning_points: Vec<Extreme<T>>,
-    /// The parts in which it rests: its values are no farther apart than rounding errors are, and no part is shorter than a step
-    /// of the search. Of a rest about the input at which a closed motion begins there are two parts.
+    /// The parts in which it rests: its values are equal up to rounding errors. No part is shorter than a step of the search. Of a
+    /// rest about the input at which a closed motion begins there are two parts.
     pub rests: Vec<[Extreme<T>; 2]>,
     /// True if it does not move: its values are no farther apart than rounding errors are.
     pub is_constant: bool,

@@ -1,7 +1,7 @@
 //! The parts of a motion in which a quantity rests, as a follower on a round part of its cam.
 //!
-//! Its values are the same there but for rounding errors, and so its derivative is zero or one of rounding errors. Where it goes
-//! back after a rest, its derivative changes its sign at no place: it turns where the rest begins.
+//! Its values are equal there up to rounding errors. Its derivative is zero, or as small as these errors make it, with any sign.
+//! If it goes back after a rest, it turns where the rest begins.
 
 use std::vec::Vec;
 
@@ -13,8 +13,8 @@ use crate::range_of_motion::{Driven, RangeOfMotion};
 use crate::scalar::arithmetic::*;
 use crate::{OutputMotion, PathErrorOf, Real, real};
 
-/// Values that differ by no more than this many times what rounding errors change in them are the same, and derivatives that
-/// are no more times those of a rest are, too.
+/// The factor for rounding errors: two values are equal if they differ by no more than this many times their resolution. A place
+/// belongs to a rest if its derivative is no more than this many times the largest one at the samples of the rest.
 const SAME: f64 = 16.0;
 
 /// The most steps of a bisection: a double has no more places between two samples.
