@@ -11,7 +11,7 @@ export type Answers = {
     load: Compiled;
     words: { keywords: string[]; functions: string[] };
     begin: Moved;
-    positions: { positions: Position[] };
+    positions: { positions: Position[]; more: boolean };
     picture: Moved;
     follow: Moved;
     drag: Moved;

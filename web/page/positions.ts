@@ -10,20 +10,25 @@ import { settled } from "./signal";
 import { smallStyles } from "./styles";
 import { onLanguage, say, word } from "./words";
 
+/** Two positions nearer than this are one, where others are left out: relative, summed over the unknowns. */
+const SAME = 1e-6;
+
 export class PositionsView {
     readonly element: HTMLElement;
     #machine: Machine;
     #session: Session;
     #list = h("div", { class: "positions", role: "radiogroup" });
+    #left = h("p", { class: "why" }, say((w) => w.morePositions));
     #islands: Island[] = [];
     #positions: Position[] = [];
+    #more = false;
     #key = "";
     #ask = settled(200, () => void this.#find());
 
     constructor(machine: Machine, session: Session) {
         this.#machine = machine;
         this.#session = session;
-        this.element = h("section", { class: "choices" }, h("h2", {}, say((w) => w.positions)), this.#list);
+        this.element = h("section", { class: "choices" }, h("h2", {}, say((w) => w.positions)), this.#list, this.#left);
         this.#list.addEventListener("keydown", (event) => this.#key_(event));
         machine.moved.on(() => {
             this.#mark();
@@ -52,13 +57,14 @@ export class PositionsView {
         const answer = await this.#session.ask("positions", text, () => question);
         if (answer === null) return;
         this.#key = key;
-        this.#positions = isRefusal(answer) ? [] : answer.positions;
+        [this.#positions, this.#more] = isRefusal(answer) ? [[], false] : [answer.positions, answer.more];
         this.#render();
     }
 
     #render(): void {
         const positions = this.#positions;
         this.element.hidden = positions.length === 0;
+        this.#left.hidden = !this.#more;
         while (this.#islands.length < positions.length) this.#islands.push(new Island("small", smallStyles));
         // Buttons stay, so that the focus does.
         while (this.#list.children.length > positions.length) this.#list.lastElementChild?.remove();
@@ -84,7 +90,7 @@ export class PositionsView {
         if (position && at) void this.#machine.take({ inputs: at.place.inputs, unknowns: position.unknowns });
     }
 
-    /** Marks the position that the picture shows; angles count turns, here they do not. */
+    /** Marks the position that the picture shows, if it is not left out; angles count turns, here they do not. */
     #mark(): void {
         const { at, about } = this.#machine;
         let chosen = -1;
@@ -94,9 +100,9 @@ export class PositionsView {
                 const distance = position.unknowns.reduce((sum, value, which) => {
                     const difference = value - (at.place.unknowns[which] ?? 0);
                     const size = about.unknowns[which]?.is_angle ? Math.abs(Math.sin(difference / 2)) : Math.abs(difference);
-                    return sum + size;
+                    return sum + size / (1 + Math.abs(value));
                 }, 0);
-                if (distance < least) [least, chosen] = [distance, index];
+                if (distance < (this.#more ? Math.min(least, SAME) : least)) [least, chosen] = [distance, index];
             });
         }
         [...this.#list.children].forEach((button, index) => {

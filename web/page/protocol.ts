@@ -52,7 +52,7 @@ export type Question =
     | { do: "words" }                                              // { keywords: string[]; functions: string[] } of the language, for colours and completion
     /** A first position: at the first value of each input, or at other inputs that have one. */
     | ({ do: "begin"; mechanism: number; parameters: number[]; near?: Place; show: Show }) // Moved; `near` is a position of the text before
-    | ({ do: "positions"; mechanism: number; parameters: number[]; inputs: number[] })  // { positions: { branch: string; unknowns: number[]; svg: string }[] }
+    | ({ do: "positions"; mechanism: number; parameters: number[]; inputs: number[] })  // { positions: { branch: string; unknowns: number[]; svg: string }[]; more: boolean }
     | ({ do: "picture"; show: Show } & At)                         // Moved
     /** Follows the motion to other inputs, and to other parameters. */
     | ({ do: "follow"; to: { parameters: number[]; inputs: number[] }; show: Show } & At) // Moved
@@ -73,6 +73,8 @@ export type Question =
 /** The circuits; motions are numbered in their charts, circuits here, both from 1. */
 export type Circuits = {
     positions: number;
+    /** True if others are left out. */
+    more: boolean;
     circuits: number;
     motions: { circuit: number; least: number | null; largest: number | null; way: "turns" | "to_and_fro" | "ends" | "open"; turns: number }[];
     charts: { name: string; svg: string }[];

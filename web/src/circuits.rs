@@ -1,8 +1,10 @@
 //! The circuits of a mechanism.
 
 use linkage_report::drawing::CircuitChart;
+use linkage_report::report::MOST_MODES;
 use linkage_runtime::circuits::{CircuitOptions, Circuits, CurveEnd, MotionCurve};
 use linkage_runtime::continuation::Options;
+use linkage_runtime::{Branches as _, Column, Mechanism as _};
 use serde::Serialize;
 
 use crate::Refusal;
@@ -12,11 +14,16 @@ use crate::machine::{Machine, prepared};
 /// The longest step of a motion in a chart.
 const SMOOTH: f64 = 0.1;
 
+/// The most motions that are followed where there are more positions than are listed.
+const MOST_MOTIONS: usize = 16;
+
 /// The circuits, and a chart of each unknown.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Found {
     /// The number of positions at the inputs.
     positions: usize,
+    /// True if others are left out.
+    more: bool,
     /// The number of circuits.
     circuits: usize,
     /// The motions, in the order of their numbers in the charts.
@@ -66,8 +73,23 @@ pub fn circuits(machine: &Machine, parameters: &[f64], inputs: &[f64], along: us
     let one = one_input(mechanism, inputs, along)?;
     let options =
         CircuitOptions { path: Options { longest_step: SMOOTH, ..Options::default() }, ..CircuitOptions::default() };
-    let found = Circuits::of(&one, at, options);
-    let found = found.map_err(|error| Refusal::of_circuits(&machine.about, &error))?;
+    let refused = |error| Refusal::of_circuits(&machine.about, &error);
+    // A list that cannot be made is an error of the circuits too.
+    let listed: Vec<_> = match one.all_positions(Column::from([at])) {
+        Ok(all) => all.filter(|(_, q)| one.is_within_ranges(q).unwrap_or(false)).take(MOST_MODES + 1).collect(),
+        Err(_) => Vec::new(),
+    };
+    let more = listed.len() > MOST_MODES;
+    let found = match listed.get(..MOST_MODES).filter(|_| more) {
+        None => Circuits::of(&one, at, options).map_err(refused)?,
+        Some(first) => {
+            let (found, _, error) = Circuits::of_some(&one, first, MOST_MOTIONS, options);
+            match error.filter(|_| found.modes.is_empty()) {
+                Some(error) => return Err(refused(error)),
+                None => found,
+            }
+        }
+    };
     if let Some(failure) = prepared.failure() {
         return Err(Refusal::new(failure));
     }
@@ -83,7 +105,7 @@ pub fn circuits(machine: &Machine, parameters: &[f64], inputs: &[f64], along: us
         Motion::of(motion, circuit + 1)
     });
     let motions = motions.collect();
-    Ok(Found { positions: found.modes.len(), circuits: found.circuits.len(), motions, charts })
+    Ok(Found { positions: found.modes.len(), more, circuits: found.circuits.len(), motions, charts })
 }
 
 impl Motion {

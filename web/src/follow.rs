@@ -78,10 +78,14 @@ fn drive_one(
     let from = q.inputs[input];
     let start = AlongCoordinates { q, parameter: from };
     let direction = if to > from { Direction::Increasing } else { Direction::Decreasing };
-    let reach_by = |to: f64, joint_ranges: bool| -> Result<Coordinates, PathError<&str>> {
+    // The position there, or where the motion ends.
+    let reach_by = |to: f64, joint_ranges: bool| -> Result<Coordinates, (PathError<&str>, Coordinates)> {
         let options = Options { most_steps: MOST_STEPS, joint_ranges, ..Options::default() };
-        let step = Path::with(&one, &start, direction, options)?.advance_to(to)?;
-        Ok(one.position(&step.position))
+        let mut path = Path::with(&one, &start, direction, options).map_err(|error| (error, q))?;
+        match path.advance_to(to) {
+            Ok(step) => Ok(one.position(&step.position)),
+            Err(error) => Err((error, one.position(&path.position()))),
+        }
     };
     let reach = |to: f64| reach_by(to, true);
     // From outside of the declared ranges, as after a change of parameters, a motion may only lead into them.
@@ -92,13 +96,14 @@ fn drive_one(
     {
         return Ok((reached, None));
     }
-    let error = match reach(to) {
+    let (error, end) = match reach(to) {
         Ok(reached) => return Ok((reached, None)),
-        Err(error) => error,
+        Err(found) => found,
     };
+    let limit = Limit::from(&error).at(mechanism, &end);
     let gap = match &error {
         PathError::DeadPoint { gap, .. } | PathError::JointRange { gap, .. } => *gap,
-        _ => return Ok((q, Some(Limit::from(&error)))),
+        _ => return Ok((q, Some(limit))),
     };
     let is_angle = mechanism.input_angles().get(input).copied().unwrap_or_default();
     let scale = if is_angle { 1.0 } else { mechanism.length_scale(&mechanism.pose_at(&q)) };
@@ -107,7 +112,7 @@ fn drive_one(
     // Already at the limit.
     let is_ahead = (last - from).signum() == (to - from).signum() && (last - from).abs() > BEFORE * scale * SAME;
     let reached = if is_ahead { reach(last).unwrap_or(q) } else { q };
-    Ok((reached, Some(Limit::from(&error))))
+    Ok((reached, Some(limit)))
 }
 
 /// Changes the values of parameters. The position goes along: steps are so short that it is near the line through the last two,

@@ -1,8 +1,14 @@
 //! The reasons why a motion goes no further. The page has their words, one table for each language.
 
 use linkage_interpreter::Words;
-use linkage_runtime::{PathError, RangeEnd};
+use linkage_runtime::{Mechanism as _, PathError, RangeEnd, singularity};
 use serde::Serialize;
+
+use crate::at::{Coordinates, Moving};
+
+/// The regularity up to which a group counts as singular: at an end of a motion, whose input has half of its digits as errors of
+/// the unknowns.
+const SINGULAR: f64 = 1e-6;
 
 /// The limit of a motion.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -42,6 +48,20 @@ impl Limit {
     pub fn range(of: &str, end: RangeEnd) -> Self {
         let of = of.to_owned();
         if end == RangeEnd::Least { Self::Least { of } } else { Self::Largest { of } }
+    }
+
+    /// The limit at this position. Several groups that are singular at once are a change point of all: rounding errors decide which
+    /// of them is met first, and at the mirrored end it may be another.
+    pub fn at(self, mechanism: &Moving<'_>, q: &Coordinates) -> Self {
+        let (Self::DeadPoint { .. } | Self::ChangePoint { .. }) = self else { return self };
+        let Ok(found) = singularity::report(mechanism, &mechanism.pose_at(q)) else { return self };
+        let singular = found.groups().filter(|group| group.regularity <= SINGULAR);
+        match singular.map(|group| group.name).collect::<Vec<_>>().as_slice() {
+            [others @ .., last] if !others.is_empty() => {
+                Self::ChangePoint { group: format!("{} and {last}", others.join("; ")) }
+            }
+            _ => self,
+        }
     }
 }
 

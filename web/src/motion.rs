@@ -66,7 +66,14 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
     });
     let table = Table::over(&range, inputs, rate);
     let film = Animation::over(&range).ok();
-    let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().map(limit).collect() };
+    let end = |(end, input)| {
+        let limit = limit(end)?;
+        Some(match range.at(input) {
+            Ok(q) => limit.at(&mechanism, &q),
+            Err(_) => limit,
+        })
+    };
+    let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().zip(range.inputs()).map(end).collect() };
     let table = machine.about.with_angles(table).map_err(Refusal::new)?;
     let column = |name: &str| Quantity { name: name.to_owned(), is_angle: machine.about.is_angle(name) };
     let columns = table.names().into_iter().map(column).collect();

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use linkage_interpreter::{Data, Design};
+use linkage_report::report::MOST_MODES;
 use linkage_runtime::continuation::{AlongCoordinates, Direction, Path};
 use linkage_runtime::position::newton;
 use linkage_runtime::{Branches as _, Build as _, Column, Dim as _, Mechanism as _};
@@ -29,20 +30,23 @@ pub struct Listed {
     svg: String,
 }
 
-/// All positions at these inputs, or the reason why there are none.
-pub fn positions(machine: &Machine, parameters: &[f64], inputs: &[f64]) -> Result<Vec<Listed>, Refusal> {
+/// The positions at these inputs, the first of many, and if others are left out; or the reason why there are none.
+pub fn positions(machine: &Machine, parameters: &[f64], inputs: &[f64]) -> Result<(Vec<Listed>, bool), Refusal> {
     let design = machine.design(parameters);
     let prepared = prepared(&design)?;
     let mechanism = moving(&prepared)?;
     let all = mechanism.all_positions(inputs_of(&mechanism, inputs)?).map_err(|error| Refusal::of_position(&error))?;
-    let listed = all.map(|(branch, q)| {
+    let mut first: Vec<_> = all.take(MOST_MODES + 1).collect();
+    let more = first.len() > MOST_MODES;
+    first.truncate(MOST_MODES);
+    let listed = first.into_iter().map(|(branch, q)| {
         let svg = drawing(&mechanism, &q)?.to_svg().map_err(Refusal::new)?;
         Ok(Listed { branch: branch.to_string(), unknowns: place(&q).unknowns, svg })
     });
     let listed = listed.collect::<Result<Vec<_>, Refusal>>()?;
     match listed.is_empty() {
         true => Err(no_position(&design, inputs)),
-        false => Ok(listed),
+        false => Ok((listed, more)),
     }
 }
 

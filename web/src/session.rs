@@ -58,9 +58,9 @@ impl Session {
             }
             Question::Positions { mechanism, parameters, inputs } => {
                 let machine = self.machine(mechanism)?;
-                let positions = positions::positions(machine, &parameters, &inputs)
+                let (positions, more) = positions::positions(machine, &parameters, &inputs)
                     .map_err(|why| machine.explained(why, &parameters))?;
-                Ok(json!({ "positions": value(&positions)? }))
+                Ok(json!({ "positions": value(&positions)?, "more": more }))
             }
             Question::Picture { at, show } => self.moved(at, show, None),
             Question::Follow { at, to, show } => {

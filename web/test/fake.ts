@@ -98,6 +98,7 @@ function answer(question: Question): object {
                     const shown = picture(question.parameters, { inputs: question.inputs, unknowns: [] }, { traces: false, velocities: false, accelerations: false, along: 0, rate: 1, language: "en" }, side);
                     return "why" in shown ? null : { branch: side > 0 ? "theta3_theta4=left" : "theta3_theta4=right", unknowns: shown.place.unknowns, svg: shown.picture.svg };
                 }).filter((position) => position !== null),
+                more: false,
             };
         case "motion": {
             const side = sideOf(question.place);
@@ -113,7 +114,7 @@ function answer(question: Question): object {
         case "sheet":
             return { text: `<header><p class="over">Kinematics</p><h1>FourBar</h1></header><section><h2>Constraint equations</h2><p>${question.language}</p><p id="value">theta2 = ${question.place.inputs[0]}</p><math display="block"><mi>x</mi><mo>=</mo><mfrac><mn>1</mn><mi>l</mi></mfrac></math></section>` };
         case "circuits":
-            return { positions: 2, circuits: 2, motions: [1, 2].map((circuit) => ({ circuit, least: 0, largest: TURN, way: "turns", turns: 1 })), charts: [] };
+            return { positions: 2, more: false, circuits: 2, motions: [1, 2].map((circuit) => ({ circuit, least: 0, largest: TURN, way: "turns", turns: 1 })), charts: [] };
         case "report":
             return { html: "<header><p class=over>Report</p><h1>FourBar</h1></header><section><h2>Mobility</h2><p>4 links.</p></section>" };
         case "rust":

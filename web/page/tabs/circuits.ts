@@ -44,10 +44,11 @@ export class CircuitsTab extends Tab {
     }
 }
 
-function inWords({ positions, circuits, motions }: Circuits, input: Quantity | undefined): string {
+function inWords({ positions, more, circuits, motions }: Circuits, input: Quantity | undefined): string {
     const each = motions.map((motion, index) => {
         const [least, largest] = [motion.least, motion.largest].map((end) => shown(end ?? NaN, input?.is_angle));
         return `${word().motionOfCircuit(index + 1, motion.circuit)}: ${word().way(motion, input?.name ?? "", least ?? "", largest ?? "")}`;
     });
-    return [word().circuitsHead(positions, motions.length, circuits), ...each].join("\n");
+    const head = [word().circuitsHead(positions, motions.length, circuits), ...(more ? [word().morePositions] : [])];
+    return [...head, ...each].join("\n");
 }

@@ -61,6 +61,7 @@ export const en = {
     pictureLabel: (name: string): string => `${name} at this position. Its joints can be dragged; the sliders do the same.`,
     dragHint: "Drag a joint: the input follows the pointer.",
     positions: "Positions",
+    morePositions: "There are many positions: others are left out.",
     positionsHint: "All positions at these inputs",
     position: (branch: string): string => `Position ${branch}`,
     onlyPosition: "the only one",

@@ -57,6 +57,7 @@ export const it: Words = {
     pictureLabel: (name) => `${name} in questa posizione. Le coppie si possono trascinare; i cursori fanno lo stesso.`,
     dragHint: "Si trascini una coppia: il movente segue il puntatore.",
     positions: "Posizioni",
+    morePositions: "Le posizioni sono molte: altre sono tralasciate.",
     positionsHint: "Tutte le posizioni con questi moventi",
     position: (branch) => `Posizione ${branch}`,
     onlyPosition: "unica",

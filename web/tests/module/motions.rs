@@ -3,7 +3,7 @@
 use linkage::{Elbow, Kinematic as _, Mechanism as _, linkage};
 use serde_json::{Value, json};
 
-use super::{Page, numbers};
+use super::{Page, merged, numbers};
 
 linkage! {
     #[derive(Debug, Clone)]
@@ -260,4 +260,40 @@ fn reports_of_ranges_kinks_and_turns() {
     ] {
         assert!(text.contains(part), "{part}: {text}");
     }
+}
+
+/// Where several groups lock at once both ends of a motion, and the slider at each, name all of them.
+#[test]
+fn mirrored_ends_name_the_same_groups() {
+    let mut page = Page::with(
+        "mechanism Twin { param a = 3, b = 2, c = 2.5, d = 4; input t; unknown P, q, u, v; loop a@t + b@P = d@0 + c@q;
+         loop (2*a)@t + (2*b)@u = (2*d)@0 + (2*c)@v; }",
+    );
+    let parameters = page.defaults(0);
+    let at = page.begin(0, &parameters);
+    let range = page.at(&at, &json!({ "do": "motion", "along": 0, "rate": 1.0, "steps": 4 }));
+    let limit = json!({ "is": "change_point", "group": "P, q and u, v" });
+    assert_eq!(range["ends"], json!([limit, limit]), "{range}");
+    for input in [-3.0, 3.0] {
+        let moved = follow(&mut page, &at, &parameters, input);
+        assert_eq!(moved["stopped"], merged(&limit, &json!({ "input": 0 })), "{moved}");
+    }
+}
+
+/// Of a chain of twelve four-bars, which has 4096 positions, some are listed and followed, and it is said that others are left out.
+#[test]
+fn many_positions_are_not_all_listed() {
+    let loops = (1..=12).map(|bar| {
+        let crank = if bar == 1 { "t".to_owned() } else { format!("(w{} + 0.3)", bar - 1) };
+        format!("loop 1@{crank} + 4@c{bar} = 4@0 + 3@w{bar}; ")
+    });
+    let unknowns = (1..=12).map(|bar| format!("c{bar}, w{bar}")).collect::<Vec<_>>().join(", ");
+    let text = format!("mechanism Chain {{ input t; unknown {unknowns}; {} }}", loops.collect::<String>());
+    let mut page = Page::with(&text);
+    let circuits = json!({ "do": "circuits", "mechanism": 0, "parameters": [], "inputs": [1.0], "along": 0 });
+    let found = page.ask(&circuits);
+    assert_eq!(found["more"], json!(true), "{found}");
+    assert_eq!(found["motions"].as_array().map(Vec::len), Some(16), "{}", found["motions"]);
+    let found = page.ask(&json!({ "do": "positions", "mechanism": 0, "parameters": [], "inputs": [1.0] }));
+    assert_eq!((&found["more"], found["positions"].as_array().map(Vec::len)), (&json!(true), Some(64)), "{found}");
 }
