@@ -14,6 +14,7 @@ mod failure;
 mod figure;
 mod followed;
 mod interrupt;
+mod listener;
 mod live;
 mod machine;
 mod messages;

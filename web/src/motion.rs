@@ -73,7 +73,8 @@ pub fn motion(machine: &Machine, at: &At, along: usize, rate: f64, steps: u32) -
             Err(_) => limit,
         })
     };
-    let ends = if range.is_closed() { Vec::new() } else { range.ends().into_iter().zip(range.inputs()).map(end).collect() };
+    let ends =
+        if range.is_closed() { Vec::new() } else { range.ends().into_iter().zip(range.inputs()).map(end).collect() };
     let table = machine.about.with_angles(table).map_err(Refusal::new)?;
     let column = |name: &str| Quantity { name: name.to_owned(), is_angle: machine.about.is_angle(name) };
     let columns = table.names().into_iter().map(column).collect();

@@ -1,13 +1,13 @@
 //! `linkage serve`: the page in a browser, on a file whose changes it follows.
 
+use std::borrow::Cow;
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
-use std::net::Ipv4Addr;
-
-use tiny_http::{Header, Method, Request, Response, Server, StatusCode};
+use std::net::{Ipv4Addr, TcpListener};
 
 use crate::arguments::Serve;
 use crate::failure::Failure;
+use crate::listener::{Answer, Request, listen};
 use crate::output;
 use crate::page::{self, replaced};
 use crate::source::{is_standard, read};
@@ -24,48 +24,45 @@ pub fn run(arguments: &Serve) -> Result<(), Failure> {
     let page = replaced(&page, CONNECT[0], CONNECT[1])?;
     let file = format!("<head>\n<meta name=\"linkage-file\" content=\"{}\">", attribute(&name));
     let page = replaced(&page, "<head>", &file)?;
-    let server = Server::http((Ipv4Addr::LOCALHOST, arguments.port)).map_err(|error| {
-        Failure::Outside(format!("port {} of this machine cannot be used: {error}", arguments.port))
-    })?;
-    let port = server.server_addr().to_ip().map_or(arguments.port, |address| address.port());
+    let refused = |error| Failure::Outside(format!("port {} of this machine cannot be used: {error}", arguments.port));
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, arguments.port)).map_err(refused)?;
+    let port = listener.local_addr().map_err(refused)?.port();
     output::print(format!("http://{}:{port}/\n", Ipv4Addr::LOCALHOST).as_bytes())?;
     anstream::eprintln!("the page follows {name} until you interrupt this program");
-    for request in server.incoming_requests() {
-        // A browser that went away needs no answer.
-        let _ = answer(request, arguments, &page, port);
-    }
+    listen(&listener, |request| answer(request, arguments, &page, port));
     Ok(())
 }
 
-/// Answers a request for the page or for the text; nothing else can be had.
-fn answer(request: Request, arguments: &Serve, page: &str, port: u16) -> std::io::Result<()> {
-    let header = |name: &'static str| {
-        let found = request.headers().iter().find(|header| header.field.equiv(name));
-        found.map(|header| header.value.as_str().to_owned())
-    };
+/// The answer to a request for the page or for the text; nothing else can be had.
+fn answer<'a>(request: &Request, arguments: &Serve, page: &'a str, port: u16) -> Answer<'a> {
     // A page of another host whose name leads here has that name in its requests.
     let hosts = [format!("{}:{port}", Ipv4Addr::LOCALHOST), format!("localhost:{port}")];
-    if !header("Host").is_some_and(|host| hosts.contains(&host)) {
-        return request.respond(sentence(403, "this server answers 127.0.0.1 and localhost only"));
+    if !request.field("Host").is_some_and(|host| hosts.iter().any(|here| here == host)) {
+        return Answer::sentence(403, "this server answers 127.0.0.1 and localhost only");
     }
-    if !matches!(request.method(), Method::Get | Method::Head) {
-        return request.respond(sentence(405, "this server is for reading only"));
+    if !matches!(request.method.as_str(), "GET" | "HEAD") {
+        let mut answer = Answer::sentence(405, "this server is for reading only");
+        answer.fields.push(("Allow", "GET, HEAD".to_owned()));
+        return answer;
     }
-    let path = request.url().split(['?', '#']).next().unwrap_or_default().to_owned();
-    match path.as_str() {
-        "/" => request.respond(with(Response::from_string(page), &[("Content-Type", "text/html; charset=utf-8")])),
+    match request.target.split(['?', '#']).next().unwrap_or_default() {
+        "/" => {
+            let fields = vec![("Content-Type", "text/html; charset=utf-8".to_owned())];
+            Answer { status: 200, fields, body: Cow::Borrowed(page) }
+        }
         "/text" => match read(&arguments.file) {
             Ok(source) => {
                 let tag = tag(&source.text);
-                if header("If-None-Match").is_some_and(|known| known == tag) {
-                    return request.respond(with(Response::empty(304), &[("ETag", &tag)]));
+                if request.field("If-None-Match").is_some_and(|known| known == tag) {
+                    return Answer { status: 304, fields: vec![("ETag", tag)], body: Cow::Borrowed("") };
                 }
-                let text = Response::from_string(source.text);
-                request.respond(with(text, &[("Content-Type", "text/plain; charset=utf-8"), ("ETag", &tag)]))
+                let mut answer = Answer::sentence(200, &source.text);
+                answer.fields.push(("ETag", tag));
+                answer
             }
-            Err(mistakes) => request.respond(sentence(404, &mistakes.to_text())),
+            Err(mistakes) => Answer::sentence(404, &mistakes.to_text()),
         },
-        _ => request.respond(sentence(404, "there is the page, and nothing else")),
+        _ => Answer::sentence(404, "there is the page, and nothing else"),
     }
 }
 
@@ -79,23 +76,6 @@ fn tag(text: &str) -> String {
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);
     format!("\"{:016x}\"", hasher.finish())
-}
-
-fn sentence(status: u16, words: &str) -> Response<std::io::Cursor<Vec<u8>>> {
-    let response = Response::from_string(words).with_status_code(StatusCode(status));
-    with(response, &[("Content-Type", "text/plain; charset=utf-8")])
-}
-
-/// A response with these headers, and those of all: other sites get nothing of it, and it is read again each time.
-fn with<R: std::io::Read>(response: Response<R>, headers: &[(&str, &str)]) -> Response<R> {
-    let of_all = [
-        ("Cache-Control", "no-store"),
-        ("X-Content-Type-Options", "nosniff"),
-        ("Cross-Origin-Resource-Policy", "same-origin"),
-        ("X-Frame-Options", "DENY"),
-    ];
-    let all = headers.iter().chain(&of_all).filter_map(|(name, value)| Header::from_bytes(*name, *value).ok());
-    all.fold(response, Response::with_header)
 }
 
 #[cfg(test)]

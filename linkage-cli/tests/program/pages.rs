@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Stdio};
+use std::time::Duration;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -43,11 +44,21 @@ impl Served {
         Self { child, port }
     }
 
+    /// A connection on which these bytes are sent.
+    fn begin(&self, bytes: &str) -> TcpStream {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        stream.write_all(bytes.replace("PORT", &self.port.to_string()).as_bytes()).unwrap();
+        stream
+    }
+
     /// The status, the head and the body of an answer.
     fn ask(&self, request: &str) -> (u16, String, String) {
-        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        let request = request.replace("PORT", &self.port.to_string()).replace('\n', "\r\n");
-        stream.write_all(format!("{request}\r\nConnection: close\r\n\r\n").as_bytes()).unwrap();
+        let request = request.replace('\n', "\r\n");
+        Self::answer(self.begin(&format!("{request}\r\nConnection: close\r\n\r\n")))
+    }
+
+    fn answer(mut stream: TcpStream) -> (u16, String, String) {
         let mut answer = String::new();
         stream.read_to_string(&mut answer).unwrap();
         let (head, body) = answer.split_once("\r\n\r\n").unwrap();
@@ -97,6 +108,62 @@ fn a_page_follows_its_file_and_gives_nothing_else() {
     let (status, _, why) = served.ask("GET /text HTTP/1.1\nHost: 127.0.0.1:PORT");
     assert_eq!(status, 404);
     assert!(why.contains("there is no such file"), "{why}");
+}
+
+/// Clients that send nothing, half, too much, or a body: each is answered or closed, and the page and its text are answered
+/// meanwhile.
+#[test]
+fn a_server_outlives_strangers() {
+    let folder = folder();
+    let served = Served::of(&folder);
+    let still_answers = |after: &str| {
+        let (status, _, text) = served.ask("GET /text HTTP/1.1\nHost: 127.0.0.1:PORT");
+        assert_eq!((status, text.as_str()), (200, CRANK), "after {after}");
+    };
+    let host = "Host: 127.0.0.1:PORT\r\n";
+    let long = format!("X: {}\r\n\r\n", "a".repeat(9000));
+    let many = "X: a\r\n".repeat(80) + "\r\n";
+    for (of, head, expected) in [
+        ("a body of 100 GB", format!("POST /text HTTP/1.1\r\n{host}Content-Length: 99999999999\r\n\r\n"), 413),
+        ("a foreign body", "GET / HTTP/1.1\r\nHost: a.org\r\nContent-Length: 99999999999\r\n\r\n".to_owned(), 413),
+        ("a length that is none", format!("GET /text HTTP/1.1\r\n{host}Content-Length: -1\r\n\r\n"), 413),
+        ("a body that does not come", format!("GET /text HTTP/1.1\r\n{host}Content-Length: 5\r\n\r\n"), 413),
+        ("an expectation", format!("GET / HTTP/1.1\r\n{host}Expect: 100-continue\r\nContent-Length: 5\r\n\r\n"), 413),
+        ("chunks", format!("POST / HTTP/1.1\r\n{host}Transfer-Encoding: chunked\r\n\r\nFFFFFFFFFFFFFFFF\r\n"), 413),
+        ("a long head", format!("GET / HTTP/1.1\r\n{host}{long}"), 431),
+        ("many fields", format!("GET / HTTP/1.1\r\n{host}{many}"), 431),
+        ("a long line", format!("GET /{} HTTP/1.1\r\n{host}\r\n", "a".repeat(9000)), 431),
+        ("no request", "\u{1}\u{2}\u{3}\r\n\r\n".to_owned(), 400),
+        ("another version", "GET / HTTP/3.0\r\n\r\n".to_owned(), 400),
+        ("no host", "GET / HTTP/1.1\r\n\r\n".to_owned(), 403),
+        ("the head alone", format!("HEAD /text HTTP/1.1\r\n{host}\r\n"), 200),
+        ("an empty body", format!("GET /text HTTP/1.1\r\n{host}Content-Length: 0\r\n\r\n"), 200),
+    ] {
+        let (status, head, body) = Served::answer(served.begin(&head));
+        assert_eq!(status, expected, "{of}: {body}");
+        assert!(head.contains("X-Content-Type-Options: nosniff") && head.contains("Connection: close"), "{of}: {head}");
+        assert_eq!(of == "the head alone", body.is_empty(), "{of}: {body}");
+        still_answers(of);
+    }
+    let half = format!("GET /text HTTP/1.1\r\n{host}");
+    let first = served.begin(&half);
+    still_answers("half a head");
+    let (status, ..) = Served::answer(first);
+    assert_eq!(status, 408);
+    let silent: Vec<TcpStream> = (0..200).map(|of| served.begin(if of % 2 == 0 { "" } else { &half })).collect();
+    still_answers("200 connections");
+    // A client that never reads.
+    let deaf: Vec<TcpStream> = (0..40).map(|_| served.begin(&format!("GET / HTTP/1.1\r\n{host}\r\n"))).collect();
+    still_answers("40 deaf clients");
+    if let Ok(status) = std::fs::read_to_string(format!("/proc/{}/status", served.child.id())) {
+        let number = |name: &str| -> u64 {
+            let line = status.lines().find_map(|line| line.strip_prefix(name)).unwrap();
+            line.trim().trim_end_matches(" kB").parse().unwrap()
+        };
+        println!("{} kB, {} threads", number("VmRSS:"), number("Threads:"));
+        assert!(number("Threads:") < 250, "{status}");
+    }
+    drop((silent, deaf));
 }
 
 #[test]
