@@ -78,28 +78,29 @@ fn drive_one(
     let from = q.inputs[input];
     let start = AlongCoordinates { q, parameter: from };
     let direction = if to > from { Direction::Increasing } else { Direction::Decreasing };
-    // The position there, or where the motion ends.
-    let reach_by = |to: f64, joint_ranges: bool| -> Result<Coordinates, (PathError<&str>, Coordinates)> {
+    // The position there; or where the motion ends, and why.
+    let reach_by = |to: f64, joint_ranges: bool| -> (Coordinates, Option<PathError<&str>>) {
         let options = Options { most_steps: MOST_STEPS, joint_ranges, ..Options::default() };
-        let mut path = Path::with(&one, &start, direction, options).map_err(|error| (error, q))?;
+        let mut path = match Path::with(&one, &start, direction, options) {
+            Ok(path) => path,
+            Err(error) => return (q, Some(error)),
+        };
         match path.advance_to(to) {
-            Ok(step) => Ok(one.position(&step.position)),
-            Err(error) => Err((error, one.position(&path.position()))),
+            Ok(step) => (one.position(&step.position), None),
+            Err(error) => (one.position(&path.position()), Some(error)),
         }
     };
     let reach = |to: f64| reach_by(to, true);
     // From outside of the declared ranges, as after a change of parameters, a motion may only lead into them.
     let is_within = |q: &Coordinates| mechanism.is_within_ranges(q).unwrap_or_default();
     if !is_within(&q)
-        && let Ok(reached) = reach_by(to, false)
+        && let (reached, None) = reach_by(to, false)
         && is_within(&reached)
     {
         return Ok((reached, None));
     }
-    let (error, end) = match reach(to) {
-        Ok(reached) => return Ok((reached, None)),
-        Err(found) => found,
-    };
+    let (end, error) = reach(to);
+    let Some(error) = error else { return Ok((end, None)) };
     let limit = Limit::from(&error).at(mechanism, &end);
     let gap = match &error {
         PathError::DeadPoint { gap, .. } | PathError::JointRange { gap, .. } => *gap,
@@ -111,7 +112,10 @@ fn drive_one(
     let last = to - back;
     // Already at the limit.
     let is_ahead = (last - from).signum() == (to - from).signum() && (last - from).abs() > BEFORE * scale * SAME;
-    let reached = if is_ahead { reach(last).unwrap_or(q) } else { q };
+    let reached = match is_ahead.then(|| reach(last)) {
+        Some((reached, None)) => reached,
+        _ => q,
+    };
     Ok((reached, Some(limit)))
 }
 

@@ -1,7 +1,8 @@
 //! The reasons why a motion goes no further. The page has their words, one table for each language.
 
 use linkage_interpreter::Words;
-use linkage_runtime::{Mechanism as _, PathError, RangeEnd, singularity};
+use linkage_runtime::singularity::{self, GroupMeasure};
+use linkage_runtime::{Group, Mechanism as _, PathError, RangeEnd};
 use serde::Serialize;
 
 use crate::at::{Coordinates, Moving};
@@ -50,17 +51,26 @@ impl Limit {
         if end == RangeEnd::Least { Self::Least { of } } else { Self::Largest { of } }
     }
 
-    /// The limit at this position. Several groups that are singular at once are a change point of all: rounding errors decide which
-    /// of them is met first, and at the mirrored end it may be another.
+    /// The limit at this position, with names as they are written. Several groups that are singular at once are a change point of
+    /// all: rounding errors decide which of them is met first, and at the mirrored end it may be another.
     pub fn at(self, mechanism: &Moving<'_>, q: &Coordinates) -> Self {
-        let (Self::DeadPoint { .. } | Self::ChangePoint { .. }) = self else { return self };
+        let (Self::DeadPoint { group: met } | Self::ChangePoint { group: met }) = &self else { return self };
         let Ok(found) = singularity::report(mechanism, &mechanism.pose_at(q)) else { return self };
-        let singular = found.groups().filter(|group| group.regularity <= SINGULAR);
-        match singular.map(|group| group.name).collect::<Vec<_>>().as_slice() {
+        let written = |group: Group<'_, &str>| {
+            group.unknowns.iter().map(|&place| mechanism.unknown_name(place)).collect::<Vec<_>>().join(", ")
+        };
+        let is_singular = |measure: &GroupMeasure<f64, &str>| measure.regularity <= SINGULAR;
+        let singular = mechanism.groups().zip(found.groups()).filter(|(_, measure)| is_singular(measure));
+        let group = match singular.map(|(group, _)| written(group)).collect::<Vec<_>>().as_slice() {
             [others @ .., last] if !others.is_empty() => {
-                Self::ChangePoint { group: format!("{} and {last}", others.join("; ")) }
+                return Self::ChangePoint { group: format!("{} and {last}", others.join("; ")) };
             }
-            _ => self,
+            _ => mechanism.groups().find(|group| group.name == met).map(written),
+        };
+        match (self, group) {
+            (Self::DeadPoint { .. }, Some(group)) => Self::DeadPoint { group },
+            (Self::ChangePoint { .. }, Some(group)) => Self::ChangePoint { group },
+            (limit, _) => limit,
         }
     }
 }

@@ -313,3 +313,103 @@ fn cells_without_a_number_are_named() {
     assert_eq!(messages[0], "at 1.000000 s: stop on x is hit");
     assert!(messages[1].starts_with("1 row has empty cells; the first, at 1.000000 s: "), "{messages:?}");
 }
+
+/// Laws with one kink of the state near the start, where the time is known far more finely than the state.
+#[test]
+fn kinks_near_the_start() {
+    let folder = folder();
+    folder.write(
+        "bumper.linkage",
+        "mechanism Bumper { param m = 1, k = 1e3, b = 0.1; input s; body a { mass m; center (s, 0); } \
+         scene S { inertia; torque -k*(s - b + abs(s - b))/2 on s; } }",
+    );
+    let last = |arguments: &str, columns: &[&str]| -> Vec<f64> {
+        let table = Table::of(&folder, &format!("simulate {arguments} --steps 1 --tolerance 1e-10"));
+        columns.iter().map(|column| *table.column(column).last().unwrap()).collect()
+    };
+    // Half a period of the spring, then back.
+    let frequency = 1e3_f64.sqrt();
+    for gap in [1.1e-3, 1e-3, 1e-4, 1e-5, 1e-7, 1e-10, 1e-13, 1e-15, 0.0] {
+        let found = last(&format!("bumper.linkage --at s={} --rate s=1 --to 0.15", 0.1 - gap), &["s", "s_rate"]);
+        close(found[0], 0.1 - (0.15 - gap - std::f64::consts::PI / frequency), 1e-8);
+        close(found[1], -1.0, 1e-7);
+    }
+    // A slider in a slotted arm, whose rate passes zero with its kink: a constant torque on each side, and resistance of the air,
+    // which has a second derivative that jumps.
+    folder.write(
+        "arm.linkage",
+        "mechanism Arm { input th; unknown p, x; loop 0.71@th = 1.62@0 + x@p - 0.489@(p + 90deg); \
+         body b { inertia 1; angle th; } scene Dry { inertia; torque -abs(rate(p)) on p; } \
+         scene Air { inertia; torque -0.3*rate(p)*abs(rate(p)) on p; } }",
+    );
+    for scene in ["Dry", "Air"] {
+        let columns = ["th", "th_rate"];
+        // From where the kink is far, to the start and on.
+        let run = |from: &str, rate: f64, to: f64| {
+            last(&format!("arm.linkage --scene {scene} --at th={from}rad --rate th={rate} --to {to}"), &columns)
+        };
+        let mut angle = 1.6;
+        let mut rate = -1.0;
+        for to in [0.1, 0.05, 0.012, 0.001, 0.0006, 0.0001] {
+            let [next, after] = run(&angle.to_string(), rate, to)[..] else { panic!() };
+            (angle, rate) = (next, after);
+        }
+        let whole = run("1.6", -1.0, 0.1 + 0.05 + 0.012 + 0.001 + 0.0006 + 0.0001);
+        close(angle, whole[0], 1e-9);
+        close(rate, whole[1], 1e-8);
+        for from in ["1.436", "1.4365", "1.44", "1.45"] {
+            let halves = run(from, -1.0, 0.25);
+            let halves = run(&halves[0].to_string(), halves[1], 0.25);
+            let whole = run(from, -1.0, 0.5);
+            close(halves[0], whole[0], 1e-9);
+            close(halves[1], whole[1], 1e-8);
+        }
+    }
+    // The engine from where its valves and its gas have their kinks.
+    for degrees in ["-20.1", "-20.0001", "-19.9"] {
+        last(&format!("engine.linkage --scene Running --at phi={degrees}deg --rate phi=150 --to 0.01"), &["phi"]);
+    }
+}
+
+/// A row at the time of a kink is that before it, and a friction whose limit grows from zero at a place holds a body at rest.
+#[test]
+fn rows_and_frictions_at_kinks() {
+    let folder = folder();
+    folder.write(
+        "k.linkage",
+        "mechanism K { param m = 1; input s; body a { mass m; center (s, 0); } \
+         scene S { inertia; torque (t - 0.4)/abs(t - 0.4) on s; } scene D { inertia; drive s = abs(t - 0.4); } \
+         scene F { inertia; torque 1 on s; friction 0.5 + abs(t - 0.4) - (t - 0.4), 0.5 on s; } }",
+    );
+    let table = Table::of(&folder, "simulate k.linkage --scene S --at s=0 --to 1 --steps 5");
+    for (row, t) in [0.0, 0.2, 0.4, 0.6, 0.8, 1.0].into_iter().enumerate() {
+        let after = f64::max(t - 0.4, 0.0);
+        let before = t - after;
+        close(table.column("s")[row], -before * before / 2.0 - before * after + after * after / 2.0, 1e-14);
+        close(table.column("s_rate")[row], after - before, 1e-14);
+        close(table.column("s_acceleration")[row], if t > 0.4 { 1.0 } else { -1.0 }, 1e-14);
+    }
+    let table = Table::of(&folder, "simulate k.linkage --scene D --at s=0.4 --rate s=-1 --to 1 --steps 5");
+    close(table.column("s")[2], 0.0, 1e-15);
+    close(table.column("s_rate")[2], -1.0, 1e-15);
+    let table = Table::of(&folder, "simulate k.linkage --scene F --at s=0 --to 1 --steps 5");
+    assert!(table.column("s_rate").iter().all(|rate| rate.is_finite()));
+    folder.write(
+        "rising.linkage",
+        "mechanism Rising { param k = 1; input x, z; body a { mass 1; center (x, 0); } body c { mass 1; center (z, 0); } \
+         scene Held { inertia; friction k, abs(x) + x on z; } \
+         scene Pulled { inertia; torque 0.5 on z; friction k, abs(x) + x on z; } }",
+    );
+    let table = Table::of(&folder, "simulate rising.linkage --scene Held --at x=-0.1,z=0 --rate x=1 --to 1 --steps 4");
+    close(table.column("x")[4], 0.9, 1e-12);
+    assert_eq!((table.largest("z"), table.largest("z_rate")), (0.0, 0.0));
+    // Pulled by 1/2 until x = 0, then against 2 x too, where x = u: z' = 0.05 + u/2 - u^2 until it is zero.
+    let table =
+        Table::of(&folder, "simulate rising.linkage --scene Pulled --at x=-0.1,z=0 --rate x=1 --to 1.1 --steps 11");
+    let rest = (0.5 + (0.25_f64 + 0.2).sqrt()) / 2.0;
+    let after = |u: f64| 0.0025 + 0.05 * u + u * u / 4.0 - u * u * u / 3.0;
+    for (row, z) in table.column("z").into_iter().enumerate() {
+        let u = 0.1 * row as f64 - 0.1;
+        close(z, if u < 0.0 { (u + 0.1).powi(2) / 4.0 } else { after(u.min(rest)) }, 1e-8);
+    }
+}

@@ -236,7 +236,7 @@ impl<S: System, M: Method> Integration<S, M> {
             // An event function may be undefined between the ends of a long step.
             undefined = found.as_ref().err().copied();
             let is_too_long = matches!(found, Err(_) | Ok(Found::TooCoarse));
-            if is_too_long && is_new && self.shortened < MAX_SHORTENED {
+            if is_too_long && is_new && self.shortened < MAX_SHORTENED && !self.system.went_over_change() {
                 self.shortened += 1;
                 self.go_back(self.from.0, self.from.1);
                 self.counts.accepted -= 1;

@@ -118,6 +118,12 @@ pub trait System {
         Ok(None)
     }
 
+    /// True if the last step went over a change of the law: it is not repeated with a shorter length, where guards change as much.
+    #[inline]
+    fn went_over_change(&self) -> bool {
+        false
+    }
+
     /// Called before each step, after the outputs of the last one. A returned state replaces the current one: projected
     /// onto a constraint, or in other coordinates, which the rate must then use too. The step length is kept.
     ///

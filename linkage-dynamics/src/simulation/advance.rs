@@ -81,11 +81,14 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             let End { projected, kept, holds, mut state } = end;
             self.count_passage(&projected);
             let corner = if holds { self.corner(step.t) } else { None };
+            let motion = self.integration.system();
+            state.kink = motion.corners.passed.filter(|_| step.event.is_none() && holds);
+            // A friction whose limit was zero, or a stop without force, may hold beyond a kink of its law.
+            let settles = state.kink.is_some() && motion.names.dim().count() > 0;
             let result = match (step.event, corner) {
                 (Some(event), _) if event < self.watched_events() => self.happens(event, &mut state),
                 (None, Some(corner)) => self.cross(&corner, &mut state, &kept),
-                (None, None) if holds => {
-                    state.kink = self.integration.system().corners.passed;
+                (None, None) if holds && !settles => {
                     if kept != step.state {
                         self.integration.correct(kept);
                     }

@@ -44,8 +44,11 @@ pub(super) struct Corners<T, N> {
     /// this step is to end.
     pub(super) towards: Option<(usize, i8)>,
     pub(super) approached: Option<(usize, i8)>,
-    /// The effect whose kink this step is to go over.
-    pub(super) crossing: Option<N>,
+    /// The effect whose kink of the state this step is to go over, and the side on which the motion then is.
+    pub(super) crossing: Option<(N, (usize, i8))>,
+    /// The kink of the state that the motion went over last, the sign of its expression since, and the length of that step.
+    pub(super) side: Option<(usize, i8)>,
+    pub(super) over: T,
     /// The number of times in a row that a step was shortened for a drive.
     pub(super) shortened: u32,
     /// The number of kinks in a row without a longer step, and the time of the first of these.
@@ -69,6 +72,8 @@ impl<T: Real, N: BorrowedName> Corners<T, N> {
             towards: None,
             approached: None,
             crossing: None,
+            side: None,
+            over: T::zero(),
             shortened: 0,
             in_a_row: 0,
             first: start,

@@ -22,8 +22,11 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) state: State<S>,
     /// The contacts during the step before the state.
     pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
-    /// The time and the projected y that [`at`](Self::at) returned within the last step, if that was the last call.
-    pub(super) output: Option<(S::Scalar, StateColumn<S>)>,
+    /// The time and the projected y that [`at`](Self::at) returned within the last step, with the contacts in it, if that was the
+    /// last call.
+    pub(super) output: Option<(S::Scalar, StateColumn<S>, Contacts<S::Scalar, S::Contacts>)>,
+    /// The times around the last change of a law of time.
+    pub(super) gap: Option<Gap<S>>,
     /// The start of the step, projected, and the determinants there.
     pub(super) from: (S::Scalar, StateColumn<S>),
     pub(super) signs: Signs<S>,
@@ -38,6 +41,16 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) failure: Option<MotionErrorOf<S>>,
     /// True if the coordinates of the next step are chosen.
     pub(super) is_prepared: bool,
+}
+
+/// The times between two neighbouring ones around a change of a law, in which no step is.
+pub(super) struct Gap<S: Scene> {
+    /// The state at the last time before the change, as it is shown and projected, and the contacts until then.
+    pub(super) before: State<S>,
+    pub(super) y: StateColumn<S>,
+    pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
+    /// The first time after it.
+    pub(super) after: S::Scalar,
 }
 
 /// The behaviour of a simulation at a singularity of the inputs.

@@ -206,6 +206,11 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
     }
 
     #[inline]
+    fn went_over_change(&self) -> bool {
+        self.corners.passed.is_some()
+    }
+
+    #[inline]
     fn change_of_law(&mut self, step: &Polynomial<S>) -> Result<Option<f64>, MotionErrorOf<S>> {
         self.kink_within(step)
     }

@@ -10,7 +10,7 @@
 //! function.
 
 use super::corners::{Corner, CornerOf};
-use super::data::Simulation;
+use super::data::{Gap, Simulation};
 use super::motion::{Motion, ParametrisationOf};
 use super::state::State;
 use super::watch::Watch;
@@ -271,8 +271,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         let frequency = self.frequency;
         let motion = self.integration.system_mut();
         motion.corners.note(motion.scene.name(), corner.effect, corner.before)?;
+        let contacts = motion.contacts;
         let (after, changes) = motion.crossed(corner, y, frequency)?;
         motion.corners.found = None;
+        self.gap = Some(Gap { before: *state, y: *y, contacts, after: corner.after });
         self.integration.restart_at(corner.after, after)?;
         self.from = (corner.after, after);
         self.note(state, changes);

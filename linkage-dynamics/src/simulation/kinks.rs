@@ -4,8 +4,10 @@
 //! its zero the derivatives of the law may be undefined, so that no law is evaluated there:
 //! - an expression of time alone is searched before each step: the step ends at the last time before the change of sign,
 //!   and the motion continues from the first time after it;
-//! - for one of the state, a step that passes its zero is repeated with a shorter length, until it ends before the zero
-//!   by the rounding error of the time. A step of that length goes over it.
+//! - for one of the state, a step that passes its zero is repeated with a shorter length, until it ends where the expression is
+//!   its rounding error, by those of the state, and not zero yet. One step goes over the zero, to where it is that error again with
+//!   the other sign. Since the law has changed by no more than that error, or for no longer, such a step is exact to rounding
+//!   errors of the state, which may take much longer than those of the time.
 //!
 //! An expression that touches zero without a change of sign is no kink.
 
@@ -26,17 +28,22 @@ const PARTS_OF_TIME: usize = 16;
 /// The number of equal parts of a step at whose ends expressions of the state are sampled.
 const PARTS_OF_STATE: usize = 8;
 
-/// A kink of the state is located to this many ulps of the time: half of it is more than ten ulps, the shortest step.
+/// A kink of the state is located to this many ulps of the time at least: half of it is more than ten ulps, the shortest step.
 const AT_KINK_ULPS: f64 = 24.0;
 
 /// The error of an expression of the state, in ulps of the coordinates and rates: below it a change of sign is none, as
 /// of the rate of a body at rest.
 const NOISE_ULPS: f64 = 16.0;
 
+/// A step begins at a kink if its expression is at most this many times its error: where a step was to end at once that error.
+const AT_KINK_NOISES: f64 = 2.0;
+
 /// The first kink of the state in a step.
 struct FirstKink<N> {
-    /// The fraction of the step.
-    at: f64,
+    /// The fractions of the step between which the expression is zero up to its error.
+    within: [f64; 2],
+    /// True if the step begins there.
+    is_here: bool,
     place: usize,
     effect: N,
     /// The sign of its expression before it.
@@ -108,12 +115,12 @@ impl<S: Scene, W> Motion<'_, S, W> {
 
     /// Counts a step of this length: a long one ends a row of kinks.
     pub(super) fn note_step(&mut self, from: S::Scalar, to: S::Scalar) {
-        if (to - from).abs() > self.resolution_of_time(from, to) * real(2.0) {
+        if (to - from).abs() > self.resolution_of_time(from, to).max(self.corners.over) * real(2.0) {
             self.corners.in_a_row = 0;
         }
     }
 
-    /// The rounding error of the time, within which a kink of the state is located.
+    /// The rounding error of the time, within which no kink of the state is located.
     fn resolution_of_time(&self, from: S::Scalar, to: S::Scalar) -> S::Scalar {
         from.abs().max(to.abs()) * S::Scalar::default_epsilon() * real(AT_KINK_ULPS)
     }
@@ -232,8 +239,8 @@ impl<S: Scene, W> Motion<'_, S, W> {
         noise.is_finite().then_some(noise)
     }
 
-    /// The first kink of the state in a step, located to `enough`.
-    fn first_kink(&self, step: &Polynomial<S>, enough: f64) -> Result<Option<FirstKink<NameOf<S>>>, MotionErrorOf<S>> {
+    /// The first kink of the state in a step, of which this part is the rounding error of the time.
+    fn first_kink(&self, step: &Polynomial<S>, at_kink: f64) -> Result<Option<FirstKink<NameOf<S>>>, MotionErrorOf<S>> {
         let (from, to) = step.interval();
         let mut first: Option<FirstKink<NameOf<S>>> = None;
         let moving = self.scene.kinks().enumerate().filter(|(_, kink)| !kink.is_timed);
@@ -248,19 +255,20 @@ impl<S: Scene, W> Motion<'_, S, W> {
                 *entry = value(part_at(part));
             }
             let has_both = values.iter().any(|&value| value > 0.0) && values.iter().any(|&value| value < 0.0);
-            let known = self.corners.approached.or(self.corners.towards);
-            let towards = known.filter(|(other, _)| *other == place).map_or(0, |(_, sign)| sign);
+            let of_place =
+                |known: Option<(usize, i8)>| known.filter(|(other, _)| *other == place).map_or(0, |(_, sign)| sign);
+            let towards = of_place(self.corners.approached.or(self.corners.towards));
             if !has_both && towards == 0 {
                 continue;
             }
-            // A step to or from the kink itself must not end beyond it, not even by a rounding error.
-            let noise = match towards {
-                0 => self.kink_noise(place, from, &step.at_fraction(S::Scalar::zero())).unwrap_or(0.0),
-                _ => 0.0,
-            };
-            // A value within its rounding error has no sign.
+            let noise = self.kink_noise(place, from, &step.at_fraction(S::Scalar::zero())).unwrap_or(0.0);
+            // A value within its rounding error has no sign: the run keeps the side on which it came there.
             let sign_beyond = |value: f64| if value.abs() > noise { sign(value) } else { 0 };
-            let (mut own, mut last) = (if towards == 0 { sign_beyond(values[0]) } else { towards }, 0);
+            let here = match (towards, sign_beyond(values[0])) {
+                (0, 0) => of_place(self.corners.side),
+                (0, sign) | (sign, _) => sign,
+            };
+            let (mut own, mut last) = (here, 0);
             for part in 1..=PARTS_OF_STATE {
                 let now = sign_beyond(values[part]);
                 if now == 0 || now == own {
@@ -276,18 +284,35 @@ impl<S: Scene, W> Motion<'_, S, W> {
                     }
                 }
                 let along = |value: f64| value * f64::from(own);
-                let ends = [along(values[last]), along(values[part])];
-                let parts = [part_at(last), part_at(part)];
-                let at =
-                    first_not_positive::<f64, MotionErrorOf<S>>(parts, ends, enough, |at| Ok(Some(along(value(at)))))?;
-                let found = FirstKink { at, place, effect, sign: own };
-                if first.as_ref().is_none_or(|first| found.at < first.at) {
-                    first = Some(found);
+                // Where the value has fallen to this.
+                let fallen = |to: f64| -> Result<f64, MotionErrorOf<S>> {
+                    let ends = [along(values[last]) - to, along(values[part]) - to];
+                    if ends[0] <= 0.0 {
+                        return Ok(part_at(last));
+                    }
+                    let parts = [part_at(last), part_at(part)];
+                    first_not_positive(parts, ends, 0.25 * at_kink, |at| Ok(Some(along(value(at)) - to)))
+                };
+                let within = [fallen(noise)?, fallen(-noise)?];
+                let is_here = within[0] <= at_kink || along(values[0]) <= AT_KINK_NOISES * noise;
+                if first.as_ref().is_none_or(|first| within[0] < first.within[0]) {
+                    first = Some(FirstKink { within, is_here, place, effect, sign: own });
                 }
                 break;
             }
         }
         Ok(first)
+    }
+
+    /// Keeps the side of the last kink after a step without one, in which it has changed where the rates jumped before it.
+    fn keep_side(&mut self, step: &Polynomial<S>) {
+        let Some((place, side)) = self.corners.side else { return };
+        let (_, to) = step.interval();
+        let y = step.at_fraction(S::Scalar::one());
+        let value = self.kink_value(place, to, &y).map_or(0.0, to_f64);
+        if sign(value) == -side && self.kink_noise(place, to, &y).is_some_and(|noise| value.abs() > noise) {
+            self.corners.side = Some((place, -side));
+        }
     }
 
     /// The fraction of a step at which it must end because a kink of the state is within it.
@@ -301,21 +326,28 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let (from, to) = step.interval();
         let length = to_f64(to - from).abs();
         let at_kink = to_f64(self.resolution_of_time(from, to)) / length;
-        let crossing = self.corners.crossing.take();
-        if at_kink >= 0.5 {
-            // Too short for an error: a step over a kink, or to it.
-            self.corners.passed = crossing;
+        if let Some((effect, side)) = self.corners.crossing.take() {
+            (self.corners.passed, self.corners.side) = (Some(effect), Some(side));
+            self.corners.over = (to - from).abs();
             return Ok(None);
         }
-        let Some(FirstKink { at, place, effect, sign }) = self.first_kink(step, 0.25 * at_kink)? else {
+        // Too short for an error.
+        if at_kink >= 0.5 {
+            return Ok(None);
+        }
+        let Some(FirstKink { within: [last, first], is_here, place, effect, sign }) = self.first_kink(step, at_kink)?
+        else {
+            self.keep_side(step);
             return Ok(None);
         };
-        if at > at_kink {
+        if !is_here {
             self.corners.approached = Some((place, sign));
-            return Ok(Some((at - 0.5 * at_kink).max(0.5 * at_kink)));
+            return Ok(Some(last - 0.5 * at_kink));
         }
         self.corners.note(self.scene.name(), effect, from)?;
-        self.corners.crossing = Some(effect);
-        Ok(Some(1.5 * at_kink))
+        self.corners.approached = None;
+        self.corners.crossing = Some((effect, (place, -sign)));
+        // A little beyond.
+        Ok(Some((first + 0.25 * (first - last) + 0.5 * at_kink).min(1.0)))
     }
 }

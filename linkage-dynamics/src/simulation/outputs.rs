@@ -1,6 +1,6 @@
 //! The states of a simulation at given times.
 
-use super::data::Simulation;
+use super::data::{Gap, Simulation};
 use super::state::State;
 use super::watch::Watch;
 use crate::integrate::Method;
@@ -11,6 +11,9 @@ use linkage_runtime::{InputError, Name, real};
 
 impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     pub(super) fn output(&mut self, t: S::Scalar) -> Result<Option<State<S>>, MotionErrorOf<S>> {
+        if let Some(state) = self.output_in_gap(t) {
+            return Ok(Some(state));
+        }
         let end = self.integration.end();
         let [earliest, _] = self.integration.reached();
         let is_forward = end >= earliest;
@@ -23,14 +26,11 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
             return Err(InputError::OutOfRange { of: None, quantity, value, least, most }.into());
         }
         while if is_forward { t > self.state.t } else { t < self.state.t } {
-            let before = self.state;
             if self.advance_within()?.is_none() {
                 return Ok(None);
             }
-            // Between the times before and after a kink, where no step is.
-            let [earliest, _] = self.integration.reached();
-            if if is_forward { t < earliest } else { t > earliest } {
-                return Ok(Some(State { t, ..before }));
+            if let Some(state) = self.output_in_gap(t) {
+                return Ok(Some(state));
             }
         }
         self.output = None;
@@ -47,8 +47,18 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
         for (touch, mode) in state.contacts.iter_mut().zip(self.contacts.modes) {
             touch.mode = mode;
         }
-        self.output = Some((t, projected));
+        self.output = Some((t, projected, self.contacts));
         Ok(Some(state))
+    }
+
+    /// The state at a time between those around the last change of a law, which is that before it.
+    fn output_in_gap(&mut self, t: S::Scalar) -> Option<State<S>> {
+        let Gap { before, y, contacts, after } = self.gap.as_ref()?;
+        if !(before.t < t && t < *after || *after < t && t < before.t) {
+            return None;
+        }
+        self.output = Some((t, *y, *contacts));
+        Some(State { t, ..*before })
     }
 }
 

@@ -61,6 +61,7 @@ pub fn simulate<'a, S: Scene, By>(
         state,
         contacts,
         output: None,
+        gap: None,
         from: (t, y),
         signs,
         passages: Passages::default(),
@@ -142,6 +143,7 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
             state: self.state,
             contacts: self.contacts,
             output: self.output,
+            gap: self.gap,
             from: self.from,
             signs: self.signs,
             passages: self.passages,
@@ -212,8 +214,8 @@ impl<'a, S: Scene, M: Method, W: Watch<S>> Simulation<'a, S, M, W> {
     /// has forces in joints.
     pub fn loads(&self) -> Result<Loads<S>, MotionErrorOf<S>> {
         let motion = self.integration.system();
-        if let Some((t, y)) = self.output {
-            return motion.loads(&self.contacts, t, &y);
+        if let Some((t, y, contacts)) = &self.output {
+            return motion.loads(contacts, *t, y);
         }
         let t = self.integration.t();
         let y = motion.projected(t, self.integration.state())?;
