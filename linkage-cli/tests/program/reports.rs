@@ -223,3 +223,21 @@ fn work_is_bounded_and_said() {
     says(&text, &["At t = 60° the first 64 modes are listed; up to 16320 more are left out.\n", "Mode 64 ("]);
     assert!(!text.contains("Mode 65"), "{text}");
 }
+
+/// A motion whose end is singular to the last digit: next to it an output has no derivative by the input, and the report goes on.
+#[test]
+fn an_end_that_is_singular_to_the_last_digit() {
+    let folder = Folder::new();
+    folder.write(
+        "group.linkage",
+        "mechanism M { input z0; unknown a0, a1, a2, a3, a4, a5, a6; \
+         loop 1.784@0 + 1.288@z0 + 1.338@a0 - 1.919@0 - 2.562@a1 = 0; equation -2*z0 - a2 - 0.943 = 0; \
+         loop 3.229@0 + 2.561@a3 + 1.065@(a4 - 0.273) - 1.58@0.277 - 2.767@a5 = 0; \
+         loop 3.229@0 + 2.561@a3 + 1.373@(a4 + 1.373) - 3.083@0.077 - 1.958@a2 - 0.699@a6 = 0; \
+         point P = 3.229@0 + 2.561@a3 + 1.373@(a4 + 1.373); point Z = 1@z0; output o = a6; \
+         output d = angle(3.229@0 + 2.561@a3 + 1.373@(a4 + 1.373)); }",
+    );
+    let text = folder.run("report group.linkage --at z0=-2.378rad").works("");
+    says(&text, &["z0 goes to and fro between −148.643° and −122.1408°"]);
+    assert!(!text.contains("follows no motion"), "{text}");
+}

@@ -11,6 +11,9 @@ use linkage_runtime::{Column, Mechanism};
 /// The determinants of the groups of a scene; their signs distinguish branches.
 pub(super) type Signs<S> = Column<<S as Scene>::Scalar, <<S as Scene>::Mechanism as Mechanism>::G>;
 
+/// The contacts of a scene.
+type ContactsOf<S> = Contacts<<S as Scene>::Scalar, <S as Scene>::Contacts>;
+
 /// An iterator over the [states](State) of a simulation at the ends of its steps and at its events. It ends with an
 /// error or at the end of the interval; the last state remains readable after an error.
 pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
@@ -21,10 +24,10 @@ pub struct Simulation<'a, S: Scene, M = Dop853, W: Watch<S> = Unwatched> {
     pub(super) at_singularity: AtSingularity,
     pub(super) state: State<S>,
     /// The contacts during the step before the state.
-    pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
+    pub(super) contacts: ContactsOf<S>,
     /// The time and the projected y that [`at`](Self::at) returned within the last step, with the contacts in it, if that was the
     /// last call.
-    pub(super) output: Option<(S::Scalar, StateColumn<S>, Contacts<S::Scalar, S::Contacts>)>,
+    pub(super) output: Option<(S::Scalar, StateColumn<S>, ContactsOf<S>)>,
     /// The times around the last change of a law of time.
     pub(super) gap: Option<Gap<S>>,
     /// The start of the step, projected, and the determinants there.
@@ -48,7 +51,7 @@ pub(super) struct Gap<S: Scene> {
     /// The state at the last time before the change, as it is shown and projected, and the contacts until then.
     pub(super) before: State<S>,
     pub(super) y: StateColumn<S>,
-    pub(super) contacts: Contacts<S::Scalar, S::Contacts>,
+    pub(super) contacts: ContactsOf<S>,
     /// The first time after it.
     pub(super) after: S::Scalar,
 }

@@ -1,5 +1,7 @@
 //! Dwells of a quantity: parts of the motion in which it hardly moves.
 
+use std::convert::Infallible;
+
 use linkage_runtime::extremes::Course;
 use linkage_runtime::jacobian::root;
 
@@ -19,20 +21,20 @@ pub struct Dwell {
     pub values: [f64; 2],
 }
 
-/// The dwells of a course. `rate_at` is the derivative by the input.
-pub(super) fn dwells<E>(
+/// The dwells of a course. `rate_at` is the derivative by the input; none where it does not exist, as at a dead point.
+pub(super) fn dwells(
     course: &Course,
     is_closed: bool,
     options: DwellOptions,
-    mut rate_at: impl FnMut(f64) -> Result<f64, E>,
-) -> Result<Vec<Dwell>, E> {
+    rate_at: impl Fn(f64) -> Option<f64>,
+) -> Vec<Dwell> {
     let [first, last] = course.ends.map(|end| end.input);
     let length = last - first;
     let travel = course.extremes.largest.value - course.extremes.least.value;
     // The largest derivative.
     let most = options.slowest * travel / length;
     if course.is_constant {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let speed_left = |rate: f64| most - rate.abs();
     let mut parts: Vec<[f64; 2]> = Vec::new();
@@ -50,7 +52,10 @@ pub(super) fn dwells<E>(
         let edge = match before {
             Some((at, left)) if (left >= 0.0) != is_slow => {
                 let enough = at.abs().max(input.abs()) * f64::EPSILON;
-                root([at, *input], [left, here], enough, |at| rate_at(at).map(|rate| Some(speed_left(rate))))?
+                // What does not exist is not small.
+                let left_at = |at| Ok(Some(rate_at(at).map_or(f64::MIN, speed_left)));
+                let Ok(edge) = root::<f64, Infallible>([at, *input], [left, here], enough, left_at);
+                edge
             }
             _ => None,
         };
@@ -77,7 +82,7 @@ pub(super) fn dwells<E>(
         }
     }
     let long = parts.into_iter().filter(|[from, to]| to - from >= options.shortest * length);
-    Ok(long.map(|part| dwell(course, part, length)).collect())
+    long.map(|part| dwell(course, part, length)).collect()
 }
 
 fn dwell(course: &Course, [from, to]: [f64; 2], length: f64) -> Dwell {

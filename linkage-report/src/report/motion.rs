@@ -6,7 +6,7 @@ use linkage_runtime::derivation::Derivation;
 use linkage_runtime::extremes::{Course, Extreme, Extremes, courses_on_turns};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion};
-use linkage_runtime::{BorrowedName, D, Dim, Kinematic, OutputMotion, PathError, PathErrorOf, PositionError};
+use linkage_runtime::{BorrowedName, D, Dim, Kinematic, OutputMotion, PathError, PositionError};
 
 use super::dwells::{Dwell, dwells};
 use super::dyad::Dyad;
@@ -126,7 +126,7 @@ impl<N: BorrowedName> MotionReport<N> {
         let mut reports = Vec::new();
         let outputs = named.len() - m.dims().0.count();
         for (place, course) in named.iter().enumerate() {
-            reports.push(quantity(range, derivation, (place, outputs), course, options)?);
+            reports.push(quantity(range, derivation, (place, outputs), course, options));
         }
         let name = |place: usize| m.group(place).map(|group| group.name.to_string()).unwrap_or_default();
         let transmission = dyads.iter().zip(of_dyads);
@@ -212,7 +212,7 @@ fn quantity<M>(
     (place, outputs): (usize, usize),
     course: &Course,
     options: &ReportOptions,
-) -> Result<QuantityReport, PathErrorOf<M>>
+) -> QuantityReport
 where
     M: Kinematic<Scalar = f64, V = D<1>>,
 {
@@ -236,15 +236,15 @@ where
             ),
             found => found,
         };
-        Ok::<_, PathErrorOf<M>>(quantities::<M>(&found?).get(place).map_or(f64::NAN, |quantity| quantity.rate))
+        Some(quantities::<M>(&found.ok()?).get(place)?.rate)
     };
-    let dwells = dwells(course, is_closed, options.dwell, rate)?;
+    let dwells = dwells(course, is_closed, options.dwell, rate);
     let strokes = strokes(course, is_closed);
     let sampled = course.samples.iter().map(|(input, motion)| [*input, motion.value]);
     let turned = course.turning_points.iter().chain(&course.ends).map(|at| [at.input, at.value]);
     let mut curve: Vec<[f64; 2]> = sampled.chain(turned).collect();
     curve.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    Ok(QuantityReport {
+    QuantityReport {
         name: name.to_string(),
         is_output: place < outputs,
         is_angle,
@@ -256,5 +256,5 @@ where
         curve,
         ends: course.ends,
         resolution: course.resolution.clone(),
-    })
+    }
 }

@@ -71,7 +71,8 @@ impl Comparison<'_> {
                         )
                     };
                 }
-                let [from, to] = [first, declared.map_or(first + TAU, |[_, most]| most)];
+                let range = self.linkage.coordinates[moving].range;
+                let [from, to] = [first, range.map_or(first + TAU, |[_, most]| most)];
                 let inputs = numbers(&proof["inputs"]);
                 let is_near =
                     |one: f64, other: f64| (one - other).abs() <= UNITS * f64::EPSILON * from.abs().max(to.abs());
@@ -84,10 +85,12 @@ impl Comparison<'_> {
                     .filter(|node| node.q[moving] >= from && node.q[moving] <= to)
                     .cloned()
                     .collect();
+                let to_the_ends = within(&motion.nodes, moving, [from, to]);
                 if nodes.len() < 3 {
                     return self.count("certify: a range of a few steps");
                 }
-                for (name, is_angle, values) in self.quantities(&nodes) {
+                let all = self.quantities(&nodes).into_iter().zip(self.quantities(&to_the_ends));
+                for ((name, is_angle, values), (_, _, to_the_ends)) in all {
                     let Some(of) =
                         proof["quantities"].as_array().into_iter().flatten().find(|of| of["name"] == name.as_str())
                     else {
@@ -95,18 +98,21 @@ impl Comparison<'_> {
                         continue;
                     };
                     let [least, largest] = ["least", "largest"].map(|end| numbers(&of[end]));
-                    let [low, high] = [f64::min, f64::max].map(|of| values.iter().copied().fold(values[0], of));
-                    let slack = second_difference(&values);
+                    let ends =
+                        |values: &[f64]| [f64::min, f64::max].map(|of| values.iter().copied().fold(values[0], of));
+                    let ([low, high], [lowest, highest]) = (ends(&values), ends(&to_the_ends));
+                    let slack = second_difference(&to_the_ends);
                     // A search ends at this part of the largest magnitude.
                     let width = 1e-9 * low.abs().max(high.abs());
                     // The turn of an unknown may be another one; the direction of a point is that of its formula at the start.
                     let is_direction = |of: &Output| of.name == name && matches!(of.form, Form::Angle(_));
                     let turns = if is_angle && !self.linkage.outputs.iter().any(is_direction) { 3 } else { 0 };
                     let is_right = (-turns..=turns).map(|turn| f64::from(turn) * TAU).any(|by| {
-                        least[0] + by <= low + width
-                            && low <= least[1] + by + slack + width
-                            && high - width <= largest[1] + by
-                            && high >= largest[0] + by - slack - width
+                        let holds = least[0] + by <= low + width && high - width <= largest[1] + by;
+                        let is_narrow =
+                            lowest <= least[1] + by + slack + width && highest >= largest[0] + by - slack - width;
+                        // Of several turns the steps are those of one.
+                        holds && (is_narrow || to - from > TAU * (1.0 + f64::EPSILON))
                     });
                     if !is_right {
                         self.fails("certify: bounds do not hold the motion", &question, of, (low, high));
@@ -221,4 +227,28 @@ fn numbers_in(line: &str) -> Vec<f64> {
         }
     };
     line.split_whitespace().filter_map(number).collect()
+}
+
+/// The nodes of a motion between two inputs, and those at both, on the lines between neighbours.
+fn within(nodes: &[Node], moving: usize, [from, to]: [f64; 2]) -> Vec<Node> {
+    let mut all: Vec<Node> = Vec::new();
+    for (place, node) in nodes.iter().enumerate() {
+        let before = place.checked_sub(1).map(|place| &nodes[place]);
+        if let Some(before) = before {
+            let mut at: Vec<f64> =
+                [from, to].into_iter().filter(|at| (before.q[moving] - at) * (node.q[moving] - at) < 0.0).collect();
+            if node.q[moving] < before.q[moving] {
+                at.reverse();
+            }
+            all.extend(at.into_iter().map(|at| {
+                let part = (at - before.q[moving]) / (node.q[moving] - before.q[moving]);
+                let q = before.q.iter().zip(&node.q).map(|(one, other)| one + (other - one) * part).collect();
+                Node { q, tangent: node.tangent.clone() }
+            }));
+        }
+        if node.q[moving] >= from && node.q[moving] <= to {
+            all.push(node.clone());
+        }
+    }
+    all
 }
