@@ -1,6 +1,6 @@
 //! Answers to a browser by HTTP/1.1 (RFC 9112), for reading: one request for each connection, without a body.
 //!
-//! Strangers cannot stop it. A head has at most 8 KiB and five seconds, a body is refused unread, a connection has ten seconds in
+//! Strangers cannot stop it. A head has at most 8 KiB and five seconds, a body is rejected unread, a connection has ten seconds in
 //! all, and where there are more than 32 the oldest is closed. So those that are quick are answered whatever the others do.
 
 use std::borrow::Cow;
@@ -22,8 +22,8 @@ const MOST_CONNECTIONS: usize = 32;
 const FOR_HEAD: Duration = Duration::from_secs(5);
 const FOR_ALL: Duration = Duration::from_secs(10);
 
-/// What is read and thrown away after an answer: closed before, a connection with unread bytes loses the answer too (RFC 9112,
-/// section 9.6).
+/// The bytes that are read and thrown away after an answer: closed before, a connection with unread bytes loses the answer too
+/// (RFC 9112, section 9.6).
 const MOST_REST: usize = 64 * 1024;
 const FOR_REST: Duration = Duration::from_millis(500);
 
@@ -117,7 +117,7 @@ pub fn listen<'a>(listener: &TcpListener, answer: impl Fn(&Request) -> Answer<'a
                 continue;
             };
             let (open, answer) = (&open, &answer);
-            // Without a thread there is no answer. Of a client that went away nobody needs to know.
+            // Without a thread there is no answer, and a client that went away needs none.
             let _ = thread::Builder::new().spawn_scoped(scope, move || {
                 let _ = connected(&stream, answer);
                 open.remove(&stream);
