@@ -96,8 +96,8 @@ impl Comparison<'_> {
                 }
                 continue;
             }
-            // Near a dead point the last step of Newton's method leaves more than rounding errors: 2^-41 of the terms.
-            if let Some(times) = self.wrong(&q).filter(|times| *times > 64.0) {
+            // Near a dead point the last step of Newton's method leaves more than rounding errors: 2^-42 of the terms.
+            if let Some(times) = self.wrong(&q).filter(|times| *times > 32.0) {
                 return self.fails(
                     "simulate: a row does not satisfy the equations",
                     &question,
