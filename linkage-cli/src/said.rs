@@ -6,6 +6,7 @@ use linkage_runtime::Mechanism as _;
 
 use crate::ends::{Reason, shown};
 use crate::followed::{EQUAL, Followed, ends, passed};
+use crate::machine::Machine;
 use crate::one_input::coordinates;
 
 /// The most places that are named.
@@ -154,5 +155,19 @@ impl Followed<'_> {
                 near.trim_end_matches('°'),
             );
         }
+    }
+}
+
+/// Says on standard error which columns are angles that are not followed where their formulas jump, of those that are asked for
+/// or of all.
+pub fn say_jumps(machine: &Machine, asked: &[String]) {
+    let outputs = machine.about.outputs.iter().zip(&machine.about.output_angles);
+    let differing = outputs.filter(|(_, angle)| angle.is_some_and(|angle| angle.jumps_differ));
+    for (output, _) in differing.filter(|(output, _)| asked.is_empty() || asked.contains(&output.text)) {
+        anstream::eprintln!(
+            "`{}` is a sum of angles with different factors, each of which jumps by a turn at 180°: its values are those of its \
+             formula, with these jumps; `linkage certify` and `linkage report` have its range without them",
+            output.text
+        );
     }
 }

@@ -19,6 +19,7 @@ use crate::machine::Machine;
 use crate::output::{self, Form, form};
 use crate::progress;
 use crate::reasons::Reasons;
+use crate::said::say_jumps;
 use crate::scene::{Need, chosen};
 use running::{Running, is_event};
 use start::start;
@@ -68,7 +69,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
         (true, Some(format)) => {
             let units = with_units(&machine, all, arguments.shown.degrees)?;
             let moving = || table.names().into_iter().filter(|name| *name != "time").map(str::to_owned).collect();
-            let names = if asked.is_empty() { moving() } else { asked };
+            let names = if asked.is_empty() { moving() } else { asked.clone() };
             Summary::of(&table, &units, "time", &names)?.to_text(format, digits)?
         }
         (false, Some(format)) => written(table, &asked, digits, format)?,
@@ -76,6 +77,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     output::write(&arguments.output, text.as_bytes(), &arguments.numbers.source.file)?;
     say(&marks);
     incomplete.iter().for_each(|words| anstream::eprintln!("{words}"));
+    say_jumps(&machine, &asked);
     match ended {
         Some(why) => Err(Failure::Outside(why)),
         None => Ok(()),

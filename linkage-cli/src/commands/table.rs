@@ -15,6 +15,7 @@ use crate::motion::Path;
 use crate::names::listed;
 use crate::output::{self, Form, form};
 use crate::progress;
+use crate::said::say_jumps;
 use crate::unwound::{Turned, Unwound};
 
 /// The digits of a table for readers.
@@ -58,6 +59,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         Some((_, error)) if missing.len() == steps as usize + 1 => return Err(Failure::Outside(error.clone())),
         _ => followed.say(&missing, &format!("{} rows", steps + 1)),
     }
+    say_jumps(&machine, &asked);
     let digits = arguments.shown.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.shown.degrees)?;
     let text = match arguments.shown.summary {

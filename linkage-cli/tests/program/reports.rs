@@ -125,6 +125,33 @@ fn angles_go_on_at_the_cut() {
     assert!(!proof.contains("bounds of one turn") && proof.contains("360"), "{proof}");
 }
 
+/// A wheel turns twice as fast as its crank. Where the factors of two angles differ, a value alone does not tell which of them has
+/// jumped: rows keep their formula and say so, the report follows the motion.
+#[test]
+fn sums_of_angles_go_on_or_it_is_said() {
+    let folder = folder();
+    folder.write(
+        "sums.linkage",
+        "mechanism Sums { input th; unknown p; equation p = 2*th; point B = 1@th; point C = 1@p; \
+         output even = angle(B) + 2*angle(C); output o = 2*angle(B) + 3*angle(C); \
+         body crank { mass 1; inertia 1; center B; angle th; } scene Free { inertia; } }",
+    );
+    let text = folder.run("report sums.linkage").works("");
+    says(&text, &["even turns by 1800° each time the motion closes", "o turns by 2880° each time the motion closes"]);
+    let sentence = "`o` is a sum of angles with different factors, each of which jumps by a turn at 180°: its values are those \
+                    of its formula, with these jumps; `linkage certify` and `linkage report` have its range without them\n";
+    let command = "table sums.linkage --degrees --columns even,o --steps 36 --digits 9";
+    let table = folder.run(command).works(sentence);
+    // 2*angle(B) + 3*angle(C), and both are 0 again.
+    let last: Vec<f64> = table.lines().last().unwrap().split(',').map(|number| number.parse().unwrap()).collect();
+    assert!((last[0] - 1800.0).abs() < 1e-6 && last[1].abs() < 1e-6, "{table}");
+    folder.run("table sums.linkage --columns even --steps 36").works("");
+    let command = "simulate sums.linkage --at th=0 --rate th=1 --to 6 --steps 36 --columns o";
+    folder.run(command).works(sentence);
+    let proof = folder.run("certify sums.linkage --at th=0").works("");
+    assert!(!proof.contains("bounds of one turn") && proof.contains("2880"), "{proof}");
+}
+
 /// The report is about the first mode, which has all of its circuits and strokes.
 #[test]
 fn kinks_are_turning_points() {

@@ -15,8 +15,37 @@ use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
 /// An output that is an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutputAngle {
-    /// The jump of its formula where an `atan2` in it goes from pi to -pi.
+    /// The jump of its formula where an `atan2` in it goes from pi to -pi, of which all its jumps are multiples.
     pub jump: Option<f64>,
+    /// True if it has jumps that are no multiples of one of them: a value does not tell which of its angles has jumped, and
+    /// `jump` is none.
+    pub jumps_differ: bool,
+}
+
+impl OutputAngle {
+    fn jumps(jump: Option<f64>) -> Self {
+        Self { jump, jumps_differ: false }
+    }
+
+    /// This times a number.
+    fn times(self, number: Number) -> Self {
+        Self { jump: self.jump.map(|jump| jump * number.to_f64().abs()), ..self }
+    }
+
+    /// The sum of two.
+    fn and(self, other: Self) -> Self {
+        match (self.jump, other.jump) {
+            _ if self.jumps_differ || other.jumps_differ => Self { jump: None, jumps_differ: true },
+            (Some(one), Some(other)) => {
+                let [small, large] = [one.min(other), one.max(other)];
+                // Factors such as 0.1 and 0.3 are rounded.
+                let ratio = large / small;
+                let is_multiple = (ratio - ratio.round()).abs() <= 4.0 * f64::EPSILON * ratio;
+                Self { jump: is_multiple.then_some(small), jumps_differ: !is_multiple }
+            }
+            (one, other) => Self::jumps(one.or(other)),
+        }
+    }
 }
 
 /// The outputs that are angles, in their order.
@@ -40,13 +69,13 @@ enum Found {
 
 impl Found {
     fn angle(jump: Option<f64>) -> Self {
-        Self::Angle(OutputAngle { jump })
+        Self::Angle(OutputAngle::jumps(jump))
     }
 
     /// This times a number.
     fn times(self, number: Number) -> Self {
         match self {
-            Self::Angle(OutputAngle { jump }) => Self::angle(jump.map(|jump| jump * number.to_f64().abs())),
+            Self::Angle(angle) => Self::Angle(angle.times(number)),
             other => other,
         }
     }
@@ -55,9 +84,7 @@ impl Found {
     fn sum(terms: impl Iterator<Item = Self>) -> Self {
         terms.fold(Self::Other, |sum, term| match (sum, term) {
             (Self::Length, _) | (_, Self::Length) => Self::Length,
-            (Self::Angle(one), Self::Angle(other)) => {
-                Self::angle(one.jump.into_iter().chain(other.jump).reduce(f64::min))
-            }
+            (Self::Angle(one), Self::Angle(other)) => Self::Angle(one.and(other)),
             (Self::Angle(angle), Self::Other) | (Self::Other, Self::Angle(angle)) => Self::Angle(angle),
             (Self::Other, Self::Other) => Self::Other,
         })

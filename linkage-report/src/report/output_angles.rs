@@ -9,18 +9,26 @@ use linkage_runtime::Mechanism;
 use linkage_runtime::derivation::notation::Name;
 use linkage_runtime::derivation::{ElementaryFunction, Equation, Formula, FormulaView};
 
+/// Rests of Euclid's algorithm below this part of a jump are rounding errors.
+const ROUNDED: f64 = 1e-9;
+
+/// The most parts into which a jump is divided.
+const MOST_PARTS: f64 = 16.0;
+
 /// An output that is an angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct OutputAngle {
-    /// The jump of its formula where an `atan2` in it goes from pi to -pi.
+    /// The jump of its formula where an `atan2` in it goes from pi to -pi; of several, that of which all are multiples. None if
+    /// there is no such, and the output is what its formula says.
     pub(super) jump: Option<f64>,
+    has_jumps: bool,
 }
 
 /// A term of a sum.
 enum Term {
     Angle,
-    /// An `atan2` times a number.
-    Jumping(f64),
+    /// A number times an `atan2`, or a sum of such, with the jump.
+    Jumping(Option<f64>),
     Length,
     Other,
 }
@@ -37,10 +45,22 @@ fn angle<M: Mechanism>(mechanism: &M, formula: Formula<'_>) -> Option<OutputAngl
         _ => vec![scaled(mechanism, 1.0, formula)],
     };
     let jumps = terms.iter().filter_map(|term| if let Term::Jumping(jump) = term { Some(*jump) } else { None });
-    let jump = jumps.reduce(f64::min);
+    let jump = jumps.reduce(|one, other| common(one?, other?));
     let has_angle = terms.iter().any(|term| matches!(term, Term::Angle | Term::Jumping(_)));
     let has_length = terms.iter().any(|term| matches!(term, Term::Length));
-    (has_angle && !has_length).then_some(OutputAngle { jump })
+    (has_angle && !has_length).then_some(OutputAngle { jump: jump.flatten(), has_jumps: jump.is_some() })
+}
+
+/// The largest of which two jumps are multiples, by Euclid's algorithm. None if it is so small that a motion cannot be followed
+/// in steps that are small next to it.
+fn common(one: f64, other: f64) -> Option<f64> {
+    let [small, large] = [one.min(other), one.max(other)];
+    let (mut measure, mut rest) = (small, large);
+    while rest > ROUNDED * small {
+        // The multiple next to it, since a quotient of rounded numbers may be just below.
+        (measure, rest) = (rest, (measure - (measure / rest).round() * rest).abs());
+    }
+    (measure * MOST_PARTS >= small).then_some(measure)
 }
 
 /// A number times a term.
@@ -61,7 +81,7 @@ fn scaled<M: Mechanism>(mechanism: &M, factor: f64, formula: Formula<'_>) -> Ter
             let found = are_angles.find(|(column, _)| mechanism.coordinate_name(*column).to_string() == name);
             found.map_or(Term::Other, |(_, is_angle)| if *is_angle { Term::Angle } else { Term::Length })
         }
-        FormulaView::Call(ElementaryFunction::Atan2, _) => Term::Jumping(TAU * factor.abs()),
+        FormulaView::Call(ElementaryFunction::Atan2, _) => Term::Jumping(Some(TAU * factor.abs())),
         FormulaView::Call(ElementaryFunction::Asin | ElementaryFunction::Acos | ElementaryFunction::Atan, _) => {
             Term::Angle
         }
@@ -69,8 +89,8 @@ fn scaled<M: Mechanism>(mechanism: &M, factor: f64, formula: Formula<'_>) -> Ter
             Term::Angle
         }
         FormulaView::Sum(_) => match angle(mechanism, formula) {
-            Some(OutputAngle { jump: Some(jump) }) => Term::Jumping(jump * factor.abs()),
-            Some(OutputAngle { jump: None }) => Term::Angle,
+            Some(OutputAngle { jump, has_jumps: true }) => Term::Jumping(jump.map(|jump| jump * factor.abs())),
+            Some(OutputAngle { has_jumps: false, .. }) => Term::Angle,
             None => Term::Other,
         },
         FormulaView::Product(factors) => product(&factors.iter().collect::<Vec<_>>()),
