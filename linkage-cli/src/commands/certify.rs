@@ -205,12 +205,12 @@ impl Asked<'_> {
         let outputs = about.outputs.iter().map(|of| of.text.clone()).zip(about.output_angles.iter().copied());
         let (mut quantities, mut within_a_turn) = (Vec::new(), Vec::new());
         for (place, (name, angle)) in points.chain(outputs).enumerate() {
-            let jump = angle.and_then(|angle| angle.jump);
-            let turned = jump.and_then(|_| on_turns(place));
+            let angle_that_jumps = angle.filter(|angle| angle.jump.is_some() || angle.jumps_differ);
+            let turned = angle_that_jumps.and_then(|_| on_turns(place));
             let Some(bounds) = turned.or_else(|| quantity(place)) else { continue };
             // From pi to -pi, each rounded.
             let is_cut = |jump: f64| bounds.values().width() >= jump * (1.0 - 4.0 * f64::EPSILON);
-            if turned.is_none() && jump.is_some_and(is_cut) {
+            if turned.is_none() && angle_that_jumps.is_some_and(|angle| angle.jump.is_none_or(is_cut)) {
                 within_a_turn.push(name.clone());
             }
             quantities.push(Bounds::of(name, &bounds, angle.is_some()));
