@@ -413,3 +413,33 @@ fn rows_and_frictions_at_kinks() {
         close(z, if u < 0.0 { (u + 0.1).powi(2) / 4.0 } else { after(u.min(rest)) }, 1e-8);
     }
 }
+
+/// A parallelogram near its change point, where positions are interpolated: all loops hold to rounding errors in every row, also
+/// that of a slider which is not singular there.
+#[test]
+fn rows_near_a_change_point_hold() {
+    let folder = folder();
+    folder.write(
+        "parallelogram.linkage",
+        "mechanism Parallelogram { input z; unknown a, b, c, s; loop 0.692@z + 3.54@a = 0.692@0 + 3.54@b; \
+         loop 1.831@z + 3.234@c = 1.377@0 + s@0.75 + 0.27@(0.75 + 90deg); point P = 1.831@z + 3.234@c; \
+         body coupler { mass 1; inertia 0.5; center P; angle a; } scene Fall { inertia; gravity (0, -1); } }",
+    );
+    let command =
+        "simulate parallelogram.linkage --branch=a_b=right,c_s=near --at=z=-0.293rad --to=1.5 --steps=6 --rate=z=0.4";
+    let rows = Table::of(&folder, command);
+    let [z, a, b, c, s] = ["z", "a", "b", "c", "s"].map(|name| rows.column(name));
+    assert_eq!(z.len(), 7);
+    for row in 0..z.len() {
+        let (turned, right) = (0.75 + 0.5 * std::f64::consts::PI, -std::f64::consts::PI);
+        let first = [(0.692, z[row]), (3.54, a[row]), (0.692, right), (3.54, b[row] + right)];
+        let second = [(1.831, z[row]), (3.234, c[row]), (1.377, right), (s[row], 0.75 + right), (0.27, turned + right)];
+        for terms in [&first[..], &second[..]] {
+            let largest = terms.iter().fold(0.0_f64, |largest, (length, _)| largest.max(length.abs()));
+            for part in [f64::cos, f64::sin] {
+                let residual: f64 = terms.iter().map(|(length, angle)| length * part(*angle)).sum();
+                close(residual / largest, 0.0, 8.0 * f64::EPSILON);
+            }
+        }
+    }
+}

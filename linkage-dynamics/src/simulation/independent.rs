@@ -59,6 +59,18 @@ impl<T: Real, U: Dim, V: Dim> Independent<T, U, V> {
         Factors { elimination, free: self.free, scales: *scales }
     }
 
+    /// [`factors`](Self::factors) without the pivots up to a tolerance.
+    pub(super) fn factors_above<M: Mechanism<Scalar = T, U = U, V = V>>(
+        &self,
+        tolerance: T,
+        mechanism: &M,
+        pose: &M::Pose,
+        scales: &Scales<T, U, V>,
+    ) -> Factors<T, U, V> {
+        let elimination = Elimination::in_order_above(tolerance, &self.order, scales.jacobian(mechanism, pose));
+        Factors { elimination, free: self.free, scales: *scales }
+    }
+
     /// The place of an input among the independent coordinates.
     pub(super) fn place_of(&self, input: usize) -> Option<usize> {
         let count = self.pivots.dim().count();

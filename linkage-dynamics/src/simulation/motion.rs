@@ -232,7 +232,7 @@ impl<'a, S: Scene, W> Motion<'a, S, W> {
             Parametrisation::Others(independent) => self.projected_in(independent, &q)?,
             Parametrisation::Over(sheet) => {
                 let Frame { q, is_interpolated, .. } = self.frame_on(sheet, &q, &rates)?;
-                if is_interpolated { q } else { self.projected_in(&sheet.independent, &q)? }
+                if is_interpolated { self.corrected_on(sheet, &q) } else { self.projected_in(&sheet.independent, &q)? }
             }
         };
         Ok(self.pack(&q, &rates))

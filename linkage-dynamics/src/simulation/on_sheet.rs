@@ -144,6 +144,15 @@ impl<S: Scene, W> Motion<'_, S, W> {
         Frame { q, basis, bias: bias * factor, is_interpolated: true }
     }
 
+    /// An interpolated position, corrected by one Newton step in the rows whose pivots do not vanish. In the others, whose
+    /// residual is of second order in its error, the error of the interpolation stays.
+    pub(super) fn corrected_on(&self, sheet: &SheetOf<S>, q: &Coordinates<S>) -> Coordinates<S> {
+        let mechanism = self.scene.mechanism();
+        let pose = mechanism.pose_at(q);
+        let factors = sheet.independent.factors_above(sheet.vanishing_edge(), mechanism, &pose, &self.scales);
+        Self::moved(q, &-factors.solve(&mechanism.residual(&pose)))
+    }
+
     /// True if the motion is beyond the interpolated part and moves away from the crossing.
     pub(super) fn leaves(&self, sheet: &SheetOf<S>, y: &StateColumn<S>) -> bool {
         let (q, rates) = self.unpack(y);

@@ -158,6 +158,12 @@ impl<T: Real, U: Dim, V: Dim> Sheet<T, U, V> {
         product >= least && others.all(|((pivot, edge), _)| pivot.abs() >= edge.abs() * real(LEAST_PIVOT_RATIO))
     }
 
+    /// The largest of the pivots that vanish, at the edges of the interpolated part.
+    pub(super) fn vanishing_edge(&self) -> T {
+        let vanishing = self.independent.pivots.iter().zip(&self.vanishes).filter(|(_, vanishes)| **vanishes);
+        vanishing.fold(T::zero(), |largest, (pivot, _)| largest.max(pivot.abs()))
+    }
+
     /// True if a position with these pivots is on the other side of the crossing than the first node.
     pub(super) fn is_beyond(&self, pivots: &Column<T, U>) -> bool {
         let first = &self.nodes[0].pivots;
