@@ -87,6 +87,19 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
             .fold(last[0], |sum, (i, coefficient)| *coefficient + sum * if i % 2 == 0 { s } else { rest })
     }
 
+    /// The rate of the state at this fraction of the step, which must not have the length zero.
+    pub(super) fn rate_at_fraction(&self, s: T) -> Column<T, N> {
+        let rest = T::one() - s;
+        let (inner, last) = self.coefficients[..self.used].split_at(self.used - 1);
+        // The value of the inner part, and its derivative by s.
+        let parts = (last[0], last[0].dim().zeros());
+        let (_, by_fraction) = inner.iter().enumerate().rev().fold(parts, |(value, derivative), (i, coefficient)| {
+            let (factor, sign) = if i % 2 == 0 { (s, T::one()) } else { (rest, -T::one()) };
+            (*coefficient + value * factor, derivative * factor + value * sign)
+        });
+        by_fraction / self.length
+    }
+
     /// The length of the step, negative for a step back in time.
     pub(super) fn length(&self) -> T {
         self.length

@@ -134,6 +134,10 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         self.events.iter_mut().chain(&mut self.guards)
     }
 
+    pub(super) fn guards(&self) -> impl Iterator<Item = &EventSign> {
+        self.guards.iter()
+    }
+
     /// Returns true if an event is not delivered yet.
     pub(super) fn has_pending(&self) -> bool {
         self.each().any(|function| function.is_pending)

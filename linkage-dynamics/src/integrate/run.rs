@@ -2,17 +2,17 @@
 
 use core::marker::PhantomData;
 
-use super::control::{Controller, Tolerance, positive, within};
+use super::control::{self, Controller, Tolerance, positive, within};
 use super::dense::Interpolant;
 use super::event::EventSigns;
 use super::integration::{Counts, Instant, Integration, Place, Step, StepOf, finite};
-use super::search::Found;
+use super::search::{Found, Hit};
 use super::system::{ErrorOf, IntoSystem, StateOf, System};
 use super::tableau::{self, Method, SLOPES};
 use super::{Outputs, step};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, InputError, Name};
+use linkage_runtime::{Build, InputError, Name, real};
 
 /// The largest correction of a state by projection, divided by the tolerance, after which the rate computed before it
 /// is still used.
@@ -22,6 +22,19 @@ const NEGLIGIBLE_CORRECTION: f64 = 0.01;
 /// of the step that the tolerance allows. With 4 a guard that jumps is located with steps 16 times as long, with 6 it
 /// costs one more step.
 const MAX_SHORTENED: u32 = 5;
+
+/// A step that is repeated for an event goes to so many times the time until it, so that it is within the step again.
+const BEYOND_EVENT: f64 = 1.05;
+
+/// An event this late in a step does not cut it.
+const LATE_EVENT: f64 = 0.9;
+
+/// A step whose error to an event is this part of the tolerance there has dense output within it too: the largest error of dense
+/// output that was seen is 240 times that of the step.
+const CERTAIN: f64 = 1e-3;
+
+/// The parts of the way to an event at which the polynomial of a step is compared with the rate: the places of Gauss's rule.
+const COMPARED: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 impl<S: System, M: Method> Integration<S, M> {
     /// Starts an integration of this system from state `y` at `start` to `end`, which may be before `start`.
@@ -231,6 +244,7 @@ impl<S: System, M: Method> Integration<S, M> {
                     (0.0, true)
                 }
             };
+            let signs = self.signs;
             let found = if self.signs.each().next().is_some() { self.search(from) } else { Ok(Found::Nothing) };
             let length = to_f64(self.to.0 - self.from.0).abs();
             // An event function may be undefined between the ends of a long step.
@@ -238,13 +252,14 @@ impl<S: System, M: Method> Integration<S, M> {
             let is_too_long = matches!(found, Err(_) | Ok(Found::TooCoarse));
             if is_too_long && is_new && self.shortened < MAX_SHORTENED && !self.system.went_over_change() {
                 self.shortened += 1;
-                self.go_back(self.from.0, self.from.1);
-                self.counts.accepted -= 1;
-                self.counts.rejected += 1;
-                self.limit_next(length / 16.0);
+                self.repeat_to(length / 16.0);
                 continue;
             }
             match found? {
+                Found::Hit(hit) if is_new && self.is_too_long_for(&hit) => {
+                    self.signs = signs;
+                    self.repeat_to(length * hit.at * BEYOND_EVENT);
+                }
                 Found::Hit(hit) => {
                     self.shortened = 0;
                     (self.t, self.state) = (hit.t, hit.state);
@@ -262,6 +277,37 @@ impl<S: System, M: Method> Integration<S, M> {
                 }
             }
         }
+    }
+
+    /// True if the step to the event of a guard has an error above the tolerance there. A step is accepted by the error that is allowed at
+    /// its end, which may be far beyond an event that cuts it, and only the state at its end has this error: between its ends
+    /// that of dense output is the integral of the difference between the rate of its polynomial and the rate of the system.
+    /// Events of the user do not change the steps.
+    fn is_too_long_for(&mut self, hit: &Hit<S>) -> bool {
+        let restarts = self.signs.guards().any(|guard| guard.is_pending);
+        if hit.at > LATE_EVENT || !restarts || self.system.went_over_change() {
+            return false;
+        }
+        let (y, part) = (&self.from.1, to_f64(self.to.0 - self.from.0) * hit.at);
+        let of_step = control::error(const { &M::TABLEAU }, &self.tolerance, (y, &hit.state), &self.slopes, part);
+        if of_step <= CERTAIN {
+            return false;
+        }
+        let Ok(step) = self.interpolant() else { return true };
+        COMPARED.into_iter().any(|at| {
+            let fraction = real::<S::Scalar>(at * hit.at);
+            let Ok(rate) = self.slope(step.time(at * hit.at), &step.at_fraction(fraction)) else { return true };
+            let difference = (step.rate_at_fraction(fraction) - rate) * real::<S::Scalar>(part);
+            self.tolerance.relative_change(&difference, &hit.state) > 1.0
+        })
+    }
+
+    /// Takes the last step anew, not longer than this.
+    fn repeat_to(&mut self, length: f64) {
+        self.go_back(self.from.0, self.from.1);
+        self.counts.accepted -= 1;
+        self.counts.rejected += 1;
+        self.limit_next(length);
     }
 
     /// Rebuilds the integration with the same start, end and settings for another method or system.

@@ -128,7 +128,7 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok((error + uncertain.unwrap_or(0.0), next))
     }
 
-    fn slope(&mut self, t: S::Scalar, y: &StateOf<S>) -> Result<StateOf<S>, ErrorOf<S>> {
+    pub(super) fn slope(&mut self, t: S::Scalar, y: &StateOf<S>) -> Result<StateOf<S>, ErrorOf<S>> {
         self.counts.evaluations += 1;
         let slope = self.system.rate(t, y)?;
         finite("the rate", t, &slope)?;

@@ -13,6 +13,7 @@ mod extremes;
 mod failures;
 mod held_contacts;
 mod impacts;
+mod integrals;
 mod jumps;
 mod kinks;
 mod loads;
