@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use linkage_lent::Unsound;
 
 use crate::mistakes::Mistakes;
+use crate::terminal::printable;
 
 /// The exit code of wrong arguments, that of clap.
 const ARGUMENTS: u8 = 2;
@@ -39,7 +40,7 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         match self {
             Self::Mistakes(all) => {
-                all.iter().for_each(|mistakes| anstream::eprint!("{}", mistakes.to_text()));
+                all.iter().for_each(|mistakes| anstream::eprint!("{}", printable(&mistakes.to_text())));
                 ExitCode::FAILURE
             }
             Self::Reported => ExitCode::FAILURE,
@@ -72,5 +73,5 @@ impl From<Unsound> for Failure {
 /// Prints a message as clap does.
 fn error(message: impl Display) {
     let style = anstyle::AnsiColor::Red.on_default().bold();
-    anstream::eprintln!("{style}error:{style:#} {message}");
+    anstream::eprintln!("{style}error:{style:#} {}", printable(&message.to_string()));
 }

@@ -8,6 +8,7 @@ use linkage_runtime::skeleton::Part;
 
 use crate::failure::Failure;
 use crate::machine::{Machine, Motion};
+use crate::terminal::say;
 
 /// The joints and parts of a mechanism, and their places.
 pub struct Figure<'m> {
@@ -22,7 +23,7 @@ impl<'m> Figure<'m> {
             Failure::Outside(format!("`{}` has no drawing: write `derive drawing;` in it", machine.about.name))
         })?;
         for place in &skeleton.unplaced {
-            anstream::eprintln!(
+            say!(
                 "loop {} of `{}` is drawn from the origin: if it begins at another joint, declare a point on it",
                 place + 1,
                 machine.about.name

@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use linkage_interpreter::{CoordinatesAtRunTime, NotPrepared, Prepared};
+use linkage_report::table::NEXT_TO_KINK;
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::{Kinematic, PathError};
@@ -13,6 +14,7 @@ use crate::failure::Failure;
 use crate::machine::{Machine, Motion};
 use crate::motion::Path;
 use crate::one_input::{Followable, OneInput, coordinates, one_input};
+use crate::terminal::say;
 
 /// The share of an input up to which it counts as an end of the range.
 pub const EQUAL: f64 = 1e-12;
@@ -62,7 +64,7 @@ impl<'p> Followed<'p> {
             Ok(_) if machine.about.unknowns.is_empty() => return Ok(with(None)),
             Ok(prepared) => prepared,
             Err(error) if machine.is_closed() => {
-                anstream::eprintln!("the motion is not followed, positions keep the branch: {error}");
+                say!("the motion is not followed, positions keep the branch: {error}");
                 return Ok(with(None));
             }
             Err(error) => return Err(Failure::Outside(error.to_string())),
@@ -94,6 +96,16 @@ impl<'p> Followed<'p> {
         };
         let found = range.motion(value, rate, 0.0).map_err(|error| self.machine.about.reasons.of_path(&error))?;
         Ok(self.numbers(inputs, found))
+    }
+
+    /// The motions next to a value on both sides of it, where there is none at the value itself, as at a kink of an output.
+    pub fn next_to(&self, value: f64, rate: f64) -> Option<[Motion; 2]> {
+        let [from, to] = self.path.ends;
+        let unit = f64::EPSILON * value.abs().max((to - from).abs());
+        NEXT_TO_KINK.into_iter().find_map(|distance| {
+            let at = |distance: f64| self.motion(value + distance * unit, rate).ok();
+            Some([at(-distance)?, at(distance)?])
+        })
     }
 
     fn numbers(&self, inputs: Vec<f64>, found: MotionOf<Followable<'p>>) -> Motion {

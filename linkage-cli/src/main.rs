@@ -38,6 +38,7 @@ mod solver;
 mod source;
 mod start;
 mod symbols;
+mod terminal;
 mod tips;
 mod unwound;
 mod values;
@@ -47,14 +48,20 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use arguments::Arguments;
+use terminal::say;
 
 fn main() -> ExitCode {
     let arguments = Arguments::try_parse().unwrap_or_else(|error| {
         let words: Vec<String> = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect();
-        tips::with_tip(error, &words).exit()
+        let error = tips::with_tip(error, &words);
+        if words.iter().any(|word| word.contains(char::is_control)) {
+            say!("{}", error.render());
+            std::process::exit(error.exit_code());
+        }
+        error.exit()
     });
     if let Err(error) = interrupt::install() {
-        anstream::eprintln!("interrupts are not noticed: {error}");
+        say!("interrupts are not noticed: {error}");
     }
     match commands::run(arguments.command) {
         Ok(()) => ExitCode::SUCCESS,

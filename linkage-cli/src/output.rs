@@ -1,7 +1,7 @@
 //! Files are written next to the old ones and renamed, so that a failure loses nothing.
 
 use std::fs::{self, Permissions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile, PersistError};
@@ -9,6 +9,7 @@ use tempfile::{Builder, NamedTempFile, PersistError};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::source::is_standard;
+use crate::terminal::{printable, say};
 
 /// A form of output: its name in messages, and the endings of its files.
 pub type Form = (&'static str, &'static [&'static str]);
@@ -57,7 +58,7 @@ pub fn write(path: &Path, contents: &[u8], source: &Path) -> Result<(), Failure>
     let is_special = fs::metadata(&place).is_ok_and(|found| !found.is_file() && !found.is_dir());
     let written = if is_special { fs::write(&place, contents) } else { replaced(&place, contents) };
     written.map_err(|error| cannot_write(path, &error))?;
-    anstream::eprintln!("wrote {}", path.display());
+    say!("wrote {}", path.display());
     Ok(())
 }
 
@@ -65,13 +66,15 @@ pub fn write(path: &Path, contents: &[u8], source: &Path) -> Result<(), Failure>
 pub fn create(path: &Path, contents: &[u8]) -> Result<(), Failure> {
     let written = temporary_file(path, contents).and_then(|file| renamed(|| file.persist_noclobber(path)));
     written.map_err(|error| cannot_write(path, &error))?;
-    anstream::eprintln!("wrote {}", path.display());
+    say!("wrote {}", path.display());
     Ok(())
 }
 
 /// Writes to standard output.
 pub fn print(contents: &[u8]) -> Result<(), Failure> {
     let mut standard = io::stdout().lock();
+    let shown = standard.is_terminal().then(|| printable(&String::from_utf8_lossy(contents)));
+    let contents = shown.as_ref().map_or(contents, String::as_bytes);
     let written = standard.write_all(contents).and_then(|()| standard.flush());
     written.map_err(|error| Failure::of_standard_output(&error))
 }

@@ -11,6 +11,7 @@ use crate::failure::Failure;
 use crate::figure::Figure;
 use crate::machine::{Coordinate, Machine, Motion};
 use crate::motion::held;
+use crate::terminal::say;
 
 pub struct Position {
     given: Vec<(String, f64)>,
@@ -36,7 +37,7 @@ impl Position {
         let (machine, documents) = Machine::with(numbers, Documents::of)?;
         let numbers = match Numbers::of(&machine, arguments, has_picture) {
             Err(Failure::Outside(why) | Failure::Argument(why)) if !is_asked => {
-                anstream::eprintln!("the sheet has no numbers of a position: {why}");
+                say!("the sheet has no numbers of a position: {why}");
                 None
             }
             numbers => Some(numbers?),

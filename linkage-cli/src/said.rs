@@ -8,6 +8,7 @@ use crate::ends::{Reason, shown};
 use crate::followed::{EQUAL, Followed, ends, passed};
 use crate::machine::Machine;
 use crate::one_input::coordinates;
+use crate::terminal::say;
 
 /// The most places that are named.
 const NAMED: usize = 5;
@@ -23,8 +24,8 @@ impl Followed<'_> {
             let others = missing.iter().filter(|(value, _)| self.is_elsewhere(*value)).count();
             let count = missing.len();
             match others {
-                0 => anstream::eprintln!("{count} of {of} have no position; {why}"),
-                _ => anstream::eprintln!(
+                0 => say!("{count} of {of} have no position; {why}"),
+                _ => say!(
                     "{count} of {of} are not on the motion; {why}; {others} of them {} on the branch, to which it does not get",
                     if others == 1 { "has a position" } else { "have positions" }
                 ),
@@ -127,11 +128,27 @@ impl Followed<'_> {
             1 => "a change point",
             _ => "change points",
         };
-        anstream::eprintln!(
+        say!(
             "at {} = {}{more} the motion passes {kind}: it goes on smoothly, and other motions cross it; `linkage circuits` \
              lists them",
             input.name.text,
             places.join(", ")
+        );
+    }
+
+    /// Says where outputs have kinks, and which columns are empty there, of those that are asked for or of all.
+    pub fn say_kinks(&self, kinks: &[(f64, String)], asked: &[String]) {
+        let is_asked = |name: &String| asked.is_empty() || asked.contains(name);
+        let kinks: Vec<_> = kinks.iter().filter(|(_, name)| is_asked(name)).collect();
+        let Some((first, _)) = kinks.first() else { return };
+        let names: Vec<&str> = kinks.iter().filter(|(at, _)| at == first).map(|(_, name)| name.as_str()).collect();
+        let (input, others) = (&self.machine.about.inputs[self.path.moving], kinks.len() - names.len());
+        let more = if others > 0 { format!("; there are {others} more such cells") } else { String::new() };
+        say!(
+            "at {} = {} there is a kink, and no {}{more}",
+            input.name.text,
+            shown(*first, input.is_angle),
+            names.join(", ")
         );
     }
 
@@ -149,7 +166,7 @@ impl Followed<'_> {
             let gap = [end, end + (first + period - last)].map(|end| shown(end, input.is_angle));
             let [near, far] = if self.is_falling() { [&gap[1], &gap[0]] } else { [&gap[0], &gap[1]] };
             let unit = if input.is_angle { "deg" } else { "" };
-            anstream::eprintln!(
+            say!(
                 "between {} = {near} and {far} there is no position: the motion does not get across; end with `--to {}{unit}`",
                 input.name.text,
                 near.trim_end_matches('°'),
@@ -164,7 +181,7 @@ pub fn say_jumps(machine: &Machine, asked: &[String]) {
     let outputs = machine.about.outputs.iter().zip(&machine.about.output_angles);
     let differing = outputs.filter(|(_, angle)| angle.is_some_and(|angle| angle.jumps_differ));
     for (output, _) in differing.filter(|(output, _)| asked.is_empty() || asked.contains(&output.text)) {
-        anstream::eprintln!(
+        say!(
             "`{}` is a sum of angles with different factors, each of which jumps by a turn at 180°: its values are those of its \
              formula, with these jumps; `linkage certify` and `linkage report` have its range without them",
             output.text

@@ -2,7 +2,7 @@
 
 use crate::contact::within;
 use crate::simulation::scales::resolution_by_inputs;
-use crate::{Bearing, Contact, ContactLaw, Energy, Equations, MotionError, Unreduced};
+use crate::{Bearing, Contact, ContactLaw, Energy, Equations, MotionError, Power, Unreduced};
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::{all_finite, finite, to_f64};
 use linkage_runtime::jacobian::{Scales, Vector};
@@ -228,6 +228,19 @@ pub trait Scene {
         _: &Coordinates<Self>,
         _: &Inputs<Self>,
     ) -> Result<Option<Energy<Self::Scalar>>, MotionErrorOf<Self>> {
+        Ok(None)
+    }
+    /// The power of forces and torques, and that which dampers and frictions dissipate, if the scene has `power;`. The power of
+    /// drives is in the first, unless the scene has frictions or stops.
+    ///
+    /// # Errors
+    /// Those of [`derivative`](Self::derivative).
+    fn applied_and_dissipated(
+        &self,
+        _: Self::Scalar,
+        _: &Coordinates<Self>,
+        _: &Inputs<Self>,
+    ) -> Result<Option<Power<Self::Scalar>>, MotionErrorOf<Self>> {
         Ok(None)
     }
     /// The prescribed motion of each input, or None.

@@ -113,7 +113,7 @@ impl<'a> Words<'a> {
     pub fn motion<N: Name>(self, error: &MotionError<N>) -> String {
         match error {
             MotionError::TooManySteps { t, steps } => {
-                format!("the limit of {steps} steps is reached at {t:.6} s: give a larger tolerance")
+                format!("the limit of {steps} steps is reached at {t:.6} s: give a larger tolerance, or more steps")
             }
             MotionError::Position(error) => self.position(error),
             MotionError::Path(error) => self.path(error),

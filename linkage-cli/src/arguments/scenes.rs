@@ -38,6 +38,9 @@ pub struct Simulate {
     /// The relative error of a step
     #[arg(long, value_name = "NUMBER", default_value = "1e-9")]
     pub tolerance: Value,
+    /// The most steps of the integration, those included that are repeated
+    #[arg(long, value_name = "NUMBER", default_value = "100000", allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(1..))]
+    pub most_steps: u32,
     #[command(flatten)]
     pub shown: Shown,
     /// The form of the result [default: by the ending of OUT; else csv, of a summary text]

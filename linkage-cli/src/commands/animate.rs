@@ -12,6 +12,7 @@ use crate::motion::Path;
 use crate::output::{self, Form, form, next_to};
 use crate::picture::MOST_FRAMES;
 use crate::progress;
+use crate::terminal::say;
 
 const FORMS: [Form; 2] = [("SVG", &["svg"]), ("GIF", &["gif"])];
 
@@ -51,7 +52,7 @@ pub fn run(arguments: &Animate) -> Result<(), Failure> {
     let frames = frames(&followed, course, steps)?;
     let [Some(first), Some(last)] = [frames.first(), frames.last()] else { return Ok(()) };
     if is_far(&figure.joints(first)?, &figure.joints(last)?) {
-        anstream::eprintln!(
+        say!(
             "the film jumps back to its start, which is another position: \
              write more turns with --to, or --back-and-forth"
         );
@@ -168,7 +169,7 @@ fn course(
     if !is_back_and_forth {
         let input = &machine.about.inputs[path.moving];
         let [from, to] = ends.map(|value| input.shown(value));
-        anstream::eprintln!("`{}` goes from {from} to {to} and back", input.name.text);
+        say!("`{}` goes from {from} to {to} and back", input.name.text);
     }
     Ok(Course::BackAndForth(ends))
 }

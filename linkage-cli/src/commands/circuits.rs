@@ -20,6 +20,7 @@ use crate::names::place;
 use crate::one_input::{At, OneInput, one_input, prepared};
 use crate::output::{self, Form, form};
 use crate::progress;
+use crate::terminal::say;
 
 /// The place of a start within its part of the range, the golden section: mechanisms are rarely singular there.
 const WITHIN: f64 = 0.381_966_011_250_105;
@@ -151,9 +152,7 @@ fn some<'p>(
         None if chosen.is_some() => Ok(found),
         None => {
             let count = found.motions.len();
-            anstream::eprintln!(
-                "there are many positions: these are the circuits of {count} motions, others are left out"
-            );
+            say!("there are many positions: these are the circuits of {count} motions, others are left out");
             Ok(found)
         }
     }

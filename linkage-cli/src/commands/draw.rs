@@ -9,6 +9,7 @@ use crate::machine::{Machine, Motion};
 use crate::motion::held;
 use crate::output::{self, Form, form, next_to};
 use crate::picture::{Painter, SHARP};
+use crate::terminal::say;
 
 const FORMS: [Form; 2] = [("SVG", &["svg"]), ("PNG", &["png"])];
 
@@ -50,7 +51,7 @@ pub fn svg_or_message(
     match drawing(machine, figure, motion)?.to_svg() {
         Ok(svg) => Ok(Some(svg)),
         Err(error) => {
-            anstream::eprintln!("{of} has no picture: {error}");
+            say!("{of} has no picture: {error}");
             Ok(None)
         }
     }
@@ -60,7 +61,7 @@ pub fn svg_or_message(
 pub fn painter(scale: f32) -> Painter {
     let painter = Painter::new(scale);
     if painter.is_without_fonts() {
-        anstream::eprintln!("this system has no fonts: the picture has no names; SVG has them");
+        say!("this system has no fonts: the picture has no names; SVG has them");
     }
     painter
 }

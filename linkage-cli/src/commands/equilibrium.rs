@@ -13,6 +13,7 @@ use crate::machine::{Coordinate, Machine};
 use crate::motion::held;
 use crate::one_input::Inputs;
 use crate::scene::{Need, chosen};
+use crate::terminal::say;
 
 const NEED: Need = Need { is_met: |scene| scene.has_equilibrium, statement: "equilibrium;" };
 
@@ -47,11 +48,11 @@ pub fn run(arguments: &arguments::Equilibrium) -> Result<(), Failure> {
     let start = machine.at(from.0);
     match on_motion {
         Some(true) => {}
-        Some(false) => anstream::eprintln!(
+        Some(false) => say!(
             "the motion through the position at {start} does not pass this one, which is on another branch or beyond a dead point"
         ),
         None if machine.about.unknowns.is_empty() => {}
-        None => anstream::eprintln!("it is not known if a motion from the position at {start} passes this one"),
+        None => say!("it is not known if a motion from the position at {start} passes this one"),
     }
     let outputs = machine.about.outputs.iter().zip(machine.outputs_at(&inputs, &unknowns)?);
     let coordinates = all().zip(inputs.iter().chain(&unknowns));

@@ -12,6 +12,7 @@ use crate::followed::{Range, ends, passed};
 use crate::machine::Machine;
 use crate::motion::held;
 use crate::one_input::{coordinates, one_input, prepared};
+use crate::terminal::say;
 
 pub fn run(arguments: &arguments::Limits) -> Result<(), Failure> {
     let arguments::Limits { numbers, place, along, form } = arguments;
@@ -42,9 +43,7 @@ pub fn listed(machine: &Machine, inputs: &[f64]) -> Result<Vec<(String, Vec<f64>
     let (all, more) = machine.first_positions(inputs, MOST_MODES).map_err(Failure::Outside)?;
     if more > 0 {
         let count = all.len();
-        anstream::eprintln!(
-            "these are the first {count} positions, and up to {more} more are left out: --branch chooses one"
-        );
+        say!("these are the first {count} positions, and up to {more} more are left out: --branch chooses one");
     }
     if all.is_empty() {
         // The reason is that of the position on the first branch.

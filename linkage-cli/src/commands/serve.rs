@@ -11,6 +11,7 @@ use crate::listener::{Answer, Request, listen};
 use crate::output;
 use crate::page::{self, replaced};
 use crate::source::{is_standard, read};
+use crate::terminal::say;
 
 /// The policy of the page as a file, and as it is served: it may ask for the text.
 const CONNECT: [&str; 2] = ["connect-src 'none'", "connect-src 'self'"];
@@ -28,7 +29,7 @@ pub fn run(arguments: &Serve) -> Result<(), Failure> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, arguments.port)).map_err(refused)?;
     let port = listener.local_addr().map_err(refused)?.port();
     output::print(format!("http://{}:{port}/\n", Ipv4Addr::LOCALHOST).as_bytes())?;
-    anstream::eprintln!("the page follows {name} until you interrupt this program");
+    say!("the page follows {name} until you interrupt this program");
     listen(&listener, |request| answer(request, arguments, &page, port));
     Ok(())
 }

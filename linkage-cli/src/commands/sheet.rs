@@ -10,6 +10,7 @@ use crate::live::live;
 use crate::names::listed;
 use crate::output::{self, Form, form, next_to};
 use crate::position::Position;
+use crate::terminal::say;
 
 const LATEX: [&str; 2] =
     ["\\documentclass{article}\n\\usepackage{amsmath}\n\\allowdisplaybreaks\n\\begin{document}\n", "\\end{document}\n"];
@@ -43,7 +44,7 @@ pub fn run(arguments: &arguments::Sheet) -> Result<(), Failure> {
     let text = if arguments.live { live(&text, arguments)? } else { text };
     output::write(&output, text.as_bytes(), file)?;
     if arguments.live {
-        anstream::eprintln!("the live sheet has {:.1} MB", text.len() as f64 / 1e6);
+        say!("the live sheet has {:.1} MB", text.len() as f64 / 1e6);
     }
     Ok(())
 }

@@ -21,6 +21,7 @@ use crate::progress;
 use crate::reasons::Reasons;
 use crate::said::say_jumps;
 use crate::scene::{Need, chosen};
+use crate::terminal::say;
 use running::{Running, is_event};
 use start::start;
 
@@ -41,6 +42,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     let start = start(&machine, &scene, arguments, from)?;
     let mut simulation =
         simulate(&scene, start, to, tolerance).map_err(|error| outside(&machine, &prepared, &error))?;
+    simulation = simulation.most_steps(arguments.most_steps as usize);
     // The columns are known, and names that do not exist are found, before the work.
     let all = Table::simulated_at(&mut simulation, []);
     let asked = asked(&all.names().into_iter().map(str::to_owned).collect::<Vec<_>>(), &arguments.shown.columns)?;
@@ -76,7 +78,7 @@ pub fn run(arguments: &arguments::Simulate) -> Result<(), Failure> {
     };
     output::write(&arguments.output, text.as_bytes(), &arguments.numbers.source.file)?;
     say(&marks);
-    incomplete.iter().for_each(|words| anstream::eprintln!("{words}"));
+    incomplete.iter().for_each(|words| say!("{words}"));
     say_jumps(&machine, &asked);
     match ended {
         Some(why) => Err(Failure::Outside(why)),
@@ -166,10 +168,10 @@ fn incomplete(reasons: &Reasons, table: &Table) -> Option<String> {
 fn say(marks: &[Mark]) {
     let marks: Vec<&Mark> = marks.iter().filter(|mark| is_event(&mark.name)).collect();
     for mark in marks.iter().take(NAMED) {
-        anstream::eprintln!("at {:.6} s: {}", mark.at, mark.name);
+        say!("at {:.6} s: {}", mark.at, mark.name);
     }
     if let Some(last) = marks.get(NAMED..).and_then(<[&Mark]>::last) {
         let more = marks.len() - NAMED;
-        anstream::eprintln!("{more} more events, the last at {:.6} s: {}", last.at, last.name);
+        say!("{more} more events, the last at {:.6} s: {}", last.at, last.name);
     }
 }

@@ -2,6 +2,7 @@
 
 use linkage_compiler::diagnostics::{is_near, suggestion};
 use linkage_report::Table;
+use linkage_report::table::at_kink;
 
 use super::summary::Summary;
 use crate::about::About;
@@ -37,7 +38,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
     let asked = asked(&all, &arguments.shown.columns)?;
     let mut table = Table::new(all);
     let mut unwound = Unwound::default();
-    let mut missing = Vec::new();
+    let (mut missing, mut kinks) = (Vec::new(), Vec::new());
     let steps = arguments.along.steps;
     let prepared = machine.solver.design.prepared();
     let followed = Followed::of(&machine, &prepared, &path, (0..=steps).map(|step| path.step(step, steps)))?;
@@ -48,10 +49,22 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         row.extend((rate != 0.0).then(|| ((value - path.ends[0]) / rate).abs()));
         match followed.motion(value, rate) {
             Ok(motion) => row.extend(numbers(&machine, &unwound.next(&machine, &motion)?, &motion)?),
-            Err(error) => {
-                missing.push((value, error));
-                row.resize(table.names().len(), f64::NAN);
-            }
+            Err(error) => match followed.next_to(value, rate) {
+                Some(next) => {
+                    let [before, after] = next.each_ref().map(|motion| {
+                        let turned = unwound.next(&machine, motion)?;
+                        numbers(&machine, &turned, motion)
+                    });
+                    let at_kink = at_kink(&before?, &after?);
+                    let names = table.names().into_iter().skip(row.len()).zip(&at_kink);
+                    kinks.extend(names.filter(|(_, number)| number.is_nan()).map(|(name, _)| (value, name.to_owned())));
+                    row.extend(at_kink);
+                }
+                None => {
+                    missing.push((value, error));
+                    row.resize(table.names().len(), f64::NAN);
+                }
+            },
         }
         table.push(&row);
     }
@@ -59,6 +72,7 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
         Some((_, error)) if missing.len() == steps as usize + 1 => return Err(Failure::Outside(error.clone())),
         _ => followed.say(&missing, &format!("{} rows", steps + 1)),
     }
+    followed.say_kinks(&kinks, &asked);
     say_jumps(&machine, &asked);
     let digits = arguments.shown.digits.or((format == TableFormat::Text).then_some(FOR_READERS));
     let table = with_units(&machine, table, arguments.shown.degrees)?;
@@ -91,10 +105,7 @@ pub fn written(table: Table, asked: &[String], digits: Option<usize>, format: Ta
     Ok(match format {
         TableFormat::Csv => table.to_csv(),
         TableFormat::Json => table.to_json() + "\n",
-        // No name has a comma.
-        TableFormat::Text => {
-            aligned(table.to_csv().lines().map(|line| line.split(',').map(str::to_owned).collect()).collect())
-        }
+        TableFormat::Text => aligned(table.cells()),
     })
 }
 
@@ -134,8 +145,7 @@ fn rate(machine: &Machine, path: &Path, arguments: &arguments::Table) -> Result<
 
 /// The columns that are asked for.
 pub fn asked(all: &[String], columns: &[String]) -> Result<Vec<String>, Failure> {
-    let asked: Vec<String> =
-        columns.iter().map(|name| name.trim().to_owned()).filter(|name| !name.is_empty()).collect();
+    let asked = joined(all, columns);
     match asked.iter().find(|name| !all.contains(name)) {
         None => Ok(asked),
         Some(name) if name == "time" => {
@@ -153,6 +163,19 @@ pub fn asked(all: &[String], columns: &[String]) -> Result<Vec<String>, Failure>
             Err(Failure::Argument(format!("the table has no column `{name}`{near}; `linkage names` lists all columns")))
         }
     }
+}
+
+/// Names that were divided at commas. A name that has a comma, as `stop on atan2(y, x)`, is put together again.
+fn joined(all: &[String], parts: &[String]) -> Vec<String> {
+    let (mut names, mut at) = (Vec::new(), 0);
+    while at < parts.len() {
+        let upto = |end: &usize| parts[at..*end].join(",").trim().to_owned();
+        let end = (at + 1..=parts.len()).rev().find(|end| all.contains(&upto(end))).unwrap_or(at + 1);
+        names.push(upto(&end));
+        at = end;
+    }
+    names.retain(|name| !name.is_empty());
+    names
 }
 
 /// The columns of a summary: those that are asked for, or all that move: no inputs, no time, and rates with `--rate` only.

@@ -14,6 +14,7 @@
 
 mod column;
 mod error;
+mod kink;
 mod motion;
 #[cfg(feature = "dynamics")]
 mod scene;
@@ -23,6 +24,7 @@ mod write;
 
 pub use column::Units;
 pub use error::TableError;
+pub use kink::{NEXT_TO_KINK, at_kink};
 #[cfg(feature = "dynamics")]
 pub(crate) use motion::names;
 
@@ -94,6 +96,8 @@ pub struct Missing {
 pub enum Cause {
     /// The motion has no position or no rate there.
     Path(PathError<String>),
+    /// These columns have no number, since a function has a kink there, as `abs(x)` at x = 0.
+    Kink(Vec<String>),
     /// The loads cannot be computed there, or the simulation has ended with this error.
     #[cfg(feature = "dynamics")]
     Motion(MotionError<String>),
@@ -165,6 +169,14 @@ impl Table {
         for (column, number) in self.columns.iter_mut().zip(cells) {
             column.values.push(number);
         }
+    }
+
+    /// Adds a row at a kink, where numbers without a derivative are NaN.
+    fn push_kink(&mut self, row: &[f64]) {
+        let missing = self.columns.iter().zip(row).filter(|(_, number)| number.is_nan());
+        let names: Vec<String> = missing.map(|(column, _)| column.name.clone()).collect();
+        let cause = (!names.is_empty()).then_some(Cause::Kink(names));
+        self.push_partial(row, cause);
     }
 
     /// The table with a column at its end, such as an energy at the states of a simulation.
@@ -356,6 +368,7 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Path(error) => error.fmt(f),
+            Self::Kink(columns) => write!(f, "a kink, where there is no {}", columns.join(", ")),
             #[cfg(feature = "dynamics")]
             Self::Motion(error) => error.fmt(f),
             #[cfg(feature = "dynamics")]

@@ -7,6 +7,7 @@ use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, MotionEnd, RangeOfMotion, RangeOptions};
 use linkage_runtime::{Assembly, BorrowedName, Dim, Kinematic, Mechanism, PathError, PathErrorOf};
 
+use super::kink::{may_be_kink, next_to_kink};
 use super::{Cause, Mark, Quantity, Table};
 
 impl Table {
@@ -49,7 +50,12 @@ impl Table {
         let mut clock = Clock::new(rate);
         for input in inputs {
             let (row, motion) = row(range, input, &mut clock);
-            table.push_partial(&row, motion.err().map(Cause::Path));
+            match motion {
+                Err(PathError::Position(error)) if may_be_kink(&error) && row.len() == table.columns.len() => {
+                    table.push_kink(&row);
+                }
+                motion => table.push_partial(&row, motion.err().map(Cause::Path)),
+            }
         }
         table.mark_motion(range);
         table
@@ -113,7 +119,7 @@ impl Clock {
 /// The motion at a row. The error owns its names, since a table does.
 type AtRow<M> = Result<MotionOf<M>, PathError<String>>;
 
-/// The cells of a row as far as they exist, and the motion.
+/// The cells of a row as far as they exist, at a kink NaN for those that do not, and the motion.
 pub(super) fn row<M: Driven<Scalar = f64>>(
     range: &RangeOfMotion<'_, M>,
     input: f64,
@@ -122,8 +128,18 @@ pub(super) fn row<M: Driven<Scalar = f64>>(
     let mut row: Vec<f64> = [input].into_iter().chain(clock.at(input)).collect();
     let motion = range.motion(input, clock.rate, 0.0);
     let motion = motion.map_err(|error| error.map_names(|name| name.to_string()));
-    if let Ok(motion) = &motion {
-        row.extend(numbers(range.mechanism(), motion));
+    match &motion {
+        Ok(motion) => row.extend(numbers(range.mechanism(), motion)),
+        Err(PathError::Position(error)) if may_be_kink(error) => {
+            let [least, largest] = range.inputs();
+            let unit = f64::EPSILON * input.abs().max(largest - least);
+            let next = |distance| {
+                let motion = range.motion(input + distance * unit, clock.rate, 0.0).ok()?;
+                Some(numbers(range.mechanism(), &motion))
+            };
+            row.extend(next_to_kink(next).into_iter().flatten());
+        }
+        Err(_) => {}
     }
     (row, motion)
 }

@@ -1,7 +1,7 @@
 //! Tables of the loads of scenes: what drives must apply, frictions and stops, forces in joints.
 
 use linkage_dynamics::simulation::Loads;
-use linkage_dynamics::{Energy, Inputs, MotionErrorOf, NameOf, Scene};
+use linkage_dynamics::{Energy, Inputs, MotionErrorOf, NameOf, Power, Scene};
 use linkage_runtime::kinematic::MotionOf;
 use linkage_runtime::range_of_motion::{Driven, RangeOfMotion};
 use linkage_runtime::{Assembly, Dim as _, Joint, JointForces, Kinematic, Mechanism, PathErrorOf, PerInput, Real};
@@ -100,6 +100,7 @@ impl Table {
     /// | `b_on_rod_x`, `b_on_rod_y`, `b_on_rod` | the force in a pin that a `reaction` names, and its magnitude |
     /// | `s_normal`, `s_moment` | the force and the moment in a guide |
     /// | `kinetic_energy`, `potential_energy` | the energy of a scene with `energy;` |
+    /// | `applied_power`, `dissipated_power` | in a simulation, the power of a scene with `power;` |
     ///
     /// A friction that depends on a force in a joint acts as [`Scene::loads`] has it. The time of the scene is that of the
     /// column `time`, or 0; its own drives do not act. Where loads do not exist, as at a dead point, their cells are
@@ -134,7 +135,7 @@ impl Table {
             };
             rows.push((row, cause));
         }
-        let loads = load_columns(scene, names.as_deref(), has_energy, |_| true);
+        let loads = load_columns(scene, names.as_deref(), |_| true).into_iter().chain(energy_columns(has_energy));
         let mut table = Self::of_columns(columns(range.mechanism(), rate).into_iter().chain(loads));
         for (row, cause) in rows {
             table.push_partial(&row, cause);
@@ -168,6 +169,11 @@ pub(super) fn of_energy(energy: Option<Energy<f64>>) -> impl Iterator<Item = f64
     energy.into_iter().flat_map(|Energy { kinetic, potential }| [kinetic, potential])
 }
 
+/// The numbers of a power, if there is one.
+pub(super) fn of_power(power: Option<Power<f64>>) -> impl Iterator<Item = f64> {
+    power.into_iter().flat_map(|Power { applied, dissipated }| [applied, dissipated])
+}
+
 /// The names of frictions and stops; none where they cannot be evaluated.
 pub(super) fn contact_names<S: Scene>(
     scene: &S,
@@ -178,11 +184,10 @@ pub(super) fn contact_names<S: Scene>(
     Some(scene.contacts(t, q, rates).ok()?.iter().map(|contact| contact.name).collect())
 }
 
-/// The columns of the loads and the energy, with the forces of these drives.
+/// The columns of the loads, with the forces of these drives.
 pub(super) fn load_columns<S: Scene>(
     scene: &S,
     contacts: Option<&[NameOf<S>]>,
-    has_energy: bool,
     is_driven: impl Fn(usize) -> bool,
 ) -> Vec<(String, Quantity)> {
     let (mut all, mechanism) = (Vec::new(), scene.mechanism());
@@ -211,10 +216,19 @@ pub(super) fn load_columns<S: Scene>(
             }
         }
     }
-    if has_energy {
-        all.extend(["kinetic_energy", "potential_energy"].map(|name| (name.to_owned(), Quantity::Torque)));
-    }
     all
+}
+
+/// The columns of the energy, if the scene has it.
+pub(super) fn energy_columns(has_energy: bool) -> impl Iterator<Item = (String, Quantity)> {
+    let names = if has_energy { &["kinetic_energy", "potential_energy"][..] } else { &[] };
+    names.iter().map(|name| ((*name).to_owned(), Quantity::Torque))
+}
+
+/// The columns of the power of a scene at a state, if the scene has it.
+pub(super) fn power_columns(has_power: bool) -> impl Iterator<Item = (String, Quantity)> {
+    let names = if has_power { &["applied_power", "dissipated_power"][..] } else { &[] };
+    names.iter().map(|name| ((*name).to_owned(), Quantity::Power))
 }
 
 /// The numbers of the loads in the order of their columns.

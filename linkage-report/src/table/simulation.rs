@@ -3,17 +3,18 @@
 use linkage_dynamics::contact::Change;
 use linkage_dynamics::integrate::Method;
 use linkage_dynamics::simulation::{Loads, Simulation, State, Watch};
-use linkage_dynamics::{Accelerations, Energy, Inputs, MotionErrorOf, NameOf, Scene};
+use linkage_dynamics::{Accelerations, Coordinates, Energy, Inputs, MotionErrorOf, NameOf, Power, Scene};
 use linkage_runtime::{Build, Column, Kinematic, Mechanism, PositionErrorOf};
 
+use super::kink::{may_be_kink, next_to_kink};
 use super::motion::{inputs, points_and_outputs, unknowns};
-use super::scene::{contact_names, load_columns, numbers, of_energy};
+use super::scene::{contact_names, energy_columns, load_columns, numbers, of_energy, of_power, power_columns};
 use super::{Cause, Mark, Missing, Quantity, Table};
 
 impl Table {
     /// The rest of a simulation, a row for its state and for each step and each event until its end: the time, of each
     /// coordinate and each output the value, rate and acceleration, of each point x, y, its velocity and its acceleration,
-    /// and the loads and energies as in [`Table::over_with_loads`], with the forces of the inputs that the scene drives.
+    /// and the loads, energies and powers as in [`Table::over_with_loads`], with the forces of the inputs that the scene drives.
     ///
     /// Events, kinks and changes of frictions and stops are [`marks`](Self::marks) of the column `time`. At an event the
     /// rates are those before it, and accelerations and loads those after it; where the rates jump, points and outputs have
@@ -128,7 +129,9 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
         let contacts = contact_names(scene, state.t, &state.q, &state.rates);
         let time = [("time".to_owned(), Quantity::Time)].into_iter();
         let has_energy = matches!(energy(scene, state), Ok(Some(_)));
-        let loads = load_columns(scene, contacts.as_deref(), has_energy, |input| is_driven[input]);
+        let has_power = matches!(power(scene, state), Ok(Some(_)));
+        let loads = load_columns(scene, contacts.as_deref(), |input| is_driven[input]);
+        let loads = loads.into_iter().chain(energy_columns(has_energy)).chain(power_columns(has_power));
         let m = scene.mechanism();
         let motion = time.chain(inputs(m)).chain(unknowns(m)).chain(points_and_outputs(m));
         Self { table: Table::of_columns(motion.chain(loads)), is_driven, error: None }
@@ -137,9 +140,10 @@ impl<S: Scene<Scalar = f64, Mechanism: Kinematic>> Rows<S> {
     fn push(&mut self, scene: &S, state: &State<S>, loads: Result<Loads<S>, MotionErrorOf<S>>) {
         let accelerations = loads.as_ref().ok().map(|loads| loads.accelerations);
         let (mut row, error) = moving(scene, state, accelerations);
-        let cause = match loads.and_then(|loads| Ok((loads, energy(scene, state)?))) {
-            Ok((loads, energy)) => {
-                row.extend(numbers(scene, &loads, |input| self.is_driven[input]).into_iter().chain(of_energy(energy)));
+        let cause = match loads.and_then(|loads| Ok((loads, energy(scene, state)?, power(scene, state)?))) {
+            Ok((loads, energy, power)) => {
+                row.extend(numbers(scene, &loads, |input| self.is_driven[input]));
+                row.extend(of_energy(energy).chain(of_power(power)));
                 error
             }
             Err(error) => Some(Cause::of_motion(error)),
@@ -177,6 +181,12 @@ fn energy<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<
     scene.kinetic_and_potential(&state.q, &Inputs::<S>::from(rates))
 }
 
+/// The power at a state.
+fn power<S: Scene<Scalar = f64>>(scene: &S, state: &State<S>) -> Result<Option<Power<f64>>, MotionErrorOf<S>> {
+    let (_, rates) = S::Mechanism::rate_parts(&state.rates);
+    scene.applied_and_dissipated(state.t, &state.q, &Inputs::<S>::from(rates))
+}
+
 /// The numbers of a state before its loads, NaN for those that do not exist, and why.
 fn moving<S>(scene: &S, state: &State<S>, accelerations: Option<Accelerations<S>>) -> (Vec<f64>, Option<Cause>)
 where
@@ -202,10 +212,33 @@ where
             (row, (jumps && count() > 0).then_some(Cause::Jump))
         }
         Err(error) => {
-            row.extend(std::iter::repeat_n(f64::NAN, count()));
-            (row, Some(Cause::of_motion::<NameOf<S>>(error.into())))
+            let next = |distance| {
+                let q = next_to::<S>(state, distance)?;
+                quantities(scene.mechanism(), &q, &state.rates, smooth).ok()
+            };
+            let Some(numbers) = may_be_kink(&error).then(|| next_to_kink(next)).flatten() else {
+                row.extend(std::iter::repeat_n(f64::NAN, count()));
+                return (row, Some(Cause::of_motion::<NameOf<S>>(error.into())));
+            };
+            let names = points_and_outputs(scene.mechanism()).map(|(name, _)| name);
+            let missing = names.zip(&numbers).filter(|(_, number)| number.is_nan()).map(|(name, _)| name);
+            let missing: Vec<String> = missing.collect();
+            row.extend(numbers);
+            let cause = if jumps { Cause::Jump } else { Cause::Kink(missing) };
+            (row, Some(cause))
         }
     }
+}
+
+/// The position at so many units in the last place along the motion.
+fn next_to<S: Scene<Scalar = f64>>(state: &State<S>, distance: f64) -> Option<Coordinates<S>> {
+    let ((unknowns, inputs), (of_unknowns, of_inputs)) =
+        (S::Mechanism::parts(&state.q), S::Mechanism::rate_parts(&state.rates));
+    let largest = |all: &mut dyn Iterator<Item = &f64>| all.fold(0.0_f64, |most, number| most.max(number.abs()));
+    let size = largest(&mut unknowns.iter().chain(&inputs));
+    let speed = largest(&mut of_unknowns.iter().chain(&of_inputs));
+    let time = distance * f64::EPSILON * if size > 0.0 { size / speed } else { state.t.abs() };
+    time.is_finite().then(|| S::Mechanism::coordinates(unknowns + of_unknowns * time, inputs + of_inputs * time))
 }
 
 /// The numbers of points and outputs, with NaN where there are no accelerations.

@@ -12,17 +12,21 @@ impl Table {
     /// number that does not exist is an empty cell.
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let mut text = self.columns.iter().map(|column| quoted(&column.head())).collect::<Vec<_>>().join(",");
-        text.push('\n');
-        for row in 0..self.len() {
-            for (place, column) in self.columns.iter().enumerate() {
-                let comma = if place == 0 { "" } else { "," };
-                // Writing to a string does not fail.
-                _ = write!(text, "{comma}{}", self.number(column.values[row]).unwrap_or_default());
-            }
-            text.push('\n');
-        }
-        text
+        let line = |cells: Vec<String>| cells.iter().map(|cell| quoted(cell)).collect::<Vec<_>>().join(",") + "\n";
+        self.lines().map(line).collect()
+    }
+
+    /// The table as lines of cells: the heads, then the rows. A number that does not exist is an empty cell.
+    #[must_use]
+    pub fn cells(&self) -> Vec<Vec<String>> {
+        self.lines().collect()
+    }
+
+    fn lines(&self) -> impl Iterator<Item = Vec<String>> {
+        let heads = self.columns.iter().map(super::column::Column::head).collect();
+        let cell = |column: &super::column::Column, row: usize| self.number(column.values[row]).unwrap_or_default();
+        let rows = (0..self.len()).map(move |row| self.columns.iter().map(|column| cell(column, row)).collect());
+        std::iter::once(heads).chain(rows)
     }
 
     /// The table as JSON. A number that does not exist is null, and `missing` has the reason:
@@ -73,9 +77,9 @@ impl Table {
     }
 }
 
-/// A head as a cell.
-fn quoted(head: &str) -> String {
-    if head.contains([',', '"', '\n', '\r']) { format!("\"{}\"", head.replace('"', "\"\"")) } else { head.to_owned() }
+/// A cell of CSV.
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.to_owned() }
 }
 
 /// A string of JSON, by RFC 8259.

@@ -36,6 +36,7 @@ pub(in crate::program) fn of_scene(signatures: &SceneSignatures, kinks: Vec<Kink
     functions.extend((!kinks.is_empty()).then(|| of.kink()));
     functions.extend([of.unreduced(), of.prescribed()]);
     functions.extend(signatures.scene.requests.contains(&SceneRequest::Energy).then(|| of.energy()));
+    functions.extend(signatures.scene.requests.contains(&SceneRequest::Power).then(|| of.power()));
     constants.extend((!kinks.is_empty()).then_some(("KINKS", ConstantValue::Kinks(kinks))));
     let (of, on, error) = (Implemented::Scene, signatures.types.itself.clone(), "MotionError");
     Some(Implementation { of, on, is_generic: true, error, types, constants, functions })
@@ -219,6 +220,16 @@ impl OfScene<'_> {
         let found = Expression::own_call("energy", [name("q"), name("input_rates").dereferenced()]).tried();
         let of = Type::Around("Option", Box::new(Type::Runtime("Energy", Vec::new())));
         fallible_of_trait("kinetic_and_potential", arguments, of, Body::plain(perhaps(Some(found))))
+    }
+
+    fn power(&self) -> Function<Body> {
+        let inputs = Type::Own(self.0.types.inputs.clone());
+        let arguments =
+            [self.time(), self.coordinates("q", Order::Value), ("input_rates", Passed::ByReference(inputs))];
+        let given = [name("t"), name("q"), name("input_rates").dereferenced()];
+        let found = Expression::own_call("power", given).tried();
+        let of = Type::Around("Option", Box::new(Type::Runtime("Power", Vec::new())));
+        fallible_of_trait("applied_and_dissipated", arguments, of, Body::plain(perhaps(Some(found))))
     }
 
     /// The law of each input that has a drive.

@@ -1,7 +1,7 @@
 //! The trait of scenes.
 
 use linkage_dynamics::{
-    Bearing, Contact, Energy, Equations, Kink, MotionError, Prescribed, Scene, StateParts, Unreduced,
+    Bearing, Contact, Energy, Equations, Kink, MotionError, Power, Prescribed, Scene, StateParts, Unreduced,
 };
 use linkage_runtime::jacobian::Vector;
 use linkage_runtime::{Build as _, Column, Dim, Joint};
@@ -195,6 +195,20 @@ impl<'p, V: Dim> Scene for SceneAtRunTime<'p, V> {
         let (found, of) = (self.prepared.result("kinetic_and_potential", given)?, self.prepared.fields);
         let number = |name| number(field(&found, name));
         Ok(Some(Energy { kinetic: number(of.kinetic), potential: number(of.potential) }))
+    }
+    fn applied_and_dissipated(
+        &self,
+        t: f64,
+        q: &CoordinatesAtRunTime<V>,
+        input_rates: &Column<f64, V>,
+    ) -> Found<'p, Option<Power<f64>>> {
+        if !self.prepared.has("applied_and_dissipated") {
+            return Ok(None);
+        }
+        let given = [Value::Number(t), self.mechanism.coordinates_value(q), self.mechanism.inputs_value(input_rates)];
+        let (found, of) = (self.prepared.result("applied_and_dissipated", given)?, self.prepared.fields);
+        let number = |name| number(field(&found, name));
+        Ok(Some(Power { applied: number(of.applied), dissipated: number(of.dissipated) }))
     }
     fn prescribed(&self, t: f64) -> Column<Option<Prescribed<f64>>, V> {
         let found = self.prepared.value("prescribed", [Value::Number(t)]);

@@ -44,6 +44,8 @@ pub(crate) struct Fields {
     pub(crate) constant: Name,
     pub(crate) rows: Name,
     pub(crate) contacts: Name,
+    pub(crate) applied: Name,
+    pub(crate) dissipated: Name,
     pub(crate) kinetic: Name,
     pub(crate) potential: Name,
 }
@@ -64,6 +66,8 @@ impl Fields {
             constant: of("constant"),
             rows: of("rows"),
             contacts: of("contacts"),
+            applied: of("applied"),
+            dissipated: of("dissipated"),
             kinetic: of("kinetic"),
             potential: of("potential"),
         }
