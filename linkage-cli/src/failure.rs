@@ -40,7 +40,7 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         match self {
             Self::Mistakes(all) => {
-                all.iter().for_each(|mistakes| anstream::eprint!("{}", printable(&mistakes.to_text())));
+                all.iter().for_each(|mistakes| anstream::eprint!("{}", mistakes.to_text()));
                 ExitCode::FAILURE
             }
             Self::Reported => ExitCode::FAILURE,

@@ -8,6 +8,7 @@ use linkage_compiler::diagnostics::suggestion;
 use linkage_compiler::text::{LONGEST, Message};
 
 use crate::mistakes::{Mistake, Mistakes, Source};
+use crate::terminal::printable;
 
 /// True for the name of standard input and output.
 pub fn is_standard(path: &Path) -> bool {
@@ -16,7 +17,7 @@ pub fn is_standard(path: &Path) -> bool {
 
 /// Reads a file, or standard input for `-`.
 pub fn read(path: &Path) -> Result<Source, Mistakes> {
-    let name = if is_standard(path) { "<stdin>".to_owned() } else { path.display().to_string() };
+    let name = if is_standard(path) { "<stdin>".to_owned() } else { printable(&path.display().to_string()) };
     let bytes = match bytes(path) {
         Ok(bytes) => bytes,
         Err(message) => {
@@ -71,7 +72,7 @@ fn cannot_read(path: &Path, error: &io::Error) -> String {
 }
 
 fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    printable(&path.file_name().unwrap_or_default().to_string_lossy())
 }
 
 /// The names of mechanisms' files in the folder of a path.

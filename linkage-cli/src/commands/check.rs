@@ -11,6 +11,7 @@ use crate::messages::Item;
 use crate::mistakes::Mistakes;
 use crate::output;
 use crate::source::read;
+use crate::terminal::say;
 
 pub fn run(arguments: &Check) -> Result<(), Failure> {
     let (mut right, mut wrong) = (String::new(), Vec::new());
@@ -38,6 +39,15 @@ pub fn run(arguments: &Check) -> Result<(), Failure> {
 fn checked(file: &Path) -> Result<String, Mistakes> {
     let source = read(file)?;
     let compiled = compiled(&source, |_| ())?;
+    for mechanism in compiled.iter().map(|of| &of.mechanism) {
+        if let Some(name) = mechanism.externals.iter().find_map(|of| Some(&of.names.first()?.text)) {
+            let driver = mechanism.drivers.iter().next().map(|driver| driver.name.to_string()).unwrap_or_default();
+            say!(
+                "{}: note: `{driver}` calls `{name}`, which a program in Rust has to give it: here it has no numbers",
+                source.name
+            );
+        }
+    }
     Ok(compiled.iter().map(|of| format!("{}: {}\n", source.name, summary(&of.mechanism))).collect())
 }
 

@@ -55,8 +55,9 @@ pub fn run(arguments: &arguments::Table) -> Result<(), Failure> {
                         let turned = unwound.next(&machine, motion)?;
                         numbers(&machine, &turned, motion)
                     });
-                    let at_kink = at_kink(&before?, &after?);
-                    let names = table.names().into_iter().skip(row.len()).zip(&at_kink);
+                    let names: Vec<&str> = table.names().into_iter().skip(row.len()).collect();
+                    let at_kink = at_kink(&names, &before?, &after?);
+                    let names = names.into_iter().zip(&at_kink);
                     kinks.extend(names.filter(|(_, number)| number.is_nan()).map(|(name, _)| (value, name.to_owned())));
                     row.extend(at_kink);
                 }

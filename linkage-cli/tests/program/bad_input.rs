@@ -142,3 +142,56 @@ fn a_link_a_pipe_and_permissions_stay() {
     let mode = |name: &str| fs::metadata(folder.path(name)).unwrap().permissions().mode();
     assert_eq!(mode("new.rs"), mode("other.rs"));
 }
+
+/// Names of files and arguments are no commands to a terminal.
+#[test]
+fn control_characters_are_shown() {
+    let folder = Folder::new();
+    folder.write("red\u{1b}[31m.linkage", "mechanism M { param a = 1; input t; point P = a@t; oops }");
+    let run = |arguments: &[&str]| {
+        let output = folder.command("check").args(arguments).output().unwrap();
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let mistakes = run(&["red\u{1b}[31m.linkage"]);
+    assert!(mistakes.starts_with("red␛[31m.linkage:1:52: unknown statement `oops`"), "{mistakes}");
+    assert!(run(&["other\u{1b}[31m.linkage"]).contains("other␛[31m.linkage"));
+    assert!(!run(&["--set\u{1b}[31m"]).contains('\u{1b}'));
+}
+
+/// What a text without Rust can follow, in one message.
+#[test]
+fn hints_are_those_of_a_text() {
+    let folder = Folder::new();
+    let mistakes = |text: &str| {
+        folder.write("m.linkage", text);
+        let ran = folder.run("check m.linkage");
+        let lines = ran.messages.lines().filter(|line| line.starts_with("m.linkage:"));
+        lines.map(|line| line.splitn(4, ':').last().unwrap().trim().to_owned()).collect::<Vec<_>>()
+    };
+    let scene = |rest: &str| format!("mechanism M {{ param m = 1, k = 0.1; input x; {rest} scene S {{ inertia; }} }}");
+    assert_eq!(mistakes("mechanism M { param a = 1; }"), ["this mechanism has no input: declare one with `input`"]);
+    assert_eq!(
+        mistakes("mechanism M { param A = (0, 0); input t; point P = 1@t + A; }"),
+        ["a parameter is a number: write `let A = (x, y);`, perhaps with a parameter for each part"]
+    );
+    assert_eq!(
+        mistakes("mechanism M { param a = 1; input mut t; point P = a@t; }")[0],
+        "a name has no `mut`: leave it out"
+    );
+    assert_eq!(
+        mistakes(&scene("point G3 = (x, 0); body b { mass m*k; center G; }")),
+        ["unknown name `G`, did you mean `G3`?"]
+    );
+    assert_eq!(
+        mistakes(&scene("body b { mass m - k*t; center (x, 0); }")),
+        ["`t` (time) can be used only in the laws of a scene: what a body has depends on its position alone"]
+    );
+    let functions = "mechanism M { param a = 1; input t; output o = max(a*t, 1); output p = if t { a } else { 0 }; }";
+    assert_eq!(
+        mistakes(functions),
+        ["unknown function `max`: it has no derivative everywhere", "`if` cannot be part of an expression"]
+    );
+    folder.write("f.linkage", "mechanism F { extern fn f(x) -> (f, df, ddf); input t; output o = f(t); }");
+    let note = "f.linkage: note: `F` calls `f`, which a program in Rust has to give it: here it has no numbers\n";
+    folder.run("check f.linkage").works(note);
+}

@@ -443,3 +443,40 @@ fn rows_near_a_change_point_hold() {
         }
     }
 }
+
+/// A column for what the scene asks for, names with commas, a kink that empties its own cells alone, and a limit of steps.
+#[test]
+fn columns_of_scenes() {
+    let folder = folder();
+    folder.write(
+        "columns.linkage",
+        "mechanism Columns { param m = 2, c = 3, f = 5; input x, y; body a { mass m; center (x, 0); } \
+         body b { mass m; center (y, 0); } output o = abs(x - 0.05); output p = 2*x; \
+         scene Pushed { inertia; force (f, 0) at (x, 0); damper c on x; power; } \
+         scene Stopped { inertia; stop atan2(y - x, 1) in -2..2, restitution 0; } \
+         scene Driven { inertia; drive x = 0.1*t; } }",
+    );
+    let of = |columns: &str, more: &str| {
+        let command = format!("simulate columns.linkage --at x=0,y=0 --to 1 --steps 4 --columns {columns} {more}");
+        folder.run(&command)
+    };
+    let power = of("x_rate,applied_power,dissipated_power", "--scene Pushed").works("");
+    for row in power.lines().skip(1) {
+        let numbers: Vec<f64> = row.split(',').map(|number| number.parse().unwrap()).collect();
+        close(numbers[1], 5.0 * numbers[0], 1e-12);
+        close(numbers[2], 3.0 * numbers[0] * numbers[0], 1e-12);
+    }
+    let mut command =
+        folder.command("simulate columns.linkage --scene Stopped --at x=0,y=0 --to 1 --steps 1 --format text");
+    let output = command.args(["--columns", "y, stop on atan2(y - x, 1) ,x"]).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(text, "y  stop on atan2(y - x, 1)  x\n0                        0  0\n0                        0  0\n");
+    let message = "1 row has empty cells; the first, at 0.500000 s: a kink, where there is no o_rate, o_acceleration\n";
+    let rows = of("o,o_rate,p,p_rate", "--scene Driven --digits 9").works(message);
+    let cells: Vec<&str> = rows.lines().nth(3).unwrap().split(',').collect();
+    assert_eq!(cells[1..], ["", "0.1", "0.2"], "{rows}");
+    close(cells[0].parse().unwrap(), 0.0, 1e-15);
+    let message = "error: the limit of 2 steps is reached at ";
+    let few = of("x", "--scene Pushed --most-steps 2 --tolerance 1e-12");
+    assert!(few.messages.starts_with(message) && few.messages.contains("more steps"), "{}", few.messages);
+}

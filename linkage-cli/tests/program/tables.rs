@@ -358,3 +358,22 @@ fn lists_of_values() {
     run("--steps 1 --columns theta,psi -o t.txt").works("wrote t.txt\n");
     assert!(folder.read("t.txt").starts_with("  theta"), "{}", folder.read("t.txt"));
 }
+
+/// One output has a kink in a row; the position is there, and so are all other numbers.
+#[test]
+fn a_kink_leaves_the_other_cells() {
+    let folder = Folder::new();
+    folder.write(
+        "kink.linkage",
+        "mechanism Kink { input x; unknown p; equation p = 2*x; point P = x@30deg; output o = abs(x - 0.5); output q = p + x; }",
+    );
+    let command = "table kink.linkage --along x --from 0 --to 1 --steps 4 --columns x,P_x,o,o_rate,q,q_rate --digits 9";
+    // At rest nothing has a rate. Numbers are those next to the kink, some units in the last place away.
+    let rows = folder.run(command).works("");
+    assert_eq!(rows.lines().nth(3), Some("0.5,0.433012702,8.8817842e-16,0,1.5,0"), "{rows}");
+    let message = "at x = 0.5 there is a kink, and no o_rate\n";
+    let rows = folder.run(&format!("{command} --rate 2")).works(message);
+    assert_eq!(rows.lines().nth(3), Some("0.5,0.433012702,8.8817842e-16,,1.5,6"), "{rows}");
+    // What is not asked for is not named.
+    folder.run("table kink.linkage --along x --from 0 --to 1 --steps 4 --rate 2 --columns q_rate").works("");
+}

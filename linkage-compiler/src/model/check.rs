@@ -133,8 +133,7 @@ pub(super) fn constraints(mechanism: &mut Mechanism, scope: &Scope, diagnostics:
         }
         if driver.inputs.is_empty() {
             diagnostics.error(at(driver), "this mechanism has no input: declare one with `input`");
-        }
-        if mechanism.is_empty() {
+        } else if mechanism.is_empty() {
             let message = format_args!(
                 "nothing depends on the inputs of `{}`: add a `loop`, an `equation`, a `point`, an `output` or a `scene`",
                 driver.name

@@ -69,9 +69,20 @@ impl Resolver<'_> {
             .error(region, "expected a scalar, found a vector: use `x(…)`, `y(…)`, `norm(…)` or `angle(…)`");
     }
 
-    /// The value of an expression without symbols: the default of a parameter.
-    pub(super) fn constant(&mut self, id: ExpressionId) -> Option<NodeId> {
-        let node = self.within(Mode::Default, |resolver| resolver.scalar(id))?;
+    /// The default of a parameter: the value of an expression without symbols.
+    pub(super) fn default_of(&mut self, name: &Ident, id: ExpressionId) -> Option<NodeId> {
+        let node = match self.within(Mode::Default, |resolver| resolver.value(id)) {
+            Value::Scalar(node) => node,
+            Value::Vector(..) => {
+                let message = format!(
+                    "a parameter is a number: write `let {name} = (x, y);`, perhaps with a parameter for each part"
+                );
+                self.diagnostics.error(self.expressions.region(id), message);
+                self.scope.spoil(name);
+                return None;
+            }
+            Value::Poison => return None,
+        };
         if self.graph.constant_value(node).is_some() {
             return Some(node);
         }

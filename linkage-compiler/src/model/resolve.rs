@@ -253,7 +253,7 @@ impl Resolver<'_> {
                 StatementKind::Parameters(parameters) => {
                     for (name, default) in parameters {
                         let Some(default) = default else { continue };
-                        let (node, text) = (self.constant(*default), name.to_string());
+                        let (node, text) = (self.default_of(name, *default), name.to_string());
                         if let Some(parameter) = result.parameters.iter_mut().find(|p| p.name.text == text) {
                             parameter.default = node;
                             parameter.default_text = node.map(|node| self.written(*default, node));

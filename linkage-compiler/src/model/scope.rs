@@ -67,6 +67,8 @@ pub(super) struct Scope {
     pub(super) has_time: bool,
     /// The messages of time and of rates that the statement has.
     reported_motion: BTreeSet<String>,
+    /// True in the statement of a body.
+    pub(super) is_body: bool,
     /// The names of bodies, drivers and scenes, and the message of their use as a value.
     pub(super) others: BTreeMap<String, String>,
 }
@@ -118,6 +120,11 @@ impl Scope {
         }
     }
 
+    /// Lets a name have no value, so that its uses are no further mistakes.
+    pub(super) fn spoil(&mut self, name: &Ident) {
+        self.entries.insert(name.to_string(), Entry::Value(Value::Poison));
+    }
+
     /// Records a name in a statement with a syntax error, which may declare it.
     pub(super) fn excuse(&mut self, name: impl Into<String>) {
         self.excused.insert(name.into());
@@ -166,9 +173,12 @@ impl Scope {
     /// Reports time or a rate where there is no motion, once in a statement.
     pub(super) fn report_motion(&mut self, what: &str, at: impl Into<Region>, diagnostics: &mut Diagnostics) {
         if self.reported_motion.insert(what.to_owned()) {
-            let message = format!(
-                "{what} can be used only in the laws of a scene: write the expression there, as in `torque … on phi;`"
-            );
+            let place = if self.is_body {
+                "what a body has depends on its position alone"
+            } else {
+                "write the expression there, as in `torque … on phi;`"
+            };
+            let message = format!("{what} can be used only in the laws of a scene: {place}");
             diagnostics.error(at, message);
         }
     }

@@ -25,7 +25,7 @@ impl Resolver<'_> {
         };
         let is_similar = |undeclared: &&Undeclared| {
             let name = undeclared.name.to_string();
-            name == "t" || constant_of_rust(&name).is_some() || self.scope.nearest(&name).is_some()
+            name == "t" || constant_of_rust(&name).is_some() || similar(&name, &self.scope).is_some()
         };
         let lines = Lines::of(statements);
         let (similar, new): (Vec<&Undeclared>, Vec<&Undeclared>) = reported.into_iter().partition(is_similar);
@@ -61,11 +61,23 @@ fn advice(name: &str, scope: &Scope, is_angle: bool) -> String {
     if let Some(of) = of_rate(name).filter(|of| scope.is_known(of)).min() {
         return format!(": write `rate({of})`, in the laws of a scene");
     }
-    match scope.nearest(name) {
+    match similar(name, scope) {
         Some(near) => did_you_mean(near),
         None if is_angle => ": declare it with `input`, `unknown` or `param`".to_owned(),
         None => ": declare it with `param`, `input`, `unknown` or `let`".to_owned(),
     }
+}
+
+/// The most similar name, or the only one that is this name and a number: `G3` for `G`.
+fn similar<'a>(name: &str, scope: &'a Scope) -> Option<&'a str> {
+    scope.nearest(name).or_else(|| {
+        let is_numbered = |other: &&str| {
+            let number = other.strip_prefix(name);
+            number.is_some_and(|number| !number.is_empty() && number.chars().all(|digit| digit.is_ascii_digit()))
+        };
+        let mut numbered = scope.names().filter(is_numbered);
+        numbered.next().filter(|_| numbered.next().is_none())
+    })
 }
 
 /// The names of coordinates whose rate may have a name.

@@ -14,6 +14,9 @@ pub(super) fn name(stream: ParseStream) -> syn::Result<Ident> {
     }
     let name = stream.call(Ident::parse_any).map_err(|error| syn::Error::new(error.span(), "expected a name"))?;
     let text = name.to_string();
+    if text == "mut" {
+        return Err(syn::Error::new(name.span(), "a name has no `mut`: leave it out"));
+    }
     if is_keyword(&text) || !can_be_name(&text) {
         let advice = if can_be_name(&text) { format!(", or write `r#{text}`") } else { String::new() };
         return Err(syn::Error::new(name.span(), format!("`{text}` {KEYWORD_AS_NAME}{advice}")));

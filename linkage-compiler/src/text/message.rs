@@ -6,6 +6,13 @@ use proc_macro2::{Span, TokenStream, TokenTree};
 
 use crate::diagnostics::Diagnostics;
 
+/// Hints of the macro that a text without Rust cannot follow.
+const FOR_RUST: [&str; 3] = [
+    "; declare a user function with `extern fn`",
+    ": put the cases into a user function, `extern fn`",
+    ": put cases into a user function, `extern fn`",
+];
+
 /// A mistake in a text. Messages are ordered by their places.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Message {
@@ -65,7 +72,8 @@ impl Places {
 
     /// The messages of one stage.
     pub(super) fn messages(&self, diagnostics: &Diagnostics) -> Vec<Message> {
-        diagnostics.errors().iter().map(|error| self.message(error.span(), &error.to_string())).collect()
+        let in_text = |message: String| FOR_RUST.iter().fold(message, |message, hint| message.replace(hint, ""));
+        diagnostics.errors().iter().map(|error| self.message(error.span(), &in_text(error.to_string()))).collect()
     }
 
     /// A message on a token.

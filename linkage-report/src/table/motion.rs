@@ -137,7 +137,9 @@ pub(super) fn row<M: Driven<Scalar = f64>>(
                 let motion = range.motion(input + distance * unit, clock.rate, 0.0).ok()?;
                 Some(numbers(range.mechanism(), &motion))
             };
-            row.extend(next_to_kink(next).into_iter().flatten());
+            let columns = columns(range.mechanism(), clock.rate);
+            let names: Vec<&str> = columns.iter().skip(row.len()).map(|(name, _)| name.as_str()).collect();
+            row.extend(next_to_kink(&names, next).into_iter().flatten());
         }
         Err(_) => {}
     }

@@ -216,13 +216,14 @@ where
                 let q = next_to::<S>(state, distance)?;
                 quantities(scene.mechanism(), &q, &state.rates, smooth).ok()
             };
-            let Some(numbers) = may_be_kink(&error).then(|| next_to_kink(next)).flatten() else {
+            let columns: Vec<String> = points_and_outputs(scene.mechanism()).map(|(name, _)| name).collect();
+            let names: Vec<&str> = columns.iter().map(String::as_str).collect();
+            let Some(numbers) = may_be_kink(&error).then(|| next_to_kink(&names, next)).flatten() else {
                 row.extend(std::iter::repeat_n(f64::NAN, count()));
                 return (row, Some(Cause::of_motion::<NameOf<S>>(error.into())));
             };
-            let names = points_and_outputs(scene.mechanism()).map(|(name, _)| name);
-            let missing = names.zip(&numbers).filter(|(_, number)| number.is_nan()).map(|(name, _)| name);
-            let missing: Vec<String> = missing.collect();
+            let missing = columns.into_iter().zip(&numbers).filter(|(_, number)| number.is_nan());
+            let missing: Vec<String> = missing.map(|(name, _)| name).collect();
             row.extend(numbers);
             let cause = if jumps { Cause::Jump } else { Cause::Kink(missing) };
             (row, Some(cause))

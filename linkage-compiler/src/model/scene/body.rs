@@ -38,6 +38,7 @@ impl Resolver<'_> {
         }
         // Expressions must be evaluated in the order of the source.
         let (mut scalars, mut center) = (BTreeMap::new(), None);
+        self.scope.is_body = true;
         for (word, value) in &tree.properties {
             if word == "center" {
                 center = self.vector(*value);
@@ -48,6 +49,7 @@ impl Resolver<'_> {
                 scalars.insert(word.to_string(), node);
             }
         }
+        self.scope.is_body = false;
         for word in ["mass", "inertia"] {
             if let (Some(&value), Some(&node)) = (given.get(word), scalars.get(word)) {
                 self.positive(value, node, &format!("the {word} of `{}`", tree.name));
