@@ -18,7 +18,10 @@ const STEPS = 180;
 type Column = Quantity & { of: string; part: string };
 
 export class ChartsTab extends Tab {
+    /** The columns that the user has chosen, if any. */
     #chosen: string[] | null = null;
+    /** The columns that are shown: those of the choice that there are, or the first ones. */
+    #shown: string[] = [];
     #columns: Column[] = [];
     #shape = "";
     #picker = h("div", { class: "picker" });
@@ -67,7 +70,7 @@ export class ChartsTab extends Tab {
         this.#columns = motion.columns.map((column) => this.#column(column));
         const known = new Set(this.#columns.map(({ name }) => name));
         const chosen = this.#chosen?.filter((name) => known.has(name)) ?? [];
-        this.#chosen = chosen.length > 0 || this.#chosen?.length === 0 ? chosen : this.#first();
+        this.#shown = chosen.length > 0 || this.#chosen?.length === 0 ? chosen : this.#first();
         this.#pick();
         const groups = this.#groups();
         const figures: HTMLElement[] = [];
@@ -114,7 +117,7 @@ export class ChartsTab extends Tab {
         const points = new Set(this.machine.about?.points);
         // Outputs may be of any unit: each has its own charts.
         const outputs = new Set(this.machine.about?.outputs.map((output) => output.name));
-        for (const name of this.#chosen ?? []) {
+        for (const name of this.#shown) {
             const column = this.#columns.find((candidate) => candidate.name === name);
             if (column === undefined) continue;
             const isPoint = points.has(column.of);
@@ -146,15 +149,16 @@ export class ChartsTab extends Tab {
             );
         }
         for (const button of this.#picker.querySelectorAll("button")) {
-            set(button, "aria-pressed", this.#chosen?.includes(button.dataset.column ?? "") ? "true" : "false");
+            set(button, "aria-pressed", this.#shown.includes(button.dataset.column ?? "") ? "true" : "false");
         }
     }
 
     #chip(column: Column): HTMLElement {
         const label = column.part === "" ? column.of : column.part.replaceAll("_", " ");
         const toggle = (): void => {
-            const chosen = this.#chosen ?? [];
-            this.#chosen = chosen.includes(column.name) ? chosen.filter((name) => name !== column.name) : [...chosen, column.name];
+            const shown = this.#shown;
+            this.#shown = shown.includes(column.name) ? shown.filter((name) => name !== column.name) : [...shown, column.name];
+            this.#chosen = this.#shown;
             this.#pick();
             this.refresh();
         };
