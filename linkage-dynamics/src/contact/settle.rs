@@ -72,7 +72,9 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let mut closed = at_rest.map(|side| side.is_some());
         // An impact may move another s towards a stop that it touches.
         while let Some(struck) = self.struck(&equations, (&at_rest, &closed), is_together) {
-            has_losses |= struck.iter().flatten().any(|of| of.restitution < T::one());
+            let mut hit =
+                struck.iter().zip(&at_rest).filter(|(_, side)| side.is_none()).filter_map(|(of, _)| of.as_ref());
+            has_losses |= hit.any(|of| of.restitution < T::one());
             if impacts == if has_losses { MOST_WITH_LOSSES } else { MOST_IMPACTS } {
                 let place = struck.iter().position(|of| of.is_some()).unwrap_or(0);
                 let (scene, contact) = (equations.scene, equations.contacts[place].name);
@@ -170,10 +172,10 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                 Struck { inward: side.inward(), restitution }
             })
         });
-        for (place, of) in
-            struck.iter_mut().enumerate().filter(|(place, _)| at_rest[*place].is_some() && !closed[*place])
-        {
-            *of = of.filter(|_| !rebounds);
+        for ((of, side), closed) in struck.iter_mut().zip(at_rest).zip(closed) {
+            if rebounds && side.is_some() && !closed {
+                *of = None;
+            }
         }
         hit.then_some(struck)
     }
