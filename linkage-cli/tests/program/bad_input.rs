@@ -158,7 +158,7 @@ fn control_characters_are_shown() {
     assert!(!run(&["--set\u{1b}[31m"]).contains('\u{1b}'));
 }
 
-/// What a text without Rust can follow, in one message.
+/// Hints that a text without Rust can follow, in one message each.
 #[test]
 fn hints_are_those_of_a_text() {
     let folder = Folder::new();

@@ -2,7 +2,7 @@
 
 use linkage_runtime::{Name, PositionError};
 
-/// How many units in the last place of its input a row next to a kink is away from it: at the first the sign may still be zero.
+/// The units in the last place of its input by which a row is next to a kink: at the first the sign may still be zero.
 pub const NEXT_TO_KINK: [f64; 3] = [4.0, 64.0, 1024.0];
 
 /// Numbers on both sides of a kink that differ by more than this part of themselves are different.
