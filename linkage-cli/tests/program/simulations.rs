@@ -476,9 +476,8 @@ fn columns_of_scenes() {
     let cells: Vec<&str> = rows.lines().nth(3).unwrap().split(',').collect();
     assert_eq!(cells[1..], ["", "0.1", "0.2"], "{rows}");
     close(cells[0].parse().unwrap(), 0.0, 1e-15);
-    let message = "error: the limit of 2 steps is reached at ";
-    let few = of("x", "--scene Pushed --most-steps 2 --tolerance 1e-12");
-    assert!(few.messages.starts_with(message) && few.messages.contains("more steps"), "{}", few.messages);
+    let few = of("x", "--scene Pushed --most-steps 2 --tolerance 1e-12").messages;
+    assert!(few.contains("the limit of 2 steps is reached at ") && few.contains("or more steps"), "{few}");
 }
 
 /// A heavy block follows a light one that is pushed to a wall: the light one strikes the wall and the heavy one in turn, at

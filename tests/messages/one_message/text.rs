@@ -45,8 +45,16 @@ fn messages(one: &Planted) -> Vec<Message> {
 
 /// A snapshot, its lines in an order of their own.
 fn expected(one: &Planted) -> Vec<String> {
-    sorted(&snapshot(one.list, one.mistake.0))
+    let of_macro = snapshot(one.list, one.mistake.0);
+    sorted(&FOR_RUST.iter().fold(of_macro, |message, hint| message.replace(hint, "")))
 }
+
+/// Hints of the macro that a text without Rust cannot follow.
+const FOR_RUST: [&str; 3] = [
+    "; declare a user function with `extern fn`",
+    ": put the cases into a user function, `extern fn`",
+    ": put cases into a user function, `extern fn`",
+];
 
 /// The messages with all their lines, in the order of their texts.
 fn sorted(entry: &str) -> Vec<String> {

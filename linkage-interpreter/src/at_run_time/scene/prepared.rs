@@ -7,7 +7,7 @@ use linkage_dynamics::MotionError;
 use linkage_runtime::{Dim, Joint};
 
 use super::{MOST_CONTACTS, MOST_JOINTS, SceneAtRunTime};
-use crate::at_run_time::{NotPrepared, Prepared};
+use crate::at_run_time::{NotPrepared, OfTheRuntime, Prepared};
 use crate::call_error::CallError;
 use crate::code::{Function, Name};
 use crate::error::Error;
@@ -130,7 +130,8 @@ impl<'d> PreparedScene<'d> {
     fn called(&self, function: &str, arguments: impl IntoIterator<Item = Value>) -> Result<Value, Box<Failure>> {
         let called = self.functions.get(function);
         let called = called.ok_or_else(|| Defect::new(format!("no function `{function}` of a scene")))?;
-        let mut machine = Machine::new(self.mechanism.driver, Some(self.scene), self.mechanism.users, Kind::Double);
+        let machine = Machine::new(self.mechanism.driver, Some(self.scene), self.mechanism.users, Kind::Double);
+        let mut machine = machine.with_algorithms(&OfTheRuntime);
         let own = if called.is_method { self.own.clone() } else { Value::Absent };
         machine.call(Of::Scene, called, own, arguments)
     }
