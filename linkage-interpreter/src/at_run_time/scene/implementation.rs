@@ -12,7 +12,7 @@ use super::read::prescribed;
 use super::{ContactCount, SceneAtRunTime, StateCount};
 use crate::at_run_time::coordinates::column;
 use crate::at_run_time::read::{field, matrix, number, numbers};
-use crate::at_run_time::{AtRunTime, CoordinatesAtRunTime, Count, MOST};
+use crate::at_run_time::{AtRunTime, CoordinatesAtRunTime, Count, MOST, OfTheRuntime};
 use crate::machine::Value;
 
 /// The result of a call, or the error of the scene.
@@ -206,7 +206,9 @@ impl<'p, V: Dim> Scene for SceneAtRunTime<'p, V> {
             return Ok(None);
         }
         let given = [Value::Number(t), self.mechanism.coordinates_value(q), self.mechanism.inputs_value(input_rates)];
-        let (found, of) = (self.prepared.result("applied_and_dissipated", given)?, self.prepared.fields);
+        // Frictions by reaction dissipate by the loads of the motion.
+        let found = self.prepared.result_by("applied_and_dissipated", given, Some(&OfTheRuntime))?;
+        let of = self.prepared.fields;
         let number = |name| number(field(&found, name));
         Ok(Some(Power { applied: number(of.applied), dissipated: number(of.dissipated) }))
     }

@@ -7,11 +7,11 @@ use linkage_dynamics::MotionError;
 use linkage_runtime::{Dim, Joint};
 
 use super::{MOST_CONTACTS, MOST_JOINTS, SceneAtRunTime};
-use crate::at_run_time::{NotPrepared, OfTheRuntime, Prepared};
+use crate::at_run_time::{NotPrepared, Prepared};
 use crate::call_error::CallError;
 use crate::code::{Function, Name};
 use crate::error::Error;
-use crate::machine::{Defect, Failure, Kind, Machine, Of, User, Value};
+use crate::machine::{Algorithms, Defect, Failure, Kind, Machine, Of, User, Value};
 use crate::program::{Driver, Scene};
 
 /// A scene with what its trait needs at hand. It borrows the design.
@@ -127,11 +127,19 @@ impl<'d> PreparedScene<'d> {
         self.mechanism.failure()
     }
 
-    fn called(&self, function: &str, arguments: impl IntoIterator<Item = Value>) -> Result<Value, Box<Failure>> {
+    fn called(
+        &self,
+        function: &str,
+        arguments: impl IntoIterator<Item = Value>,
+        algorithms: Option<&dyn Algorithms>,
+    ) -> Result<Value, Box<Failure>> {
         let called = self.functions.get(function);
         let called = called.ok_or_else(|| Defect::new(format!("no function `{function}` of a scene")))?;
         let machine = Machine::new(self.mechanism.driver, Some(self.scene), self.mechanism.users, Kind::Double);
-        let mut machine = machine.with_algorithms(&OfTheRuntime);
+        let mut machine = match algorithms {
+            Some(algorithms) => machine.with_algorithms(algorithms),
+            None => machine,
+        };
         let own = if called.is_method { self.own.clone() } else { Value::Absent };
         machine.call(Of::Scene, called, own, arguments)
     }
@@ -143,7 +151,7 @@ impl<'d> PreparedScene<'d> {
 
     /// Calls a function that cannot fail; nothing if it does.
     pub(crate) fn value(&self, function: &str, arguments: impl IntoIterator<Item = Value>) -> Value {
-        self.called(function, arguments).unwrap_or_else(|failure| {
+        self.called(function, arguments, None).unwrap_or_else(|failure| {
             self.mechanism.keep(failure);
             Value::Absent
         })
@@ -155,7 +163,17 @@ impl<'d> PreparedScene<'d> {
         function: &str,
         arguments: impl IntoIterator<Item = Value>,
     ) -> Result<Value, MotionError<&str>> {
-        self.called(function, arguments).map_err(|failure| match CallError::from(failure) {
+        self.result_by(function, arguments, None)
+    }
+
+    /// Calls a function that can fail, and that may call algorithms.
+    pub(crate) fn result_by(
+        &self,
+        function: &str,
+        arguments: impl IntoIterator<Item = Value>,
+        algorithms: Option<&dyn Algorithms>,
+    ) -> Result<Value, MotionError<&str>> {
+        self.called(function, arguments, algorithms).map_err(|failure| match CallError::from(failure) {
             CallError::Function(Error::Motion(error)) => {
                 error.with_names(self.mechanism.inputs.as_slice(), |name| self.mechanism.name_of(&name))
             }
