@@ -479,3 +479,35 @@ fn columns_of_scenes() {
     let few = of("x", "--scene Pushed --most-steps 2 --tolerance 1e-12").messages;
     assert!(few.contains("the limit of 2 steps is reached at ") && few.contains("or more steps"), "{few}");
 }
+
+/// A heavy block follows a light one that is pushed to a wall: the light one strikes the wall and the heavy one in turn, at
+/// intervals that shrink to nothing, and takes 0.827 of the rate with each two impacts. Both rest at the wall, wherever it is.
+#[test]
+fn two_stops_in_turn() {
+    let folder = folder();
+    folder.write(
+        "turn.linkage",
+        "mechanism Turn { param heavy = 10, light = 1, push = 1, wall = 0, e = 0.9; input x, y; \
+         body a { mass heavy; center (x, 0); } body b { mass light; center (y, 0); } \
+         scene Pushed { inertia; force (push, 0) at (y, 0); stop y in wall - 9..wall, restitution e; \
+         stop y - x in 0..9, restitution 0; } }",
+    );
+    for (wall, precision) in [(0.0, 1e-12), (1000.0, 1e-9), (100_000.0, 1e-7)] {
+        let [x, y] = [wall - 1.0, wall - 0.2];
+        let of = |more: &str| {
+            let command = format!("simulate turn.linkage --set wall={wall} --at x={x},y={y} --rate x=1 --to 2 {more}");
+            Table::of(&folder, &command)
+        };
+        let rates = of("--own-steps").column("x_rate");
+        let mut distinct = rates.clone();
+        distinct.dedup_by(|one, other| (*one - *other).abs() < 1e-6);
+        // One impact after the other, by hand: of the block with the wall, then with the other one.
+        let known = [1.0, 0.880_520, 0.718_999, 0.594_398];
+        known.iter().zip(&distinct).for_each(|(known, found)| close(*found, *known, 1e-5));
+        let rows = of("--steps 8");
+        for name in ["x", "y"] {
+            close(*rows.column(name).last().unwrap() - wall, 0.0, precision);
+            close(*rows.column(&format!("{name}_rate")).last().unwrap(), 0.0, 0.0);
+        }
+    }
+}

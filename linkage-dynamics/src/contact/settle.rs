@@ -14,10 +14,13 @@ use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 /// A rebound that takes less than this many ulps of the time is treated as rest.
 const SHORTEST_FLIGHT_ULPS: f64 = 64.0;
 
-/// The most impacts that cause each other at one time. A body of mass m between a wall and one of mass M, which comes
-/// nearer, is in pi sqrt(M / m) impacts without losses: in this many if M is 100 000 m. With losses the rates fall until
-/// all rest.
+/// The most impacts that cause each other at one time without losses. A body of mass m between a wall and one of mass M, which
+/// comes nearer, is in pi sqrt(M / m) impacts: in this many if M is 100 000 m.
 const MOST_IMPACTS: usize = 1000;
+
+/// The most impacts with losses: the rates fall until all rest. A body of mass m between a wall with restitution e and one of mass
+/// M, which follows it without rebound, takes 1 - (1 + e) m / M of the rate with each two: it rests after this many if M is 3000 m.
+const MOST_WITH_LOSSES: usize = 100_000;
 
 impl<T: Real, C: Dim> Contacts<T, C> {
     /// Applies impacts and finds the new modes at a state where an event function has just fallen through zero. Returns
@@ -64,15 +67,21 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // slipping keeps its rate, however small: s' passes zero at a dead centre while the mechanism moves.
         let mut resting = self.modes;
         self.is_hit = self.modes.dim().repeat(false);
-        let mut impacts = 0;
+        let (mut impacts, mut has_losses) = (0, false);
+        // Stops that are closed take part in each impact; those that an impact of this series has closed have their own turn.
+        let mut closed = at_rest.map(|side| side.is_some());
         // An impact may move another s towards a stop that it touches.
-        while let Some(struck) = self.struck(&equations, &at_rest, is_together) {
-            if impacts == MOST_IMPACTS {
+        while let Some(struck) = self.struck(&equations, (&at_rest, &closed), is_together) {
+            let mut hit =
+                struck.iter().zip(&at_rest).filter(|(_, side)| side.is_none()).filter_map(|(of, _)| of.as_ref());
+            has_losses |= hit.any(|of| of.restitution < T::one());
+            if impacts == if has_losses { MOST_WITH_LOSSES } else { MOST_IMPACTS } {
                 let place = struck.iter().position(|of| of.is_some()).unwrap_or(0);
                 let (scene, contact) = (equations.scene, equations.contacts[place].name);
                 return Err(MotionError::ContactWithoutEnd { scene, contact, t: to_f64(t) });
             }
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
+            closed.iter_mut().zip(&at_rest).for_each(|(closed, side)| *closed &= side.is_some());
             resting = self.modes.dim().repeat(Mode::Open);
             impacts += 1;
             // Without rebound nothing is approached after one impact.
@@ -138,14 +147,17 @@ impl<T: Real, C: Dim> Contacts<T, C> {
 
     /// Returns the stops that take part in an impact, those on which s rests included; None if s hits no stop. If
     /// `is_together`, all that s touches, without rebound.
+    ///
+    /// Of stops that impacts at this time have closed, each is hit in its turn while another rebounds: two bodies that have met
+    /// without rebound are no single one for the wall that the first of them strikes next.
     fn struck<V: Dim, N: BorrowedName>(
         &self,
         equations: &ReducedEquations<T, V, C, N>,
-        at_rest: &Column<Option<Mode>, C>,
+        (at_rest, closed): (&Column<Option<Mode>, C>, &Column<bool, C>),
         is_together: bool,
     ) -> Option<Column<Option<Struck<T>>, C>> {
-        let mut hit = false;
-        let struck = at_rest.dim().column(|place| {
+        let (mut hit, mut rebounds) = (false, false);
+        let mut struck = at_rest.dim().column(|place| {
             let contact = &equations.contacts[place];
             let ContactLaw::Stop { lower, upper, restitution } = contact.law else { return None };
             if let Some(side) = at_rest[place] {
@@ -156,9 +168,15 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             (gap <= tolerance && (approaches || is_together)).then(|| {
                 hit = true;
                 let restitution = if is_together { T::zero() } else { restitution };
+                rebounds |= restitution > T::zero();
                 Struck { inward: side.inward(), restitution }
             })
         });
+        for ((of, side), closed) in struck.iter_mut().zip(at_rest).zip(closed) {
+            if rebounds && side.is_some() && !closed {
+                *of = None;
+            }
+        }
         hit.then_some(struck)
     }
 
