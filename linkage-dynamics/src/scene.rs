@@ -183,6 +183,14 @@ pub trait Scene {
         let _ = (place, t, q, rates);
         Self::Scalar::one()
     }
+    /// How much the s of each stop can change while each coordinate moves from its value by at most so much, in any complex
+    /// direction: bounds of the derivatives of all orders of s along a motion, by which no impact between the samples of a step is
+    /// missed. `None` for frictions, for polynomials in the coordinates, and where no bound is known, as with user functions; no
+    /// number where there is none at this position.
+    fn gap_changes(&self, q: &Coordinates<Self>, moves: &Rates<Self>) -> Column<Option<Self::Scalar>, Self::Contacts> {
+        let _ = (q, moves);
+        self.contact_count().repeat(None)
+    }
     /// The forces of frictions, stops, drives and joints in the motion that starts at a position with the rates v' of
     /// the inputs: a friction slips by the sign of s', what is at rest is held if it can. At the states of a simulation
     /// these are its [`loads`](crate::simulation::Simulation::loads), except where rounding error hides which contact is

@@ -14,6 +14,7 @@ mod derive;
 mod distances;
 mod equilibrium;
 mod formulas;
+mod gaps;
 mod iteration;
 mod jacobian;
 mod jerk;

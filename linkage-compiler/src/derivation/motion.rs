@@ -50,6 +50,13 @@ impl Derivation {
                 scene.requests.contains(&SceneRequest::Equilibrium).then(|| self.derive_equilibrium(&derived));
             self.scenes.push(derived);
         }
+        // Last, so that their nodes change the order of terms of nothing else.
+        for mut scene in std::mem::take(&mut self.scenes) {
+            if mechanism.scenes[scene.id].inertia.is_some() {
+                scene.gap_changes = self.derive_gap_changes(mechanism, &scene);
+            }
+            self.scenes.push(scene);
+        }
     }
 
     fn derive_scene(&mut self, mechanism: &Mechanism, id: SceneId, scene: &model::Scene) -> Scene {
@@ -171,6 +178,7 @@ impl Derivation {
             masses,
             drives,
             kinks: Vec::new(),
+            gap_changes: Vec::new(),
             kinetic,
             potential,
             applied,

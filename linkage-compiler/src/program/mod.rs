@@ -140,7 +140,7 @@ pub fn stub<'a, B>(mechanism: &'a Mechanism, driver: &'a Driver) -> Program<'a, 
     let scenes = mechanism.scenes_of(driver).map(|scene| {
         let signatures = SceneSignatures::new(mechanism, driver, scene);
         let functions = signatures.all().into_iter().map(Function::without_body).collect();
-        let implementation = scene::implementation(&signatures, Vec::new());
+        let implementation = scene::implementation(&signatures, Vec::new(), &[]);
         SceneProgram { implementation: implementation.map(Implementation::without_bodies), signatures, functions }
     });
     let scenes = scenes.collect();

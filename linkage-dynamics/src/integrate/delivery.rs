@@ -1,30 +1,43 @@
 //! Delivery of the events of a step, one after the other.
 
+use super::bounds::Bounds;
 use super::crossing::Action;
 use super::integration::{Integration, Place, Step, StepOf, finite};
+use super::sampled::SampledStep;
 use super::search::Found;
 use super::system::{ErrorOf, StateOf, System};
 use super::tableau::Method;
 use crate::MotionError;
 use linkage_runtime::__shared::arithmetic::*;
 use linkage_runtime::__shared::to_f64;
+use linkage_runtime::{Build, real};
 
 impl<S: System, M: Method> Integration<S, M> {
     /// Searches the last step after the fraction `from` for the next event: first on a cubic, which requires no
     /// evaluation of the rate, then on the dense output if there may be one.
     pub(super) fn search(&mut self, from: f64) -> Result<Found<S>, ErrorOf<S>> {
-        let resolution = self.resolution();
+        let (resolution, tolerated) = (self.resolution(), self.tolerated());
         let signs = self.signs;
         if self.interpolant.is_none() {
             let cubic = self.cubic();
-            let found = self.signs.search(&mut self.system, (&cubic, true), (from, self.parts), resolution)?;
+            let mut course = SampledStep { system: &mut self.system, step: &cubic, resolution, tolerated };
+            let found = self.signs.search(&mut course, true, (from, self.parts))?;
             if !matches!(found, Found::Perhaps) {
                 return Ok(found);
             }
         }
         self.signs = signs;
         let interpolant = self.interpolant()?;
-        self.signs.search(&mut self.system, (&interpolant, false), (from, self.parts), resolution)
+        let mut course = SampledStep { system: &mut self.system, step: &interpolant, resolution, tolerated };
+        self.signs.search(&mut course, false, (from, self.parts))
+    }
+
+    /// The change of each guard by errors of the state at the start of the step as large as the tolerance.
+    fn tolerated(&mut self) -> Bounds<S> {
+        let y = self.from.1;
+        let allowed = |component| real(self.tolerance.allowed(component, to_f64(y[component]).abs()));
+        let moves = y.dim().column(allowed);
+        SampledStep::changes(&mut self.system, &y, &moves)
     }
 
     /// The rounding error of the time, as a fraction of the last step.

@@ -75,6 +75,25 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         if self.length.is_zero() { self.coefficients[0] } else { self.at_fraction((t - self.start) / self.length) }
     }
 
+    /// How far each component moves, at most, from its value at the middle of a part of the step, while the fraction s moves from
+    /// there by so many times half of the part in any complex direction: the sum of the magnitudes of the terms of its Taylor series.
+    pub(super) fn moves(&self, [from, to]: [f64; 2], times: f64) -> Column<T, N> {
+        let (middle, radius) = (0.5 * (from + to), real::<T>(0.5 * times * (to - from)));
+        let (s, rest) = (real::<T>(middle), real::<T>(1.0 - middle));
+        // By Horner's rule, as in `at_fraction`, with s + x in place of s.
+        let mut series = [self.coefficients[0].dim().zeros(); COEFFICIENTS];
+        series[0] = self.coefficients[self.used - 1];
+        for (degree, i) in (0..self.used - 1).rev().enumerate() {
+            let (factor, sign) = if i % 2 == 0 { (s, T::one()) } else { (rest, -T::one()) };
+            for power in (0..=degree + 1).rev() {
+                let lower = if power > 0 { series[power - 1] * sign } else { self.coefficients[i] };
+                series[power] = series[power] * factor + lower;
+            }
+        }
+        let terms = series[1..self.used].iter().rev();
+        terms.fold(series[0].dim().zeros(), |sum, term| (sum + term.map(|entry| entry.abs())) * radius)
+    }
+
     /// The state at this fraction of the step.
     #[inline]
     pub(crate) fn at_fraction(&self, s: T) -> Column<T, N> {

@@ -63,6 +63,7 @@
 //!
 //! Arrays have fixed size: nothing is allocated.
 
+mod bounds;
 mod control;
 mod crossing;
 mod delivery;

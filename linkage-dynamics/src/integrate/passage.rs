@@ -19,11 +19,18 @@ const ERROR_OF_MINIMUM: f64 = 0.0625;
 /// from its wall takes 5 % more samples.
 const ERROR_OF_STATES: f64 = 2.0;
 
+/// The rate of a cubic through values and rates at both ends has an error of at most this times E. (Birkhoff and Priver, *Hermite
+/// interpolation errors for derivatives*, Journal of Mathematics and Physics 46 (1967): sqrt(3) / 216 of the fourth derivative,
+/// which is 384 E.)
+const ERROR_OF_RATE: f64 = 3.08;
+
 /// A function between two samples: the Bernstein coefficients of its cubic, and its error E; infinite if unknown.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Course {
     cubic: [f64; 4],
     error: f64,
+    /// True if the error is a bound, not an estimate.
+    is_bound: bool,
 }
 
 /// The next step of the search for a zero.
@@ -38,7 +45,18 @@ pub(super) enum Next {
 impl Course {
     /// The course between two values with rates by the fraction x.
     pub(super) fn new([value, rate]: [f64; 2], [next, next_rate]: [f64; 2], error: f64) -> Self {
-        Self { cubic: [value, value + rate / 3.0, next - next_rate / 3.0, next], error }
+        Self { cubic: [value, value + rate / 3.0, next - next_rate / 3.0, next], error, is_bound: false }
+    }
+
+    /// The same with a bound of its error.
+    pub(super) fn with_bound(self, error: f64) -> Self {
+        Self { error, is_bound: true, ..self }
+    }
+
+    /// True if the function falls from end to end.
+    fn falls(&self) -> bool {
+        let [a, b, c, d] = self.cubic;
+        [b - a, c - b, d - c].into_iter().all(|third| 3.0 * third + ERROR_OF_RATE * self.error < 0.0)
     }
 
     /// The error of the cubic, from the value and rate of the function at the middle. An error K x^2 (1 - x)^2 is
@@ -54,7 +72,7 @@ impl Course {
     /// large for a smooth function. It is not accepted if it is smaller by chance.
     pub(super) fn error_of_half(&self, sample: [f64; 2]) -> f64 {
         let error = self.error_at_middle(sample);
-        if self.error < f64::INFINITY { error.max(self.error / 64.0) } else { error }
+        if self.error < f64::INFINITY && !self.is_bound { error.max(self.error / 64.0) } else { error }
     }
 
     /// Returns true if the function is not negative, with `more` as an additional error in Bernstein coefficients of
@@ -119,11 +137,13 @@ impl Course {
         let lowest = minimum.filter(is_inside).map(|x| (x, self.at(x)));
         let is_accurate = |value: f64| self.error <= ERROR_OF_MINIMUM * self.depth(value);
         let place = lowest.filter(|&(_, value)| is_accurate(value)).map_or(0.5, |(x, _)| x);
-        let is_done = if has_passed {
+        let is_done = if has_passed && self.is_bound {
+            self.falls()
+        } else if has_passed {
             // No passage before that at the end.
             is_accurate(self.cubic[3]) && lowest.is_none_or(|(_, value)| value > self.error)
         } else {
-            lowest.is_none_or(|(_, value)| is_accurate(value))
+            (self.is_bound || lowest.is_none_or(|(_, value)| is_accurate(value)))
                 && self.without_extrema_near_ends(minimum, near).is_positive([0.0; 5])
         };
         if is_done { Next::Done } else { Next::Sample(place) }

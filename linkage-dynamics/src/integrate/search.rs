@@ -2,7 +2,6 @@
 
 use nalgebra::ComplexField;
 
-use super::dense::Interpolant;
 use super::event::{EventSign, EventSigns};
 use super::passage::{Course, Next, may_pass};
 use super::sampled::{FunctionSample, Sample, SampledStep};
@@ -47,20 +46,15 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
     /// of the step, costs no evaluation, but it yields no events, only [`Found::Perhaps`].
     pub(super) fn search<S: System<Events = K, Guards = C>>(
         &mut self,
-        system: &mut S,
-        (step, is_cubic): (&Interpolant<S::Scalar, S::N>, bool),
+        course: &mut SampledStep<'_, S>,
+        is_cubic: bool,
         (from, parts): (f64, usize),
-        resolution: f64,
     ) -> Result<Found<S>, ErrorOf<S>> {
-        let mut course = SampledStep { system, step, resolution };
         // Guards with known rates are examined at the ends of four parts.
         let (signs, mut parts) = (*self, if self.guards.dim().count() > 0 { parts.next_multiple_of(4) } else { parts });
         loop {
-            let found = if is_cubic {
-                self.search_cubic(&mut course, parts)?
-            } else {
-                self.search_dense(&mut course, (from, parts))?
-            };
+            let found =
+                if is_cubic { self.search_cubic(course, parts)? } else { self.search_dense(course, (from, parts))? };
             match found {
                 Found::TooCoarse if parts < MAX_PARTS => {
                     *self = signs;
@@ -82,7 +76,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         samples.push(before.unknown());
         let mut older = None;
         let start = self.guards;
-        let mut quarters = [before.guards; 5];
+        let mut quarters = [before; 5];
         for part in 1..=parts {
             let here = course.sample(part as f64 / parts as f64)?;
             samples.push(here.unknown());
@@ -123,15 +117,19 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             }
             self.update(&here);
             if 4 * part % parts == 0 {
-                quarters[4 * part / parts] = here.guards;
+                quarters[4 * part / parts] = here;
             }
             (older, before) = (Some(before), here);
         }
+        let halves = [course.are_far([0.0, 0.5], &quarters[1]), course.are_far([0.5, 1.0], &quarters[3])];
         let passes = |place: usize| {
-            quarters.iter().all(|sample| start[place].has_known_course(&sample[place]))
-                && may_pass(D::map(quarters, |sample| {
-                    [sample[place].value - quarters[0][place].value.min(0.0), sample[place].rate]
-                }))
+            let of = quarters.map(|sample| sample.guards[place]);
+            let is_far = halves.map(|are_far| are_far[place]);
+            of.iter().all(|sample| start[place].has_known_course(sample))
+                && match is_far {
+                    [Some(first), Some(second)] => !(first && second),
+                    _ => may_pass(of.map(|sample| [sample.value - of[0].value.min(0.0), sample.rate])),
+                }
         };
         Ok(if (0..self.guards.dim().count()).any(passes) { Found::Perhaps } else { Found::Nothing })
     }
@@ -168,6 +166,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         }
         // The fractions of the step around the first event.
         let mut happened = None;
+        let mut is_resolved = true;
         for part in 1..=parts {
             let at = part as f64 / parts as f64;
             if at <= from {
@@ -179,7 +178,11 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
                 return Ok(Found::TooCoarse);
             }
             if happened.is_none() {
-                happened = self.bracket(course, before, &here)?;
+                happened = self.bracket(course, before, &here, &mut is_resolved)?;
+            }
+            // After an event of the user within the step it cannot be repeated.
+            if !is_resolved && from == 0.0 {
+                return Ok(Found::TooCoarse);
             }
             if happened.is_some() && (self.guards.dim().count() == 0 || samples.are_enough()) {
                 break;
@@ -195,40 +198,46 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         course: &mut SampledStep<'_, S>,
         before: Sample<K, C>,
         here: &Sample<K, C>,
+        is_resolved: &mut bool,
     ) -> Result<Option<(f64, f64)>, ErrorOf<S>> {
         let mut before = before;
+        let unknown = &self.guards.dim().repeat(f64::INFINITY);
         // Each of the other functions has at most one extremum here.
         for _ in 0..self.each().count() {
             let Some(turn) = self.first_beyond_extremum(course, &before, here)? else { break };
-            let found =
-                self.refine(course, (&before, &turn), &self.guards.dim().repeat(f64::INFINITY), &mut { MAX_SAMPLES })?;
+            let found = self.refine(course, (&before, &turn), unknown, (&mut { MAX_SAMPLES }, is_resolved))?;
             if found.is_some() {
                 return Ok(found);
             }
             before = turn;
         }
-        self.refine(course, (&before, here), &self.guards.dim().repeat(f64::INFINITY), &mut { MAX_SAMPLES })
+        self.refine(course, (&before, here), unknown, (&mut { MAX_SAMPLES }, is_resolved))
     }
 
     /// Returns the fractions of the step around the first event between two samples, and updates the signs up to there.
     /// Samples are added until the guards with known rates have no passage between neighbours, or one. `errors` are
-    /// those of the cubics through the two samples; `left` is the number of samples that may be added.
+    /// those of the cubics through the two samples, as estimated; `left` is the number of samples that may be added, and `is_resolved`
+    /// becomes false if these are not enough for a guard with a bound.
     fn refine<S: System<Events = K, Guards = C>>(
         &mut self,
         course: &mut SampledStep<'_, S>,
         (before, here): (&Sample<K, C>, &Sample<K, C>),
         errors: &Column<f64, C>,
-        left: &mut u32,
+        (left, is_resolved): (&mut u32, &mut bool),
     ) -> Result<Option<(f64, f64)>, ErrorOf<S>> {
         let width = here.at - before.at;
         // Near an extremum an error of the time of sqrt(resolution) changes the value by its rounding error only.
         let near = ComplexField::sqrt(course.resolution) / width;
         let by_part = |sample: &FunctionSample, base: f64| [sample.value - base, sample.rate * width];
+        let bounds = course.errors([before.at, here.at]);
         let courses: Column<Option<Course>, C> = self.guards.dim().column(|place| {
             let (start, end) = (&before.guards[place], &here.guards[place]);
             let is_known = [start, end].iter().all(|sample| self.guards[place].has_known_course(sample));
             let base = start.value.min(0.0);
-            is_known.then(|| Course::new(by_part(start, base), by_part(end, base), errors[place]))
+            is_known.then(|| {
+                let course = Course::new(by_part(start, base), by_part(end, base), errors[place]);
+                bounds[place].map_or(course, |bound| course.with_bound(bound))
+            })
         });
         let next = courses.iter().enumerate().find_map(|(place, of)| {
             match of.as_ref()?.next(self.guards[place].passed(&here.guards[place]), near) {
@@ -248,9 +257,14 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
                     }
                     _ => errors[place],
                 });
-                let found = self.refine(course, (before, &between), &errors, left)?;
-                return if found.is_some() { Ok(found) } else { self.refine(course, (&between, here), &errors, left) };
+                let found = self.refine(course, (before, &between), &errors, (left, is_resolved))?;
+                return match found {
+                    Some(_) => Ok(found),
+                    None => self.refine(course, (&between, here), &errors, (left, is_resolved)),
+                };
             }
+        } else if next.is_some() && bounds.iter().any(|bound| bound.is_some()) {
+            *is_resolved = false;
         }
         if self.any_event(here) {
             return Ok(Some((before.at, here.at)));

@@ -85,6 +85,18 @@ pub trait System {
         Ok(self.counts().1.repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
     }
 
+    /// How much each guard with a known rate can change while each component of the state moves from its value by at most so much,
+    /// in any complex direction. It bounds the guard between samples; `None`, or what is no number, where no bound is known.
+    #[inline]
+    fn guard_changes(
+        &mut self,
+        y: &StateOf<Self>,
+        moves: &StateOf<Self>,
+    ) -> Column<Option<Self::Scalar>, Self::Guards> {
+        let _ = (y, moves);
+        self.counts().1.repeat(None)
+    }
+
     /// The action at event `event`; events at the same time are handled in the order of their numbers.
     ///
     /// # Errors

@@ -195,6 +195,13 @@ impl<S: Scene, W: Watch<S>> System for Motion<'_, S, W> {
         self.margins(t, y)
     }
 
+    fn guard_changes(&mut self, y: &StateColumn<S>, moves: &StateColumn<S>) -> Column<Option<S::Scalar>, S::Contacts> {
+        let ((q, _), (moves, _)) = (self.unpack(y), self.unpack(moves));
+        let (unknowns, inputs) = S::Mechanism::parts(&moves);
+        let changes = self.scene.gap_changes(&q, &S::Mechanism::rates(unknowns, inputs));
+        changes.zip_map(&self.contacts.modes, |change, mode| change.filter(|_| mode == Mode::Open))
+    }
+
     fn before_step(&mut self, t: S::Scalar, _: &StateColumn<S>) -> Result<Option<StateColumn<S>>, MotionErrorOf<S>> {
         self.begin_step(t);
         Ok(None)

@@ -10,8 +10,13 @@ use crate::program::implementation::{
 use crate::program::intrinsics::{Constant, Intrinsic};
 use crate::program::names::Order;
 
-/// `Scene`, for a scene with inertia; `kinks` are those of its laws.
-pub(in crate::program) fn of_scene(signatures: &SceneSignatures, kinks: Vec<Kink>) -> Option<Implementation<Body>> {
+/// `Scene`, for a scene with inertia; `kinks` are those of its laws, and `has_change` says of which contacts the change of the gap
+/// is known.
+pub(in crate::program) fn of_scene(
+    signatures: &SceneSignatures,
+    kinks: Vec<Kink>,
+    has_change: &[bool],
+) -> Option<Implementation<Body>> {
     signatures.scene.inertia.as_ref()?;
     let [u, v, c] = [signatures.unknowns, signatures.inputs.len(), signatures.scene.contacts.len()];
     let reactions = match signatures.has_reactions() {
@@ -34,6 +39,7 @@ pub(in crate::program) fn of_scene(signatures: &SceneSignatures, kinks: Vec<Kink
     let mut functions = vec![of.check(), of.derivative(), of.equations(), of.contacts(), of.reactions()];
     functions.extend(has_bearings.then(|| of.bearings()));
     functions.extend((!kinks.is_empty()).then(|| of.kink()));
+    functions.extend(has_change.contains(&true).then(|| of.gap_changes(has_change)));
     functions.extend([of.unreduced(), of.prescribed()]);
     functions.extend(signatures.scene.requests.contains(&SceneRequest::Energy).then(|| of.energy()));
     functions.extend(signatures.scene.requests.contains(&SceneRequest::Power).then(|| of.power()));
@@ -208,6 +214,20 @@ impl OfScene<'_> {
             Type::Scalar,
             Body::plain(Expression::call(Intrinsic::UnwrapOr, [found, Expression::one()])),
         )
+    }
+
+    /// How much the gap of each contact changes; `None` where that is not known.
+    fn gap_changes(&self, has_change: &[bool]) -> Function<Body> {
+        let names: Vec<String> =
+            (1..=has_change.iter().filter(|has| **has).count()).map(|number| format!("change_{number}")).collect();
+        let mut left = names.iter();
+        let all = has_change.iter().map(|has| perhaps(has.then(|| left.next()).flatten().map(|change| name(change))));
+        let all = Expression::List(all.collect()).converted();
+        let changes = Expression::own_call("gap_changes", ["q", "moves"].map(name));
+        let body = Body { before: vec![Statement::Let(listed(&names), changes)], ..Body::plain(all) };
+        let of = Type::Around("Option", Box::new(Type::Scalar));
+        let arguments = [self.coordinates("q", Order::Value), self.coordinates("moves", Order::Rate)];
+        of_trait("gap_changes", arguments, self.each_contact(of), body)
     }
 
     fn unreduced(&self) -> Function<Body> {

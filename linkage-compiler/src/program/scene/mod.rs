@@ -4,6 +4,7 @@ mod contacts;
 mod drives;
 mod energy;
 mod equilibrium;
+mod gaps;
 mod implementation;
 mod kinks;
 mod layers;
@@ -105,6 +106,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             planned.equations();
         }
         planned.kinks();
+        planned.gap_changes();
         planned.check();
         if planned.calls_check_effects {
             planned.check_effects();
@@ -114,7 +116,9 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
 
     pub fn into_program(self) -> SceneProgram<'a, Body> {
         let kink = |kink: &derivation::Kink| Kink { effect: kink.label.clone(), is_timed: kink.is_timed };
-        let implementation = implementation(&self.signatures, self.scene.kinks.iter().map(kink).collect());
+        let kinks = self.scene.kinks.iter().map(kink).collect();
+        let has_change: Vec<bool> = self.scene.gap_changes.iter().map(|change| change.is_some()).collect();
+        let implementation = implementation(&self.signatures, kinks, &has_change);
         SceneProgram { signatures: self.signatures, functions: self.functions.into_iter().collect(), implementation }
     }
 }

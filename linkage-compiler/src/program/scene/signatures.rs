@@ -196,6 +196,18 @@ impl<'a> SceneSignatures<'a> {
         Function { access: Access::Hidden, ..total("kinks", self.whole_state(), of) }
     }
 
+    /// How much gaps change while each coordinate moves.
+    pub fn gap_changes(&self, many: usize) -> Function<Body> {
+        let moves = Argument { name: self.moves(), ..self.coordinates(Order::Rate) };
+        let of = Type::List(Box::new(Type::Scalar), many);
+        Function { access: Access::Hidden, ..total("gap_changes", [self.coordinates(Order::Value), moves], of) }
+    }
+
+    /// The argument for the moves of the coordinates.
+    pub fn moves(&self) -> String {
+        argument(self.mechanism, "moves")
+    }
+
     pub fn check(&self) -> Function<Body> {
         fallible("check", [], Type::Tuple(Vec::new()))
     }

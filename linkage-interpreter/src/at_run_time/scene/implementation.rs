@@ -183,6 +183,19 @@ impl<'p, V: Dim> Scene for SceneAtRunTime<'p, V> {
         let [t, q, rates] = self.moving(t, q, rates);
         number(&self.prepared.value("kink", [Value::Count(place as i64), t, q, rates]))
     }
+    fn gap_changes(
+        &self,
+        q: &CoordinatesAtRunTime<V>,
+        moves: &CoordinatesAtRunTime<V>,
+    ) -> Column<Option<f64>, ContactCount> {
+        if !self.prepared.has("gap_changes") {
+            return self.contact_count().repeat(None);
+        }
+        let given = [q, moves].map(|of| self.mechanism.coordinates_value(of));
+        let found = self.prepared.value("gap_changes", given);
+        let all = found.as_list().unwrap_or_default();
+        self.contact_count().column(|place| all.get(place).filter(|of| !matches!(of, Value::Absent)).map(number))
+    }
     fn kinetic_and_potential(
         &self,
         q: &CoordinatesAtRunTime<V>,
