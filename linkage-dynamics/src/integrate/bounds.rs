@@ -6,13 +6,13 @@
 //! derivative is then at most 24 C / (R^4 (1 - s)^5), and the cubic with its values and rates at both ends has an error of at most
 //! 16 E x^2 (1 - x)^2 with E = C s^4 / (1 - s)^5, where x runs from 0 to 1.
 
-use super::sampled::{SampleOf, SampledStep};
+use super::sampled::SampledStep;
 use super::system::{StateOf, System};
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, Column, real};
+use linkage_runtime::{Column, real};
 
-/// R / r. An angle that moves by 2 d in a part has the change e^(d / s) - 1 and an error of d^4 / 24: this is right to a factor of 8
-/// for a move of a quarter radian.
+/// R / r. The cubic of the sine of an angle that moves by 2 d in a part has an error of d^4 / 24, and the change e^(d R / r) - 1: the
+/// bound is 13 times the error if the angle moves by a quarter radian.
 const RADIUS: f64 = 16.0;
 
 /// s^4 / (1 - s)^5
@@ -31,27 +31,16 @@ impl<S: System> SampledStep<'_, S> {
         system.guard_changes(y, moves).map(|change| change.map(|change| finite(to_f64(change))))
     }
 
-    /// The changes while the fraction of the step moves from the middle of a part by so many times half of the part.
-    fn changes_within(&mut self, part: [f64; 2], times: f64) -> Bounds<S> {
+    /// The bounds E of the errors of the cubics through the ends of a part, of those guards where it is not tolerated.
+    pub(super) fn errors(&mut self, part: [f64; 2]) -> Bounds<S> {
         if self.tolerated.iter().all(|bound| bound.is_none()) {
             return self.tolerated;
         }
         let middle = self.step.at_fraction(real(0.5 * (part[0] + part[1])));
-        Self::changes(self.system, &middle, &self.step.moves(part, times))
-    }
-
-    /// The bounds E of the errors of the cubics through the ends of a part, of those guards where it is not tolerated.
-    pub(super) fn errors(&mut self, part: [f64; 2]) -> Bounds<S> {
-        let errors = self.changes_within(part, RADIUS);
-        errors.zip_map(&self.tolerated, |change, tolerated| {
-            let error = ERROR * change?;
-            tolerated.filter(|&tolerated| error <= tolerated).is_none().then_some(error)
+        let changes = Self::changes(self.system, &middle, &self.step.moves(part, RADIUS));
+        changes.zip_map(&self.tolerated, |change, tolerated| {
+            let (error, tolerated) = (ERROR * change?, tolerated?);
+            (error > tolerated).then_some(error)
         })
-    }
-
-    /// True for each guard that stays positive in a part, by half of its value at the middle; None where no bound is known.
-    pub(super) fn are_far(&mut self, part: [f64; 2], middle: &SampleOf<S>) -> Column<Option<bool>, S::Guards> {
-        let changes = self.changes_within(part, 1.0);
-        changes.dim().column(|place| Some(2.0 * changes[place]? < middle.guards[place].value))
     }
 }

@@ -184,8 +184,9 @@ fn is_positive(c: [f64; 5], halvings: u32) -> bool {
 
 /// Returns true if a function may pass zero in a step, by its values and its rates by the fraction of the step at the
 /// ends of four equal parts. Its states are those of the cubic, whose error has the form x^2 (1 - x)^2 in the whole
-/// step: it is estimated from the integral of the rates, which are interpolated independently of the values.
-pub(super) fn may_pass(samples: [[f64; 2]; 5]) -> bool {
+/// step: it is estimated from the integral of the rates, which are interpolated independently of the values. `bounds` are those of
+/// the errors of the cubics in the four parts, zero where none is known.
+pub(super) fn may_pass(samples: [[f64; 2]; 5], bounds: [f64; 4]) -> bool {
     // The quartic through the rates, integrated from the start.
     const WEIGHTS: [([f64; 5], f64); 4] = [
         ([251.0, 646.0, -264.0, 106.0, -19.0], 720.0),
@@ -212,7 +213,7 @@ pub(super) fn may_pass(samples: [[f64; 2]; 5]) -> bool {
     let whole = middle(0, 4);
     !(0..4).all(|part| {
         let half = part / 2 * 2;
-        let error = middle(half, half + 2).max(whole / 64.0);
+        let error = middle(half, half + 2).max(whole / 64.0).max(bounds[part]);
         let more = match part {
             0 => [0.0, 0.0, of_states / 6.0, of_states / 2.0, of_states],
             3 => [of_states, of_states / 2.0, of_states / 6.0, 0.0, 0.0],
@@ -270,7 +271,7 @@ mod tests {
                         [curvature * (off * off + height), 2.0 * curvature * off]
                     });
                     assert!(samples.iter().all(|[value, _]| *value > 0.0));
-                    assert_eq!(may_pass(samples), passes, "{curvature:e} {vertex} {height}");
+                    assert_eq!(may_pass(samples, [0.0; 4]), passes, "{curvature:e} {vertex} {height}");
                 }
             }
         }

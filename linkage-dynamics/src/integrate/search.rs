@@ -76,7 +76,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         samples.push(before.unknown());
         let mut older = None;
         let start = self.guards;
-        let mut quarters = [before; 5];
+        let mut quarters = [before.guards; 5];
         for part in 1..=parts {
             let here = course.sample(part as f64 / parts as f64)?;
             samples.push(here.unknown());
@@ -117,19 +117,16 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             }
             self.update(&here);
             if 4 * part % parts == 0 {
-                quarters[4 * part / parts] = here;
+                quarters[4 * part / parts] = here.guards;
             }
             (older, before) = (Some(before), here);
         }
-        let halves = [course.are_far([0.0, 0.5], &quarters[1]), course.are_far([0.5, 1.0], &quarters[3])];
+        let bounds = [0.0, 0.25, 0.5, 0.75].map(|from| course.errors([from, from + 0.25]));
         let passes = |place: usize| {
-            let of = quarters.map(|sample| sample.guards[place]);
-            let is_far = halves.map(|are_far| are_far[place]);
+            let of = quarters.map(|sample| sample[place]);
+            let bounds = bounds.map(|bound| bound[place].unwrap_or(0.0));
             of.iter().all(|sample| start[place].has_known_course(sample))
-                && match is_far {
-                    [Some(first), Some(second)] => !(first && second),
-                    _ => may_pass(of.map(|sample| [sample.value - of[0].value.min(0.0), sample.rate])),
-                }
+                && may_pass(of.map(|sample| [sample.value - of[0].value.min(0.0), sample.rate]), bounds)
         };
         Ok(if (0..self.guards.dim().count()).any(passes) { Found::Perhaps } else { Found::Nothing })
     }

@@ -180,6 +180,9 @@ impl<'a, S: Scene<Scalar = f64, Mechanism: Mechanism<Name = &'static str>>> Scen
     fn kink(&self, place: usize, t: f64, q: &Q<S>, rates: &Rates<S>) -> f64 {
         self.scene.kink(place, t, q, rates)
     }
+    fn gap_changes(&self, q: &Q<S>, moves: &Rates<S>) -> Column<Option<f64>, S::Contacts> {
+        self.scene.gap_changes(q, moves)
+    }
     fn prescribed(&self, t: f64) -> Column<Option<Prescribed<f64>>, S::V> {
         self.scene.prescribed(t)
     }
