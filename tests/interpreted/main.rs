@@ -6,6 +6,7 @@ mod at_run_time;
 mod classics;
 mod columns;
 mod drawn;
+mod gaps;
 mod mutants;
 mod printed;
 mod same_bits;

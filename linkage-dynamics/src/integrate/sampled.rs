@@ -38,8 +38,7 @@ pub(super) struct SampledStep<'a, S: System> {
     pub(super) step: &'a Interpolant<S::Scalar, S::N>,
     /// The rounding error of the time, as a fraction of the step.
     pub(super) resolution: f64,
-    /// The change of each guard by errors of the state as large as the tolerance: passages less deep may be missed. None where no
-    /// bound of a guard is known.
+    /// The depth of the passages of each guard that may be missed; None where no bound of the guard is known.
     pub(super) tolerated: Column<Option<f64>, S::Guards>,
 }
 
