@@ -480,6 +480,32 @@ fn columns_of_scenes() {
     assert!(few.contains("the limit of 2 steps is reached at ") && few.contains("or more steps"), "{few}");
 }
 
+/// A gap that oscillates many times in a step, since the motion is uniform: the cam of a wheel on a cart comes to a wall, and a
+/// sine of the place. The first impacts are known from roots in 31 digits.
+#[test]
+fn no_impact_between_samples_is_missed() {
+    let folder = folder();
+    folder.write(
+        "cam.linkage",
+        "mechanism Cam { param m = 1, j = 0.01, r = 0.1, wall = 1; input x, phi; body cart { mass m; center (x, 0); } \
+         body wheel { inertia j; angle phi; } scene Going { inertia; stop x + r*cos(phi) in -10..wall, restitution 0.5; } }",
+    );
+    folder.write(
+        "sine.linkage",
+        "mechanism Sine { param m = 1; input x; body b { mass m; center (x, 0); } \
+         scene Going { inertia; stop x/5*sin(20*x) in -2..0.9, restitution 1; } }",
+    );
+    for tolerance in ["1e-3", "1e-6", "1e-9", "1e-12"] {
+        let first = |command: &str| {
+            let run = folder.run(&format!("simulate {command} --own-steps --tolerance={tolerance}"));
+            let (_, after) = run.messages.split_once("at ").unwrap_or_else(|| panic!("{}", run.messages));
+            after.split_once(" s: stop on ").unwrap_or_else(|| panic!("{after}")).0.to_owned()
+        };
+        assert_eq!(first("cam.linkage --at x=0,phi=0.3 --rate x=0.3,phi=20 --to 4"), "3.089155", "{tolerance}");
+        assert_eq!(first("sine.linkage --at x=0 --rate x=1 --to 5"), "4.773909", "{tolerance}");
+    }
+}
+
 /// A heavy block follows a light one that is pushed to a wall: the light one strikes the wall and the heavy one in turn, at
 /// intervals that shrink to nothing, and takes 0.827 of the rate with each two impacts. Both rest at the wall, wherever it is.
 #[test]
