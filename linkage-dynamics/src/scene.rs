@@ -183,8 +183,8 @@ pub trait Scene {
         let _ = (place, t, q, rates);
         Self::Scalar::one()
     }
-    /// How much the s of each stop can change while each coordinate moves from its value by at most so much, in any complex
-    /// direction: bounds of the derivatives of all orders of s along a motion, by which no impact between the samples of a step is
+    /// A bound of the change of the s of each stop while each coordinate moves from its value by at most so much, in any complex
+    /// direction: it bounds the derivatives of all orders of s along a motion, by which no impact between the samples of a step is
     /// missed. `None` for frictions, for polynomials in the coordinates, and where no bound is known, as with user functions; no
     /// number where there is none at this position.
     fn gap_changes(&self, q: &Coordinates<Self>, moves: &Rates<Self>) -> Column<Option<Self::Scalar>, Self::Contacts> {

@@ -1,4 +1,4 @@
-//! How much the gap of a stop can change while the coordinates move: bounds that hold in complex directions too.
+//! Bounds of the change of a gap of a stop while the coordinates move, in complex directions too.
 //!
 //! If each coordinate in an expression moves by at most so much, in any complex direction, the expression changes by at most
 //! this *change*, a formula of the coordinates and of their moves. By Cauchy's estimate it bounds the derivatives of all orders
@@ -6,12 +6,11 @@
 
 use std::collections::BTreeMap;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::data::Derivation;
 use super::scene::{Contact, ContactFormula, Scene};
 use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
-use crate::model::Mechanism;
 
 /// An expression that depends on coordinates: a bound of its magnitude, and its change.
 #[derive(Clone, Copy)]
@@ -22,14 +21,14 @@ struct Bounded {
 
 impl Derivation {
     /// The changes of the gaps of stops, by contact; the moves are in place of the rates. None for a friction, for a polynomial in
-    /// the coordinates, which changes no faster than these, and where no bound is known: with a user function, or with time.
-    pub(super) fn derive_gap_changes(&mut self, mechanism: &Mechanism, scene: &Scene) -> Vec<Option<NodeId>> {
+    /// the coordinates, which changes no faster than these, and where no bound is known, as with a user function.
+    pub(super) fn derive_gap_changes(&mut self, scene: &Scene) -> Vec<Option<NodeId>> {
         let moves: BTreeMap<SymbolId, SymbolId> = self.coordinates.iter().map(|c| (c.value, c.rate)).collect();
         let of_stop = |contact: &Contact| matches!(contact.law, ContactFormula::Stop { .. }).then_some(contact.value);
         let gaps: Vec<Option<NodeId>> = scene.contacts.iter().map(of_stop).collect();
         let change = |gap: Option<NodeId>| {
             gap.filter(|&gap| !is_polynomial(&self.graph, gap, &moves))
-                .and_then(|gap| change(&mut self.graph, (gap, mechanism.time), &moves))
+                .and_then(|gap| change(&mut self.graph, gap, &moves))
         };
         gaps.into_iter().map(change).collect()
     }
@@ -37,27 +36,28 @@ impl Derivation {
 
 /// True of a polynomial in the coordinates, and of one with magnitudes.
 fn is_polynomial(graph: &Graph, gap: NodeId, moves: &BTreeMap<SymbolId, SymbolId>) -> bool {
-    let depends = |&node: &NodeId| graph.symbols_of(&[node]).iter().any(|symbol| moves.contains_key(symbol));
-    graph.reachable(&[gap]).into_iter().all(|node| match graph.node(node) {
-        Node::Constant(_) | Node::Pi | Node::Symbol(_) | Node::Sum { .. } | Node::Call(Function::Abs, _) => true,
-        Node::Product { factors, .. } => factors.iter().all(|(base, exponent)| *exponent > 0 || !depends(base)),
-        Node::Call(..) | Node::External(..) => !depends(&node),
+    let mut moving: FxHashSet<NodeId> = FxHashSet::default();
+    graph.reachable(&[gap]).into_iter().all(|node| {
+        let is_coordinate = graph.as_symbol(node).is_some_and(|symbol| moves.contains_key(&symbol));
+        if !is_coordinate && !graph.children(node).iter().any(|child| moving.contains(child)) {
+            return true;
+        }
+        moving.insert(node);
+        match graph.node(node) {
+            Node::Constant(_) | Node::Pi | Node::Symbol(_) | Node::Sum { .. } | Node::Call(Function::Abs, _) => true,
+            Node::Product { factors, .. } => {
+                factors.iter().all(|(base, exponent)| *exponent > 0 || !moving.contains(base))
+            }
+            Node::Call(..) | Node::External(..) => false,
+        }
     })
 }
 
 /// The change of an expression.
-fn change(
-    graph: &mut Graph,
-    (gap, time): (NodeId, Option<SymbolId>),
-    moves: &BTreeMap<SymbolId, SymbolId>,
-) -> Option<NodeId> {
+fn change(graph: &mut Graph, gap: NodeId, moves: &BTreeMap<SymbolId, SymbolId>) -> Option<NodeId> {
     let mut found: FxHashMap<NodeId, Bounded> = FxHashMap::default();
     for node in graph.reachable(&[gap]) {
-        let symbol = graph.as_symbol(node);
-        if symbol.is_some() && symbol == time {
-            return None;
-        }
-        let of = if let Some(&by) = symbol.and_then(|symbol| moves.get(&symbol)) {
+        let of = if let Some(&by) = graph.as_symbol(node).and_then(|symbol| moves.get(&symbol)) {
             let change = graph.variable(by);
             Bounded { size: magnitude(graph, node), change }
         } else if graph.children(node).iter().any(|child| found.contains_key(child)) {

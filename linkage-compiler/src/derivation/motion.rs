@@ -53,7 +53,7 @@ impl Derivation {
         // Last, so that their nodes change the order of terms of nothing else.
         for mut scene in std::mem::take(&mut self.scenes) {
             if mechanism.scenes[scene.id].inertia.is_some() {
-                scene.gap_changes = self.derive_gap_changes(mechanism, &scene);
+                scene.gap_changes = self.derive_gap_changes(&scene);
             }
             self.scenes.push(scene);
         }

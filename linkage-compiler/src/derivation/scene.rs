@@ -27,8 +27,8 @@ pub struct Scene {
     pub drives: BTreeMap<InputId, Prescribed>,
     /// The kinks of its laws, if it has inertia.
     pub kinks: Vec<Kink>,
-    /// How much the gap of each contact changes while the coordinates move, where that is known and more than they move, if it has
-    /// inertia. The moves are in place of the rates.
+    /// The change of the gap of each contact while the coordinates move, where it is known and no polynomial, if it has inertia. The
+    /// moves are in place of the rates.
     pub gap_changes: Vec<Option<NodeId>>,
     pub kinetic: NodeId,
     pub potential: NodeId,

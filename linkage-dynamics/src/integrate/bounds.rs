@@ -25,7 +25,7 @@ const ERROR: f64 = {
 pub(super) type Bounds<S> = Column<Option<f64>, <S as System>::Guards>;
 
 impl<S: System> SampledStep<'_, S> {
-    /// How much each guard can change while the state moves so much; infinite where there is no bound at this state.
+    /// The change of each guard while the state moves by so much or less; infinite where there is no bound at this state.
     pub(super) fn changes(system: &mut S, y: &StateOf<S>, moves: &StateOf<S>) -> Bounds<S> {
         let finite = |change: f64| if change >= 0.0 { change } else { f64::INFINITY };
         system.guard_changes(y, moves).map(|change| change.map(|change| finite(to_f64(change))))

@@ -75,7 +75,7 @@ impl<T: Real, N: Dim> Interpolant<T, N> {
         if self.length.is_zero() { self.coefficients[0] } else { self.at_fraction((t - self.start) / self.length) }
     }
 
-    /// How far each component moves, at most, from its value at the middle of a part of the step, while the fraction s moves from
+    /// A bound of the move of each component from its value at the middle of a part of the step, while the fraction s moves from
     /// there by so many times half of the part in any complex direction: the sum of the magnitudes of the terms of its Taylor series.
     pub(super) fn moves(&self, [from, to]: [f64; 2], times: f64) -> Column<T, N> {
         let (middle, radius) = (0.5 * (from + to), real::<T>(0.5 * times * (to - from)));

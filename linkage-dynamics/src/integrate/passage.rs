@@ -48,7 +48,7 @@ impl Course {
         Self { cubic: [value, value + rate / 3.0, next - next_rate / 3.0, next], error, is_bound: false }
     }
 
-    /// The same with a bound of its error.
+    /// This course with a bound of its error.
     pub(super) fn with_bound(self, error: f64) -> Self {
         Self { error, is_bound: true, ..self }
     }

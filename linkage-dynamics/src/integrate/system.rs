@@ -85,8 +85,8 @@ pub trait System {
         Ok(self.counts().1.repeat(Guard { value: Self::Scalar::one(), rate: Some(Self::Scalar::zero()) }))
     }
 
-    /// How much each guard with a known rate can change while each component of the state moves from its value by at most so much,
-    /// in any complex direction. It bounds the guard between samples; `None`, or what is no number, where no bound is known.
+    /// A bound of the change of each guard with a known rate while each component of the state moves from its value by at most so
+    /// much, in any complex direction: it bounds the guard between samples. `None`, or what is no number, where no bound is known.
     #[inline]
     fn guard_changes(
         &mut self,

@@ -1,4 +1,4 @@
-//! The function of a scene that bounds how much the gaps of its stops can change.
+//! The function of a scene that bounds the changes of the gaps of its stops.
 
 use super::ScenePlan;
 use crate::graph::NodeId;
@@ -18,8 +18,8 @@ impl ScenePlan<'_, '_, '_> {
             return;
         }
         let mut doc = lines([
-            "How much the gaps of stops can change while each coordinate moves from its value by its rate here, or by less, in any",
-            "complex direction: no number where no bound is known.",
+            "Bounds of the changes of the gaps of stops while each coordinate moves from its value by so much, or by less, in any complex",
+            "direction, where the rates are the moves: no number where no bound is known.",
         ]);
         doc.extend(fenced(known.iter().map(|(label, change)| format!("{label}: {}", self.plan.text(*change)))));
         let moves = Source {

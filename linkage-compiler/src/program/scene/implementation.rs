@@ -216,7 +216,7 @@ impl OfScene<'_> {
         )
     }
 
-    /// How much the gap of each contact changes; `None` where that is not known.
+    /// The change of the gap of each contact; `None` where it is not known.
     fn gap_changes(&self, has_change: &[bool]) -> Function<Body> {
         let names: Vec<String> =
             (1..=has_change.iter().filter(|has| **has).count()).map(|number| format!("change_{number}")).collect();

@@ -196,7 +196,7 @@ impl<'a> SceneSignatures<'a> {
         Function { access: Access::Hidden, ..total("kinks", self.whole_state(), of) }
     }
 
-    /// How much gaps change while each coordinate moves.
+    /// The changes of gaps while each coordinate moves.
     pub fn gap_changes(&self, many: usize) -> Function<Body> {
         let moves = Argument { name: self.moves(), ..self.coordinates(Order::Rate) };
         let of = Type::List(Box::new(Type::Scalar), many);
