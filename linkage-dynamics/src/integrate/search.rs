@@ -2,6 +2,7 @@
 
 use nalgebra::ComplexField;
 
+use super::bounds::Discs;
 use super::event::{EventSign, EventSigns};
 use super::passage::{Course, Next, may_pass};
 use super::sampled::{FunctionSample, Sample, SampledStep};
@@ -121,7 +122,10 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
             }
             (older, before) = (Some(before), here);
         }
-        let bounds = [0.0, 0.25, 0.5, 0.75].map(|from| course.errors([from, from + 0.25]));
+        let bounds = [0.0, 0.25, 0.5, 0.75].map(|from| {
+            let part = [from, from + 0.25];
+            course.discs(part, &Discs::none(self.guards.dim())).errors(part, &course.tolerated)
+        });
         let passes = |place: usize| {
             let of = quarters.map(|sample| sample[place]);
             let bounds = bounds.map(|bound| bound[place].unwrap_or(0.0));
@@ -198,7 +202,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         is_resolved: &mut bool,
     ) -> Result<Option<(f64, f64)>, ErrorOf<S>> {
         let mut before = before;
-        let unknown = &self.guards.dim().repeat(f64::INFINITY);
+        let unknown = &(self.guards.dim().repeat(f64::INFINITY), Discs::none(self.guards.dim()));
         // Each of the other functions has at most one extremum here.
         for _ in 0..self.each().count() {
             let Some(turn) = self.first_beyond_extremum(course, &before, here)? else { break };
@@ -213,20 +217,21 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
 
     /// Returns the fractions of the step around the first event between two samples, and updates the signs up to there.
     /// Samples are added until the guards with known rates have no passage between neighbours, or one. `errors` are
-    /// those of the cubics through the two samples, as estimated; `left` is the number of samples that may be added, and `is_resolved`
+    /// those of the cubics through the two samples, as estimated, and `discs` bound them; `left` is the number of samples that may be added, and `is_resolved`
     /// becomes false if these are not enough for a guard with a bound.
     fn refine<S: System<Events = K, Guards = C>>(
         &mut self,
         course: &mut SampledStep<'_, S>,
         (before, here): (&Sample<K, C>, &Sample<K, C>),
-        errors: &Column<f64, C>,
+        (errors, discs): &(Column<f64, C>, Discs<C>),
         (left, is_resolved): (&mut u32, &mut bool),
     ) -> Result<Option<(f64, f64)>, ErrorOf<S>> {
         let width = here.at - before.at;
         // Near an extremum an error of the time of sqrt(resolution) changes the value by its rounding error only.
         let near = ComplexField::sqrt(course.resolution) / width;
         let by_part = |sample: &FunctionSample, base: f64| [sample.value - base, sample.rate * width];
-        let bounds = course.errors([before.at, here.at]);
+        let discs = course.discs([before.at, here.at], discs);
+        let bounds = discs.errors([before.at, here.at], &course.tolerated);
         let courses: Column<Option<Course>, C> = self.guards.dim().column(|place| {
             let (start, end) = (&before.guards[place], &here.guards[place]);
             let is_known = [start, end].iter().all(|sample| self.guards[place].has_known_course(sample));
@@ -254,10 +259,11 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
                     }
                     _ => errors[place],
                 });
-                let found = self.refine(course, (before, &between), &errors, (left, is_resolved))?;
+                let known = &(errors, discs);
+                let found = self.refine(course, (before, &between), known, (left, is_resolved))?;
                 return match found {
                     Some(_) => Ok(found),
-                    None => self.refine(course, (&between, here), &errors, (left, is_resolved)),
+                    None => self.refine(course, (&between, here), known, (left, is_resolved)),
                 };
             }
         } else if next.is_some() && bounds.iter().any(|bound| bound.is_some()) {
