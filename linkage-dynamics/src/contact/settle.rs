@@ -22,6 +22,10 @@ const MOST_IMPACTS: usize = 1000;
 /// M, which follows it without rebound, takes 1 - (1 + e) m / M of the rate with each two: it rests after this many if M is 3000 m.
 const MOST_WITH_LOSSES: usize = 100_000;
 
+/// Impacts with losses go on while the rates of the stops that are touched fall at least by this factor with each
+/// [`MOST_IMPACTS`]: between walls that move they do not.
+const SLOWEST_FALL: f64 = 0.99;
+
 impl<T: Real, C: Dim> Contacts<T, C> {
     /// Applies impacts and finds the new modes at a state where an event function has just fallen through zero. Returns
     /// the rates v' after the event. `evaluate` computes the equations of this state with other rates v'.
@@ -67,7 +71,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         // slipping keeps its rate, however small: s' passes zero at a dead centre while the mechanism moves.
         let mut resting = self.modes;
         self.is_hit = self.modes.dim().repeat(false);
-        let (mut impacts, mut has_losses) = (0, false);
+        let (mut impacts, mut has_losses, mut fastest) = (0, false, real::<T>(f64::INFINITY));
         // Stops that are closed take part in each impact; those that an impact of this series has closed have their own turn.
         let mut closed = at_rest.map(|side| side.is_some());
         // An impact may move another s towards a stop that it touches.
@@ -75,11 +79,14 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             let mut hit =
                 struck.iter().zip(&at_rest).filter(|(_, side)| side.is_none()).filter_map(|(of, _)| of.as_ref());
             has_losses |= hit.any(|of| of.restitution < T::one());
-            if impacts == if has_losses { MOST_WITH_LOSSES } else { MOST_IMPACTS } {
+            let rates = if impacts % MOST_IMPACTS == 0 { self.fastest_touched(&equations) } else { fastest };
+            let is_falling = impacts == 0 || has_losses && rates < real::<T>(SLOWEST_FALL) * fastest;
+            if impacts % MOST_IMPACTS == 0 && !is_falling || impacts == MOST_WITH_LOSSES {
                 let place = struck.iter().position(|of| of.is_some()).unwrap_or(0);
                 let (scene, contact) = (equations.scene, equations.contacts[place].name);
                 return Err(MotionError::ContactWithoutEnd { scene, contact, t: to_f64(t) });
             }
+            fastest = rates;
             equations = self.strike(t, struck, &equations, &mut at_rest, &mut evaluate)?;
             closed.iter_mut().zip(&at_rest).for_each(|(closed, side)| *closed &= side.is_some());
             resting = self.modes.dim().repeat(Mode::Open);
@@ -143,6 +150,16 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             }
             (Mode::Open, ContactLaw::Friction { .. } | ContactLaw::Bearing { .. }) => None,
         }
+    }
+
+    /// The largest rate of the stops that are touched.
+    fn fastest_touched<V: Dim, N: BorrowedName>(&self, equations: &ReducedEquations<T, V, C, N>) -> T {
+        let rates = equations.contacts.iter().enumerate().filter_map(|(place, contact)| {
+            let ContactLaw::Stop { lower, upper, .. } = contact.law else { return None };
+            let (_, gap, tolerance) = self.nearest(place, contact, [lower, upper]);
+            (gap <= tolerance).then(|| contact.rate(&equations.rates).0.abs())
+        });
+        rates.fold(T::zero(), T::max)
     }
 
     /// Returns the stops that take part in an impact, those on which s rests included; None if s hits no stop. If
