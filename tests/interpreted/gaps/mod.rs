@@ -111,7 +111,7 @@ fn changes_of_gaps_are_bounds() {
         for _ in 0..20 {
             let moves = [0.0; 2].map(|_| 10_f64.powf(random.random_range(-4.0..0.0)) * 3.0 / fastest);
             let bound = scene.gap_changes(&coordinates(at), &coordinates(moves))[0].expect("no polynomial");
-            if !(bound >= 0.0) {
+            if bound.is_nan() {
                 continue;
             }
             known += 1;
