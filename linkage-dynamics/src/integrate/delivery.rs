@@ -13,8 +13,8 @@ use linkage_runtime::__shared::to_f64;
 use linkage_runtime::{Build, real};
 
 /// A guard may pass zero by this part of the change by errors of the state as large as the tolerance: such errors change a gap that
-/// oscillates forty times in a step by a hundred tolerances and more. The error of a cubic falls with the fourth power of the length of
-/// its part: a hundredth of this takes three times as many samples where a stop is touched without load.
+/// oscillates forty times in a step by a hundred tolerances and more. The error of a cubic falls with the fourth power of the
+/// length of its part: a hundredth of this takes three times as many samples where a stop is touched without load.
 const TOLERATED: f64 = 0.01;
 
 impl<S: System, M: Method> Integration<S, M> {
