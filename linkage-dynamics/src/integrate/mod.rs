@@ -40,8 +40,7 @@
 //!   down to a depth of 1e-9, and of 1636 sums of four sines that pass zero by 1e-4 of their amplitude, none is
 //!   missed.
 //! - If the system knows how much the guard can [change](System::guard_changes), the error of the cubics is bounded instead:
-//!   relative to the polynomial of the step no passage deeper than a hundredth of the tolerance is missed. Of 10 000 random gaps
-//!   that oscillate up to forty times in a step none is missed by ten tolerances.
+//!   relative to the polynomial of the step no passage deeper than a hundredth of the tolerance is missed.
 //! - If an event function, or a guard without a known rate, approaches zero and has one extremum in the step, the
 //!   extremum is located, by the samples and difference quotients at the ends of the step: it is missed only where the
 //!   samples around the extremum are equal within rounding error. Of 10 000 random functions none is missed. With several

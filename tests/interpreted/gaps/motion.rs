@@ -71,6 +71,19 @@ impl<'a> Gap<'a> {
         Self { expression, motion, values }
     }
 
+    /// The largest change along the motion for a change of x and phi by 1 together, or zero of a motion by polynomials, which a
+    /// simulation follows without error.
+    pub fn sensitivity(&self) -> f64 {
+        if self.motion.stiffness == 0.0 {
+            return 0.0;
+        }
+        let change = |pair: &[(f64, f64)]| {
+            let [before, after] = [pair[0].0, pair[1].0].map(|t| self.motion.at(&t));
+            (pair[1].1 - pair[0].1).abs() / ((after[0] - before[0]).abs() + (after[1] - before[1]).abs())
+        };
+        self.values.windows(2).map(change).fold(0.0, f64::max)
+    }
+
     /// The distance to the wall, in 31 digits.
     pub fn distance(&self, wall: f64, t: f64) -> f64 {
         let value: DoubleDouble = self.expression.at(&self.motion.at(&DoubleDouble::from(t)));
