@@ -165,8 +165,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
     /// Returns the stops that take part in an impact, those on which s rests included; None if s hits no stop. If
     /// `is_together`, all that s touches, without rebound.
     ///
-    /// Of stops that impacts at this time have closed, each is hit in its turn while another rebounds: two bodies that have met
-    /// without rebound are no single one for the wall that the first of them strikes next.
+    /// A stop that an impact at this time has closed does not take part while another stop rebounds: it is hit by the next impact.
+    /// Two bodies that have met without rebound are not one body for the wall that the first of them strikes.
     fn struck<V: Dim, N: BorrowedName>(
         &self,
         equations: &ReducedEquations<T, V, C, N>,
