@@ -371,6 +371,44 @@ fn kinks_near_the_start() {
     }
 }
 
+/// A kink in every few milliseconds, in steps that would be longer: each is passed, and the motion has the work of the force.
+#[test]
+fn kinks_in_every_step() {
+    let folder = folder();
+    folder.write(
+        "ribs.linkage",
+        "mechanism Ribs { param k = 147; input s; body b { mass 1; center (s, 0); } \
+         scene Rough { inertia; torque -abs(sin(k*s)) on s; } scene Drag { inertia; torque -rate(s)*abs(sin(k*s)) on s; } \
+         scene Sheet { inertia; torque -atan2(sin(k*s), 2 + cos(s)) on s; } }",
+    );
+    // The forces, with a rate.
+    type Force = fn(f64, f64) -> f64;
+    let ribs: Force = |s, _| -(147.0 * s).sin().abs();
+    let drag: Force = |s, v| -v * (147.0 * s).sin().abs();
+    let sheet: Force = |s, _| -(147.0 * s).sin().atan2(2.0 + s.cos());
+    for (scene, force) in [("Rough", ribs), ("Drag", drag), ("Sheet", sheet)] {
+        for tolerance in [1e-4, 1e-7] {
+            let question = "simulate ribs.linkage --at s=0.01 --rate s=4 --to 1 --own-steps";
+            let table = Table::of(&folder, &format!("{question} --scene {scene} --tolerance {tolerance}"));
+            let [s, rate] = ["s", "s_rate"].map(|column| *table.column(column).last().unwrap());
+            // v dv = f ds and dt = ds / v, by the rule of midpoints in some thousand parts of each wave.
+            const PARTS: u32 = 100_000;
+            let part = (s - 0.01) / f64::from(PARTS);
+            let (mut v, mut t) = (4.0, 0.0);
+            for place in 0..PARTS {
+                let middle = 0.01 + (f64::from(place) + 0.5) * part;
+                let half = v + 0.5 * part * force(middle, v) / v;
+                t += part / half;
+                v += part * force(middle, half) / half;
+            }
+            // The tolerance is that of each step, here for a rate of 4.
+            let all = table.column("time").len() as f64 * 4.0 * tolerance;
+            close(t, 1.0, all);
+            close(rate, v, all);
+        }
+    }
+}
+
 /// A row at the time of a kink is that before it, and a friction whose limit grows from zero at a place holds a body at rest.
 #[test]
 fn rows_and_frictions_at_kinks() {

@@ -35,7 +35,8 @@ const AT_KINK_ULPS: f64 = 24.0;
 /// of the rate of a body at rest.
 const NOISE_ULPS: f64 = 16.0;
 
-/// A step begins at a kink if its expression is at most this many times its error: where a step was to end at once that error.
+/// A step begins at a kink if its expression is at most this many times its error until it passes zero: where a step was to end
+/// at once that error.
 const AT_KINK_NOISES: f64 = 2.0;
 
 /// The first kink of the state in a step.
@@ -294,7 +295,9 @@ impl<S: Scene, W> Motion<'_, S, W> {
                     first_not_positive(parts, ends, 0.25 * at_kink, |at| Ok(Some(along(value(at)) - to)))
                 };
                 let within = [fallen(noise)?, fallen(-noise)?];
-                let is_here = within[0] <= at_kink || along(values[0]) <= AT_KINK_NOISES * noise;
+                // After a kink the expression begins within its error too, and grows before it passes zero again.
+                let stays = |at: f64| along(value(at)) <= AT_KINK_NOISES * noise;
+                let is_here = within[0] <= at_kink || (stays(0.0) && stays(0.5 * within[0]));
                 if first.as_ref().is_none_or(|first| within[0] < first.within[0]) {
                     first = Some(FirstKink { within, is_here, place, effect, sign: own });
                 }

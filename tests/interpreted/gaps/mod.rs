@@ -38,7 +38,7 @@ fn coordinates(inputs: [f64; 2]) -> CoordinatesAtRunTime<D<2>> {
 }
 
 /// The time of the first impact in a second.
-fn first_impact(design: &Design, motion: &Motion, tolerance: f64) -> Option<f64> {
+fn first_impact(design: &Design, motion: &Motion, tolerance: f64, about: impl Fn() -> String) -> Option<f64> {
     let scene = design.scene("Free").unwrap();
     let prepared = scene.prepared().unwrap();
     let scene = prepared.with_inputs::<D<2>>().unwrap();
@@ -49,7 +49,7 @@ fn first_impact(design: &Design, motion: &Motion, tolerance: f64) -> Option<f64>
         impact = (state.changes().count() > 0).then_some(state.t);
         impact.is_none()
     })
-    .unwrap_or_else(|error| panic!("{error}: {motion:?}"));
+    .unwrap_or_else(|error| panic!("{error}: {}", about()));
     impact
 }
 
@@ -76,18 +76,18 @@ fn no_impact_is_missed_where_a_gap_oscillates() {
         let (design, sensitivity) = (design(&expression, wall, &motion), gap.sensitivity());
         for tolerance in [1e-6, 1e-9, 1e-12] {
             let depth = 10.0 * tolerance * (1.0 + wall.abs() + sensitivity);
-            let (impact, deep) = (first_impact(&design, &motion, tolerance), gap.first_beyond(wall, depth));
-            let about = || format!("{case} at {tolerance:e}: {expression} to {wall}, {motion:?}: {impact:?} {deep:?}");
+            let about = || format!("{case} at {tolerance:e}: {expression} to {wall}, {motion:?}");
+            let (impact, deep) = (first_impact(&design, &motion, tolerance, about), gap.first_beyond(wall, depth));
             all += 1;
             if let Some(t) = impact {
                 let off = gap.distance(wall, t).abs();
-                assert!(off <= depth, "{off:e} from the wall: {}", about());
+                assert!(off <= depth, "{off:e} from the wall at {t}: {}", about());
             }
             if let Some(deep) = deep {
                 beyond += 1;
                 let late = impact.map_or(f64::INFINITY, |impact| impact - deep);
                 latest = latest.max(late);
-                assert!(late <= 1e-9, "missed by {late}: {}", about());
+                assert!(late <= 1e-9, "missed by {late}: {impact:?}, {deep:?}: {}", about());
             }
         }
     }

@@ -10,7 +10,8 @@ impl Comparison<'_> {
     /// The error of an end, by rounding.
     fn error_of_end(&self, node: &Node, why: &Why) -> Option<f64> {
         let moving = self.stepped.moving;
-        let rounding = UNITS * f64::EPSILON * node.q[moving].abs();
+        // Small steps from the start add the rounding errors of the largest value on their way.
+        let rounding = UNITS * f64::EPSILON * node.q[moving].abs().max(self.at[moving].abs());
         match why {
             Why::Range(name, _) => {
                 let place = self.linkage.coordinates.iter().position(|of| of.name == *name);
