@@ -294,6 +294,41 @@ fn a_motion_that_ends() {
     assert!(rows.len() == 7 && rows[1] == "0,1" && rows[3] == "2," && rows[6] == "5,", "{rows:?}");
 }
 
+/// Stops whose gap ends or whose bounds cross: the error names effect and time, and the rows before it stay.
+#[test]
+fn stops_without_a_gap() {
+    let folder = folder();
+    folder.write(
+        "gaps.linkage",
+        "mechanism Gaps { param low = -1, high = 1; input x; body b { mass 1; center (x, 0); } \
+         scene Root { inertia; torque -1 on x; stop sqrt(x) in -1..5, restitution 1; } \
+         scene Sine { inertia; torque -1 on x; stop asin(x) in -1..2, restitution 1; } \
+         scene Crossed { inertia; stop x in low..high, restitution 1; } }",
+    );
+    for (arguments, rows, message) in [
+        (
+            "Root --at x=0.5",
+            "0,0.5\n0.6,0.32\n1.2,\n",
+            "the motion ends at 1.000000 s: stop on sqrt(x) of Root is not a finite number",
+        ),
+        (
+            "Sine --at x=0.95 --rate x=0.5",
+            "0,0.95\n0.6,\n1.2,\n",
+            "the motion ends at 0.112702 s: stop on asin(x) of Sine is not a finite number",
+        ),
+        (
+            "Crossed --at x=0 --set low=2",
+            "",
+            "the stop on x in Crossed is from 2 to 1: the first must be less than the second",
+        ),
+    ] {
+        let ran = folder
+            .run(&format!("simulate gaps.linkage --to 1.2 --steps 2 --columns time,x --digits 12 --scene {arguments}"));
+        assert_eq!((ran.code, ran.messages), (Some(1), format!("error: {message}\n")));
+        assert_eq!(ran.output.split_once('\n').map_or("", |(_, rows)| rows), rows);
+    }
+}
+
 /// At an impact a point has no acceleration: a message says which rows have empty cells, and why.
 #[test]
 fn cells_without_a_number_are_named() {

@@ -55,6 +55,18 @@ impl Comparison<'_> {
             // The positions at the start's input.
             let mut passed: Vec<usize> = Vec::new();
             for two in curve.nodes.windows(2) {
+                // At a dead point just beyond the start's input the motion passes it twice between two nodes.
+                if two[0].tangent[moving] * two[1].tangent[moving] < 0.0 {
+                    let apart = self.difference(&two[0].q, &two[1].q);
+                    for node in two {
+                        let turns = (node.q[moving] - first) / TAU;
+                        let turn = if self.linkage.coordinates[moving].is_angle { turns.round() } else { 0.0 };
+                        let there = self.stepped.at(&node.q, first + turn * TAU);
+                        if let Some(q) = there.filter(|q| self.difference(q, &node.q) <= apart) {
+                            passed.extend(positions.iter().position(|of| self.difference(of, &q) <= 1e-6));
+                        }
+                    }
+                }
                 let [one, other] = [&two[0], &two[1]].map(|node| (node.q[moving] - first) / TAU);
                 let turn = if self.linkage.coordinates[moving].is_angle { one.max(other).floor() } else { 0.0 };
                 if one.min(other) > turn || one.max(other) < turn || one == other {
