@@ -3,7 +3,9 @@
 //! turn all bars are in line and N + 1 motions meet.
 //!
 //! No run may end on another motion than that of parallel uprights, and each that stops returns a typed error. The
-//! energy is the same on all motions, so that only positions distinguish them.
+//! energy is the same on all motions, so that only positions distinguish them. A step over a change point has the error of any
+//! other: at 1e-6 it changes the energy by 4e-6 moments of inertia on the mean, others by 3e-6; ten windows end 1.1e-3 m off and
+//! forty 1.7e-3 m, medians of 16 tolerances.
 //!
 //! ```text
 //! TOLERANCES=64 cargo test --release --test published n_four_bar -- --nocapture
