@@ -10,6 +10,8 @@ const TOGETHER: f64 = 5e-15;
 const CROWDED_ULPS: f64 = 64.0;
 /// and where there are more than this many, the series has reached its limit, in which all rates are zero.
 const MOST_CROWDED: usize = 12;
+/// The most impacts in turn at one time.
+const MOST_IN_TURN: usize = 100_000;
 /// Three impacts of two stops within this part of the time scale collapse.
 const COLLAPSE: f64 = 1e-8;
 
@@ -84,14 +86,16 @@ impl<'a, M: Model> Settling<'a, M> {
                 Mode::Open => (is_still && gap <= TOUCH * self.length).then_some(side),
             };
         }
+        // Stops that were closed before the event take part in each of its impacts. Those that one of them closes have their own turn.
+        let mut closed = at_rest.map(|side| side.is_some());
         // At the start nothing says which of two impacts is first.
         let near = if contact == R { TOUCH } else { TOGETHER - LATE };
         for round in 0.. {
-            if round > 1000 {
+            if round > MOST_IN_TURN {
                 return Err(format!("impacts without end at {t}"));
             }
             let mut struck: [Option<Struck>; R] = [None; R];
-            let mut hits = false;
+            let (mut hits, mut rebounds) = (false, false);
             for (place, law) in self.laws.laws.iter().enumerate() {
                 let Law::Stop { restitution, .. } = *law else { continue };
                 let row = &rows[M::LINKS + place];
@@ -101,12 +105,19 @@ impl<'a, M: Model> Settling<'a, M> {
                 } else if gap <= near * self.length && row.rate(&v) * side.inward() < 0.0 {
                     struck[place] = Some(Struck { inward: side.inward(), restitution });
                     hits = true;
+                    rebounds |= restitution > 0.0;
                 }
             }
             if !hits {
                 break;
             }
-            v = self.strike((t, x, &v), struck, &mut at_rest)?;
+            for place in (0..R).filter(|&place| rebounds && at_rest[place].is_some() && !closed[place]) {
+                struck[place] = None;
+            }
+            v = self.strike((t, x, &v), struck, (&mut at_rest, round))?;
+            for (closed, side) in closed.iter_mut().zip(&at_rest) {
+                *closed &= side.is_some();
+            }
         }
         self.modes = self.laws.choose((t, x, &v), &self.modes, &at_rest).map_err(|what| format!("{what} at {t}"))?;
         for (hardest, _) in self.hardest.iter_mut().zip(&at_rest).filter(|(_, side)| side.is_some()) {
@@ -135,15 +146,19 @@ impl<'a, M: Model> Settling<'a, M> {
         &mut self,
         (t, x, v): (f64, &Vector, &Vector),
         mut struck: [Option<Struck>; R],
-        at_rest: &mut [Option<Mode>; R],
+        (at_rest, round): (&mut [Option<Mode>; R], usize),
     ) -> Result<Vector, String> {
         let count = self.laws.laws.len();
         let rows = self.laws.model.rows(t, x, v);
-        let is_crowded = t - self.last.0 <= CROWDED_ULPS * f64::EPSILON * t.abs();
-        self.last = (t, if is_crowded { self.last.1 + 1 } else { 0 });
+        if round == 0 {
+            let is_crowded = t - self.last.0 <= CROWDED_ULPS * f64::EPSILON * t.abs();
+            self.last = (t, if is_crowded { self.last.1 + 1 } else { 0 });
+        }
         for place in (0..count).filter(|&place| at_rest[place].is_none()) {
             let Some(of) = &mut struck[place] else { continue };
-            self.impacts = [self.impacts[1], self.impacts[2], (t, place)];
+            if round == 0 {
+                self.impacts = [self.impacts[1], self.impacts[2], (t, place)];
+            }
             let [first, second, last] = self.impacts;
             if (second.1 != last.1 || first.1 != last.1) && t - first.0 <= COLLAPSE * self.time {
                 self.collapse = self.collapse.or(Some(first.0));
@@ -193,6 +208,12 @@ impl<'a, M: Model> Settling<'a, M> {
                 let side = if of.inward > 0.0 { Mode::Lower } else { Mode::Upper };
                 at_rest[place] = rests.then_some(side);
                 self.modes[place] = if rests { side } else { Mode::Open };
+            } else {
+                // It was closed by an impact before this one.
+                let (side, gap) = gap(law, rows[M::LINKS + place].value);
+                let is_still = rate.abs() <= TOUCH * self.speed && gap <= TOUCH * self.length;
+                at_rest[place] = is_still.then_some(side);
+                self.modes[place] = Mode::Open;
             }
         }
         Ok(after)
