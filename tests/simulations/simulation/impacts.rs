@@ -103,7 +103,7 @@ fn no_bounce_on_a_shaken_table_is_missed() {
         motion
             .finish(|state, _| {
                 impacts += state.changes().count();
-                // Impacts are located to the rounding errors of the time, and of both heights, whose largest count.
+                // Two errors remain: the rounding of the time, times the rate, and the rounding of both heights.
                 heights = heights.max(state.q.y.abs() + state.q.b.abs());
                 let [gap, speed] = [state.q.y - state.q.b, (state.rates.y - state.rates.b).abs()];
                 let rounding = f64::EPSILON * (state.t * speed + 4.0 * heights);

@@ -10,8 +10,7 @@ impl Comparison<'_> {
     /// The error of an end, by rounding.
     fn error_of_end(&self, node: &Node, why: &Why) -> Option<f64> {
         let moving = self.stepped.moving;
-        // Small steps from the start add the rounding errors of the largest value on their way.
-        let rounding = UNITS * f64::EPSILON * node.q[moving].abs().max(self.at[moving].abs());
+        let rounding = UNITS * f64::EPSILON * node.q[moving].abs();
         match why {
             Why::Range(name, _) => {
                 let place = self.linkage.coordinates.iter().position(|of| of.name == *name);
@@ -33,6 +32,13 @@ impl Comparison<'_> {
             }
             _ => self.stepped.error_of_input(node),
         }
+    }
+
+    /// The end of the declared range of the input that moves.
+    fn declared_end(&self, why: &Why) -> Option<f64> {
+        let Why::Range(name, is_most) = why else { return None };
+        let moving = &self.linkage.coordinates[self.stepped.moving];
+        moving.range.filter(|_| moving.name == *name).map(|range| range[usize::from(*is_most)])
     }
 
     pub(super) fn limits(&mut self, question: &[String], answer: &Value, q: &[f64]) {
@@ -58,6 +64,8 @@ impl Comparison<'_> {
         }
         let nodes = [motion.nodes.first(), motion.nodes.last()];
         for ((end, node), (value, why)) in ["from", "to"].into_iter().zip(nodes).zip(&own) {
+            // The declared end of the input is exact; small steps reach it with the rounding errors of their sum.
+            let value = self.declared_end(why).unwrap_or(*value);
             let (Some(given), Some(node)) = (answer[end]["input"].as_f64(), node) else {
                 return self.fails("limits: no end", question, answer, own);
             };
