@@ -6,6 +6,8 @@ use std::f64::consts::{PI, TAU};
 use linkage::continuation::{Along, AlongCoordinates, AlongRates, Direction, Event, Options, Path, PathStep};
 use linkage::{Column, Elbow, Mechanism, PathError, PositionError};
 use nalgebra::{SVector, vector};
+use rand::rngs::SmallRng;
+use rand::{Rng, SeedableRng};
 
 use linkage_gallery::coupled_wheels::*;
 use linkage_gallery::double_butterfly::*;
@@ -54,6 +56,31 @@ fn a_turn_driven_by_the_rocker() {
     assert_eq!(dead_points.len(), 2);
     assert_abs_diff_eq!(dead_points[0], angle(30.0), epsilon = 1e-14);
     assert_abs_diff_eq!(dead_points[1], angle(70.0), epsilon = 1e-14);
+}
+
+/// A path comes to an input that is nearer than its position is known: next to it, and next to zero, where numbers are closer
+/// to each other than the rounding errors of the unknowns. Either way; the position is the one at that input.
+#[test]
+fn to_the_next_number() {
+    let m = FourBar::default();
+    let mut random = SmallRng::seed_from_u64(linkage_trials::seed(0x1e57));
+    let mut count = 0;
+    for _ in 0..linkage_trials::count("NEXT", 200, 2000) {
+        let from: f64 = random.random_range(-PI..PI);
+        let mut path = Path::new(&m, &left(&m, from), Direction::Increasing).unwrap();
+        // On through zero, to places within 1e-16 and 1e-32 of it, and back.
+        let tiny = random.random_range(-1e-16..1e-16_f64);
+        let others = [0.0, tiny, tiny.next_up(), tiny.next_down(), -tiny, 1e-16 * tiny, f64::MIN_POSITIVE, -0.0, from];
+        for target in [from.next_up(), from.next_down(), from].into_iter().chain(others) {
+            let step = path.advance_to(target).unwrap_or_else(|error| panic!("{from} to {target:e}: {error}"));
+            assert_eq!(step.position.theta2, target);
+            let right = left(&m, target);
+            assert_abs_diff_eq!(step.position.theta3, right.theta3, epsilon = 1e-14);
+            assert_abs_diff_eq!(step.position.theta4, right.theta4, epsilon = 1e-14);
+            count += 1;
+        }
+    }
+    println!("{count} inputs");
 }
 
 /// The rates along the path are those that the velocity ratios give.

@@ -121,10 +121,23 @@ where
         Ok(found.map(|(q, elimination)| self.place(q, &elimination, &from.tangent)))
     }
 
-    /// True if the step from `from` to `q` is an arc of one curve: the tangent turns by at most the largest turn of the
+    /// True if the step from `from` to `q` goes forward on an arc of one curve.
+    pub(super) fn is_arc(
+        &self,
+        from: &Place<M>,
+        q: &M::Coordinates,
+        tangent: &Vector<M>,
+        regularity: M::Scalar,
+        options: &Options<M::Scalar>,
+    ) -> bool {
+        self.difference(q, &from.q).dot(&from.tangent) > M::Scalar::zero()
+            && self.is_on_curve(from, q, tangent, regularity, options)
+    }
+
+    /// True if `from` and `q` are on an arc of one curve: the tangent turns by at most the largest turn of the
     /// options, and the step deviates from neither tangent by more than the turn between them explains. A jump to a
     /// neighbouring curve does not satisfy this.
-    pub(super) fn is_arc(
+    pub(super) fn is_on_curve(
         &self,
         from: &Place<M>,
         q: &M::Coordinates,
@@ -136,10 +149,7 @@ where
         let rounding_error =
             self.rounding_error(q) * real(EQUAL_ULPS) / regularity.max(M::Scalar::default_epsilon().sqrt());
         let most = step.norm() * (turn + real(SLACK)) + rounding_error;
-        step.dot(&from.tangent) > M::Scalar::zero()
-            && turn <= options.largest_turn
-            && step.across(&from.tangent) <= most
-            && step.across(tangent) <= most
+        turn <= options.largest_turn && step.across(&from.tangent) <= most && step.across(tangent) <= most
     }
 
     /// True if the sign of the determinant of a group is not that of the error of the position, which is that of its

@@ -50,10 +50,13 @@ where
         };
         let flips = |place: &Place<M>| place.orientation * from.orientation < M::Scalar::zero();
         let is_nearly_singular = |place: &Place<M>| place.regularity < nearly_zero();
-        let arc = found
-            .as_ref()
-            .ok()
-            .filter(|place| curve.is_arc(from, &place.q, &place.tangent, from.regularity, &self.options));
+        // A target nearer than the rounding errors of the coordinates may be reached by a step that they turn back.
+        let is_there = aim.is_some_and(|(_, distance)| distance <= curve.rounding_error(&from.q) * real(EQUAL_ULPS));
+        let arc = found.as_ref().ok().filter(|place| {
+            let (q, tangent) = (&place.q, &place.tangent);
+            curve.is_arc(from, q, tangent, from.regularity, &self.options)
+                || (is_there && curve.is_on_curve(from, q, tangent, from.regularity, &self.options))
+        });
         let changes_branch = |place: &Place<M>| from.sign_changes(place).is_some();
         // The distance at which a change point is sought, if anything suggests one.
         let guess = match &found {
