@@ -4,7 +4,7 @@ use linkage_interpreter::Prepared;
 use linkage_lent::Lender;
 use linkage_report::report::{MOST_MODES, Report, ReportOptions, ReportedModes};
 use linkage_runtime::derivation::Derivation;
-use linkage_runtime::{BorrowedName, Branches as _, Column, D, Mechanism as _};
+use linkage_runtime::{BorrowedName, Branches as _, Column, D, Mechanism as _, PathError};
 
 use crate::Refusal;
 use crate::at::{Coordinates, coordinates, moving};
@@ -59,8 +59,9 @@ fn whole<'p>(
         inputs: Column::from_slice(&at.place.inputs).ok_or_else(few)?,
     };
     let options = ReportOptions::default();
-    Ok(Report::of(&mechanism, derivation, &start, &options).unwrap_or_else(|why| Report {
-        no_motion: Some(Refusal::of_path(&machine.about, &why).why),
+    let words = |why: &PathError<&'p str>| Refusal::of_path(&machine.about, why).why;
+    Ok(Report::in_words(&mechanism, derivation, &start, &options, &words).unwrap_or_else(|why| Report {
+        no_motion: Some(words(&why)),
         ..Report::of_circuits(&mechanism, derivation, &start, &options)
     }))
 }

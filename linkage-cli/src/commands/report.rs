@@ -5,7 +5,7 @@ use linkage_interpreter::{CoordinatesAtRunTime, NotPrepared, Prepared};
 use linkage_lent::{Documents, Lender};
 use linkage_report::report::{ListedMode, Local, MOST_MODES, Modes, Report, ReportOptions, ReportedModes};
 use linkage_runtime::derivation::Derivation;
-use linkage_runtime::{BorrowedName, Column, D, Mechanism as _};
+use linkage_runtime::{BorrowedName, Column, D, Mechanism as _, PathError};
 
 use super::draw::svg_or_message;
 use crate::arguments;
@@ -121,13 +121,15 @@ fn whole<'p>(
     let options = ReportOptions::default();
     let mut first = None;
     let found = progress::during("following".to_owned(), || {
-        let found = starts.iter().find_map(|start| match Report::of(&mechanism, derivation, start, &options) {
-            Ok(report) => Some(report),
-            Err(error) => {
-                first.get_or_insert_with(|| machine.about.reasons.of_path(&error));
-                None
-            }
-        });
+        let words = |error: &PathError<&str>| machine.about.reasons.of_path(error);
+        let found =
+            starts.iter().find_map(|start| match Report::in_words(&mechanism, derivation, start, &options, &words) {
+                Ok(report) => Some(report),
+                Err(error) => {
+                    first.get_or_insert_with(|| words(&error));
+                    None
+                }
+            });
         found.or_else(|| Some(Report::of_circuits(&mechanism, derivation, starts.first()?, &options)))
     });
     if let Some(failure) = prepared.failure() {

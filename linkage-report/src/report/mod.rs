@@ -160,8 +160,26 @@ impl<N: BorrowedName> Report<N> {
     where
         M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
     {
+        Self::in_words(mechanism, derivation, start, options, &ToString::to_string)
+    }
+
+    /// The report of the motion through a position, which says in these words why it has no motion where a quantity along it
+    /// cannot be computed.
+    ///
+    /// # Errors
+    /// Those of [`of`](Self::of).
+    pub fn in_words<M>(
+        mechanism: &M,
+        derivation: &Derivation<'_>,
+        start: &M::Coordinates,
+        options: &ReportOptions,
+        words: &dyn Fn(&PathError<N>) -> String,
+    ) -> Result<Self, PathError<N>>
+    where
+        M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
+    {
         let range = RangeOfMotion::of(mechanism, start, options.range)?;
-        Self::with_modes(&range, derivation, start, options)
+        Ok(Self::with_modes(&range, derivation, start, options, words))
     }
 
     /// The report of the motion that these inputs are about: the first that has a position on the branch chooses it.
@@ -182,7 +200,8 @@ impl<N: BorrowedName> Report<N> {
         let range = RangeOfMotion::on_branch(mechanism, branch, inputs.iter().copied(), options.range)?;
         let mut first = Err(PathError::NoDirection { mechanism: mechanism.name() });
         for input in inputs {
-            match range.at(input).and_then(|start| Self::with_modes(&range, derivation, &start, options)) {
+            let report = |start| Self::with_modes(&range, derivation, &start, options, &ToString::to_string);
+            match range.at(input).map(report) {
                 // Circuits are not followed from a dead point or a change point.
                 Ok(report) if !matches!(report.modes, ReportedModes::Failed(_)) => return Ok(report),
                 found => first = first.or(found),
@@ -239,16 +258,17 @@ impl<N: BorrowedName> Report<N> {
         derivation: &Derivation<'_>,
         start: &M::Coordinates,
         options: &ReportOptions,
-    ) -> Result<Self, PathError<N>>
+        words: &dyn Fn(&PathError<N>) -> String,
+    ) -> Self
     where
         M: Kinematic<Scalar = f64, Name = N, V = D<1>> + Branches,
     {
         let report = Self::of_circuits(range.mechanism(), derivation, start, options);
         // Its modes and circuits are known where a quantity along the motion is not.
-        Ok(match MotionReport::of(range, derivation, M::inputs(start)[0], options) {
+        match MotionReport::of(range, derivation, M::inputs(start)[0], options) {
             Ok(motion) => Self { motion: Some(motion), ..report },
-            Err(error) => Self { no_motion: Some(error.to_string()), ..report },
-        })
+            Err(error) => Self { no_motion: Some(words(&error)), ..report },
+        }
     }
 
     fn without_motion<M>(mechanism: &M, derivation: &Derivation<'_>, modes: ReportedModes<N>) -> Self
