@@ -110,13 +110,13 @@ impl Comparison<'_> {
                 unknowns.iter().map(|of| of[0].get(row).copied().unwrap_or(f64::NAN)).collect();
             let is_empty = unknowns_here.iter().all(|of| of.is_nan());
             let q = self.full(&unknowns_here, *value);
-            // Where the row is on the motion, by whole turns.
-            let (own, is_direct) = match &motion.closes {
-                Some((turns, by)) => {
+            // Where the row is on the motion, and how many whole motions before it.
+            let mut passed = 0.0;
+            let (found, is_direct) = match &motion.closes {
+                Some((turns, _)) => {
                     let period = *turns as f64 * TAU;
-                    let times = ((value - first) / period).floor();
-                    let own = self.at(motion, (value - times * period).clamp(least, most));
-                    (own.map(|own| own.iter().zip(by).map(|(own, by)| own + times * by).collect::<Vec<f64>>()), true)
+                    passed = ((value - first) / period).floor();
+                    (self.at(motion, (value - passed * period).clamp(least, most)), true)
                 }
                 None => {
                     let edge = 1e-7 * (most - least);
@@ -147,7 +147,11 @@ impl Comparison<'_> {
                     }
                 }
             };
-            let Some(own) = own else { continue };
+            let Some(found) = found else { continue };
+            let own: Vec<f64> = match &motion.closes {
+                Some((_, by)) => found.iter().zip(by).map(|(of, by)| of + passed * by).collect(),
+                None => found.clone(),
+            };
             if is_empty {
                 if is_direct {
                     return self.fails(
@@ -163,7 +167,8 @@ impl Comparison<'_> {
             if let Some(times) = self.wrong(&q) {
                 return self.fails("table: a row does not satisfy the equations", &question, (row, &q, times), own);
             }
-            let Some(errors) = self.stepped.errors(&own) else { continue };
+            // It has the rounding errors of where it was found: some turns away its angles are larger.
+            let Some(errors) = self.stepped.errors(&found) else { continue };
             if errors.iter().any(|of| *of > 1e-7) {
                 self.count("table: nearly singular");
                 continue;
