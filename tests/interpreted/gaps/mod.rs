@@ -4,6 +4,8 @@
 //! oscillates up to forty times in the second of its motion, which may be one step. None that passes its wall by more than ten
 //! tolerances, times what they change it where the motion itself has errors, is missed.
 //!
+//! Of ten thousand gaps at three tolerances, in parts of a thousand with seeds of their own, none is missed.
+//!
 //! ```text
 //! OSCILLATING=10000 dev/test --test interpreted gaps
 //! ```
