@@ -27,6 +27,28 @@ pub fn solve(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
     right.iter().all(|value| value.is_finite()).then_some(right)
 }
 
+/// The sign of a determinant.
+pub fn sign(mut rows: Vec<Vec<f64>>) -> f64 {
+    let mut sign = 1.0;
+    for column in 0..rows.len() {
+        let size = |row: &usize| rows[*row][column].abs();
+        let Some(pivot) = (column..rows.len()).max_by(|one, other| size(one).total_cmp(&size(other))) else { break };
+        if rows[pivot][column] == 0.0 {
+            return 0.0;
+        }
+        sign *= if pivot == column { 1.0 } else { -1.0 };
+        rows.swap(column, pivot);
+        let (above, below) = rows.split_at_mut(column + 1);
+        let head = &above[column];
+        sign *= head[column].signum();
+        for row in below {
+            let factor = row[column] / head[column];
+            row[column..].iter_mut().zip(&head[column..]).for_each(|(of, head)| *of -= factor * head);
+        }
+    }
+    sign
+}
+
 /// The sums of the sizes of each row of the inverse, weighted: bounds of a solution whose right side is bounded so.
 pub fn bounds(rows: &[Vec<f64>], right: &[f64]) -> Option<Vec<f64>> {
     let n = right.len();

@@ -2,12 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use super::algebra::{bounds, dot, norm, solve};
+use super::algebra::{bounds, dot, norm, sign, solve};
 use super::linkage::{Form, Linkage, Output};
 
 /// The longest and the shortest step, of angles in radians and lengths.
 const LONGEST: f64 = 0.05;
 const SHORTEST: f64 = 1e-9;
+/// Motions that cross, and those that come nearer to each other than this, are followed to the other side.
+const CROSSED: f64 = 1e-7;
 /// The most steps of a motion one way.
 const MOST: usize = 20_000;
 /// Two computations of a residual differ by so many units in the last place of the sum of its terms.
@@ -84,6 +86,12 @@ impl<'l> Stepped<'l> {
         Some(tangent.into_iter().map(|of| of / length).collect())
     }
 
+    /// The sign of the determinant of the equations and the direction: along one motion it stays, also at a dead point, and it
+    /// changes where another motion is crossed, or where a step goes over to one that is near.
+    fn side(&self, at: &Node) -> f64 {
+        sign(self.with(&at.q, &at.tangent))
+    }
+
     /// The position on the plane across a direction, near a point of it, with the length of the first correction.
     fn corrected(&self, mut q: Vec<f64>, across: &[f64]) -> Option<(Vec<f64>, f64)> {
         let mut first = None;
@@ -149,13 +157,26 @@ impl<'l> Stepped<'l> {
         let mut nodes = vec![start.clone()];
         let mut length = 1e-3;
         let mut from = start.clone();
+        // The first step that went over to another motion and was not taken.
+        let mut over: Option<(Node, Node, f64)> = None;
         while nodes.len() < MOST {
-            let Some(next) = self.step(&from, length) else {
-                length *= 0.5;
-                if length < SHORTEST {
-                    return None;
+            let next = match self.step(&from, length) {
+                Some(next) if self.side(&from) * self.side(&next) >= 0.0 => {
+                    over = over.filter(|(.., by)| length < *by);
+                    next
                 }
-                continue;
+                found => {
+                    if let (None, Some(next)) = (&over, found) {
+                        over = Some((from.clone(), next, length));
+                    }
+                    length *= 0.5;
+                    if length >= if over.is_some() { CROSSED } else { SHORTEST } {
+                        continue;
+                    }
+                    let next;
+                    (from, next, length) = over.take()?;
+                    next
+                }
             };
             if let Some((name, is_most, _)) = self.inside(&next.q).into_iter().find(|(_, _, inside)| *inside < 0.0) {
                 // The first of all ends, where the step is cut to the one that is reached first.

@@ -22,6 +22,11 @@ use crate::{OutputMotion, PathErrorOf, real};
 /// The distance of two inputs that are neighbours, as a part of a step: a motion is hardly seen, and rounding errors are others.
 const NEIGHBOUR: f64 = 1.0 / 1024.0;
 
+/// The places at each end of a part that have several neighbours, and how many: next to a singular position the errors of few
+/// places are much larger than those of all others, and two of these errors may be equal by chance.
+const NEXT_TO_END: usize = 8;
+const NEIGHBOURS: u32 = 4;
+
 /// The places of a part at which rounding errors are measured.
 const PLACES: u32 = 12;
 
@@ -205,10 +210,13 @@ where
     }
     let mut pairs = vec![Vec::new(); count];
     let step: M::Scalar = real(1.0 / f64::from(piece.steps));
-    for (s, all) in samples {
-        let next = search.by_input(piece.input(*s + step * real(NEIGHBOUR)))?;
-        for (pairs, (one, next)) in pairs.iter_mut().zip(all.iter().zip(&next)) {
-            pairs.push([one.value, next.value]);
+    for (at, (s, all)) in samples.iter().enumerate() {
+        let is_next_to_end = at.min(samples.len() - 1 - at) < NEXT_TO_END;
+        for neighbour in 1..=if is_next_to_end { NEIGHBOURS } else { 1 } {
+            let next = search.by_input(piece.input(*s + step * real(f64::from(neighbour) * NEIGHBOUR)))?;
+            for (pairs, (one, next)) in pairs.iter_mut().zip(all.iter().zip(&next)) {
+                pairs.push([one.value, next.value]);
+            }
         }
     }
     Ok(may_be.into_iter().zip(&pairs).map(|(may_be, pairs)| may_be && constant::is_constant(pairs)).collect())
