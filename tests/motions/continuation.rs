@@ -58,8 +58,8 @@ fn a_turn_driven_by_the_rocker() {
     assert_abs_diff_eq!(dead_points[1], angle(70.0), epsilon = 1e-14);
 }
 
-/// A path comes to an input that is nearer than its position is known: next to it, and next to zero, where numbers are closer
-/// to each other than the rounding errors of the unknowns. Either way; the position is the one at that input.
+/// A path follows an input that changes by less than the rounding errors of the unknowns, up and down: by one ulp, and near zero,
+/// where an ulp is much smaller than these errors. The position is the one in closed form at the new input.
 #[test]
 fn to_the_next_number() {
     let m = FourBar::default();

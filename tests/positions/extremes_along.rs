@@ -182,8 +182,8 @@ fn turning_points_in_order() {
     assert!(!all[0].is_constant && all[1].is_constant && all[1].turning_points.is_empty());
 }
 
-/// The coupler of a parallelogram keeps its direction, and its rocker does not: also where few places are so near a change point
-/// that their rounding errors are much larger than all others.
+/// The coupler of a parallelogram keeps its direction, and its rocker turns. A few samples are near a change point, with rounding
+/// errors much larger than those of the others; the coupler is constant all the same.
 #[test]
 fn couplers_of_parallelograms_are_constant() {
     let random = &mut SmallRng::seed_from_u64(linkage_trials::seed(0x9a7a));

@@ -50,7 +50,7 @@ where
         };
         let flips = |place: &Place<M>| place.orientation * from.orientation < M::Scalar::zero();
         let is_nearly_singular = |place: &Place<M>| place.regularity < nearly_zero();
-        // A target nearer than the rounding errors of the coordinates may be reached by a step that they turn back.
+        // If the target is nearer than the rounding errors of the coordinates, the corrected step may point backward.
         let is_there = aim.is_some_and(|(_, distance)| distance <= curve.rounding_error(&from.q) * real(EQUAL_ULPS));
         let arc = found.as_ref().ok().filter(|place| {
             let (q, tangent) = (&place.q, &place.tangent);

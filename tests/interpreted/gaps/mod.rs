@@ -4,7 +4,7 @@
 //! oscillates up to forty times in the second of its motion, which may be one step. None that passes its wall by more than ten
 //! tolerances, times what they change it where the motion itself has errors, is missed.
 //!
-//! Of ten thousand gaps at three tolerances, in parts of a thousand with seeds of their own, none is missed.
+//! Ten runs of a thousand gaps, each with another `SEED` and at three tolerances: no impact is missed.
 //!
 //! ```text
 //! OSCILLATING=10000 dev/test --test interpreted gaps

@@ -167,7 +167,7 @@ impl Comparison<'_> {
             if let Some(times) = self.wrong(&q) {
                 return self.fails("table: a row does not satisfy the equations", &question, (row, &q, times), own);
             }
-            // It has the rounding errors of where it was found: some turns away its angles are larger.
+            // The reference was computed at another turn, where the angles and so their rounding errors are larger.
             let Some(errors) = self.stepped.errors(&found) else { continue };
             if errors.iter().any(|of| *of > 1e-7) {
                 self.count("table: nearly singular");
