@@ -131,13 +131,13 @@ where
         options: &Options<M::Scalar>,
     ) -> bool {
         self.difference(q, &from.q).dot(&from.tangent) > M::Scalar::zero()
-            && self.is_on_curve(from, q, tangent, regularity, options)
+            && self.are_joined(from, q, tangent, regularity, options)
     }
 
     /// True if `from` and `q` are on an arc of one curve: the tangent turns by at most the largest turn of the
     /// options, and the step deviates from neither tangent by more than the turn between them explains. A jump to a
     /// neighbouring curve does not satisfy this.
-    pub(super) fn is_on_curve(
+    pub(super) fn are_joined(
         &self,
         from: &Place<M>,
         q: &M::Coordinates,

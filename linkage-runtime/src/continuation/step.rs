@@ -55,7 +55,7 @@ where
         let arc = found.as_ref().ok().filter(|place| {
             let (q, tangent) = (&place.q, &place.tangent);
             curve.is_arc(from, q, tangent, from.regularity, &self.options)
-                || (is_there && curve.is_on_curve(from, q, tangent, from.regularity, &self.options))
+                || (is_there && curve.are_joined(from, q, tangent, from.regularity, &self.options))
         });
         let changes_branch = |place: &Place<M>| from.sign_changes(place).is_some();
         // The distance at which a change point is sought, if anything suggests one.
