@@ -32,8 +32,9 @@
 //! Sixty thousand scenes (`SCENES=60000`, 180 000 runs) do not all agree, and these are not mended: three typed errors, each at one
 //! of the tolerances (belt 5135, carts 6824, sliders 8317); nine scenes that the oracle does not follow; and ten of sliders that
 //! differ. In 1843, 2740, 7019 and 9578 the library is wrong. Two blocks are in touch, without a force between them. An impact at
-//! another place changes the rate of their gap by a rounding error, and the library takes this for a motion: the stop counts as open.
-//! At the next impact the blocks then rebound from each other, instead of moving together. 3725, 5010, 5107, 6145, 8788 and 9024 are not explained.
+//! another place changes the rate of their gap by a rounding error, and the library takes this for a motion, so that the stop
+//! counts as open. At the next impact the blocks then rebound from each other, instead of moving together. 3725, 5010, 5107, 6145,
+//! 8788 and 9024 are not explained.
 //!
 //! ```text
 //! SCENES=10000 cargo test --release --all-features --test friction event_loop -- --nocapture
