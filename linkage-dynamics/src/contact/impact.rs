@@ -25,6 +25,8 @@ pub(super) struct After<T: Real, V: Dim, C: Dim> {
     pub rates: Column<T, V>,
     /// The impulse of each stop.
     pub impulses: Column<T, C>,
+    /// The size of what the impulses change in the rate of each stop that takes part: no term of it is larger.
+    pub changes: Column<T, C>,
 }
 
 /// Computes the rates v' after the impact and the impulse of each stop.
@@ -56,5 +58,9 @@ pub(super) fn impact<T: Real, V: Dim, C: Dim, N: BorrowedName>(
             rates += response.columns.column(place) * (solution.forces[place] * *inward);
         }
     }
-    Ok(After { rates, impulses: solution.forces })
+    // By the inequality of Cauchy and Schwarz with the product of M: the impulse p_j changes the rate of stop k by at most
+    // sqrt(R_kk) sqrt(R_jj) p_j, where R = S M^-1 S'.
+    let own = struck.dim().column(|place| response.matrix[(place, place)].abs().sqrt());
+    let changes = own.iter().zip(&solution.forces).fold(T::zero(), |sum, (own, force)| sum + *own * force.abs());
+    Ok(After { rates, impulses: solution.forces, changes: own.map(|own| own * changes) })
 }

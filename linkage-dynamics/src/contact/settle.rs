@@ -220,7 +220,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         if has_ended {
             self.join_touched(equations, &mut struck);
         }
-        let After { rates, .. } = impact(equations, &struck)?;
+        let After { rates, mut changes, .. } = impact(equations, &struck)?;
         let mut after = evaluate(&rates)?;
         // A rebound counts as rest if it is shorter than the rounding error of the time or lower than that of the gap.
         let forces = at_rest.dim().column(|place| {
@@ -232,8 +232,8 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         let (mut has_ended, mut too_short) = (false, at_rest.dim().repeat(false));
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
-            // The rebound rate, and the acceleration back towards the stop, by frictions that slip too: a flight takes 2 rate / back and rises by
-            // rate^2 / (2 back).
+            // The rebound rate, and the acceleration back to the stop, by frictions that slip too: a flight takes 2 rate / back and
+            // rises by rate^2 / (2 back).
             let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -free.bias[place].0 * *inward);
             let lowest = self.resolution[place] / real(ZERO_ULPS);
             let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lowest * back;
@@ -248,14 +248,15 @@ impl<T: Real, C: Dim> Contacts<T, C> {
         }
         let mut pushed = at_rest.dim().zeros();
         if has_ended || struck.iter().flatten().any(|of| of.restitution.is_zero()) {
-            let After { rates, impulses } = impact(equations, &struck)?;
-            after = evaluate(&rates)?;
-            pushed = impulses;
+            let last = impact(equations, &struck)?;
+            after = evaluate(&last.rates)?;
+            (pushed, changes) = (last.impulses, last.changes);
         }
         for (place, contact) in after.contacts.iter().enumerate() {
-            // The rounding error of the rate is relative to its terms before and after the impact.
+            // The rounding error of the rate is relative to its terms before and after the impact, and to what the impulses change.
             let (rate, size) = contact.rate(&after.rates);
-            let none = is_negligible((rate, size + equations.contacts[place].rate(&equations.rates).1));
+            let none =
+                is_negligible((rate, size + equations.contacts[place].rate(&equations.rates).1 + changes[place]));
             match contact.law {
                 ContactLaw::Friction { .. } | ContactLaw::Bearing { .. } => {
                     at_rest[place] = none.then_some(Mode::Stick);

@@ -189,6 +189,15 @@ impl<S: System, M: Method> Integration<S, M> {
         Ok(interpolant)
     }
 
+    /// Completes the dense output of the last step before the law of the rate changes without an event: the rates that it needs
+    /// are those of the law of the step.
+    ///
+    /// # Errors
+    /// Those of [`interpolant`](Self::interpolant).
+    pub(crate) fn keep_dense_output(&mut self) -> Result<(), ErrorOf<S>> {
+        self.interpolant().map(|_| ())
+    }
+
     /// Returns the states at these times, which must be in the direction of the integration.
     pub fn at<I: IntoIterator<Item = S::Scalar>>(&mut self, times: I) -> Outputs<'_, S, M, I::IntoIter> {
         Outputs::new(self, times.into_iter())

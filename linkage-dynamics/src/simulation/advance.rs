@@ -238,6 +238,7 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
 
     /// Applies impacts and mode changes of the contacts.
     fn settle(&mut self, state: &mut State<S>, projected: &StateColumn<S>) -> Result<(), MotionErrorOf<S>> {
+        self.integration.keep_dense_output()?;
         let (after, changes) = self.integration.system_mut().settled(state.t, projected)?;
         self.integration.restart(after)?;
         self.note(state, changes);

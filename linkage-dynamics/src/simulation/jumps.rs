@@ -269,6 +269,10 @@ impl<S: Scene, M: Method, W: Watch<S>> Simulation<'_, S, M, W> {
     ) -> Result<(), MotionErrorOf<S>> {
         state.kink = Some(corner.effect);
         let frequency = self.frequency;
+        // A jump of a drive may change the modes of contacts.
+        if self.integration.system().names.dim().count() > 0 {
+            self.integration.keep_dense_output()?;
+        }
         let motion = self.integration.system_mut();
         motion.corners.note(motion.scene.name(), corner.effect, corner.before)?;
         let contacts = motion.contacts;

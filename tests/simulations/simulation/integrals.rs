@@ -1,7 +1,11 @@
-//! Positions are the integrals of rates, in each step and in each that an event cuts.
+//! Positions are the integrals of rates, in each step and in each that an event cuts, and outputs are those of the law that
+//! the step had.
 
+use linkage::contact::Change;
 use linkage::linkage;
 use linkage::simulation::{Start, simulate};
+
+use linkage_oracle::close;
 
 linkage! {
     /// Three cars between walls, each pushed by the one before it.
@@ -22,6 +26,27 @@ linkage! {
             stop x3 - x2 in -gb..gb, restitution e;
             stop x3 in -wall..wall, restitution 1;
         }
+    }
+}
+
+linkage! {
+    /// A block on a slope, and its place from one that slips without friction.
+    mechanism Resting {
+        param m = 1.3, f = 1, slope = -1;
+        input x, u;
+        body free { mass m; center (x, 0); }
+        body block { mass m; center (x + u, 0); }
+        scene Down { inertia; gravity (slope, 0); friction f, 1 on x + u; }
+    }
+}
+
+linkage! {
+    /// A block on a plane that turns round at t = 1.
+    mechanism Turning {
+        param m = 1.3, f = 0.8, v = 1.1;
+        input b, x;
+        body block { mass m; center (x, 0); }
+        scene Round { inertia; drive b = v * abs(t - 1); friction f, 1 on x - b; }
     }
 }
 
@@ -69,5 +94,60 @@ fn positions_are_integrals_of_rates() {
         println!("{tolerance}: {} steps, {largest}", steps.len());
         // The cars are within one of each other and of the walls.
         assert!(largest <= 10.0 * tolerance, "{tolerance}: {largest}");
+    }
+}
+
+/// A motion that ends where a block stops, to some ulps: the last step has no event, and the block sticks at its end. Outputs
+/// within the step are those of the block that slips.
+#[test]
+fn outputs_in_a_step_to_the_rest_of_a_block() {
+    let mut rests_at_the_end = 0;
+    for (tenths, (slope, f)) in (3..30).flat_map(|tenths| [(-1.0, 1.0), (-2.0, 0.3), (0.0, 0.7)].map(|of| (tenths, of)))
+    {
+        let scene = Down { slope, f, ..Down::default() };
+        let (speed, brake) = (0.1 * f64::from(tenths), f / scene.m - slope);
+        let input_rates = RestingInputs { x: 0.4, u: speed - 0.4 };
+        let start = Start { t: 1.0, q: RestingCoordinates { x: 0.1, u: 0.2 }, input_rates };
+        let rest = 1.0 + speed / brake;
+        for end in [rest.next_down(), rest, rest.next_up(), rest.next_up().next_up()] {
+            let last = simulate(&scene, start, end, 1e-6).unwrap().last().unwrap().unwrap();
+            rests_at_the_end += i32::from(last.t == end && last.changes().any(|(_, change)| change == Change::Sticks));
+            let times = (1..20).map(|part| 1.0 + (end - 1.0) * f64::from(part) / 20.0);
+            for state in simulate(&scene, start, end, 1e-6).unwrap().at(times) {
+                let state = state.unwrap();
+                let span = state.t - 1.0;
+                close("rate", state.rates.x + state.rates.u, speed - brake * span, 1e-13 * speed);
+                close("place", state.q.x + state.q.u, 0.3 + (speed - 0.5 * brake * span) * span, 1e-13 * speed);
+            }
+        }
+    }
+    println!("{rests_at_the_end} rest at the end");
+    assert!(rests_at_the_end > 10, "{rests_at_the_end}");
+}
+
+/// A block slips on a plane whose rate jumps, so that friction turns round: before and after that the motion is a parabola.
+#[test]
+fn outputs_in_a_step_to_the_jump_of_a_drive() {
+    let scene = Round::default();
+    let (v, a) = (scene.v, scene.f / scene.m);
+    let start = Start { t: 0.0, q: TurningCoordinates { b: v, x: 0.0 }, input_rates: TurningInputs { b: -v, x: 0.0 } };
+    for tolerance in [1e-4, 1e-6, 1e-9] {
+        let mut turns = 0;
+        let mut motion = simulate(&scene, start, 1.5, tolerance).unwrap();
+        motion
+            .finish(|state, _| {
+                turns += state.changes().filter(|(_, change)| *change == Change::Slips).count();
+                true
+            })
+            .unwrap();
+        assert_eq!(turns, 1, "{tolerance}");
+        let times = (1..60).map(|part| f64::from(part) / 40.0);
+        for state in simulate(&scene, start, 1.5, tolerance).unwrap().at(times) {
+            let state = state.unwrap();
+            let after = (state.t - 1.0).max(0.0);
+            let (rate, place) = (a * (state.t - 2.0 * after), 0.5 * a * state.t * state.t - a * after * after);
+            close("rate", state.rates.x, -rate, 1e-14);
+            close("place", state.q.x, -place, 1e-14);
+        }
     }
 }

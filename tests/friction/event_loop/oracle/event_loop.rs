@@ -279,6 +279,16 @@ impl<M: Model> Run<'_, M> {
                 first = Some((found, place));
             }
         }
+        // A gap below zero before a friction turns the motion back, and above zero at the end of a step that does not know of it.
+        while let Some((point, of)) = first {
+            let there = self.guards(&point);
+            let Some(place) = (0..self.laws.laws.len()).find(|&place| place != of && there[place] < 0.0) else { break };
+            let earlier = self.zero(from, (from, values[place].max(0.0)), &point, place);
+            if earlier.t >= point.t {
+                break;
+            }
+            first = Some((earlier, place));
+        }
         first
     }
 
