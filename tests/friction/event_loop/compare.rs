@@ -72,15 +72,18 @@ const KNOWN: u64 = 1667;
 
 /// Compares a sixth of so many scenes, those of a family.
 pub fn compared<F: Family>(scenes: u64) -> Counts {
-    let mut counts = Counts::default();
     let only: Option<u64> = std::env::var("ONLY").ok().map(|number| number.parse().unwrap());
     let count = scenes.div_ceil(6);
     // From another scene for each commit.
     let first = linkage_trials::seed(0) % KNOWN;
-    for number in (first..first + count).map(|number| number % KNOWN.max(count)) {
-        if only.is_some_and(|only| only != number) {
-            continue;
-        }
+    let numbers = (first..first + count).map(|number| number % KNOWN.max(count));
+    compared_by_number::<F>(numbers.filter(|number| only.is_none_or(|only| only == *number)))
+}
+
+/// Compares the scenes of a family with these numbers.
+pub fn compared_by_number<F: Family>(numbers: impl IntoIterator<Item = u64>) -> Counts {
+    let mut counts = Counts::default();
+    for number in numbers {
         let mut random = SmallRng::seed_from_u64(0x5eed + number);
         let family = F::random(&mut random, number % 2 == 0);
         compare(&family, number, &mut random, &mut counts);
