@@ -228,21 +228,22 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             slipping(slip_or_stick(contact.rate(&after.rates)), &contact.law)
         });
         let free = Response::new(&after, &forces, |place| struck[place].is_some())?;
-        // With the forces of the stops that do not rebound, such as that of a block which presses on the one that does. Where no
+        // With the forces of the stops that were closed, such as that of a block which presses on the one that rebounds. Where no
         // forces hold, that is found below.
-        let resting = struck.map(|of| of.filter(|of| of.restitution.is_zero()));
-        let pressed =
-            bounded(&free.matrix, &at_rest.dim().column(|place| resting[place].map(|of| of.presses(free.bias[place]))));
+        let closed = |place: usize| struck[place].filter(|_| at_rest[place].is_some());
+        let bounds = at_rest.dim().column(|place| closed(place).map(|of| of.presses(free.bias[place])));
+        let pressed = bounded(&free.matrix, &bounds);
         let pressed = pressed.map_or(at_rest.dim().zeros(), |pressed| pressed.forces);
         let shortest = real::<T>(SHORTEST_FLIGHT_ULPS) * T::default_epsilon() * t.abs();
         let (mut has_ended, mut too_short) = (false, at_rest.dim().repeat(false));
         for (place, of) in struck.iter_mut().enumerate() {
             let Some(Struck { inward, restitution }) = of else { continue };
-            // The rebound rate, and the acceleration back to the stop, by frictions that slip too: a flight takes 2 rate / back and
-            // rises by rate^2 / (2 back).
+            // The rebound rate, and the acceleration back to the stop, by frictions that slip too, with the forces of closed stops or
+            // without: a flight takes 2 rate / back and rises by rate^2 / (2 back).
             let row = pressed.iter().enumerate().map(|(other, &force)| free.matrix[(place, other)] * force);
-            let acceleration = row.fold(free.bias[place].0, |sum, term| sum + term);
-            let (rate, back) = (after.contacts[place].rate(&rates).0 * *inward, -acceleration * *inward);
+            let alone = free.bias[place].0 * *inward;
+            let back = (-alone).max(-row.fold(alone, |sum, term| sum + term * *inward));
+            let rate = after.contacts[place].rate(&rates).0 * *inward;
             let lowest = self.resolution[place] / real(ZERO_ULPS);
             let is_over = real::<T>(2.0) * rate <= shortest * back || rate * rate <= real::<T>(2.0) * lowest * back;
             too_short[place] = back > T::zero() && is_over;

@@ -10,9 +10,6 @@ use crate::MotionError;
 use crate::integrate::{Crossing, Guard};
 use linkage_runtime::{BorrowedName, Build, Column, Dim, Real, real};
 
-/// The rounding error of a time in ulps: that of its own, and those of the arguments of functions of it.
-const TIME_ULPS: f64 = 4.0;
-
 /// The modes of the contacts of a scene, with the memory needed from one event to the next.
 ///
 /// Call [`begin`](Self::begin) at the start of a motion, and [`settle`](Self::settle) wherever one of the
@@ -246,18 +243,12 @@ impl<T: Real, C: Dim> Contacts<T, C> {
 
     /// The event functions as guards; the rate is known for open stops. Where slip begins, or where s leaves a stop without
     /// load, s' and the gap are zero within rounding error for some time: a contact slips until s' is negative beyond its
-    /// rounding error, and a stop that is touched is hit where s' is negative beyond it. A part of that error is what s' changes
-    /// within the rounding error of the time t: the rates of drives are functions of it.
+    /// rounding error, and a stop that is touched is hit where s' is negative beyond it.
     pub(crate) fn guards<V: Dim, N: BorrowedName>(
         &self,
-        t: T,
         equations: &ReducedEquations<T, V, C, N>,
     ) -> Result<Column<Guard<T>, C>, MotionError<N>> {
         let values = self.events(equations)?;
-        let of_time = real::<T>(TIME_ULPS) * T::default_epsilon() * t.abs();
-        let is_slipping = |mode: Mode| matches!(mode, Mode::SlipForward | Mode::SlipBackward);
-        let may_stick = self.modes.iter().zip(&values).any(|(&mode, value)| is_slipping(mode) && *value < T::zero());
-        let acceleration = if may_stick { Some(self.acceleration(equations)?) } else { None };
         Ok(self.modes.dim().column(|place| {
             let contact = &equations.contacts[place];
             let (rate, size) = contact.rate(&equations.rates);
@@ -269,11 +260,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
                     Guard { value: if is_touched { gap.max(T::zero()) } else { gap }, rate: Some(rate) }
                 }
                 (Mode::SlipForward | Mode::SlipBackward, _) => {
-                    let value = values[place] + sum_tolerance(size);
-                    let within = acceleration.map_or(T::zero(), |acceleration| {
-                        contact.row.abs().dot(&acceleration.abs()) + contact.bias.abs()
-                    });
-                    Guard { value: value + within * of_time, rate: None }
+                    Guard { value: values[place] + sum_tolerance(size), rate: None }
                 }
                 _ => Guard { value: values[place], rate: None },
             }

