@@ -20,7 +20,7 @@ pub(super) struct Struck<T> {
 }
 
 impl<T: Real> Struck<T> {
-    /// The bounds of the force of a stop on which s rests, with s'' and the size of its terms.
+    /// The bounds of the force of a stop on which s rests, with `s''` and the size of its terms.
     pub fn presses(self, bias: (T, T)) -> Bounds<T> {
         let endless = real(f64::INFINITY);
         let [lower, upper] = if self.inward > T::zero() { [T::zero(), endless] } else { [-endless, T::zero()] };

@@ -6,7 +6,7 @@ use super::dense::Interpolant;
 use super::system::{ErrorOf, Guard, StateOf, System};
 use crate::MotionError;
 use linkage_runtime::__shared::to_f64;
-use linkage_runtime::{Build, Column, Dim, Name};
+use linkage_runtime::{Build, Column, Dim, Name, real};
 
 /// Two values of a function within this many ulps count as equal, so that a constant with rounding errors has no
 /// extremum. At 0 each such error costs the evaluations of dense output; at 1e4 extrema of a relative depth of 1e-12
@@ -91,9 +91,7 @@ impl<S: System> SampledStep<'_, S> {
     /// Samples the functions at a fraction of the step, with the rates that the system supplies.
     pub(super) fn sample(&mut self, at: f64) -> Result<SampleOf<S>, ErrorOf<S>> {
         let Self { system, step, .. } = self;
-        // The state is that of the rounded time: what depends on the time alone, such as a drive, is sampled there too.
-        let t = step.time(at);
-        sampled(*system, (at, step.length()), (t, &step.at(t)))
+        sampled(*system, (at, step.length()), (step.time(at), &step.at_fraction(real(at))))
     }
 
     /// Samples the functions slightly nearer to the middle of the step, for a difference quotient.

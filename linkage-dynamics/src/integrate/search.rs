@@ -9,7 +9,7 @@ use super::sampled::{FunctionSample, Sample, SampledStep};
 use super::samples::Samples;
 use super::system::{ErrorOf, StateOf, System};
 use linkage_runtime::jacobian::first_not_positive;
-use linkage_runtime::{Build, Column, D, Dim};
+use linkage_runtime::{Build, Column, D, Dim, real};
 
 /// The largest number of equal parts of a step at whose ends guards are sampled.
 const MAX_PARTS: usize = 64;
@@ -336,8 +336,7 @@ impl<K: Dim, C: Dim> EventSigns<K, C> {
         }
         self.update(&there);
         let step = course.step;
-        let t = step.time(at);
-        Ok(Hit { at, t, state: step.at(t) })
+        Ok(Hit { at, t: step.time(at), state: step.at_fraction(real(at)) })
     }
 
     /// The least distance before a passage that is an event: positive before the first event, then zero or negative.

@@ -85,7 +85,7 @@ linkage! {
 }
 
 linkage! {
-    /// The same blocks, by the gaps between them.
+    /// The three blocks by the gaps between them.
     mechanism Gaps {
         param m1 = 1, m2 = 1, m3 = 1, wide = 0.16;
         input x, u, v;
