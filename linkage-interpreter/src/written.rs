@@ -11,7 +11,7 @@ use crate::mechanism::Mechanism;
 use crate::program::Driver;
 
 /// The version of the form in which compiled mechanisms are written. It changes with the form.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// The deepest nesting of the expressions of a function, and so of the calls that compute them. The gallery's is 11.
 const DEEPEST: usize = 200;
@@ -195,13 +195,14 @@ fn each_part(expression: &Expression, visit: &mut dyn FnMut(Id)) {
         | Expression::Text(_)
         | Expression::OwnName
         | Expression::Count(_)
-        | Expression::Absent => {}
+        | Expression::Absent
+        | Expression::OfRuntime(_) => {}
         Expression::Sum(terms) => terms.iter().for_each(|(_, term)| visit(*term)),
         Expression::Product(ids)
         | Expression::Call(_, ids)
         | Expression::All(ids)
         | Expression::List(ids)
-        | Expression::Operation(_, ids)
+        | Expression::Intrinsic(_, ids)
         | Expression::Own(_, ids)
         | Expression::OfType(_, _, ids)
         | Expression::User(_, ids) => all(ids),
@@ -211,6 +212,7 @@ fn each_part(expression: &Expression, visit: &mut dyn FnMut(Id)) {
         | Expression::Field(one, _)
         | Expression::Index(one, _)
         | Expression::Repeated(one, _)
+        | Expression::Made(_, one)
         | Expression::Try(one) => all(&[*one]),
         Expression::Record(_, fields, rest) => {
             fields.iter().map(|(_, value)| *value).chain(*rest).for_each(visit);

@@ -1,8 +1,7 @@
 //! The nodes of a table: names, parts and numbers apart.
 
 use linkage_compiler::document::{Node, Number, Table};
-use linkage_compiler::graph::Function;
-use linkage_runtime::derivation::{ElementaryFunction, FormulaNode, FormulaTable};
+use linkage_runtime::derivation::{FormulaNode, FormulaTable};
 
 use crate::arena::Arena;
 use crate::error::Unsound;
@@ -48,7 +47,7 @@ impl Lists<'_> {
             Node::Power(base, exponent) => FormulaNode::Power(base.get(), *exponent),
             Node::Call(function, arguments) => {
                 let [first, count] = self.unsigned(arguments)?;
-                FormulaNode::Call(elementary(*function), first, count)
+                FormulaNode::Call(*function, first, count)
             }
             Node::External(name, order, arguments) => {
                 let [first, count] = self.unsigned(arguments)?;
@@ -87,22 +86,4 @@ impl Lists<'_> {
 
 fn short(number: usize) -> Result<u32, Unsound> {
     u32::try_from(number).map_err(|_| Unsound::TooLong)
-}
-
-fn elementary(function: Function) -> ElementaryFunction {
-    match function {
-        Function::Sin => ElementaryFunction::Sin,
-        Function::Cos => ElementaryFunction::Cos,
-        Function::Tan => ElementaryFunction::Tan,
-        Function::Asin => ElementaryFunction::Asin,
-        Function::Acos => ElementaryFunction::Acos,
-        Function::Atan => ElementaryFunction::Atan,
-        Function::Atan2 => ElementaryFunction::Atan2,
-        Function::Sqrt => ElementaryFunction::Sqrt,
-        Function::Abs => ElementaryFunction::Abs,
-        Function::Exp => ElementaryFunction::Exp,
-        Function::Ln => ElementaryFunction::Ln,
-        Function::Hypot => ElementaryFunction::Hypot,
-        Function::IfNonzero => ElementaryFunction::IfNonzero,
-    }
 }

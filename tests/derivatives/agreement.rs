@@ -283,6 +283,6 @@ fn derivatives_are_dual_numbers_of(of: &dyn Listed<f64>, one: &dyn Values<Dual64
 fn every_operation_is_under_test() {
     let text = source::text_of("every_function");
     for operation in linkage_compiler::graph::written() {
-        assert!(text.contains(&format!("f_{} =", operation.name)), "{}", operation.name);
+        assert!(text.contains(&format!("f_{} =", operation.function.name())), "{}", operation.function.name());
     }
 }

@@ -343,7 +343,7 @@ fn each_construct_is_in_a_tested_block_of_the_manual() {
             }
         }
     }
-    let functions = written().map(|row| row.name).chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name));
+    let functions = written().map(|row| row.function.name()).chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name));
     let constructs = (KEYWORDS.iter().map(|word| format!("statement `{word}`")))
         .chain(EFFECTS.iter().map(|word| format!("effect `{word}`")))
         .chain(PROPERTIES.iter().map(|word| format!("property `{word}`")))

@@ -46,7 +46,7 @@ pub struct Words {
 pub fn words() -> Words {
     let keywords = ["mechanism"].iter().chain(&KEYWORDS).map(|word| (*word).to_owned());
     let of_scenes = EFFECTS.iter().chain(&PROPERTIES).map(|word| (*word).to_owned());
-    let functions = linkage_compiler::graph::written().map(|row| row.name.to_owned());
+    let functions = linkage_compiler::graph::written().map(|row| row.function.name().to_owned());
     let of_vectors = VECTOR_FUNCTIONS.iter().map(|(name, _)| (*name).to_owned());
     Words { keywords: keywords.chain(of_scenes).collect(), functions: functions.chain(of_vectors).collect() }
 }

@@ -187,7 +187,7 @@ impl<'g> NormalForms<'g> {
             Meaning::Symbol(_) => (None, None),
             Meaning::Inexact(bits) => (Some(Reason::Inexact(Number::Float(f64::from_bits(*bits)))), None),
             Meaning::Call(id) => match self.graph.node(*id) {
-                Node::Call(function, _) => (Some(Reason::OutsideClass(function.operation().name)), None),
+                Node::Call(function, _) => (Some(Reason::OutsideClass(function.name())), None),
                 Node::External(external, _) => {
                     let value = self.graph.external_names(external.function).first();
                     (Some(Reason::External(value.cloned().unwrap_or_default())), None)

@@ -6,7 +6,7 @@ use std::collections::{HashMap, VecDeque};
 use dashu_float::FBig;
 use dashu_float::ops::Abs;
 use dashu_float::round::mode::HalfEven;
-use linkage_compiler::graph::{Function, Number};
+use linkage_compiler::graph::{Function, Number, operation};
 
 pub type Big = FBig<HalfEven, 2>;
 
@@ -126,7 +126,7 @@ impl Scalar for f64 {
         self.powi(exponent)
     }
     fn call(function: Function, arguments: &[Self]) -> Self {
-        (function.operation().value)(arguments)
+        (operation(function).value)(arguments)
     }
     fn double(&self) -> f64 {
         *self

@@ -98,7 +98,7 @@ fn expression(of: &Expression) -> String {
         Expression::Sum(terms) => format!("({})", terms.iter().map(expression).collect::<Vec<_>>().join(" + ")),
         Expression::Product(factors) => factors.iter().map(expression).collect::<Vec<_>>().join(" * "),
         Expression::Negative(inside) => format!("-{}", expression(inside)),
-        Expression::Elementary(function, arguments) => format!("{}({})", function.operation().name, list(arguments)),
+        Expression::Elementary(function, arguments) => format!("{}({})", function.name(), list(arguments)),
         Expression::All(conditions) => conditions.iter().map(expression).collect::<Vec<_>>().join(" and "),
         Expression::Count(count) => count.to_string(),
         Expression::Constant(constant) => constant.path().to_owned(),

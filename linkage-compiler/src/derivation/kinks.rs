@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::data::Derivation;
 use super::scene::{Kink, Prescribed};
-use crate::graph::{Function, Node, NodeId, SymbolId};
+use crate::graph::{Function, Node, NodeId, SymbolId, operation};
 use crate::model::{self, Account, ContactLaw, Driver, Mechanism};
 
 impl Derivation {
@@ -35,7 +35,7 @@ impl Derivation {
     fn without_squares(&mut self, law: NodeId) -> NodeId {
         let has_kink = self.graph.reachable(&[law]).into_iter().any(|node| match self.graph.node(node) {
             Node::Call(function @ (Function::Sqrt | Function::Hypot), arguments) => {
-                !(function.operation().kinks)(&self.graph, arguments).is_empty()
+                !(operation(*function).kinks)(&self.graph, arguments).is_empty()
             }
             _ => false,
         });
@@ -77,7 +77,7 @@ impl Derivation {
             let formulas: Vec<NodeId> = formulas.into_iter().map(|formula| self.without_squares(formula)).collect();
             for node in self.graph.reachable(&formulas) {
                 let Node::Call(function, arguments) = self.graph.node(node) else { continue };
-                for argument in (function.operation().kinks)(&self.graph, arguments) {
+                for argument in (operation(*function).kinks)(&self.graph, arguments) {
                     let symbols = self.graph.symbols_of(&[argument]);
                     let moves = symbols.iter().any(|symbol| motion.contains(symbol));
                     let is_timed = !moves && mechanism.time.is_some_and(|time| symbols.contains(&time));

@@ -12,7 +12,7 @@ use super::assembly::Assembly;
 use super::data::Derivation;
 use super::step::Step;
 use crate::algebra::simplify;
-use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId};
+use crate::graph::{Function, Graph, Node, NodeId, Number, SymbolId, operation};
 use crate::ids::{GroupId, InputId, Table};
 use crate::structure::GroupKind;
 
@@ -141,7 +141,7 @@ impl Derivation {
 fn has_kink(graph: &Graph, function: NodeId, symbol: SymbolId) -> bool {
     graph.reachable(&[function]).into_iter().any(|node| match graph.node(node) {
         Node::Call(function, arguments) => {
-            let kinks = (function.operation().kinks)(graph, arguments);
+            let kinks = (operation(*function).kinks)(graph, arguments);
             kinks.into_iter().any(|argument| graph.depends_on(argument, symbol))
         }
         _ => false,

@@ -273,7 +273,7 @@ impl Table {
                 let base = self.within_brackets(*base, |node| matches!(node, Node::Product(_) | Node::Power(..)));
                 base + "^".len() + exponent.to_string().len()
             }
-            Node::Call(function, parts) => function.operation().name.len() + arguments(parts),
+            Node::Call(function, parts) => function.name().len() + arguments(parts),
             Node::External(name, order, parts) => name.len() + order + arguments(parts),
             Node::Multiple(one, other) => factor(one) + "*".len() + factor(other),
             Node::AtMost(parts) => list(parts, &length, " <= "),

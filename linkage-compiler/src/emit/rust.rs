@@ -75,7 +75,7 @@ impl Style for Rust {
     }
 
     fn elementary(&self, function: Function, first: Option<TokenStream>, others: Vec<TokenStream>) -> TokenStream {
-        let name = ident(method(function));
+        let name = ident(function.method());
         quote!(#first.#name(#(#others),*))
     }
 
@@ -366,21 +366,4 @@ fn path(of: &Type) -> TokenStream {
 /// The name of an argument: with an underscore if the body ignores it.
 pub(super) fn argument(name: &str, is_used: bool) -> Ident {
     if is_used { ident(name) } else { ident(&format!("_{name}")) }
-}
-
-/// The method of the runtime's `Real`, or of nalgebra's `RealField`, that computes a function.
-fn method(function: Function) -> &'static str {
-    match function {
-        Function::Sin => "sine",
-        Function::Cos => "cosine",
-        Function::Atan2 => "arctangent2",
-        Function::Tan => "tangent",
-        Function::Asin => "arcsine",
-        Function::Acos => "arccosine",
-        Function::Atan => "arctangent",
-        Function::Exp => "exponential",
-        Function::Ln => "logarithm",
-        Function::Hypot => "hypotenuse",
-        Function::Sqrt | Function::Abs | Function::IfNonzero => function.operation().name,
-    }
 }

@@ -135,7 +135,7 @@ impl Style for Plain {
 
     fn elementary(&self, function: Elementary, first: Option<String>, others: Vec<String>) -> String {
         let arguments: Vec<String> = first.into_iter().chain(others).collect();
-        format!("{}({})", function.operation().name, arguments.join(", "))
+        format!("{}({})", function.name(), arguments.join(", "))
     }
 
     fn all(&self, conditions: Vec<String>) -> String {

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use super::function::Function;
+use super::Function;
 use super::node::{Condition, Fault, Node, NodeId, SymbolId, node_value};
 use super::number::Number;
 use crate::budget::Budget;
@@ -163,7 +163,7 @@ impl Graph {
                 self.may_be_undefined(base) || (exponent < 0 && self.values[base.index()].is_none())
             }),
             Node::Call(function, arguments) => {
-                function.operation().may_be_undefined()
+                super::operation(*function).may_be_undefined()
                     || arguments.iter().any(|&argument| self.may_be_undefined(argument))
             }
             // A user function, such as a table, may have a limited domain.
@@ -323,7 +323,7 @@ mod tests {
                     let node = g.call(function, &[shifted]);
                     let bind = |_| 0.7;
                     let angle = g.evaluate(&[shifted], bind)[0];
-                    let expected = (function.operation().value)(&[angle]);
+                    let expected = (super::super::operation(function).value)(&[angle]);
                     let found = g.evaluate(&[node], bind)[0];
                     assert!((found - expected).abs() < 1e-14, "{function:?} {}", g.text(shifted));
                     if sixths % 3 == 0 {

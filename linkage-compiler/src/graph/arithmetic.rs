@@ -1,7 +1,7 @@
 //! Normal form of sums and products: like terms collected, constants folded, signs inside sums.
 
+use super::Function;
 use super::arena::Graph;
-use super::function::Function;
 use super::node::{Condition, Fault, LARGEST_EXPONENT, Node, NodeId};
 use super::number::Number;
 

@@ -1,7 +1,7 @@
 //! Normal form of sines and cosines: signs, quarter turns and angles with rational values are evaluated.
 
+use super::Function;
 use super::arena::Graph;
-use super::function::Function;
 use super::node::{Node, NodeId};
 use super::number::Number;
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::Function;
 use super::arena::Graph;
-use super::function::Function;
 use super::node::{Node, NodeId, SymbolId};
 use super::number::Number;
 
@@ -61,7 +61,7 @@ impl Graph {
                     if inner.iter().all(|&inner| inner == zero) {
                         zero
                     } else {
-                        let partials = (function.operation().partials)(self, &arguments, id);
+                        let partials = (super::operation(function).partials)(self, &arguments, id);
                         let products = partials.into_iter().zip(inner);
                         let terms: Vec<_> =
                             products.map(|(partial, inner)| (Number::ONE, self.multiply(partial, inner))).collect();

@@ -9,7 +9,6 @@ mod circular;
 mod differentiate;
 mod exact;
 mod external;
-mod function;
 mod interpret;
 mod node;
 mod number;
@@ -19,8 +18,8 @@ mod replace;
 mod sweep;
 
 pub use arena::Graph;
-pub use function::Function;
+pub use linkage_ir::ElementaryFunction as Function;
 pub use node::{Condition, External, ExternalId, Fault, LARGEST_EXPONENT, Node, NodeId, SymbolId};
 pub use number::Number;
-pub use operations::{Exception, OPERATIONS, Operation, Place, written};
+pub use operations::{Exception, OPERATIONS, Operation, Place, operation, written};
 pub use print::Texts;

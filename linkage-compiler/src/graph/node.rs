@@ -1,6 +1,6 @@
 //! Nodes and their ids, faults, and the conditions that simplifications assume.
 
-use super::function::Function;
+use super::Function;
 use super::number::Number;
 
 /// An expression of a [`Graph`](super::Graph).
@@ -88,7 +88,7 @@ impl std::fmt::Display for Fault {
                     Function::Tan => "an angle other than odd multiples of `90deg`",
                     _ => "an argument in its domain",
                 };
-                write!(f, "`{}` has no value here: write {domain}", function.operation().name)
+                write!(f, "`{}` has no value here: write {domain}", function.name())
             }
             Self::OutOfRange => f.write_str("this constant is beyond the range of `f64`, 2.3e-308 to 1.7e308"),
             Self::ExponentOverflow => {
@@ -104,7 +104,7 @@ impl Fault {
     pub(super) fn of(node: &Node) -> Self {
         match node {
             // These overflow nowhere.
-            Node::Call(function, _) if function.operation().may_be_undefined() => Self::Undefined(*function),
+            Node::Call(function, _) if super::operation(*function).may_be_undefined() => Self::Undefined(*function),
             _ => Self::OutOfRange,
         }
     }
@@ -188,7 +188,7 @@ pub(super) fn node_value(
         }
         Node::Call(function, arguments) => {
             let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();
-            arguments.map(|arguments| (function.operation().value)(&arguments))
+            arguments.map(|arguments| (super::operation(*function).value)(&arguments))
         }
         Node::External(function, arguments) => {
             let arguments: Option<Vec<f64>> = arguments.iter().map(|argument| child(*argument)).collect();

@@ -1,11 +1,11 @@
-//! The operation table: name, value, derivatives and exceptional places of each elementary function.
+//! The operation table: value, derivatives and exceptional places of each elementary function.
 
 use std::f64::consts::FRAC_PI_2;
 
 use super::arena::Graph;
-use super::function::Function;
 use super::node::{Node, NodeId};
 use super::number::Number;
+use linkage_ir::ElementaryFunction as Function;
 
 /// The partial derivatives of `f` at `arguments`, one for each; `value` is `f(arguments)`.
 type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Vec<NodeId>;
@@ -45,10 +45,7 @@ const SINES: &[Place] = &[place(Exception::Edge, &[1.0], &[1.0]), place(Exceptio
 /// One row of the operation table.
 pub struct Operation {
     pub function: Function,
-    /// The name in the `linkage!` language.
-    pub name: &'static str,
-    pub arity: usize,
-    /// The value of `arity` numbers, with the same bits on every host: constants of emitted code are such values.
+    /// The value at as many numbers as it has arguments, with the same bits on every host: constants of emitted code are such values.
     pub value: fn(&[f64]) -> f64,
     pub partials: Partials,
     /// The cuts, poles, kinks and edges of the domain, a place of each kind; of those that repeat, one. A function
@@ -61,8 +58,6 @@ pub struct Operation {
 pub const OPERATIONS: [Operation; 13] = [
     Operation {
         function: Function::Sin,
-        name: "sin",
-        arity: 1,
         value: |x| libm::sin(x[0]),
         // d sin x = cos x
         partials: |g, x, _| vec![g.call(Function::Cos, &[x[0]])],
@@ -71,8 +66,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Cos,
-        name: "cos",
-        arity: 1,
         value: |x| libm::cos(x[0]),
         // d cos x = -sin x
         partials: |g, x, _| {
@@ -84,8 +77,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Tan,
-        name: "tan",
-        arity: 1,
         value: |x| libm::tan(x[0]),
         // d tan x = 1 + tan^2 x
         partials: |g, _, tan| {
@@ -98,8 +89,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Asin,
-        name: "asin",
-        arity: 1,
         value: |x| libm::asin(x[0]),
         // d asin x = 1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| vec![inverse_half_chord(g, x[0])],
@@ -108,8 +97,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Acos,
-        name: "acos",
-        arity: 1,
         value: |x| libm::acos(x[0]),
         // d acos x = -1 / sqrt((1 - x)(1 + x))
         partials: |g, x, _| {
@@ -121,8 +108,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Atan,
-        name: "atan",
-        arity: 1,
         value: |x| libm::atan(x[0]),
         // d atan x = 1 / (1 + x^2)
         partials: |g, x, _| {
@@ -136,8 +121,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Atan2,
-        name: "atan2",
-        arity: 2,
         value: |x| libm::atan2(x[0], x[1]),
         // d atan2(y, x) = (x dy - y dx) / (x^2 + y^2)
         partials: |g, yx, _| {
@@ -156,8 +139,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Sqrt,
-        name: "sqrt",
-        arity: 1,
         value: |x| x[0].sqrt(),
         // d sqrt x = 1 / (2 sqrt x)
         partials: |g, _, root| {
@@ -169,8 +150,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Abs,
-        name: "abs",
-        arity: 1,
         value: |x| x[0].abs(),
         // d |x| = x / |x|, undefined at 0
         partials: |g, x, modulus| vec![g.divide(x[0], modulus)],
@@ -179,8 +158,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Exp,
-        name: "exp",
-        arity: 1,
         value: |x| libm::exp(x[0]),
         // d e^x = e^x
         partials: |_, _, value| vec![value],
@@ -189,8 +166,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Ln,
-        name: "ln",
-        arity: 1,
         value: |x| libm::log(x[0]),
         // d ln x = 1 / x
         partials: |g, x, _| vec![g.power(x[0], -1)],
@@ -199,8 +174,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::Hypot,
-        name: "hypot",
-        arity: 2,
         value: |x| libm::hypot(x[0], x[1]),
         // d hypot(x, y) = (x dx + y dy) / hypot(x, y)
         partials: |g, xy, modulus| vec![g.divide(xy[0], modulus), g.divide(xy[1], modulus)],
@@ -213,8 +186,6 @@ pub const OPERATIONS: [Operation; 13] = [
     },
     Operation {
         function: Function::IfNonzero,
-        name: "if_nonzero",
-        arity: 3,
         value: |x| if x[0] == 0.0 { x[2] } else { x[1] },
         // d if_nonzero(a, v, w) = dv if a moves; `differentiate` has the other case.
         partials: |g, _, _| vec![g.zero(), g.one(), g.zero()],
@@ -236,17 +207,10 @@ impl Operation {
     }
 }
 
-impl Function {
-    #[must_use]
-    pub fn operation(self) -> &'static Operation {
-        &OPERATIONS[self as usize]
-    }
-
-    /// The function of this name in the language.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        written().find(|row| row.name == name).map(|row| row.function)
-    }
+/// The row of a function.
+#[must_use]
+pub fn operation(of: Function) -> &'static Operation {
+    &OPERATIONS[of as usize]
 }
 
 /// The function has no kink inside its domain.
@@ -280,8 +244,6 @@ mod tests {
 
     #[test]
     fn rows_stand_in_the_order_of_the_enum() {
-        for row in &OPERATIONS {
-            assert_eq!(row.function.operation().name, row.name);
-        }
+        assert!(OPERATIONS.iter().map(|row| row.function).eq(Function::ALL.iter().copied()));
     }
 }

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashSet;
 
+use super::Function;
 use super::arena::Graph;
-use super::function::Function;
 use super::node::{Node, NodeId, SymbolId};
 use super::number::Number;
 

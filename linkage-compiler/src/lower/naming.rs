@@ -88,7 +88,7 @@ impl Naming<'_> {
                 let preferred = format!("is_regular_{}", self.name(*of).unwrap_or_default());
                 self.taken.unique(&preferred)
             }
-            Hint::Direction(function, field) => self.taken.unique(&format!("{}_{field}", function.operation().name)),
+            Hint::Direction(function, field) => self.taken.unique(&format!("{}_{field}", function.name())),
             Hint::Fixed(name) => name.clone(),
             Hint::Described(preferred) => {
                 let preferred = preferred.clone().or_else(|| self.describe(id));
@@ -141,7 +141,7 @@ impl Naming<'_> {
             value => match self.call(value) {
                 Some((function, Some(argument))) => {
                     let argument = self.text(argument).or_else(|| self.describe(argument))?;
-                    Some(format!("{}_{argument}", function.operation().name))
+                    Some(format!("{}_{argument}", function.name()))
                 }
                 _ => match value {
                     Value::External(external, _) => self.graph.external_name(external).map(str::to_owned),
@@ -199,7 +199,7 @@ impl Naming<'_> {
             Value::Product(_) => "product",
             Value::Quotient(..) => "quotient",
             Value::Square(_) | Value::Intrinsic(Intrinsic::Square, ..) => "square",
-            value => self.call(value).map_or("value", |(function, _)| function.operation().name),
+            value => self.call(value).map_or("value", |(function, _)| function.name()),
         }
     }
 

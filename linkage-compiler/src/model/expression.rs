@@ -315,13 +315,13 @@ impl Resolver<'_> {
         }
         let function = Function::named(&text);
         let arity = function
-            .map(|function| function.operation().arity)
+            .map(|function| function.arity())
             .or_else(|| VECTOR_FUNCTIONS.iter().find(|(other, _)| *other == text).map(|(_, arity)| *arity));
         let Some(arity) = arity else {
             if text == "rate" {
                 self.scope.report_motion("`rate(…)`", region, self.diagnostics);
             } else {
-                let known = crate::graph::written().map(|row| row.name);
+                let known = Function::written().map(|function| function.name());
                 let known = known.chain(VECTOR_FUNCTIONS.iter().map(|(name, _)| *name)).chain(self.scope.functions());
                 let hint = match (self.value_of(&text), advice::for_function(&text)) {
                     (Some(hint), _) => hint,

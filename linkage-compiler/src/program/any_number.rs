@@ -3,7 +3,6 @@
 use super::doc::{fenced, lines};
 use super::expression::{Expression, Type};
 use super::function::{Access, Argument, Body, Function, Kernel, Output, Passed, Shape, Source, results};
-use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::pose::Given;
@@ -11,6 +10,7 @@ use super::signatures::{Family, Signatures, total};
 use crate::derivation::{Quantity, Row};
 use crate::graph::{Node, NodeId, SymbolId};
 use crate::ids::{ColumnId, Id, InputId, RowId, Table, UnknownId};
+use linkage_ir::Intrinsic;
 
 /// The formulas of a driver over numbers of any kind, and facts about them.
 pub struct AnyNumber<B> {

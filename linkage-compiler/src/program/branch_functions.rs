@@ -4,8 +4,8 @@ use super::branch::{Modes, Position, Side};
 use super::expression::{Expression, Pattern, Type};
 use super::function::{Body, Function};
 use super::implementation::{Implementation, Implemented};
-use super::intrinsics::Intrinsic;
 use super::signatures::{Signatures, total};
+use linkage_ir::Intrinsic;
 
 /// `all`, if the branches can be counted.
 pub(super) fn of_branch(signatures: &Signatures, position: &Position) -> Option<Implementation<Body>> {

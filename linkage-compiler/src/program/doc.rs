@@ -1,6 +1,6 @@
 //! Emitted doc comments of functions, line by line.
 
-use super::operations::Operations;
+use linkage_ir::Operations;
 
 pub fn lines<const N: usize>(lines: [&str; N]) -> Vec<String> {
     lines.map(str::to_owned).to_vec()

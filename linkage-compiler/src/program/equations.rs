@@ -3,11 +3,11 @@
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type, Variable};
 use super::function::{Body, results};
-use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Row, Step};
 use crate::graph::NodeId;
 use crate::ids::{CoordinateId, Id, RowId, Table};
+use linkage_ir::Intrinsic;
 
 /// Matrices with more entries than this are written entry by entry if most of these are zero.
 const LARGEST_DENSE: usize = 16;

@@ -1,7 +1,7 @@
 //! Planned code: expressions, statements and patterns, before they are lowered.
 
-use super::intrinsics::{Constant, Form, Intrinsic};
 use crate::graph::{Function, Number};
+use linkage_ir::{Constant, Form, Intrinsic};
 
 /// A planned expression.
 #[derive(Debug, Clone, PartialEq)]

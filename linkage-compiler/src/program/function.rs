@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::expression::{Expression, Pattern, Statement, Type};
-use super::operations::Operations;
 use super::pose::Given;
 use crate::derivation::Step;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::GroupId;
+use linkage_ir::Operations;
 
 /// A function of the emitted program, whose body is planned or lowered.
 #[derive(Debug, Clone)]

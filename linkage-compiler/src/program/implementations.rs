@@ -10,7 +10,6 @@ use super::functions::Functions;
 use super::implementation::{
     Associated, ConstantValue, Implementation, Implemented, fallible_of_trait, named_coordinates, of_trait,
 };
-use super::intrinsics::Intrinsic;
 use super::lane_columns::Column;
 use super::lane_functions;
 use super::names::Order;
@@ -18,6 +17,7 @@ use super::pose_functions::of_pose;
 use super::ranges;
 use super::signatures::{Family, Signatures};
 use crate::model::Request;
+use linkage_ir::Intrinsic;
 
 /// The implementations of a driver with these functions, and the columns of its lanes.
 pub(super) fn of_driver<B>(

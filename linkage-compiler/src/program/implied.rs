@@ -3,11 +3,11 @@
 use super::doc::{fenced, lines};
 use super::expression::{Expression, Statement};
 use super::function::{Body, Function, Value, results};
-use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use super::signatures::{Signatures, fallible};
 use crate::graph::NodeId;
 use crate::program::Type;
+use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     /// The residual and the scale of each row.

@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Failure, Kernel, Source, Value, results};
-use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::position::OF_A_BRANCH;
@@ -15,6 +14,7 @@ use super::signatures::Family;
 use crate::derivation::{ChordGeometry, Form, Quantity, Step, merged, needed_names};
 use crate::graph::NodeId;
 use crate::ids::{ColumnId, GroupId, Table};
+use linkage_ir::Intrinsic;
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "The error that the separate calls for position, velocity and acceleration return first."];

@@ -7,11 +7,11 @@ use super::expression::{Expression, Pattern, Receiver, Statement, Type, Variable
 use super::function::{Access, Body, Function, Passed};
 use super::functions::Functions;
 use super::implementation::{Associated, ConstantValue, Implementation, Implemented, fallible_of_trait, of_trait};
-use super::intrinsics::{Constant, Intrinsic};
 use super::lane_columns::{Column, Columns, inputs, start};
-use super::operations::Operations;
 use super::signatures::Signatures;
 use crate::model::Name;
+use linkage_ir::Operations;
+use linkage_ir::{Constant, Intrinsic};
 
 /// The implementation of a driver with these functions, and the columns to find.
 pub(super) fn of_driver<B>(

@@ -2,10 +2,10 @@
 
 use super::expression::Expression;
 use super::function::{Body, results};
-use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use crate::ids::ColumnId;
 use crate::model::Kind;
+use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     /// max |d point / d angle|, which is about the reach of the longest arm.

@@ -3,11 +3,11 @@
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Source};
-use super::intrinsics::{Constant, Intrinsic};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::ids::{Id, InputId};
 use crate::model::Kind;
+use linkage_ir::{Constant, Intrinsic};
 
 impl Plan<'_, '_> {
     /// `limits`, or one function for each of several inputs.

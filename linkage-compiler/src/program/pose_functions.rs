@@ -6,10 +6,10 @@ use super::expression::{Expression, Type};
 use super::function::{Body, Function};
 use super::implementation::{Implementation, Implemented};
 use super::names::Order;
-use super::operations::Operations;
 use super::pose::PosePlan;
 use super::pose_fields::Held;
 use super::signatures::{Signatures, total};
+use linkage_ir::Operations;
 
 /// `is_finite` and `coordinates`; without derived data, their signatures.
 pub(super) fn of_pose(signatures: &Signatures, derived: Option<&Derived>) -> Implementation<Body> {

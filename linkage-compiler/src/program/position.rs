@@ -4,12 +4,12 @@ use super::branch::Position;
 use super::doc::{lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type, Variable};
 use super::function::{Access, Body, Kernel, Output, Shape, Source, Value};
-use super::intrinsics::{Constant, Intrinsic};
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Step, needed_names};
 use crate::graph::{Function as Elementary, NodeId, SymbolId};
 use crate::ids::GroupId;
+use linkage_ir::{Constant, Intrinsic};
 
 /// The promise of a function that takes a branch.
 pub(super) const OF_A_BRANCH: &str =

@@ -4,12 +4,12 @@
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Access, Argument, Body, Failure, Function, Kernel, Passed, Source, Value};
-use super::intrinsics::Intrinsic;
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use super::signatures::{Family, Signatures, total};
 use crate::derivation::Step;
 use crate::graph::{Function as Elementary, Node, NodeId, SymbolId};
+use linkage_ir::Intrinsic;
 
 /// The function that widens the mechanism.
 const WIDENED: &str = "widened";

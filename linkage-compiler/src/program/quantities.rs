@@ -3,12 +3,12 @@
 use super::doc::{fenced, lines};
 use super::expression::Expression;
 use super::function::{Body, Output, results};
-use super::intrinsics::Intrinsic;
 use super::names::Order;
 use super::plan::{ENDINGS, Plan, unnamed};
 use super::signatures::Family;
 use crate::derivation::{Quantity, QuantityFormulas};
 use crate::graph::{NodeId, SymbolId};
+use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     pub(super) fn quantities_of(&self, family: Family) -> &[Quantity] {

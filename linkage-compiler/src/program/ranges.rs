@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Type};
 use super::function::{Argument, Body, Function, Passed};
-use super::intrinsics::{Constant, Intrinsic};
 use super::names::Order;
 use super::plan::{Plan, unnamed};
 use super::signatures::{Signatures, total};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::Kind;
+use linkage_ir::{Constant, Intrinsic};
 
 impl Plan<'_, '_> {
     pub(super) fn ranges(&mut self) {

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
-use super::intrinsics::Intrinsic;
 use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::derivation::{Assembly, Form, Step};
 use crate::graph::{NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Table, UnknownId};
+use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     pub(super) fn velocity(&mut self) {

@@ -4,13 +4,13 @@ use super::doc::{fenced, lines};
 use super::equations::as_results;
 use super::expression::{Expression, Statement};
 use super::function::{Body, Value};
-use super::intrinsics::Intrinsic;
 use super::plan::{Plan, unnamed};
 use super::signatures::Family;
 use crate::algebra::simplify;
 use crate::derivation::{Form, Solutions, Step, System, needed};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{Id, ParameterId, Table, UnknownId};
+use linkage_ir::Intrinsic;
 
 const ERRORS: [&str; 3] = [
     "",

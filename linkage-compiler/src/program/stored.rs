@@ -2,7 +2,7 @@
 
 use super::expression::{Expression, Pattern, Statement, Variable};
 use super::function::{Body, Kernel, Stored, Value};
-use super::intrinsics::{Form, Intrinsic};
+use linkage_ir::{Form, Intrinsic};
 
 impl Body {
     /// Stores the members of its literal as they become known, in a place with this name. Results of a factorisation are

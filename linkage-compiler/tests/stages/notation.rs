@@ -84,7 +84,7 @@ fn names_have_greek_letters_subscripts_and_dots() {
 fn every_function_of_the_language_has_its_own_notation() {
     for row in written() {
         let (mut g, [x]) = graph(["x"]);
-        let node = g.call(row.function, &[x, x][..row.arity]);
+        let node = g.call(row.function, &[x, x][..row.function.arity()]);
         let Formula { latex, .. } = formula(&g, node);
         assert!(!latex.contains("\\mathrm"), "{latex}");
     }

@@ -5,14 +5,13 @@
 //! that a statement binds has a slot, any other is computed where it is used, in the order in which emitted code computes it.
 
 mod names;
-mod operation;
 
 use std::sync::Arc;
 
+use linkage_ir::{self as ir, ElementaryFunction, Intrinsic};
 use serde::{Deserialize, Serialize};
 
 pub(crate) use names::Names;
-pub(crate) use operation::{Elementary, Operation};
 
 /// The index of an expression of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -112,7 +111,7 @@ pub(crate) enum Expression {
     Quotient(Id, Id),
     Square(Id),
     Negative(Id),
-    Call(Elementary, Vec<Id>),
+    Call(ElementaryFunction, Vec<Id>),
     /// All conditions, none of them left out.
     All(Vec<Id>),
 
@@ -133,7 +132,12 @@ pub(crate) enum Expression {
     /// A value of this type: fields by name, with the others from another value.
     Record(Name, Vec<(Name, Id)>, Option<Id>),
 
-    Operation(Operation, Vec<Id>),
+    /// A function of the runtime, of a scalar or of an emitted type.
+    Intrinsic(Intrinsic, Vec<Id>),
+    /// A constant of the runtime.
+    OfRuntime(ir::Constant),
+    /// A value of another form from one with the same numbers.
+    Made(Made, Id),
     /// A function of the same type, called on `self`.
     Own(usize, Vec<Id>),
     /// A function of the mechanism, called on a value or on nothing.
@@ -161,6 +165,18 @@ impl Expression {
                 | Self::Call(..)
         )
     }
+}
+
+/// The form of a value that is made from another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) enum Made {
+    /// The list of a column, of the columns of a matrix, or of the fields of a record.
+    List,
+    Matrix,
+    /// The inputs of coordinates by name.
+    Inputs,
+    /// A mechanism from the list of its parameters.
+    Mechanism,
 }
 
 /// The types besides mechanism and scene that have functions of their own.

@@ -1,6 +1,8 @@
 //! The checks of formulas that are read: every register is written before it is read, and there are as many results as names.
 
-use super::{Formula, Formulas, Range, Register};
+use linkage_ir::ElementaryFunction;
+
+use super::{Formula, Formulas, Instruction, Range, Register};
 
 /// The numbers of a mechanism.
 #[derive(Debug, Clone, Copy)]
@@ -49,6 +51,11 @@ impl<R> Formula<R> {
         for instruction in &self.instructions {
             if !instruction.reads().all(|register| is_written(register, written)) {
                 return Err("a formula refers to a later number");
+            }
+            if let Instruction::Of(function, _) | Instruction::OfTwo(function, ..) = instruction
+                && (function.arity() != instruction.reads().count() || *function == ElementaryFunction::IfNonzero)
+            {
+                return Err("a formula calls a function with other arguments");
             }
             written += instruction.writes() as usize;
         }

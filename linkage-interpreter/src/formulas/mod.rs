@@ -5,6 +5,7 @@
 mod check;
 mod run;
 
+use linkage_ir::ElementaryFunction;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use check::Counts;
@@ -57,6 +58,10 @@ pub(crate) enum Instruction {
     Constant(Constant),
     Unary(Unary, Register),
     Binary(Binary, Register, Register),
+    /// An elementary function of one number.
+    Of(ElementaryFunction, Register),
+    /// One of two numbers.
+    OfTwo(ElementaryFunction, Register, Register),
     /// The sine and the cosine, in two registers.
     SineCosine(Register),
 }
@@ -77,32 +82,20 @@ pub(crate) enum Constant {
     Ratio(f64, f64),
 }
 
-/// A function of one number.
+/// An operation on one number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Unary {
     Negative,
     Square,
-    Sine,
-    Cosine,
-    Tangent,
-    Arcsine,
-    Arccosine,
-    Arctangent,
-    SquareRoot,
-    Magnitude,
-    Exponential,
-    Logarithm,
 }
 
-/// A function of two numbers.
+/// An operation on two numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Binary {
     Plus,
     Minus,
     Times,
     Over,
-    Arctangent2,
-    Hypotenuse,
 }
 
 impl Instruction {
@@ -115,8 +108,8 @@ impl Instruction {
     fn reads(&self) -> impl Iterator<Item = Register> {
         let both = match *self {
             Self::Constant(_) => [None, None],
-            Self::Unary(_, of) | Self::SineCosine(of) => [Some(of), None],
-            Self::Binary(_, one, other) => [Some(one), Some(other)],
+            Self::Unary(_, of) | Self::Of(_, of) | Self::SineCosine(of) => [Some(of), None],
+            Self::Binary(_, one, other) | Self::OfTwo(_, one, other) => [Some(one), Some(other)],
         };
         both.into_iter().flatten()
     }

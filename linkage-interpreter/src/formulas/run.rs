@@ -1,6 +1,8 @@
 //! The numbers of a formula, operation for operation as emitted code computes them.
 
+use linkage_ir::ElementaryFunction;
 use linkage_runtime::Number;
+use linkage_runtime::derivation::number_of;
 
 use super::{Binary, Constant, Formula, Instruction, Register, Unary};
 
@@ -28,20 +30,15 @@ impl<N: Number> Registers<N> {
         }
     }
 
+    /// A function with other arguments, which no checked formula has, has no known value.
+    fn called(function: ElementaryFunction, arguments: &[N]) -> N {
+        number_of(function, arguments).unwrap_or_else(N::unknown)
+    }
+
     fn unary(function: Unary, of: N) -> N {
         match function {
             Unary::Negative => -of,
             Unary::Square => of.square(),
-            Unary::Sine => of.sine(),
-            Unary::Cosine => of.cosine(),
-            Unary::Tangent => of.tangent(),
-            Unary::Arcsine => of.arcsine(),
-            Unary::Arccosine => of.arccosine(),
-            Unary::Arctangent => of.arctangent(),
-            Unary::SquareRoot => of.sqrt(),
-            Unary::Magnitude => of.abs(),
-            Unary::Exponential => of.exponential(),
-            Unary::Logarithm => of.logarithm(),
         }
     }
 
@@ -51,8 +48,6 @@ impl<N: Number> Registers<N> {
             Binary::Minus => one - other,
             Binary::Times => one * other,
             Binary::Over => one / other,
-            Binary::Arctangent2 => one.arctangent2(other),
-            Binary::Hypotenuse => one.hypotenuse(other),
         }
     }
 }
@@ -72,6 +67,8 @@ impl<R> Formula<R> {
                 Instruction::Constant(constant) => Registers::constant(constant),
                 Instruction::Unary(function, of) => Registers::unary(function, all.at(of)),
                 Instruction::Binary(function, one, other) => Registers::binary(function, all.at(one), all.at(other)),
+                Instruction::Of(function, of) => Registers::called(function, &[all.at(of)]),
+                Instruction::OfTwo(function, one, other) => Registers::called(function, &[all.at(one), all.at(other)]),
                 Instruction::SineCosine(of) => {
                     let (sine, cosine) = all.at(of).sine_cosine();
                     all.0.push(sine);

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::defect::Defect;
 use super::failure::{Evaluated, Failure};
+use super::operations::of_runtime;
 use super::scalar::Scalar;
 use super::value::Value;
 use super::{Kind, Machine, Of};
@@ -194,9 +195,14 @@ impl<'c> Machine<'c> {
             Expression::Closure(..) => Ok(Value::Closure(id)),
             Expression::Block(block) => self.block(code, block, false),
             Expression::Try(inside) => self.success(code, *inside),
-            Expression::Operation(operation, _) if !operation.is_fallible() => self.found(code, id),
+            Expression::Intrinsic(of, _) if !of.row().fails => self.found(code, id),
+            Expression::OfRuntime(constant) => Ok(of_runtime(*constant)?),
+            Expression::Made(of, value) => {
+                let value = self.value(code, *value)?;
+                Ok(self.made(*of, &value)?)
+            }
             Expression::User(place, arguments) => self.user(code, *place, arguments),
-            Expression::Own(..) | Expression::OfMechanism(..) | Expression::OfType(..) | Expression::Operation(..) => {
+            Expression::Own(..) | Expression::OfMechanism(..) | Expression::OfType(..) | Expression::Intrinsic(..) => {
                 if !self.is_fallible(code, id)? {
                     return self.found(code, id);
                 }
@@ -253,7 +259,7 @@ impl<'c> Machine<'c> {
                 let own = if function.is_method { arguments.next().unwrap_or(Value::Absent) } else { Value::Absent };
                 self.call(of, function, own, arguments)
             }
-            Expression::Operation(operation, arguments) => self.operation(code, *operation, arguments),
+            Expression::Intrinsic(of, arguments) => self.operation(code, *of, arguments),
             _ => self.value(code, id),
         }
     }
@@ -264,7 +270,7 @@ impl<'c> Machine<'c> {
             Expression::Own(place, _) => at(self.own_functions(), *place)?.is_fallible,
             Expression::OfMechanism(_, place, _) => at(&self.driver.functions, *place)?.is_fallible,
             Expression::OfType(of, place, _) => at(self.of_type(*of).0, *place)?.is_fallible,
-            Expression::Operation(operation, _) => operation.is_fallible(),
+            Expression::Intrinsic(of, _) => of.row().fails,
             _ => false,
         })
     }

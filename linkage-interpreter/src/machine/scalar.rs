@@ -1,11 +1,13 @@
 //! The numbers that formulas are computed in: doubles, twice the precision, and lanes of doubles.
 
+use linkage_ir::ElementaryFunction;
 use linkage_runtime::__rt::{Wide, real};
 use linkage_runtime::Real;
+use linkage_runtime::derivation::value_of;
 
 use super::defect::Defect;
 use super::value::Value;
-use crate::code::{Constant, Elementary};
+use crate::code::Constant;
 use crate::tape::{Binary, Ternary, Traced, Unary};
 
 /// A number of formulas.
@@ -20,7 +22,7 @@ pub(crate) trait Scalar: Clone {
     fn over(self, other: &Self) -> Self;
     fn negative(self) -> Self;
     /// An elementary function.
-    fn call(function: Elementary, arguments: &[Self]) -> Result<Self, Defect>;
+    fn call(function: ElementaryFunction, arguments: &[Self]) -> Result<Self, Defect>;
 }
 
 /// One number, for which the functions of the runtime are generic.
@@ -38,26 +40,6 @@ fn constant<T: Real>(constant: Constant) -> T {
             if parts == 1.0 { turned } else { turned / real(parts) }
         }
     }
-}
-
-/// An elementary function as emitted code calls it.
-fn elementary<T: Real>(function: Elementary, arguments: &[T]) -> Result<T, Defect> {
-    Ok(match (function, arguments) {
-        (Elementary::Sin, &[x]) => x.sine(),
-        (Elementary::Cos, &[x]) => x.cosine(),
-        (Elementary::Tan, &[x]) => x.tangent(),
-        (Elementary::Asin, &[x]) => x.arcsine(),
-        (Elementary::Acos, &[x]) => x.arccosine(),
-        (Elementary::Atan, &[x]) => x.arctangent(),
-        (Elementary::Atan2, &[y, x]) => y.arctangent2(x),
-        (Elementary::Sqrt, &[x]) => x.sqrt(),
-        (Elementary::Abs, &[x]) => x.abs(),
-        (Elementary::Exp, &[x]) => x.exponential(),
-        (Elementary::Ln, &[x]) => x.logarithm(),
-        (Elementary::Hypot, &[x, y]) => x.hypotenuse(y),
-        (Elementary::IfNonzero, &[a, value, limit]) => a.if_nonzero(value, limit),
-        _ => return Err(Defect::new(format!("{function:?} of {} numbers", arguments.len()))),
-    })
 }
 
 macro_rules! single {
@@ -107,8 +89,9 @@ macro_rules! single {
             }
 
             #[inline]
-            fn call(function: Elementary, arguments: &[Self]) -> Result<Self, Defect> {
-                elementary(function, arguments)
+            fn call(function: ElementaryFunction, arguments: &[Self]) -> Result<Self, Defect> {
+                value_of(function, arguments)
+                    .ok_or_else(|| Defect::new(format!("{function:?} of {} numbers", arguments.len())))
             }
         }
     )*};
@@ -160,11 +143,11 @@ impl Scalar for Traced {
         self.unary(Unary::Negative)
     }
 
-    fn call(function: Elementary, arguments: &[Self]) -> Result<Self, Defect> {
+    fn call(function: ElementaryFunction, arguments: &[Self]) -> Result<Self, Defect> {
         match (function, arguments) {
-            (Elementary::Sqrt, [x]) => Ok(x.unary(Unary::Sqrt)),
-            (Elementary::Abs, [x]) => Ok(x.unary(Unary::Abs)),
-            (Elementary::IfNonzero, [a, value, limit]) => Ok(a.ternary(Ternary::IfNonzero, [value, limit])),
+            (ElementaryFunction::Sqrt, [x]) => Ok(x.unary(Unary::Sqrt)),
+            (ElementaryFunction::Abs, [x]) => Ok(x.unary(Unary::Abs)),
+            (ElementaryFunction::IfNonzero, [a, value, limit]) => Ok(a.ternary(Ternary::IfNonzero, [value, limit])),
             // Others have forms over lanes, or none.
             _ => Err(Defect::new(format!("{function:?} over lanes"))),
         }

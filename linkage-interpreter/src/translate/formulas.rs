@@ -320,26 +320,12 @@ impl<'l> Line<'l> {
     }
 
     fn call(&mut self, function: Function, arguments: &[Register]) -> Translated<Register> {
-        let unary = match function {
-            Function::Sin => Unary::Sine,
-            Function::Cos => Unary::Cosine,
-            Function::Tan => Unary::Tangent,
-            Function::Asin => Unary::Arcsine,
-            Function::Acos => Unary::Arccosine,
-            Function::Atan => Unary::Arctangent,
-            Function::Sqrt => Unary::SquareRoot,
-            Function::Abs => Unary::Magnitude,
-            Function::Exp => Unary::Exponential,
-            Function::Ln => Unary::Logarithm,
-            Function::Atan2 | Function::Hypot => {
-                let of = if function == Function::Atan2 { Binary::Arctangent2 } else { Binary::Hypotenuse };
-                let &[one, other] = arguments else { return Err(format!("{function:?} of {arguments:?}")) };
-                return Ok(self.binary(of, one, other));
-            }
-            Function::IfNonzero => return Err("a comparison".to_owned()),
-        };
-        let &[of] = arguments else { return Err(format!("{function:?} of {arguments:?}")) };
-        Ok(self.unary(unary, of))
+        match (function, arguments) {
+            (Function::IfNonzero, _) => Err("a comparison".to_owned()),
+            (_, &[of]) => Ok(self.add(Instruction::Of(function, of))),
+            (_, &[one, other]) => Ok(self.add(Instruction::OfTwo(function, one, other))),
+            _ => Err(format!("{function:?} of {arguments:?}")),
+        }
     }
 
     fn sine_cosine(&mut self, angle: Register) -> Form {

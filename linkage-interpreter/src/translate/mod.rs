@@ -16,8 +16,8 @@ use linkage_compiler::text::Message;
 pub(crate) use formulas::formulas;
 
 use crate::code::{
-    Access, Argument, Block, Constant, Elementary, Expression, Function, Id, Name, Names, Operation, Pattern, Place,
-    Returned, Shape, Slot, Statement,
+    Access, Argument, Block, Constant, Expression, Function, Id, Name, Names, Pattern, Place, Returned, Shape, Slot,
+    Statement,
 };
 
 /// The things that the functions of a driver or a scene refer to.
@@ -253,7 +253,7 @@ impl Translator<'_> {
                     false => self.value(argument.value),
                 });
                 let arguments = arguments.collect::<Translated<_>>()?;
-                Expression::Call(elementary(*function), arguments)
+                Expression::Call(*function, arguments)
             }
             lower::Value::All(conditions) => Expression::All(self.values(conditions)?),
             lower::Value::Text(text) => Expression::Text(text.as_str().into()),
@@ -378,13 +378,9 @@ impl Translator<'_> {
     fn path(&mut self, of: Path) -> Expression {
         match of {
             Path::Name => Expression::OwnName,
-            Path::None | Path::Mark => Expression::Absent,
-            Path::Angle => Expression::Operation(Operation::UnknownAngle, Vec::new()),
-            Path::SearchTurn => Expression::Operation(Operation::SearchTurn, Vec::new()),
-            Path::NoSearch => Expression::Operation(Operation::NoSearch, Vec::new()),
-            Path::OfGuess => Expression::Operation(Operation::ModeOfGuess, Vec::new()),
             Path::False => Expression::Flag(false),
             Path::Quantities => Expression::Quantities,
+            of_runtime => Expression::OfRuntime(of_runtime),
         }
     }
 }
@@ -413,22 +409,4 @@ fn constant(number: Number) -> Constant {
         Number::Float(0.0) => 0.0,
         Number::Float(value) => value,
     })
-}
-
-fn elementary(function: graph::Function) -> Elementary {
-    match function {
-        graph::Function::Sin => Elementary::Sin,
-        graph::Function::Cos => Elementary::Cos,
-        graph::Function::Tan => Elementary::Tan,
-        graph::Function::Asin => Elementary::Asin,
-        graph::Function::Acos => Elementary::Acos,
-        graph::Function::Atan => Elementary::Atan,
-        graph::Function::Atan2 => Elementary::Atan2,
-        graph::Function::Sqrt => Elementary::Sqrt,
-        graph::Function::Abs => Elementary::Abs,
-        graph::Function::Exp => Elementary::Exp,
-        graph::Function::Ln => Elementary::Ln,
-        graph::Function::Hypot => Elementary::Hypot,
-        graph::Function::IfNonzero => Elementary::IfNonzero,
-    }
 }

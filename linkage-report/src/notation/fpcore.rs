@@ -1,7 +1,7 @@
 //! Expressions of FPCore.
 
-use linkage_runtime::derivation::notation::{Name, function_name};
-use linkage_runtime::derivation::{ElementaryFunction, Formula, FormulaList, FormulaView};
+use linkage_runtime::derivation::notation::Name;
+use linkage_runtime::derivation::{Formula, FormulaList, FormulaView};
 
 /// A formula as an expression: operators stand before their operands.
 pub(super) fn expression(formula: Formula<'_>) -> String {
@@ -21,7 +21,7 @@ pub(super) fn expression(formula: Formula<'_>) -> String {
             let base = expression(base);
             product((0..exponent).map(|_| base.clone()))
         }
-        FormulaView::Call(function, arguments) => call(name(function), arguments),
+        FormulaView::Call(function, arguments) => call(function.in_fpcore(), arguments),
         FormulaView::External(name, _, arguments) => call(name, arguments),
         FormulaView::AtMost(parts) => call("<=", parts),
         FormulaView::NonZero(inside) => format!("(!= {} 0)", expression(inside)),
@@ -57,17 +57,5 @@ pub(crate) fn literal(number: f64) -> String {
         _ if number.is_nan() => "NAN".to_owned(),
         _ if number.is_infinite() => if number > 0.0 { "INFINITY" } else { "(- INFINITY)" }.to_owned(),
         _ => format!("{number:?}").trim_end_matches(".0").to_owned(),
-    }
-}
-
-/// The name of a function in FPCore.
-fn name(function: ElementaryFunction) -> &'static str {
-    match function {
-        ElementaryFunction::Asin => "asin",
-        ElementaryFunction::Acos => "acos",
-        ElementaryFunction::Atan => "atan",
-        ElementaryFunction::Abs => "fabs",
-        ElementaryFunction::Ln => "log",
-        other => function_name(other),
     }
 }

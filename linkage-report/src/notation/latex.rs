@@ -4,8 +4,7 @@ use std::fmt::{self, Write};
 
 use linkage_runtime::derivation::ElementaryFunction;
 use linkage_runtime::derivation::notation::{
-    Argument, Binding, Marks, Name, Style, Word, function_name, greek, is_circular, is_number, latin, numbered_greek,
-    primes,
+    Argument, Binding, Marks, Name, Style, Word, greek, is_circular, is_number, latin, numbered_greek, primes,
 };
 
 pub(super) struct Latex;
@@ -84,7 +83,7 @@ impl Style for Latex {
         exponent: u32,
         argument: Argument,
     ) -> fmt::Result {
-        let name = function_name(function);
+        let name = function.in_mathematics();
         match function {
             ElementaryFunction::Atan2 | ElementaryFunction::Hypot => write!(out, "\\operatorname{{{name}}}")?,
             ElementaryFunction::IfNonzero => out.write_str("\\operatorname{if\\_nonzero}")?,

@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use linkage_runtime::derivation::ElementaryFunction;
 use linkage_runtime::derivation::notation::{
-    Argument, Binding, Marks, Name, Style, Word, function_name, greek, is_circular, is_number, numbered_greek, primes,
+    Argument, Binding, Marks, Name, Style, Word, greek, is_circular, is_number, numbered_greek, primes,
 };
 
 /// U+2061.
@@ -101,7 +101,7 @@ impl Style for MathMl {
         exponent: u32,
         argument: Argument,
     ) -> fmt::Result {
-        let shown = function_name(function);
+        let shown = function.in_mathematics();
         if exponent != 1 && is_circular(function) {
             write!(out, "<mrow><msup><mi>{shown}</mi><mn>{exponent}</mn></msup>")?;
         } else {

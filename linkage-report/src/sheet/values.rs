@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use linkage_runtime::Mechanism;
 use linkage_runtime::analysis::AnalysisOf;
 use linkage_runtime::derivation::notation::Name;
-use linkage_runtime::derivation::{
-    Derivation, ElementaryFunction, Equation, Formula, FormulaList, FormulaMatrix, FormulaView,
-};
-use linkage_runtime::{Mechanism, Real};
+use linkage_runtime::derivation::{Derivation, Equation, Formula, FormulaList, FormulaMatrix, FormulaView, value_of};
 
 /// Numbers for the names in the formulas of a mechanism: those of a position, with its rates and accelerations.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -98,7 +96,7 @@ impl Values {
                 // A square can be known without its root.
                 None => defined()?,
             },
-            FormulaView::Call(function, arguments) => called(function, &all(arguments)?)?,
+            FormulaView::Call(function, arguments) => value_of(function, &all(arguments)?)?,
             _ => return None,
         })
     }
@@ -132,30 +130,4 @@ impl Values {
             _ => None,
         }
     }
-}
-
-fn called(function: ElementaryFunction, arguments: &[f64]) -> Option<f64> {
-    use ElementaryFunction as F;
-    Some(match (function, arguments) {
-        (F::Sin, [x]) => x.sine(),
-        (F::Cos, [x]) => x.cosine(),
-        (F::Tan, [x]) => x.tangent(),
-        (F::Asin, [x]) => x.arcsine(),
-        (F::Acos, [x]) => x.arccosine(),
-        (F::Atan, [x]) => x.arctangent(),
-        (F::Atan2, [y, x]) => y.arctangent2(*x),
-        (F::Sqrt, [x]) => x.sqrt(),
-        (F::Abs, [x]) => x.abs(),
-        (F::Exp, [x]) => x.exponential(),
-        (F::Ln, [x]) => x.logarithm(),
-        (F::Hypot, [x, y]) => x.hypotenuse(*y),
-        (F::IfNonzero, [a, v, w]) => {
-            if *a == 0.0 {
-                *w
-            } else {
-                *v
-            }
-        }
-        _ => return None,
-    })
 }

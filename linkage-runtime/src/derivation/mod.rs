@@ -11,13 +11,17 @@ pub mod notation;
 mod scene;
 mod sheet;
 mod table;
+mod value;
 
 use core::fmt;
+
+pub use linkage_ir::ElementaryFunction;
 
 pub use kinematic_chain::{ChainJoint, ChainLink, KinematicChain};
 pub use scene::{ContactEffect, Effect, JointForce, SceneDerivation};
 pub use sheet::{ChainVector, DriverChoice, PointVectors, SheetDerivation, Turning};
-pub use table::{ElementaryFunction, Formula, FormulaList, FormulaNode, FormulaTable, FormulaView, Terms};
+pub use table::{Formula, FormulaList, FormulaNode, FormulaTable, FormulaView, Terms};
+pub use value::{number_of, value_of};
 
 /// A parameter or coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

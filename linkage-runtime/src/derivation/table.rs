@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use linkage_ir::ElementaryFunction;
+
 use super::notation::Name;
 
 /// A node of a [`FormulaTable`]. It refers to nodes before it by their numbers, which count from 1, and to several by a
@@ -50,27 +52,6 @@ pub enum FormulaNode {
     NonZero(u32),
     /// The statement that a formula has a value.
     Exists(u32),
-}
-
-/// An elementary function in a formula.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-#[expect(missing_docs, reason = "the names are those of mathematics")]
-pub enum ElementaryFunction {
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Atan2,
-    Sqrt,
-    Abs,
-    Exp,
-    Ln,
-    Hypot,
-    /// `if_nonzero(a, v, w)`: v, or w where a is zero.
-    IfNonzero,
 }
 
 /// The nodes of the formulas of one derivation. Each refers to nodes before it only, so that a formula ends.

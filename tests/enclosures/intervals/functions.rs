@@ -84,7 +84,7 @@ type Composed = (&'static str, fn(&[f64]) -> f64, Vec<Place>);
 
 /// Functions that are no rows of the table, but have such places: their values and places.
 fn composed() -> [Composed; 5] {
-    let places = |name: &str| written().find(|row| row.name == name).unwrap().places.to_vec();
+    let places = |name: &str| written().find(|row| row.function.name() == name).unwrap().places.to_vec();
     let at_zero = |exception| vec![Place { exception, at: &[0.0], across: &[1.0] }];
     [
         ("inverse", |x| 1.0 / x[0], at_zero(Exception::Pole)),
@@ -241,9 +241,9 @@ fn inverse(m: &AtRunTime<'_>, line: &Line) {
 #[test]
 fn all_functions_are_taken_across_their_places() {
     let names: Vec<&str> = FORMULAS.iter().map(|case| case.0).collect();
-    let rows: Vec<&str> = written().map(|row| row.name).collect();
+    let rows: Vec<&str> = written().map(|row| row.function.name()).collect();
     assert_eq!(names[..rows.len()], rows);
-    let of_rows = written().map(|row| (row.name, row.value, row.places.to_vec()));
+    let of_rows = written().map(|row| (row.function.name(), row.value, row.places.to_vec()));
     let mut count = 0;
     for ((name, value, places), case) in of_rows.chain(composed()).zip(cases()) {
         assert_eq!(name, case.name);
@@ -261,7 +261,7 @@ fn all_functions_are_taken_across_their_places() {
 fn places_are_of_their_kind() {
     for row in written() {
         for &Place { exception, at, across } in row.places {
-            let line = Line { value: row.value, at: at.to_vec(), across: across.to_vec(), name: row.name };
+            let line = Line { value: row.value, at: at.to_vec(), across: across.to_vec(), name: row.function.name() };
             let f = |s: f64| line.value(s);
             let slope = |s: f64| (f(s) - f(s / 2.0)) / (s / 2.0);
             let is_right = match exception {
@@ -270,7 +270,7 @@ fn places_are_of_their_kind() {
                 Exception::Kink => (f(1e-9) - f(-1e-9)).abs() < 1e-8 && (slope(1e-9) - slope(-1e-9)).abs() > 1.0,
                 Exception::Edge => f(-1e-9).is_finite() && f(1e-9).is_nan(),
             };
-            assert!(is_right, "{} {exception:?} {at:?}", row.name);
+            assert!(is_right, "{} {exception:?} {at:?}", row.function.name());
         }
     }
 }
@@ -282,12 +282,12 @@ fn functions_are_smooth_elsewhere() {
     for (row, case) in written().zip(&cases()).flat_map(|pair| [pair; 4]) {
         let is_finite = !row.may_be_undefined();
         for _ in 0..1000 {
-            let arguments: Vec<f64> = (0..row.arity).map(|_| random.random_range(-50.0..50.0)).collect();
-            assert!(!is_finite || (row.value)(&arguments).is_finite(), "{} {arguments:?}", row.name);
+            let arguments: Vec<f64> = (0..row.function.arity()).map(|_| random.random_range(-50.0..50.0)).collect();
+            assert!(!is_finite || (row.value)(&arguments).is_finite(), "{} {arguments:?}", row.function.name());
         }
         // From 0.1 to 0.95 the arguments are at no place.
-        let [at, across] =
-            [0.6, 0.9].map(|most| (0..row.arity).map(|_| random.random_range(0.1..most)).collect::<Vec<_>>());
+        let [at, across] = [0.6, 0.9]
+            .map(|most| (0..row.function.arity()).map(|_| random.random_range(0.1..most)).collect::<Vec<_>>());
         let at: Vec<f64> =
             at.iter().zip(&across).map(|(&at, across): (&f64, _)| at.max(0.1 + BEFORE * across)).collect();
         let across = at
@@ -295,12 +295,16 @@ fn functions_are_smooth_elsewhere() {
             .zip(&across)
             .map(|(at, &across): (_, &f64)| across.min((0.95 - at) / BEHIND).min((at - 0.1) / BEFORE))
             .collect();
-        let line = Line { value: row.value, at, across, name: row.name };
+        let line = Line { value: row.value, at, across, name: row.function.name() };
         let found = case.certificate(&line);
         let values: Vec<f64> =
             (0..=2000).map(|k| line.value(-BEFORE + (BEFORE + BEHIND) * f64::from(k) / 2e3)).collect();
         let [least, largest] = [f64::min, f64::max].map(|of| values.iter().copied().reduce(of).unwrap());
-        assert!(found.is_sharp, "{} {found:?}", row.name);
-        assert!(has(found.least, least, 1e-6) && has(found.largest, largest, 1e-6), "{} {found:?}", row.name);
+        assert!(found.is_sharp, "{} {found:?}", row.function.name());
+        assert!(
+            has(found.least, least, 1e-6) && has(found.largest, largest, 1e-6),
+            "{} {found:?}",
+            row.function.name()
+        );
     }
 }

@@ -51,7 +51,7 @@ impl Layout<'_> {
                 return Binding::Sum;
             }
             Node::Call(function, arguments) => {
-                out.push_str(function.operation().name);
+                out.push_str(function.name());
                 self.arguments(out, arguments);
             }
             Node::External(external, arguments) => {

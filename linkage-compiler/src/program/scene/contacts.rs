@@ -7,9 +7,9 @@ use crate::ids::ColumnId;
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Value, results};
-use crate::program::intrinsics::Intrinsic;
 use crate::program::names::Order;
 use crate::program::plan::unnamed;
+use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     /// `contacts`: each friction and stop with its scalar s, the derivatives of s, and its limits.

@@ -7,10 +7,10 @@ use crate::ids::InputId;
 use crate::program::doc::{lines, without_result};
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
-use crate::program::intrinsics::Intrinsic;
 use crate::program::names::Arguments;
-use crate::program::operations::Operations;
 use crate::program::plan::unnamed;
+use linkage_ir::Intrinsic;
+use linkage_ir::Operations;
 
 impl ScenePlan<'_, '_, '_> {
     /// The names of the driven inputs, for doc comments.

@@ -4,7 +4,7 @@ use super::{ERRORS, ScenePlan};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
-use crate::program::intrinsics::Intrinsic;
+use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn energy(&mut self) {

@@ -7,8 +7,8 @@ use crate::ids::InputId;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
-use crate::program::intrinsics::Intrinsic;
 use crate::program::names::Arguments;
+use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     /// Plans `balance` and `equilibrium`.

@@ -7,8 +7,8 @@ use crate::program::function::{Body, Function, Passed};
 use crate::program::implementation::{
     Associated, ConstantValue, Implementation, Implemented, Kink, fallible_of_trait, of_trait,
 };
-use crate::program::intrinsics::{Constant, Intrinsic};
 use crate::program::names::Order;
+use linkage_ir::{Constant, Intrinsic};
 
 /// `Scene`, for a scene with inertia; `kinks` are those of its laws, and `has_change` says of which contacts the change of the gap
 /// is known.

@@ -11,9 +11,9 @@ use crate::ids::{ColumnId, Id, InputId, Table};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Receiver, Statement, Type};
 use crate::program::function::{Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value, results};
-use crate::program::intrinsics::Intrinsic;
 use crate::program::names::{Order, name_of};
 use crate::program::plan::unnamed;
+use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     /// M, column by column.

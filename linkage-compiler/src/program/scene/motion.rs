@@ -8,9 +8,9 @@ use crate::ids::InputId;
 use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
-use crate::program::intrinsics::Intrinsic;
-use crate::program::operations::Operations;
 use crate::program::plan::unnamed;
+use linkage_ir::Intrinsic;
+use linkage_ir::Operations;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn mass_matrix(&mut self) {

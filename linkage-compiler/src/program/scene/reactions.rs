@@ -7,9 +7,9 @@ use crate::model::LoadKind;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Shape, Source, Value, results};
-use crate::program::intrinsics::Intrinsic;
 use crate::program::names::{Arguments, Order};
 use crate::program::plan::unnamed;
+use linkage_ir::Intrinsic;
 
 /// The field of the multipliers.
 pub const MULTIPLIERS: &str = "multipliers";

@@ -6,8 +6,8 @@ use crate::graph::NodeId;
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Statement};
 use crate::program::function::{Body, Value};
-use crate::program::intrinsics::Intrinsic;
 use crate::program::plan::unnamed;
+use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn check(&mut self) {

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use linkage_dynamics::__rt::{self as dynamics, Contact, ContactCoordinate, ContactLaw};
+use linkage_ir::Intrinsic;
 use linkage_runtime::__rt as rt;
 use linkage_runtime::{Column, D, PositionError};
 
 use super::arguments::{Arguments, are_finite, number};
-use crate::code::{Name, Operation};
+use crate::code::Name;
 use crate::error::Error;
 use crate::machine::Machine;
 use crate::machine::defect::Defect;
@@ -22,7 +23,7 @@ fn not_finite([mechanism, quantity]: [&Arc<str>; 2]) -> Error {
 
 impl Machine<'_> {
     /// Checks that numbers are finite, and the values made of those that are.
-    pub(super) fn checked(&self, of: Operation, arguments: &Arguments) -> Evaluated<Option<Value>> {
+    pub(super) fn checked(&self, of: Intrinsic, arguments: &Arguments) -> Evaluated<Option<Value>> {
         let checked = |place: usize| -> Evaluated<&Value> {
             let value = arguments.at(place)?;
             if are_finite(value) { Ok(value) } else { Err(not_finite(arguments.names()?).into()) }
@@ -42,11 +43,11 @@ impl Machine<'_> {
             Ok(Value::list(all))
         };
         Ok(Some(match of {
-            Operation::Finite | Operation::FiniteMatrix => {
+            Intrinsic::Finite | Intrinsic::FiniteMatrix => {
                 checked(2)?;
                 Value::unit()
             }
-            Operation::FiniteEach => {
+            Intrinsic::FiniteEach => {
                 let scene = arguments.at(0)?.as_text()?;
                 for pair in arguments.at(1)?.as_list()? {
                     let [quantity, value] = pair.as_list()? else {
@@ -58,17 +59,19 @@ impl Machine<'_> {
                 }
                 Value::unit()
             }
-            Operation::FinitePoints | Operation::FiniteVectors => points(checked(2)?)?,
-            Operation::FiniteOutputs => outputs(checked(2)?)?,
-            Operation::FinitePointMatrices => points(&matrices(checked(2)?)?)?,
-            Operation::FiniteOutputMatrices => outputs(&matrices(checked(2)?)?)?,
-            Operation::PointMotions => {
+            Intrinsic::FinitePoints | Intrinsic::FiniteVectors => points(checked(2)?)?,
+            Intrinsic::FiniteOutputs => outputs(checked(2)?)?,
+            Intrinsic::FiniteMatrices => {
+                let all = matrices(checked(2)?)?;
+                if arguments.at(1)?.as_text()?.starts_with("point") { points(&all)? } else { outputs(&all)? }
+            }
+            Intrinsic::PointMotions => {
                 points(&motions(self.driver.types.point_motion, [Name::POSITION, Name::VELOCITY, Name::ACCELERATION])?)?
             }
-            Operation::OutputMotions => {
+            Intrinsic::OutputMotions => {
                 outputs(&motions(self.driver.types.output_motion, [Name::VALUE, Name::RATE, Name::ACCELERATION])?)?
             }
-            Operation::Countable => {
+            Intrinsic::Countable => {
                 let mechanism = arguments.at(0)?.as_text()?;
                 for guess in arguments.at(1)?.as_list()? {
                     let guess = f64::of(guess).ok_or_else(|| guess.expected("a number"))?;
@@ -76,15 +79,15 @@ impl Machine<'_> {
                 }
                 Value::unit()
             }
-            Operation::NoClosedForm | Operation::NoList => {
+            Intrinsic::NoClosedForm | Intrinsic::NoList => {
                 let [mechanism, group] = arguments.names()?.map(Arc::clone);
                 return Err(Error::Position(PositionError::NoClosedForm { mechanism, group }).into());
             }
-            Operation::TooManyBranches => {
+            Intrinsic::TooManyBranches => {
                 let mechanism = arguments.at(0)?.as_text()?.clone();
                 return Err(Error::Position(PositionError::TooManyBranches { mechanism }).into());
             }
-            Operation::ValidateStops => {
+            Intrinsic::ValidateStops => {
                 let scene = arguments.at(0)?.as_text()?;
                 for stop in arguments.at(1)?.as_list()? {
                     let [name, lower, upper, restitution] = stop.as_list()? else {
@@ -96,14 +99,14 @@ impl Machine<'_> {
                 }
                 Value::unit()
             }
-            Operation::ValidateContacts => {
+            Intrinsic::ValidateContacts => {
                 let scene = arguments.at(0)?.as_text()?;
                 for contact in arguments.at(1)?.as_list()? {
                     self.validate(scene, contact)?;
                 }
                 arguments.at(1)?.clone()
             }
-            Operation::NotNegative => {
+            Intrinsic::NotNegative => {
                 let scene = arguments.at(0)?.as_text()?;
                 for pair in arguments.at(1)?.as_list()? {
                     let [quantity, value] = pair.as_list()? else {

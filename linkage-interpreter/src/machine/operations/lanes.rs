@@ -1,7 +1,9 @@
 //! The forms of operations over lanes, which are recorded on a tape.
 
+use linkage_ir::Intrinsic;
+
 use super::arguments::{Arguments, side};
-use crate::code::{Name, Operation};
+use crate::code::Name;
 use crate::machine::defect::Defect;
 use crate::machine::failure::Evaluated;
 use crate::machine::scalar::Scalar as _;
@@ -9,7 +11,7 @@ use crate::machine::value::Value;
 use crate::tape::{Chord, Flag, Test, Traced};
 
 /// The forms over lanes; `None` for an operation that has none of its own.
-pub(super) fn in_lanes(of: Operation, arguments: &Arguments) -> Evaluated<Option<Value>> {
+pub(super) fn in_lanes(of: Intrinsic, arguments: &Arguments) -> Evaluated<Option<Value>> {
     let number = |place| arguments.number::<Traced>(place);
     let flag = |flag: Flag| match flag {
         Flag::Constant(flag) => Value::Flag(flag),
@@ -23,20 +25,20 @@ pub(super) fn in_lanes(of: Operation, arguments: &Arguments) -> Evaluated<Option
         Ok::<_, Defect>(Value::list([chord.into_value(), flag(is_right)]))
     };
     Ok(Some(match of {
-        Operation::SineInLane => number(0)?.sine().into_value(),
-        Operation::CosineInLane => number(0)?.cosine().into_value(),
-        Operation::SineCosineInLane => Value::list(number(0)?.sine_cosine().map(Traced::into_value)),
-        Operation::Arctangent2InLane => number(0)?.arctangent2(&number(1)?).into_value(),
-        Operation::HypotenuseInLane => number(0)?.hypotenuse(&number(1)?).into_value(),
-        Operation::InRange => number(0)?.in_range(&number(1)?, &number(2)?).into_value(),
-        Operation::IsModerateInLane => test(Test::IsModerate)?,
-        Operation::IsSolvableInLane => test(Test::IsSolvable)?,
-        Operation::IsReachableInLane => test(Test::IsReachable)?,
-        Operation::HasArctangent2InLane => test_of_two(Test::HasArctangent2)?,
-        Operation::HasHypotenuseInLane => test_of_two(Test::HasHypotenuse)?,
-        Operation::IsNonzero => test_of_two(Test::IsNonzero)?,
-        Operation::Closes => test_of_two(Test::Closes)?,
-        Operation::AreFinite => {
+        Intrinsic::SineInLane => number(0)?.sine().into_value(),
+        Intrinsic::CosineInLane => number(0)?.cosine().into_value(),
+        Intrinsic::SineCosineInLane => Value::list(number(0)?.sine_cosine().map(Traced::into_value)),
+        Intrinsic::Arctangent2InLane => number(0)?.arctangent2(&number(1)?).into_value(),
+        Intrinsic::HypotenuseInLane => number(0)?.hypotenuse(&number(1)?).into_value(),
+        Intrinsic::InRange => number(0)?.in_range(&number(1)?, &number(2)?).into_value(),
+        Intrinsic::IsModerateInLane => test(Test::IsModerate)?,
+        Intrinsic::IsSolvableInLane => test(Test::IsSolvable)?,
+        Intrinsic::IsReachableInLane => test(Test::IsReachable)?,
+        Intrinsic::HasArctangent2InLane => test_of_two(Test::HasArctangent2)?,
+        Intrinsic::HasHypotenuseInLane => test_of_two(Test::HasHypotenuse)?,
+        Intrinsic::IsNonzero => test_of_two(Test::IsNonzero)?,
+        Intrinsic::Closes => test_of_two(Test::Closes)?,
+        Intrinsic::IsFinite => {
             let mut are_finite = Flag::Constant(true);
             arguments.at(0)?.each_leaf(&mut |leaf| {
                 if let Some(number) = Traced::of(leaf) {
@@ -45,7 +47,7 @@ pub(super) fn in_lanes(of: Operation, arguments: &Arguments) -> Evaluated<Option
             });
             flag(are_finite)
         }
-        Operation::ElbowChordInLane => {
+        Intrinsic::ElbowChordInLane => {
             let of = arguments.at(0)?;
             let mut numbers = Vec::new();
             for name in
@@ -55,8 +57,8 @@ pub(super) fn in_lanes(of: Operation, arguments: &Arguments) -> Evaluated<Option
             }
             chord(Chord::Elbow, 1, numbers)?
         }
-        Operation::ChordInLane => chord(Chord::Factors, 1, traced(arguments.at(0)?))?,
-        Operation::ReachChordInLane => {
+        Intrinsic::ChordInLane => chord(Chord::Factors, 1, traced(arguments.at(0)?))?,
+        Intrinsic::ReachChordInLane => {
             let mut numbers = traced(arguments.at(0)?);
             numbers.extend([number(1)?, number(2)?]);
             chord(Chord::Reach, 3, numbers)?

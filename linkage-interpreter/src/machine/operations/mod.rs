@@ -9,6 +9,7 @@ mod scenes;
 
 use std::sync::Arc;
 
+use linkage_ir::Intrinsic;
 use linkage_runtime::__rt::{self as rt, Wide};
 use linkage_runtime::PositionError;
 use linkage_runtime::{Elbow, Ranged};
@@ -19,10 +20,11 @@ use super::groups::{MOST_UNKNOWNS, each, factorised, list, numbers, pivots, size
 use super::scalar::Single;
 use super::value::Value;
 use super::{Kind, Load, Machine};
-use crate::code::{Function, Id, Name, Operation};
+use crate::code::{Function, Id, Name};
 use crate::error::Error;
 use arguments::{Arguments, number as number_of, side, triangle};
 use lanes::in_lanes;
+pub(super) use parts::of_runtime;
 
 /// A chord and whether its triangle is well conditioned.
 fn flagged<S: Single>((chord, is_well_conditioned): (S, bool)) -> Value {
@@ -35,11 +37,11 @@ fn perhaps<S: Single>(found: Option<S>) -> Value {
 
 impl<'c> Machine<'c> {
     /// Applies a function of the runtime: the value of its success, or its value.
-    pub(super) fn operation(&mut self, code: &'c Function, of: Operation, arguments: &'c [Id]) -> Evaluated<Value> {
+    pub(super) fn operation(&mut self, code: &'c Function, of: Intrinsic, arguments: &'c [Id]) -> Evaluated<Value> {
         // Those that evaluate an argument in a way of their own.
         match (of, arguments) {
-            (Operation::Success, [value]) => return self.value(code, *value),
-            (Operation::Failure, [error]) => {
+            (Intrinsic::Ok, [value]) => return self.value(code, *value),
+            (Intrinsic::Err, [error]) => {
                 return match self.value(code, *error)? {
                     Value::Outcome(outcome) => match &*outcome {
                         Err(error) => Err(error.clone().into()),
@@ -48,12 +50,12 @@ impl<'c> Machine<'c> {
                     other => Err(other.expected("an error").into()),
                 };
             }
-            (Operation::And, [one, other]) => {
+            (Intrinsic::And, [one, other]) => {
                 self.success(code, *one)?;
                 return self.success(code, *other);
             }
             // The last is a function.
-            (Operation::Limits, [arguments @ .., _]) => return self.limits(code, arguments),
+            (Intrinsic::Limits, [arguments @ .., _]) => return self.limits(code, arguments),
             _ => {}
         }
         let values = self.values(code, arguments)?;
@@ -70,7 +72,7 @@ impl<'c> Machine<'c> {
     fn applied<S: Single + 'static>(
         &mut self,
         code: &'c Function,
-        of: Operation,
+        of: Intrinsic,
         values: &[Value],
     ) -> Evaluated<Value> {
         let arguments = Arguments(values);
@@ -82,12 +84,12 @@ impl<'c> Machine<'c> {
         }
         let number = |place| arguments.number::<S>(place);
         Ok(match of {
-            Operation::SineCosine => {
+            Intrinsic::SineCosine => {
                 let (sine, cosine) = number(0)?.sine_cosine();
                 list([sine, cosine])
             }
             // Each has the digits that it has alone.
-            Operation::SinesCosines => {
+            Intrinsic::SinesCosines => {
                 let of_part = |part: &[Value]| {
                     sized!(part.len(), N => {
                         let all = S::sines_cosines(each::<S, N>(part)?);
@@ -97,32 +99,32 @@ impl<'c> Machine<'c> {
                 let parts = arguments.at(0)?.as_list()?.chunks(MOST_UNKNOWNS).map(of_part);
                 Value::list(parts.collect::<Evaluated<Vec<_>>>()?.into_iter().flatten())
             }
-            Operation::Largest => {
+            Intrinsic::Largest => {
                 let all = arguments.at(0)?.as_list()?.iter();
                 let all = all.map(|value| S::of(value).ok_or_else(|| value.expected("a number")));
                 rt::largest(all.collect::<Result<Vec<S>, _>>()?).into_value()
             }
-            Operation::Regular => {
+            Intrinsic::Regular => {
                 let [mechanism, group] = arguments.names()?;
                 rt::regular(&**mechanism, &**group, number(2)?, number(3)?).map_err(Error::from)?;
                 Value::unit()
             }
-            Operation::IsNonzero => Value::Flag(rt::is_nonzero(number(0)?, number(1)?)),
-            Operation::Closes => Value::Flag(rt::closes(number(0)?, number(1)?)),
-            Operation::Solvable => sized!(arguments.at(3)?.as_list()?.len(), N => {
+            Intrinsic::IsNonzero => Value::Flag(rt::is_nonzero(number(0)?, number(1)?)),
+            Intrinsic::Closes => Value::Flag(rt::closes(number(0)?, number(1)?)),
+            Intrinsic::Solvable => sized!(arguments.at(3)?.as_list()?.len(), N => {
                 let [numerators, scales] = [3, 4].map(|place| arguments.at(place).and_then(numbers::<S, N>));
                 let (determinant, numerators, scales) = (number(2)?, numerators?, scales?);
                 self.located(&arguments, |mechanism, group| {
                     rt::solvable(mechanism, group, determinant, numerators, scales).map(|()| Value::unit())
                 })
             })?,
-            Operation::Reachable => {
+            Intrinsic::Reachable => {
                 let distance = number(2)?;
                 self.located(&arguments, |mechanism, group| {
                     rt::reachable(mechanism, group, distance).map(|()| Value::unit())
                 })?
             }
-            Operation::Implied => {
+            Intrinsic::Implied => {
                 let [names, residuals, scales] = [arguments.at(1)?, arguments.at(2)?, arguments.at(3)?];
                 let mechanism = arguments.at(0)?.as_text()?;
                 let rows = names.as_list()?.iter().zip(residuals.as_list()?).zip(scales.as_list()?);
@@ -134,41 +136,41 @@ impl<'c> Machine<'c> {
                 }
                 Value::unit()
             }
-            Operation::ElbowChord => {
+            Intrinsic::ElbowChord => {
                 let (triangle, side) = (triangle::<S>(arguments.at(2)?)?, side(arguments.at(3)?)?);
                 self.located(&arguments, |mechanism, group| {
                     rt::elbow_chord(mechanism, group, triangle, side).map(flagged)
                 })?
             }
-            Operation::RegularElbowChord => {
+            Intrinsic::RegularElbowChord => {
                 perhaps(rt::regular_elbow_chord(triangle::<S>(arguments.at(0)?)?, side(arguments.at(1)?)?))
             }
-            Operation::Chord => {
+            Intrinsic::Chord => {
                 let (factors, radius) = (numbers::<S, 2>(arguments.at(2)?)?, number(3)?);
                 let (scales, side) = (numbers(arguments.at(4)?)?, side(arguments.at(5)?)?);
                 self.located(&arguments, |mechanism, group| {
                     rt::chord(mechanism, group, factors, radius, scales, side).map(S::into_value)
                 })?
             }
-            Operation::ReachChord => {
+            Intrinsic::ReachChord => {
                 let (factors, radius) = (numbers::<S, 2>(arguments.at(2)?)?, number(3)?);
                 let (scales, side) = (numbers(arguments.at(4)?)?, side(arguments.at(5)?)?);
                 self.located(&arguments, |mechanism, group| {
                     rt::reach_chord(mechanism, group, factors, radius, scales, side).map(S::into_value)
                 })?
             }
-            Operation::RegularChord => {
+            Intrinsic::RegularChord => {
                 perhaps(rt::regular_chord(numbers::<S, 2>(arguments.at(0)?)?, number(1)?, side(arguments.at(2)?)?))
             }
-            Operation::RegularReachChord => {
+            Intrinsic::RegularReachChord => {
                 let factors = numbers::<S, 2>(arguments.at(0)?)?;
                 perhaps(rt::regular_reach_chord(factors, number(1)?, number(2)?, side(arguments.at(3)?)?))
             }
-            Operation::ProductOfPivots => pivots::<S>(arguments.at(0)?)?,
-            Operation::Factorization => factorised::<S>(arguments.names()?, arguments.at(2)?, arguments.at(3)?)?,
-            Operation::InRange => rt::in_range(number(0)?, number(1)?, number(2)?).into_value(),
-            Operation::SideOf => Value::Side(rt::side_of::<S, Elbow>(number(0)?) == Elbow::Left),
-            Operation::Refined => {
+            Intrinsic::ProductOfPivots => pivots::<S>(arguments.at(0)?)?,
+            Intrinsic::Factorization => factorised::<S>(arguments.names()?, arguments.at(2)?, arguments.at(3)?)?,
+            Intrinsic::InRange => rt::in_range(number(0)?, number(1)?, number(2)?).into_value(),
+            Intrinsic::SideOf => Value::Side(rt::side_of::<S, Elbow>(number(0)?) == Elbow::Left),
+            Intrinsic::Refined => {
                 let Value::Factors(factors) = arguments.at(0)? else {
                     return Err(arguments.at(0)?.expected("factors").into());
                 };
@@ -179,20 +181,20 @@ impl<'c> Machine<'c> {
                 };
                 if matches!(precise, Value::Absent) { rough.clone() } else { precise }
             }
-            Operation::NewtonGroup => {
+            Intrinsic::NewtonGroup => {
                 self.newton_group(code, arguments.names()?, arguments.at(2)?, arguments.at(3)?)?
             }
-            Operation::Modes => {
+            Intrinsic::Modes => {
                 let names = [arguments.at(1)?.as_text()?, arguments.at(2)?.as_text()?];
                 let functions = [arguments.at(4)?, arguments.at(5)?];
                 self.modes(code, arguments.at(0)?, names, arguments.at(3)?, None, functions)?
             }
-            Operation::ModesWithLengths => {
+            Intrinsic::ModesWithLengths => {
                 let names = [arguments.at(1)?.as_text()?, arguments.at(2)?.as_text()?];
                 let (are, functions) = (arguments.at(4)?, [arguments.at(5)?, arguments.at(6)?]);
                 self.modes(code, arguments.at(0)?, names, arguments.at(3)?, Some(are), functions)?
             }
-            Operation::Map => {
+            Intrinsic::Map => {
                 let closure = arguments.at(1)?;
                 let mut mapped = Vec::new();
                 for value in arguments.at(0)?.as_list()? {
@@ -201,7 +203,7 @@ impl<'c> Machine<'c> {
                 }
                 Value::list(mapped)
             }
-            Operation::OrElse => match arguments.at(0)? {
+            Intrinsic::OrElse => match arguments.at(0)? {
                 Value::Outcome(outcome) => match &**outcome {
                     Ok(value) => value.clone(),
                     Err(error) => {
@@ -211,18 +213,18 @@ impl<'c> Machine<'c> {
                 },
                 other => return Err(other.expected("an outcome").into()),
             },
-            Operation::Newton => self.newton(arguments.at(0)?, arguments.at(1)?, false)?,
-            Operation::NewtonAnyBranch => self.newton(arguments.at(0)?, arguments.at(1)?, true)?,
-            Operation::Reactions => self.load(values, Load::Joints)?,
-            Operation::DriveForces => self.load(values, Load::Drives)?,
-            Operation::BearingLoss => self.load(values, Load::LossOfBearings)?,
-            Operation::Combinations => self.combinations(code, arguments.at(0)?, arguments.at(1)?)?,
-            Operation::Existing => self.existing(code, arguments.at(0)?, arguments.at(1)?)?,
-            Operation::Reduced => self.reduced(&arguments)?,
-            Operation::Equilibrium => self.equilibrium(code, &arguments)?,
-            Operation::Ranged => ranged(&arguments, rt::ranged)?,
-            Operation::RangedDirection => ranged(&arguments, rt::ranged_direction)?,
-            Operation::RangedModuloTurns => ranged(&arguments, rt::ranged_modulo_turns)?,
+            Intrinsic::Newton => self.newton(arguments.at(0)?, arguments.at(1)?, false)?,
+            Intrinsic::NewtonAnyBranch => self.newton(arguments.at(0)?, arguments.at(1)?, true)?,
+            Intrinsic::Reactions => self.load(values, Load::Joints)?,
+            Intrinsic::DriveForces => self.load(values, Load::Drives)?,
+            Intrinsic::BearingLoss => self.load(values, Load::LossOfBearings)?,
+            Intrinsic::Combinations => self.combinations(code, arguments.at(0)?, arguments.at(1)?)?,
+            Intrinsic::Existing => self.existing(code, arguments.at(0)?, arguments.at(1)?)?,
+            Intrinsic::Reduced => self.reduced(&arguments)?,
+            Intrinsic::Equilibrium => self.equilibrium(code, &arguments)?,
+            Intrinsic::Ranged => ranged(&arguments, rt::ranged)?,
+            Intrinsic::RangedDirection => ranged(&arguments, rt::ranged_direction)?,
+            Intrinsic::RangedModuloTurns => ranged(&arguments, rt::ranged_modulo_turns)?,
             // `Equations::at` is called by scenes of the runtime only, and others have cases above.
             other => return Err(Defect::new(format!("{other:?} in a function")).into()),
         })
@@ -267,4 +269,61 @@ fn ranged(arguments: &Arguments, made: impl Fn(f64, Option<f64>, Option<f64>) ->
             (Name::IS_DIRECTION, Value::Flag(is_direction)),
         ],
     ))
+}
+
+#[cfg(all(test, feature = "compiler"))]
+mod tests {
+    use super::*;
+    use crate::Program;
+    use crate::code::{Access, Expression, Returned, Shape};
+    use crate::machine::Failure;
+
+    /// The intrinsics that are other expressions of compiled code.
+    const TRANSLATED: [Intrinsic; 14] = [
+        Intrinsic::Into,
+        Intrinsic::Iter,
+        Intrinsic::Copied,
+        Intrinsic::EachSized,
+        Intrinsic::From,
+        Intrinsic::Zeros,
+        Intrinsic::OnlyBranch,
+        Intrinsic::All,
+        Intrinsic::Coordinates,
+        Intrinsic::Square,
+        Intrinsic::AreAll,
+        Intrinsic::Sum,
+        Intrinsic::Pi,
+        Intrinsic::Unknown,
+    ];
+
+    /// Each row of the table has its case here: none ends as one that the machine does not know.
+    #[test]
+    fn every_intrinsic_is_run() {
+        let program = Program::compile("mechanism M { input x; output y = x; }").unwrap();
+        let driver = program.mechanisms()[0].driver();
+        let code = Function {
+            name: String::new(),
+            access: Access::Private,
+            is_method: false,
+            is_fallible: true,
+            arguments: Vec::new(),
+            returns: Shape::Number,
+            slots: 1,
+            expressions: vec![Expression::Absent],
+            statements: Vec::new(),
+            value: Returned::Plain(Id(0)),
+        };
+        let is_known = |of: Intrinsic| {
+            let arguments = vec![Id(0); of.row().roles.len()];
+            [Kind::Double, Kind::Traced].into_iter().any(|kind| {
+                let result = Machine::new(driver, None, &[], kind).operation(&code, of, &arguments);
+                let unknown = Defect::new(format!("{of:?} in a function"));
+                !matches!(result.map_err(|failure| *failure), Err(Failure::Defect(defect)) if defect == unknown)
+            })
+        };
+        // `Equations::at` is called by scenes of the runtime only.
+        for &of in Intrinsic::ALL.iter().filter(|of| **of != Intrinsic::EquationsAt) {
+            assert_eq!(is_known(of), !TRANSLATED.contains(&of), "{of:?}");
+        }
+    }
 }

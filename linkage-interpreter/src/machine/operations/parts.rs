@@ -2,93 +2,112 @@
 
 use std::rc::Rc;
 
+use linkage_ir::{Constant, Intrinsic};
 use linkage_runtime::AssemblyMode;
 
 use super::arguments::{Arguments, are_finite};
-use crate::code::{Name, Operation};
+use crate::code::{Made, Name};
 use crate::machine::Machine;
 use crate::machine::defect::Defect;
 use crate::machine::failure::Evaluated;
 use crate::machine::scalar::Scalar as _;
 use crate::machine::value::{Record, Turning, Value};
 
+/// A constant of the runtime.
+pub(crate) fn of_runtime(of: Constant) -> Result<Value, Defect> {
+    Ok(match of {
+        Constant::None | Constant::Mark | Constant::Angle | Constant::NoSearch => Value::Absent,
+        Constant::SearchTurn => Value::Flag(true),
+        Constant::OfGuess => Value::Mode(AssemblyMode::OfGuess),
+        Constant::Name | Constant::False | Constant::Quantities => {
+            return Err(Defect::new(format!("{of:?} as a constant of the runtime")));
+        }
+    })
+}
+
 impl Machine<'_> {
     /// Operations on values that are no numbers of one scalar.
-    pub(super) fn of_values(&mut self, of: Operation, arguments: &Arguments) -> Evaluated<Option<Value>> {
+    pub(super) fn of_values(&mut self, of: Intrinsic, arguments: &Arguments) -> Evaluated<Option<Value>> {
         let value = || arguments.at(0);
         Ok(Some(match of {
-            Operation::Present | Operation::SearchLength => value()?.clone(),
-            Operation::SearchTurn => Value::Flag(true),
-            Operation::LimitOfAngle | Operation::LimitOfLength => Value::list(arguments.0.iter().cloned()),
-            Operation::ValueOf => match value()? {
+            Intrinsic::Some | Intrinsic::SearchLength => value()?.clone(),
+            Intrinsic::LimitOfAngle | Intrinsic::LimitOfLength => Value::list(arguments.0.iter().cloned()),
+            Intrinsic::ValueOf => match value()? {
                 Value::Outcome(outcome) => outcome.as_ref().as_ref().map_or(Value::Absent, Value::clone),
                 other => other.clone(),
             },
-            Operation::UnwrapOr => match value()? {
+            Intrinsic::UnwrapOr => match value()? {
                 Value::Absent => arguments.at(1)?.clone(),
                 present => present.clone(),
             },
-            Operation::Get => {
+            Intrinsic::Get => {
                 let place = arguments.at(1)?.as_count()?;
                 value()?.as_list()?.get(place).cloned().unwrap_or(Value::Absent)
             }
-            Operation::AreFinite => Value::Flag(are_finite(value()?)),
-            Operation::Listed => match value()? {
-                Value::Record(record) => Value::list(record.fields.iter().map(|(_, value)| value.clone())),
-                other => Value::list(other.as_list()?.iter().cloned()),
-            },
-            Operation::Matrix => Value::Matrix(value()?.as_list()?.into()),
-            Operation::Direction => Value::list([value()?.clone(), arguments.at(1)?.clone()]),
-            Operation::InputsOf => {
-                let all = value()?.as_record()?;
-                self.named(self.driver.types.inputs, &self.driver.inputs, |name| all.get(name).cloned())?
-            }
-            Operation::MechanismOf => {
-                let mut all = value()?.as_list()?.iter().cloned();
-                self.named(self.driver.types.mechanism, &self.driver.parameters, |_| all.next())?
-            }
-            Operation::Parts => {
+            Intrinsic::IsFinite => Value::Flag(are_finite(value()?)),
+            Intrinsic::Unit => Value::list([value()?.clone(), arguments.at(1)?.clone()]),
+            Intrinsic::Parts => {
                 let scene = self.scene.ok_or_else(|| Defect::new("a state without a scene"))?;
                 let mut all = value()?.as_list()?.iter().cloned();
                 let q = self.named(self.driver.types.coordinates, &self.driver.coordinates, |_| all.next())?;
                 let rates = self.named(self.driver.types.inputs, &self.driver.inputs, |_| all.next())?;
                 Value::record(scene.types.state, [(Name::Q, q), (Name::INPUT_RATES, rates)])
             }
-            Operation::At => {
+            Intrinsic::At => {
                 Value::At(arguments.at(1)?.as_list()?.iter().map(|value| f64::of(value).unwrap_or(f64::NAN)).collect())
             }
-            Operation::Solve => match value()? {
+            Intrinsic::Solve => match value()? {
                 Value::Factors(factors) => factors.solve(arguments.at(1)?)?,
                 other => return Err(other.expected("factors").into()),
             },
-            Operation::Take => match (value()?, arguments.at(3)?) {
+            Intrinsic::Take => match (value()?, arguments.at(3)?) {
                 (Value::Modes(modes), Value::Mode(mode)) => {
                     modes.take([arguments.at(1)?.as_text()?, arguments.at(2)?.as_text()?], *mode)?
                 }
                 (other, _) => return Err(other.expected("modes").into()),
             },
-            Operation::Memory => Value::Memory(Rc::default()),
-            Operation::Turns => Value::Turns(Rc::new(Turning::given(value()?)?)),
-            Operation::NearestTurns => Value::Turns(Rc::new(Turning::nearest(value()?)?)),
-            Operation::InTurn => match value()? {
+            Intrinsic::Default => Value::Memory(Rc::default()),
+            Intrinsic::Turns => Value::Turns(Rc::new(Turning::given(value()?)?)),
+            Intrinsic::New => Value::Turns(Rc::new(Turning::nearest(value()?)?)),
+            Intrinsic::InTurn => match value()? {
                 Value::Turns(turns) => turns.number(arguments.at(1)?.as_count()?, arguments.at(2)?)?,
                 other => return Err(other.expected("turns").into()),
             },
-            Operation::TurnsFound => match value()? {
+            Intrinsic::TurnsFound => match value()? {
                 Value::Turns(turns) => turns.found()?,
                 other => return Err(other.expected("turns").into()),
             },
-            Operation::SideAt => Value::Side(value()?.as_count()? == 0),
-            Operation::NumberOfMode => Value::Mode(AssemblyMode::Number(value()?.as_count()?)),
-            Operation::ModeOfGuess => Value::Mode(AssemblyMode::OfGuess),
-            Operation::UnknownAngle | Operation::NoSearch => Value::Absent,
-            Operation::Widened => value()?.map_leaves(&mut |leaf| match leaf {
-                Value::Number(number) => Value::Wide((*number).into()),
-                other => other.clone(),
-            }),
-            Operation::Rounded => rounded(value()?),
+            Intrinsic::SideAt => Value::Side(value()?.as_count()? == 0),
+            Intrinsic::NumberOfMode => Value::Mode(AssemblyMode::Number(value()?.as_count()?)),
+            // All convert each number.
+            Intrinsic::Widened | Intrinsic::WidenedDirection | Intrinsic::WidenedByName | Intrinsic::WidenedColumn => {
+                value()?.map_leaves(&mut |leaf| match leaf {
+                    Value::Number(number) => Value::Wide((*number).into()),
+                    other => other.clone(),
+                })
+            }
+            Intrinsic::Rounded | Intrinsic::RoundedByName | Intrinsic::RoundedEach => rounded(value()?),
             _ => return Ok(None),
         }))
+    }
+
+    /// A value of this form with the numbers of another.
+    pub(crate) fn made(&self, of: Made, value: &Value) -> Result<Value, Defect> {
+        Ok(match of {
+            Made::List => match value {
+                Value::Record(record) => Value::list(record.fields.iter().map(|(_, value)| value.clone())),
+                other => Value::list(other.as_list()?.iter().cloned()),
+            },
+            Made::Matrix => Value::Matrix(value.as_list()?.into()),
+            Made::Inputs => {
+                let all = value.as_record()?;
+                self.named(self.driver.types.inputs, &self.driver.inputs, |name| all.get(name).cloned())?
+            }
+            Made::Mechanism => {
+                let mut all = value.as_list()?.iter().cloned();
+                self.named(self.driver.types.mechanism, &self.driver.parameters, |_| all.next())?
+            }
+        })
     }
 
     /// A record with these fields.

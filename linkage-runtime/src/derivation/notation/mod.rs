@@ -9,6 +9,6 @@ mod unicode;
 mod writer;
 
 pub use name::{Name, Word, greek, is_number, latin, numbered_greek, primes};
-pub use style::{Argument, Binding, Marks, Style, function_name, is_circular};
+pub use style::{Argument, Binding, Marks, Style, is_circular};
 pub use unicode::Unicode;
 pub use writer::write;

@@ -117,23 +117,3 @@ pub enum Argument {
 pub fn is_circular(function: ElementaryFunction) -> bool {
     matches!(function, ElementaryFunction::Sin | ElementaryFunction::Cos | ElementaryFunction::Tan)
 }
-
-/// The usual name of a function in mathematics.
-#[must_use]
-pub fn function_name(function: ElementaryFunction) -> &'static str {
-    match function {
-        ElementaryFunction::Asin => "arcsin",
-        ElementaryFunction::Acos => "arccos",
-        ElementaryFunction::Atan => "arctan",
-        ElementaryFunction::Sin => "sin",
-        ElementaryFunction::Cos => "cos",
-        ElementaryFunction::Tan => "tan",
-        ElementaryFunction::Atan2 => "atan2",
-        ElementaryFunction::Sqrt => "sqrt",
-        ElementaryFunction::Abs => "abs",
-        ElementaryFunction::Exp => "exp",
-        ElementaryFunction::Ln => "ln",
-        ElementaryFunction::Hypot => "hypot",
-        ElementaryFunction::IfNonzero => "if_nonzero",
-    }
-}

@@ -4,7 +4,7 @@ use core::fmt::{self, Write};
 
 use super::super::ElementaryFunction;
 use super::name::{Name, Word, greek, is_number, numbered_greek, primes};
-use super::style::{Argument, Binding, Marks, Style, function_name, is_circular};
+use super::style::{Argument, Binding, Marks, Style, is_circular};
 
 /// One line of Unicode.
 pub struct Unicode;
@@ -83,7 +83,7 @@ impl Style for Unicode {
         exponent: u32,
         _argument: Argument,
     ) -> fmt::Result {
-        out.write_str(function_name(function))?;
+        out.write_str(function.in_mathematics())?;
         if exponent != 1 && is_circular(function) {
             self.exponent(out, exponent)?;
         }

@@ -7,7 +7,7 @@ use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
 use linkage_compiler::algebra::simplify;
-use linkage_compiler::graph::{Condition, Function, Graph, Node, NodeId, Number, SymbolId};
+use linkage_compiler::graph::{Condition, Function, Graph, Node, NodeId, Number, SymbolId, operation};
 use linkage_equality::{Answer, compare};
 
 const CASES: usize = 1500;
@@ -66,7 +66,7 @@ impl Value {
     /// A function; its error is from the values at both ends of the interval and from its rounding error.
     fn call(function: Function, arguments: &[Self]) -> Self {
         let at =
-            |shift: fn(&Self) -> f64| (function.operation().value)(&arguments.iter().map(shift).collect::<Vec<_>>());
+            |shift: fn(&Self) -> f64| (operation(function).value)(&arguments.iter().map(shift).collect::<Vec<_>>());
         let value = at(|x| x.value);
         let spread = [at(|x| x.value - x.error), at(|x| x.value + x.error)].map(|end| (end - value).abs());
         // A function at the edge of its domain counts as undefined.

@@ -34,7 +34,7 @@ impl Operations {
     }
 }
 
-impl std::ops::AddAssign for Operations {
+impl core::ops::AddAssign for Operations {
     fn add_assign(&mut self, other: Self) {
         *self = self.plus(other);
     }

@@ -1,7 +1,6 @@
-//! The functions that emitted code calls and does not define: those of the runtime, of the scalar, and of emitted types.
+//! The functions that compiled code calls and does not define: those of the runtime, of the scalar, and of emitted types.
 
-use super::operations::Operations;
-use crate::graph::Function as Elementary;
+use crate::{ElementaryFunction, Operations};
 
 /// The syntax of a call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -132,6 +131,8 @@ pub struct Row {
     pub form: Form,
     pub roles: &'static [Role],
     pub cost: Operations,
+    /// True if it returns an outcome: a value or an error.
+    pub fails: bool,
     pub finite: Finite,
     pub in_lane: Option<InLane>,
     pub meaning: Meaning,
@@ -144,6 +145,7 @@ const NOTHING: Row = Row {
     form: Form::Function,
     roles: &[],
     cost: Operations { multiplications: 0, additions: 0, divisions: 0, functions: 0 },
+    fails: false,
     finite: Finite::Unknown,
     in_lane: None,
     meaning: Meaning::None,
@@ -164,6 +166,7 @@ macro_rules! intrinsics {
     ($($(#[$doc:meta])* $variant:ident $name:literal $form:ident [$($role:ident),*] {$($field:ident: $value:expr),*})*) => {
         /// A function that the program does not define.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         pub enum Intrinsic {$(
             $(#[$doc])*
             $variant,
@@ -173,20 +176,18 @@ macro_rules! intrinsics {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self::$variant),*];
 
+            const ROWS: &'static [Row] = &[$(Row {
+                name: $name,
+                form: Form::$form,
+                roles: &[$(Role::$role),*],
+                $($field: $value,)*
+                ..NOTHING
+            }),*];
+
             /// The row of the table.
+            #[must_use]
             pub fn row(self) -> &'static Row {
-                match self {$(
-                    Self::$variant => {
-                        const ROW: &Row = &Row {
-                            name: $name,
-                            form: Form::$form,
-                            roles: &[$(Role::$role),*],
-                            $($field: $value,)*
-                            ..NOTHING
-                        };
-                        ROW
-                    }
-                )*}
+                &Self::ROWS[self as usize]
             }
         }
     };
@@ -195,13 +196,13 @@ macro_rules! intrinsics {
 intrinsics! {
     // Results of other types.
     Some "Some" Function [Data] {}
-    Ok "Ok" Function [Data] {}
-    Err "Err" Function [Data] {}
+    Ok "Ok" Function [Data] { fails: true }
+    Err "Err" Function [Data] { fails: true }
     Into "into" Method [Data] { meaning: Meaning::Argument(0) }
     /// The value of a `Result`, without the error.
     ValueOf "ok" Method [Data] {}
-    And "and" Method [Data, Data] {}
-    OrElse "or_else" Method [Data, Code] { meaning: Meaning::Argument(0) }
+    And "and" Method [Data, Data] { fails: true }
+    OrElse "or_else" Method [Data, Code] { fails: true, meaning: Meaning::Argument(0) }
     Map "map" Method [Data, Code] {}
     Iter "iter" Method [Data] {}
     AreAll "all" Method [Data, Code] {}
@@ -238,48 +239,57 @@ intrinsics! {
     Unit "unit" Function [Number, Number] { meaning: Meaning::Direction, is_unchanged: true }
 
     // Checks.
-    Finite "finite" Function [Mechanism, Part, Numbers] {}
-    FiniteEach "finite_each" Function [Mechanism, Data] {}
+    Finite "finite" Function [Mechanism, Part, Numbers] { fails: true }
+    FiniteEach "finite_each" Function [Mechanism, Data] { fails: true }
     FinitePoints "finite_points" Function [Mechanism, Part, Columns] {
+        fails: true,
         meaning: Meaning::Named(Entry::Point), is_unchanged: true
     }
     FiniteVectors "finite_vectors" Function [Mechanism, Part, Columns] {
+        fails: true,
         meaning: Meaning::Named(Entry::Point), is_unchanged: true
     }
     FiniteOutputs "finite_outputs" Function [Mechanism, Part, Numbers] {
+        fails: true,
         meaning: Meaning::Named(Entry::Output), is_unchanged: true
     }
-    FiniteMatrix "finite_matrix" Function [Mechanism, Part, Data] {}
+    FiniteMatrix "finite_matrix" Function [Mechanism, Part, Data] { fails: true }
     EachSized "each_sized" Function [Data] {}
     FiniteMatrices "finite_matrices" Function [Mechanism, Part, Columns] {
+        fails: true,
         meaning: Meaning::Named(Entry::Columns), is_unchanged: true
     }
     PointMotions "point_motions" Function [Mechanism, Columns] {
+        fails: true,
         meaning: Meaning::Named(Entry::PointMotion), is_unchanged: true
     }
     OutputMotions "output_motions" Function [Mechanism, Columns] {
+        fails: true,
         meaning: Meaning::Named(Entry::OutputMotion), is_unchanged: true
     }
     /// The mechanism at its inputs, in place of its name, so that an error names them.
     At "at" Function [Data, Numbers] {}
-    Regular "regular" Function [Mechanism, Part, Number, Number] { meaning: Meaning::Check(CheckKind::Regular, &[2, 3]) }
+    Regular "regular" Function [Mechanism, Part, Number, Number] { fails: true, meaning: Meaning::Check(CheckKind::Regular, &[2, 3]) }
     IsNonzero "is_nonzero" Function [Number, Number] { meaning: Meaning::Check(CheckKind::Regular, &[0, 1]) }
     Closes "closes" Function [Number, Number] {}
     Solvable "solvable" Function [Mechanism, Part, Number, Numbers, Numbers] {
+        fails: true,
         in_lane: in_lane(Intrinsic::IsSolvableInLane, &[2], LaneResult::Flag),
         meaning: Meaning::Check(CheckKind::Nonzero, &[2])
     }
     Reachable "reachable" Function [Mechanism, Part, Number] {
+        fails: true,
         in_lane: in_lane(Intrinsic::IsReachableInLane, &[2], LaneResult::Flag),
         meaning: Meaning::Check(CheckKind::Positive, &[2])
     }
-    Implied "implied" Function [Mechanism, Data, Numbers, Numbers] {}
-    NotNegative "not_negative::<T, _>" Function [Mechanism, Data] {}
-    ValidateStops "validate_stops" Function [Mechanism, Data] {}
-    ValidateContacts "validate_contacts" Function [Mechanism, Data] {}
+    Implied "implied" Function [Mechanism, Data, Numbers, Numbers] { fails: true }
+    NotNegative "not_negative::<T, _>" Function [Mechanism, Data] { fails: true }
+    ValidateStops "validate_stops" Function [Mechanism, Data] { fails: true }
+    ValidateContacts "validate_contacts" Function [Mechanism, Data] { fails: true }
 
     // Half chords.
     ElbowChord "elbow_chord" Function [Mechanism, Part, Data, Side] {
+        fails: true,
         cost: CHORD, finite: Finite::Checks(2),
         meaning: Meaning::Elbow { triangle: 2, side: 3, is_flagged: true }
     }
@@ -289,10 +299,12 @@ intrinsics! {
         meaning: Meaning::Elbow { triangle: 0, side: 1, is_flagged: false }
     }
     Chord "chord" Function [Mechanism, Part, Numbers, Number, Numbers, Side] {
+        fails: true,
         cost: CHORD, finite: Finite::Checks(2),
         meaning: Meaning::Chord { factors: 2, side: 5 }
     }
     ReachChord "reach_chord" Function [Mechanism, Part, Numbers, Number, Numbers, Side] {
+        fails: true,
         cost: CHORD, finite: Finite::Checks(2),
         meaning: Meaning::ReachChord { factors: 2, radius: 3, scale: 4, side: 5 }
     }
@@ -325,17 +337,17 @@ intrinsics! {
     // Groups without closed form.
     ProductOfPivots "product_of_pivots" Function [Columns] {}
     /// The factorisation of a matrix.
-    Factorization "new" Associated [Mechanism, Part, Columns, Numbers] {}
+    Factorization "new" Associated [Mechanism, Part, Columns, Numbers] { fails: true }
     Solve "solve" Method [Data, Numbers] {}
     Refined "refined" Method [Data, Data, Code] {}
-    NewtonGroup "newton_group" Function [Mechanism, Part, Numbers, Code] {}
-    Modes "modes" Method [Data, Mechanism, Part, Data, Code, Code] {}
-    ModesWithLengths "modes_with_lengths" Method [Data, Mechanism, Part, Data, Data, Code, Code] {}
-    Take "take" Method [Data, Mechanism, Part, Data] {}
+    NewtonGroup "newton_group" Function [Mechanism, Part, Numbers, Code] { fails: true }
+    Modes "modes" Method [Data, Mechanism, Part, Data, Code, Code] { fails: true }
+    ModesWithLengths "modes_with_lengths" Method [Data, Mechanism, Part, Data, Data, Code, Code] { fails: true }
+    Take "take" Method [Data, Mechanism, Part, Data] { fails: true }
 
     // Positions.
-    Newton "newton" Function [Data, Data] {}
-    NewtonAnyBranch "newton_any_branch" Function [Data, Data] {}
+    Newton "newton" Function [Data, Data] { fails: true }
+    NewtonAnyBranch "newton_any_branch" Function [Data, Data] { fails: true }
     Turns "Turns" Function [Data] { meaning: Meaning::NoTurns }
     /// The number of an angle in a turn: its principal value and whole turns.
     InTurn "number" Method [Data, Place, Number] {
@@ -344,16 +356,16 @@ intrinsics! {
     /// The value of an angle in the turn nearest to a range.
     InRange "in_range" Function [Number, Number, Number] { finite: Finite::With(0) }
     TurnsFound "turns" Method [Data] {}
-    Countable "countable" Function [Mechanism, Numbers] {}
+    Countable "countable" Function [Mechanism, Numbers] { fails: true }
     SideOf "side_of" Function [Number] {}
     SideAt "side_at" Function [Place] {}
     NumberOfMode "AssemblyMode::Number" Function [Place] {}
     Combinations "combinations" Function [Numbers, Code] {}
-    Existing "existing" Function [Data, Code] {}
-    NoClosedForm "no_closed_form" Function [Mechanism, Part] {}
-    NoList "no_list" Function [Mechanism, Part] {}
-    TooManyBranches "too_many_branches" Function [Mechanism] {}
-    Limits "limits" Function [Data, Place, Data, Data, Data, Code, Code] {}
+    Existing "existing" Function [Data, Code] { fails: true }
+    NoClosedForm "no_closed_form" Function [Mechanism, Part] { fails: true }
+    NoList "no_list" Function [Mechanism, Part] { fails: true }
+    TooManyBranches "too_many_branches" Function [Mechanism] { fails: true }
+    Limits "limits" Function [Data, Place, Data, Data, Data, Code, Code] { fails: true }
     LimitOfAngle "Bound::Angle" Function [Part, Numbers, Number] {}
     LimitOfLength "Bound::Length" Function [Part, Numbers] {}
     SearchLength "Search::Length" Function [Number] {}
@@ -372,23 +384,23 @@ intrinsics! {
     RoundedEach "rounded_each" Function [Data, Data] {}
 
     // Scenes.
-    Reduced "reduced" Function [Mechanism, Data, Columns, Numbers] {}
-    Reactions "reactions" Function [Data, Number, Data, Data] {}
-    DriveForces "drive_forces" Function [Data, Number, Data, Data] {}
-    BearingLoss "bearing_loss" Function [Data, Number, Data, Data] {}
-    EquationsAt "at" Associated [Data, Data, Data, Data, Data] {}
-    Equilibrium "equilibrium" Function [Mechanism, Numbers, Code] {}
+    Reduced "reduced" Function [Mechanism, Data, Columns, Numbers] { fails: true }
+    Reactions "reactions" Function [Data, Number, Data, Data] { fails: true }
+    DriveForces "drive_forces" Function [Data, Number, Data, Data] { fails: true }
+    BearingLoss "bearing_loss" Function [Data, Number, Data, Data] { fails: true }
+    EquationsAt "at" Associated [Data, Data, Data, Data, Data] { fails: true }
+    Equilibrium "equilibrium" Function [Mechanism, Numbers, Code] { fails: true }
 }
 
 impl Intrinsic {
     /// The form of an elementary function over lanes, if it has one of its own; and the check of the arguments for which
     /// that form has the same value.
-    pub fn in_lane_of(function: Elementary) -> Option<[Self; 2]> {
+    pub fn in_lane_of(function: ElementaryFunction) -> Option<[Self; 2]> {
         match function {
-            Elementary::Sin => Some([Self::SineInLane, Self::IsModerateInLane]),
-            Elementary::Cos => Some([Self::CosineInLane, Self::IsModerateInLane]),
-            Elementary::Atan2 => Some([Self::Arctangent2InLane, Self::HasArctangent2InLane]),
-            Elementary::Hypot => Some([Self::HypotenuseInLane, Self::HasHypotenuseInLane]),
+            ElementaryFunction::Sin => Some([Self::SineInLane, Self::IsModerateInLane]),
+            ElementaryFunction::Cos => Some([Self::CosineInLane, Self::IsModerateInLane]),
+            ElementaryFunction::Atan2 => Some([Self::Arctangent2InLane, Self::HasArctangent2InLane]),
+            ElementaryFunction::Hypot => Some([Self::HypotenuseInLane, Self::HasHypotenuseInLane]),
             _ => None,
         }
     }
@@ -396,6 +408,7 @@ impl Intrinsic {
 
 /// A constant that the program does not define.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Constant {
     /// The name of the mechanism or scene in errors.
     Name,

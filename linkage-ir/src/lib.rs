@@ -1,0 +1,14 @@
+//! The functions that compiled linkages call, each defined once for the compiler, the interpreter and the runtime.
+//!
+//! [`ElementaryFunction`] are those of mathematics, which formulas call; [`Intrinsic`] those that compiled code calls and does
+//! not define: of the runtime, of the scalar, and of emitted types. A row of a table is what every reader of the form needs to
+//! know. What only one needs stays there: derivatives in the compiler, values in the runtime.
+#![no_std]
+
+mod elementary;
+mod intrinsic;
+mod operations;
+
+pub use elementary::ElementaryFunction;
+pub use intrinsic::{CheckKind, Constant, Entry, Finite, Form, InLane, Intrinsic, LaneResult, Meaning, Role, Row};
+pub use operations::Operations;
