@@ -77,9 +77,10 @@ fn mistakes_of_calls() {
 fn another_version_is_one_message() {
     let program = Program::compile(&text_of("four_bar")).expect("it compiles");
     let text = serde_json::to_string(&program).expect("it is written");
-    let other = text.replacen("\"version\":2", "\"version\":3", 1);
+    let other = text.replacen("\"version\":3", "\"version\":2", 1);
+    assert_ne!(other, text);
     let error = serde_json::from_str::<Program>(&other).expect_err("another version").to_string();
-    assert!(error.contains("version 3") && error.contains("compile them again"), "{error}");
+    assert!(error.contains("version 2") && error.contains("compile them again"), "{error}");
 }
 
 /// Damaged files are errors, or run: to a value, an error or a defect, without a panic.

@@ -30,7 +30,7 @@ fn a_written_mechanism_answers_as_that_of_the_text() {
 fn damaged_mechanisms_are_refused() {
     let written = compiled("mechanism Crank { param r = 1; input phi; point P = r@phi; }").unwrap();
     let mut page = Page { session: Session::default(), about: Value::Null };
-    for damaged in ["", "{}", &written[..written.len() / 2], &written.replace("\"version\":2", "\"version\":1")] {
+    for damaged in ["", "{}", &written[..written.len() / 2], &written.replace("\"version\":3", "\"version\":2")] {
         let answer = page.ask(&json!({ "do": "load", "written": damaged }));
         assert!(answer["why"].is_string(), "{answer}");
     }
