@@ -83,6 +83,19 @@ fn another_version_is_one_message() {
     assert!(error.contains("version 2") && error.contains("compile them again"), "{error}");
 }
 
+/// A formula that calls a function with another number of arguments is refused.
+#[test]
+fn a_function_of_other_arguments_is_damage() {
+    let source = "mechanism Slide { input x; unknown y; equation y = exp(x); derive intervals; }";
+    let text = serde_json::to_string(&Program::compile(source).expect("it compiles")).expect("it is written");
+    for other in ["Atan2", "IfNonzero"] {
+        let damaged = text.replace("{\"Of\":[\"Exp\",", &format!("{{\"Of\":[\"{other}\","));
+        assert_ne!(damaged, text);
+        let error = serde_json::from_str::<Program>(&damaged).expect_err("damage").to_string();
+        assert!(error.contains("`Slide` is damaged") && error.contains("other arguments"), "{error}");
+    }
+}
+
 /// Damaged files are errors, or run: to a value, an error or a defect, without a panic.
 #[test]
 fn damaged_files_do_not_panic() {
