@@ -83,7 +83,7 @@ fn another_version_is_one_message() {
     assert!(error.contains("version 2") && error.contains("compile them again"), "{error}");
 }
 
-/// A formula that calls a function with another number of arguments is refused.
+/// A formula that calls a function with another number of arguments is an error of reading.
 #[test]
 fn a_function_of_other_arguments_is_damage() {
     let source = "mechanism Slide { input x; unknown y; equation y = exp(x); derive intervals; }";
