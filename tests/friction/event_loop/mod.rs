@@ -30,11 +30,11 @@
 //! The errors of the lenient numbers, in five runs, are at most ten times what a start changes that is moved by one tolerance.
 //!
 //! Sixty thousand scenes (`SCENES=60000`, 180 000 runs) leave these, which are not mended:
-//! - Two typed errors, each at one tolerance. Belt 5135: a friction slips on a belt with an acceleration of 4e-9; within rounding
-//!   errors of the time the rate of the belt changes by more than those of the rates, so that slip ends again and again. Carts
-//!   6824: two carts go on together at a stop of 0.41 m, between which the spring has no load at just this length. The force of
-//!   the stop is the rounding error of that of the spring, which no tolerance here knows, and no step is short enough for it to be
-//!   smooth.
+//! - Belt 5135 ends with an error at the tolerance 1e-11. A block begins to slip on its belt with an acceleration of 4e-9. The
+//!   rate of the belt is a function of the time. The rounding error of the time changes it by more than the block slips, so that
+//!   the block seems to stick again at once, and this repeats.
+//! - Carts 6824 end with an error at the tolerance 1e-11. Two carts go on together at a stop of 0.41 m, and the spring between them
+//!   has no load at just this length. So the force of the stop is a rounding error, which jumps in each step, however short.
 //! - Sliders 5107 differ after a block has rattled between the wall and another block some hundred times within 5e-6 s. It sticks
 //!   7.6e-15 m from the wall in the library, at the wall in the oracle, which counts 1e-13 as touching; the next impact goes
 //!   through the block to the wall, or first to the block alone.

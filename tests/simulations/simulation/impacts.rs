@@ -346,8 +346,8 @@ fn impacts_at_one_time_between_a_wall_and_a_block() {
 }
 
 /// The first of three blocks that touch strikes the wall, then the others, which go on together: a stop that is closed takes
-/// part without rebound, whether its scalar is a coordinate or a difference of two. The first impact changes the rate of the
-/// gap behind by a rounding error, by which the blocks do not part.
+/// part without rebound, whether its scalar is a coordinate or a difference of two. The impact with the
+/// wall leaves a rounding error in the rate of the gap between the other two. They stay together all the same.
 #[test]
 fn blocks_in_touch_stay_in_touch_in_all_coordinates() {
     for (m1, m2, m3, rate) in [(2.6, 1.3, 1.8, 1.4), (0.7, 0.3, 1.1, 1.0), (1.7, 0.9, 0.37, 0.3), (1.0, 1.0, 1.0, 1.3)]

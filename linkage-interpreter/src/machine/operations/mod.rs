@@ -278,7 +278,7 @@ mod tests {
     use crate::code::{Access, Expression, Returned, Shape};
     use crate::machine::Failure;
 
-    /// The intrinsics that are other expressions of compiled code.
+    /// The intrinsics that are other expressions of compiled code, and those that it does not call.
     const TRANSLATED: [Intrinsic; 14] = [
         Intrinsic::Into,
         Intrinsic::Iter,
