@@ -262,7 +262,7 @@ impl<T: Real, C: Dim> Contacts<T, C> {
             (pushed, changes) = (last.impulses, last.changes);
         }
         for (place, contact) in after.contacts.iter().enumerate() {
-            // A rate is a rounding error if it is small beside its terms before the impact, its terms after it, and its change.
+            // A rate is a rounding error if its terms before the impact, those after it, and its change are so much larger.
             let (rate, size) = contact.rate(&after.rates);
             let none =
                 is_negligible((rate, size + equations.contacts[place].rate(&equations.rates).1 + changes[place]));
