@@ -5,9 +5,8 @@ use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-use super::Function;
 use super::node::{Condition, Fault, Node, NodeId, SymbolId, node_value};
-use super::number::Number;
+use super::{Function, Number};
 use crate::budget::Budget;
 
 /// An arena of expressions.

@@ -1,9 +1,8 @@
 //! Normal form of sums and products: like terms collected, constants folded, signs inside sums.
 
-use super::Function;
 use super::arena::Graph;
 use super::node::{Condition, Fault, LARGEST_EXPONENT, Node, NodeId};
-use super::number::Number;
+use super::{Function, Number};
 
 /// Sums of more terms than this are not flattened into other sums. Otherwise n sums that each add to the previous one
 /// would have O(n^2) terms.

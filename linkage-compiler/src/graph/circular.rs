@@ -1,9 +1,8 @@
 //! Normal form of sines and cosines: signs, quarter turns and angles with rational values are evaluated.
 
-use super::Function;
 use super::arena::Graph;
 use super::node::{Node, NodeId};
-use super::number::Number;
+use super::{Function, Number};
 
 impl Graph {
     /// sin(-x) = -sin x, cos(-x) = cos x, sin(x + pi/2) = cos x, cos(x + pi/2) = -sin x.

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::Function;
 use super::arena::Graph;
 use super::node::{Node, NodeId, SymbolId};
-use super::number::Number;
+use super::{Function, Number};
 
 impl Graph {
     /// The derivatives of `roots`, where `seeds` are the derivatives of symbols.

@@ -1,10 +1,9 @@
 //! Functions of numbers: those whose values are rational, or multiples of pi, are evaluated; those without a value are
 //! faults.
 
-use super::Function;
 use super::arena::Graph;
 use super::node::{Fault, NodeId};
-use super::number::Number;
+use super::{Function, Number};
 
 impl Graph {
     /// The value of a function of numbers if it is rational or a multiple of pi.

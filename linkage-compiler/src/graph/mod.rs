@@ -11,15 +11,13 @@ mod exact;
 mod external;
 mod interpret;
 mod node;
-mod number;
 mod operations;
 mod print;
 mod replace;
 mod sweep;
 
 pub use arena::Graph;
-pub use linkage_ir::ElementaryFunction as Function;
+pub use linkage_ir::{ElementaryFunction as Function, Number};
 pub use node::{Condition, External, ExternalId, Fault, LARGEST_EXPONENT, Node, NodeId, SymbolId};
-pub use number::Number;
 pub use operations::{Exception, OPERATIONS, Operation, Place, operation, written};
 pub use print::Texts;

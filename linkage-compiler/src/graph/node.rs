@@ -1,7 +1,6 @@
 //! Nodes and their ids, faults, and the conditions that simplifications assume.
 
-use super::Function;
-use super::number::Number;
+use super::{Function, Number};
 
 /// An expression of a [`Graph`](super::Graph).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

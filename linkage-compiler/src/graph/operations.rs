@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::Number;
 use super::arena::Graph;
 use super::node::{Node, NodeId};
-use super::number::Number;
 use linkage_ir::ElementaryFunction as Function;
 
 /// The partial derivatives of `f` at `arguments`, one for each; `value` is `f(arguments)`.

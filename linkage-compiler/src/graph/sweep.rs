@@ -4,10 +4,9 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashSet;
 
-use super::Function;
 use super::arena::Graph;
 use super::node::{Node, NodeId, SymbolId};
-use super::number::Number;
+use super::{Function, Number};
 
 impl Graph {
     /// The children of a node.

@@ -6,10 +6,11 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use linkage_ir::Ratio;
 use linkage_runtime::Number;
 
 use crate::Interval;
-use crate::ratio::Ratio;
+use crate::ratio::enclosure;
 use crate::series::Series;
 
 /// A number of a formula, and the same without its jumps.
@@ -73,7 +74,7 @@ impl OnTurns {
     pub(super) fn jump(self) -> Option<Jump> {
         match self.kind {
             Kind::Constant(_) | Kind::Plain => Some(Jump::Never),
-            Kind::Turning(_, part) => Some(Jump::By((Interval::pi() + Interval::pi()) * part.enclosure())),
+            Kind::Turning(_, part) => Some(Jump::By((Interval::pi() + Interval::pi()) * enclosure(part))),
             Kind::Jumping => None,
         }
     }

@@ -7,10 +7,10 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use linkage_ir::Ratio;
 use linkage_runtime::{Certifiable, Column, Formulas, Number};
 
 use crate::Interval;
-use crate::ratio::Ratio;
 
 /// The most parameters with tolerances that may be factors of angles. Of those beyond, nothing is known.
 const MOST_FACTORS: usize = 16;
@@ -92,7 +92,7 @@ pub(super) struct Turned {
 impl Turned {
     /// A coordinate that is an angle, turned, or one that stays.
     fn coordinate(turns: i64) -> Self {
-        Self { value: None, change: Ratio::of_integer(turns).map(Factor::of) }
+        Self { value: None, change: Ratio::quotient(turns.into(), 1).map(Factor::of) }
     }
 
     fn constant(value: Option<Factor>) -> Self {

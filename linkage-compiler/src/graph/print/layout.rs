@@ -1,8 +1,8 @@
 //! Layout of formulas: sums, fractions, powers, signs and brackets.
 
+use crate::graph::Number;
 use crate::graph::arena::Graph;
 use crate::graph::node::{External, Node, NodeId};
-use crate::graph::number::Number;
 
 /// The precedence of the outermost operator of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,6 +1,9 @@
 //! Constants: exact ratios of integers, and `f64` where a ratio would overflow.
 
-use std::fmt;
+use core::fmt;
+use core::hash::{Hash, Hasher};
+
+use crate::Ratio;
 
 /// A constant: an exact ratio in lowest terms with a positive denominator, or a float.
 ///
@@ -31,16 +34,25 @@ impl Number {
     /// `numerator / denominator` in lowest terms; a zero denominator gives a non-finite float.
     #[must_use]
     pub fn ratio(numerator: i128, denominator: i128) -> Self {
-        if denominator == 0 {
-            return Self::Float(numerator as f64 / 0.0);
-        }
-        let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
-        let sign = denominator.signum();
-        let (n, d) = (sign * (numerator / divisor), sign * (denominator / divisor));
-        match (i64::try_from(n), i64::try_from(d)) {
+        let exact = Ratio::quotient(numerator, denominator).and_then(Self::exactly);
+        exact.unwrap_or(Self::Float(numerator as f64 / denominator as f64))
+    }
+
+    /// A ratio, or a float if it would overflow; `None` beyond 127 bits.
+    fn exactly(ratio: Ratio) -> Option<Self> {
+        let [numerator, denominator] = ratio.integers()?;
+        Some(match (i64::try_from(numerator), i64::try_from(denominator)) {
             // i64::MIN has no absolute value in i64, so it becomes a float.
             (Ok(n), Ok(d)) if n != i64::MIN => Self::Ratio(n, d),
-            _ => Self::Float(n as f64 / d as f64),
+            _ => Self::Float(numerator as f64 / denominator as f64),
+        })
+    }
+
+    /// `None` of a float.
+    fn as_ratio(self) -> Option<Ratio> {
+        match self {
+            Self::Ratio(n, d) => Ratio::coprime(n.into(), d.into(), 0),
+            Self::Float(_) => None,
         }
     }
 
@@ -68,7 +80,13 @@ impl Number {
         let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
         let digits = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
         let scale = 10_i128.checked_pow(digits.unsigned_abs())?;
-        let integer: i128 = format!("{whole}{fraction}").parse().ok()?;
+        let (sign, whole) = match whole.strip_prefix('-') {
+            Some(whole) => (-1, whole),
+            None => (1, whole.strip_prefix('+').unwrap_or(whole)),
+        };
+        let integer = whole.chars().chain(fraction.chars()).try_fold(0_i128, |integer, digit| {
+            integer.checked_mul(10)?.checked_add(sign * i128::from(digit.to_digit(10)?))
+        })?;
         let (n, d) = if digits < 0 { (integer, scale) } else { (integer.checked_mul(scale)?, 1) };
         match Self::ratio(n, d) {
             Self::Ratio(n, d) if exact_in_f64(n) && exact_in_f64(d) => Some(Self::Ratio(n, d)),
@@ -133,14 +151,11 @@ impl Number {
         match (self, other) {
             // Fast path: most sums have a zero.
             (sum @ Self::Ratio(..), Self::Ratio(0, _)) | (Self::Ratio(0, _), sum @ Self::Ratio(..)) => sum,
-            (Self::Ratio(a, b), Self::Ratio(c, d)) => {
-                let (a, b, c, d) = (i128::from(a), i128::from(b), i128::from(c), i128::from(d));
-                match (a * d).checked_add(c * b) {
-                    Some(numerator) => Self::ratio(numerator, b * d),
-                    None => Self::Float(self.to_f64() + other.to_f64()),
-                }
+            _ => {
+                let exact = self.as_ratio().zip(other.as_ratio()).and_then(|(one, other)| one.plus(other));
+                let sum = || Self::Float(self.to_f64() + other.to_f64());
+                exact.and_then(Self::exactly).unwrap_or_else(sum)
             }
-            _ => Self::Float(self.to_f64() + other.to_f64()),
         }
     }
 
@@ -150,10 +165,11 @@ impl Number {
             // Fast path: most factors are 1 or -1.
             (Self::Ratio(1, 1), factor) | (factor, Self::Ratio(1, 1)) => factor,
             (Self::Ratio(-1, 1), factor) | (factor, Self::Ratio(-1, 1)) => factor.negate(),
-            (Self::Ratio(a, b), Self::Ratio(c, d)) => {
-                Self::ratio(i128::from(a) * i128::from(c), i128::from(b) * i128::from(d))
+            _ => {
+                let exact = self.as_ratio().zip(other.as_ratio()).and_then(|(one, other)| one.times(other));
+                let product = || Self::float(self.to_f64() * other.to_f64(), self.is_zero() || other.is_zero());
+                exact.and_then(Self::exactly).unwrap_or_else(product)
             }
-            _ => Self::float(self.to_f64() * other.to_f64(), self.is_zero() || other.is_zero()),
         }
     }
 
@@ -176,18 +192,9 @@ impl Number {
         if exponent == 1 || self.is_one() {
             return self;
         }
-        let exact = match self {
-            Self::Ratio(n, d) => {
-                let (n, d) = if exponent < 0 { (d, n) } else { (n, d) };
-                let power = |base: i64| i128::from(base).checked_pow(exponent.unsigned_abs());
-                power(n).zip(power(d))
-            }
-            Self::Float(_) => None,
-        };
-        match exact {
-            Some((n, d)) => Self::ratio(n, d),
-            None => Self::float(self.to_f64().powi(exponent), self.is_zero()),
-        }
+        let exact = self.as_ratio().and_then(|ratio| ratio.power(exponent));
+        let power = || Self::float(float_power(self.to_f64(), exponent), self.is_zero());
+        exact.and_then(Self::exactly).unwrap_or_else(power)
     }
 }
 
@@ -195,11 +202,17 @@ fn exact_in_f64(value: i64) -> bool {
     i128::from(value).abs() >> value.trailing_zeros().min(63) <= EXACT_IN_F64
 }
 
-fn gcd(mut a: u128, mut b: u128) -> i128 {
-    while b != 0 {
-        (a, b) = (b, a % b);
+/// `f64::powi`, which `core` does not have, and whose bits Rust leaves open.
+fn float_power(mut base: f64, exponent: i32) -> f64 {
+    let (mut power, mut left) = (1.0, exponent.unsigned_abs());
+    while left > 0 {
+        if left & 1 == 1 {
+            power *= base;
+        }
+        base *= base;
+        left >>= 1;
     }
-    i128::try_from(a).unwrap_or(1).max(1)
+    if exponent < 0 { 1.0 / power } else { power }
 }
 
 // Floats are compared by bits, so that numbers can be keys of hash maps.
@@ -211,8 +224,8 @@ impl PartialEq for Number {
 
 impl Eq for Number {}
 
-impl std::hash::Hash for Number {
-    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+impl Hash for Number {
+    fn hash<H: Hasher>(&self, state: &mut H) {
         self.key().hash(state);
     }
 }
@@ -238,6 +251,8 @@ impl fmt::Display for Number {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use super::*;
 
     #[test]
@@ -249,6 +264,7 @@ mod tests {
         assert_eq!(tiny.plus(Number::ratio(1, i128::from(i64::MAX - 1))).to_f64(), 2.0 / i64::MAX as f64);
         assert_eq!(Number::integer(3).power(60), Number::Float(3_f64.powi(60)));
         assert!(!Number::ZERO.power(-1).is_finite());
+        assert_eq!(Number::integer(-2).power(-127), Number::Float(-1.0 / (1_u128 << 127) as f64));
     }
 
     #[test]
