@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use linkage_compiler::Lowered;
 use linkage_compiler::derivation::Derivation;
+use linkage_compiler::emit::Declared;
 use linkage_compiler::graph::NodeId;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::model::{Kind, Measure, Name, OutputAngle, Request, output_angles};
@@ -81,7 +82,7 @@ impl Group {
 
 impl About {
     fn of(lowered: Lowered) -> Self {
-        let (mechanism, driver) = (lowered.program.signatures.mechanism, lowered.program.signatures.driver);
+        let Declared { mechanism, driver } = lowered.declared;
         let named = |name: &Name| Named { text: name.text.clone(), field: name.field.clone() };
         let coordinate = |id: &CoordinateId| {
             let of = &mechanism.coordinates[*id];

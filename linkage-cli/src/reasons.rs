@@ -2,6 +2,7 @@
 
 use linkage_compiler::Lowered;
 use linkage_compiler::derivation::Reach;
+use linkage_compiler::emit::Declared;
 use linkage_dynamics::MotionError;
 use linkage_interpreter::{CallError, Data, Error, Words};
 use linkage_report::table::Cause;
@@ -19,7 +20,7 @@ pub struct Reasons {
 
 impl Reasons {
     pub fn of(lowered: &Lowered<'_>, angles: Vec<String>) -> Self {
-        let (mechanism, driver) = (lowered.program.signatures.mechanism, lowered.program.signatures.driver);
+        let Declared { mechanism, driver } = lowered.declared;
         let sides = lowered.program.position.sides.iter().map(|side| {
             let [_, negative] = side.choice.variants();
             (side.field.clone(), negative.to_owned())

@@ -23,7 +23,8 @@ impl AboutScene {
     /// The scenes of a driver.
     pub fn all(lowered: &Lowered<'_>) -> Vec<Self> {
         let of = |scene: &SceneProgram<Code>| {
-            let (mechanism, scene) = (scene.signatures.mechanism, scene.signatures.scene);
+            let mechanism = lowered.declared.mechanism;
+            let scene = &mechanism.scenes[scene.signatures.id];
             let parameters = || scene.parameters.iter().map(|id| &mechanism.scene_parameters[*id]);
             Self {
                 name: scene.name.to_string(),

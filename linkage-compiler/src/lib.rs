@@ -33,6 +33,7 @@ use budget::{Budget, Spent};
 use derivation::Derivation;
 use diagnostics::Diagnostics;
 use document::{Document, SceneDocument, SheetDocument};
+use emit::Declared;
 pub use facade::Facade;
 use lower::Code;
 use model::{Driver, Mechanism};
@@ -115,7 +116,7 @@ impl Checked {
 
 /// The items of a mechanism: complete, or after mistakes those of a stub.
 fn emitted(checked: &mut Checked, root: &TokenStream) -> TokenStream {
-    let drivers = checked.drivers(|of| emit::driver(&of.program, Some(&of.derivation), root));
+    let drivers = checked.drivers(|of| emit::driver(of.declared, &of.program, Some(&of.derivation), root));
     let mechanism = &checked.mechanism;
     match drivers {
         Some(drivers) => emit::mechanism(mechanism, drivers, root),
@@ -126,9 +127,10 @@ fn emitted(checked: &mut Checked, root: &TokenStream) -> TokenStream {
 
 /// A driver with its mathematics and its functions: what all stages but the printers make of it.
 pub struct Lowered<'m> {
+    pub declared: Declared<'m>,
     pub derivation: Derivation,
-    /// Its functions as operations; `signatures` has the mechanism and the driver.
-    pub program: Program<'m, Code>,
+    /// Its functions as operations.
+    pub program: Program<Code>,
 }
 
 /// Derives, checks, plans and lowers one driver; `None` after a mistake.
@@ -155,7 +157,7 @@ fn lowered<'m>(
         }
     };
     derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
-    Ok(Some(Lowered { derivation, program }))
+    Ok(Some(Lowered { declared: Declared { mechanism, driver }, derivation, program }))
 }
 
 /// Applies a function to each driver, one after the other to limit memory; `None` after a mistake.
@@ -217,10 +219,10 @@ pub struct Expansion {
 /// The messages of mistakes that appear in derivatives, or that of a spent budget.
 pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Result<Expansion, Vec<String>> {
     let (mut nodes, mut operations) = (0, Operations::default());
-    let drivers = each_driver(mechanism, |Lowered { derivation, program }| {
+    let drivers = each_driver(mechanism, |Lowered { declared, derivation, program }| {
         nodes += derivation.graph.len();
         operations = operations.plus(emit::operations(&program));
-        emit::driver(&program, Some(&derivation), root)
+        emit::driver(declared, &program, Some(&derivation), root)
     })?;
     Ok(Expansion { tokens: emit::mechanism(mechanism, drivers, root), nodes, operations })
 }
@@ -246,7 +248,7 @@ pub fn programs(mechanism: &Mechanism) -> Result<Vec<String>, Vec<String>> {
 /// As [`compile`].
 pub fn documents(mechanism: &Mechanism) -> Result<(Vec<Document>, Vec<SceneDocument>), Vec<String>> {
     let (documents, scenes): (Vec<_>, Vec<_>) =
-        each_driver(mechanism, |of| emit::documents(&of.program, &of.derivation))?.into_iter().unzip();
+        each_driver(mechanism, |of| emit::documents(of.declared, &of.program, &of.derivation))?.into_iter().unzip();
     Ok((documents.into_iter().flatten().collect(), scenes.into_iter().flatten().collect()))
 }
 
@@ -255,11 +257,11 @@ pub fn documents(mechanism: &Mechanism) -> Result<(Vec<Document>, Vec<SceneDocum
 /// # Errors
 /// As [`compile`], and the names of unknowns that are solved together without formulas.
 pub fn sheets(mechanism: &Mechanism) -> Result<Vec<SheetDocument>, Vec<String>> {
-    let of_driver = |Lowered { derivation, program }: Lowered<'_>| {
+    let of_driver = |Lowered { declared, derivation, .. }: Lowered<'_>| {
         let without = derivation.groups.iter().find(|group| group.determinant.is_none());
         match without {
             Some(group) => Err(vec![group.names(&derivation)]),
-            None => Ok(document::of_sheet(mechanism, program.signatures.driver, &derivation)),
+            None => Ok(document::of_sheet(mechanism, declared.driver, &derivation)),
         }
     };
     each_driver(mechanism, of_driver)?.into_iter().collect()
@@ -281,14 +283,14 @@ pub struct Bounds {
 /// # Errors
 /// As [`compile`].
 pub fn bounds(mechanism: &Mechanism) -> Result<Vec<Bounds>, Vec<String>> {
-    each_driver(mechanism, |Lowered { derivation, program }| {
+    each_driver(mechanism, |Lowered { derivation, program, .. }| {
         let name = |symbol| derivation.graph.symbol_name(symbol).to_owned();
         let bounds = program.functions.iter().filter_map(|function| {
             let bound = function.body.as_ref()?.bound.clone()?;
             Some((function.name.clone(), bound))
         });
         Bounds {
-            driver: program.signatures.driver.name.to_string(),
+            driver: program.signatures.driver.clone(),
             parameters: mechanism.parameters.iter().map(|parameter| name(parameter.symbol)).collect(),
             coordinates: derivation
                 .coordinates

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use linkage_compiler::Lowered;
 use linkage_compiler::derivation;
-use linkage_compiler::graph::Graph;
 use linkage_compiler::ids::{FunctionId, Table};
 use linkage_compiler::lower::Code;
-use linkage_compiler::model::{self, Kind, Load, LoadKind};
-use linkage_compiler::program::{self, ConstantValue, Implemented, MULTIPLIERS, Program, SceneProgram, TypeNames};
+use linkage_compiler::program::{
+    self, ConstantValue, Family, Implemented, MULTIPLIERS, Program, SceneProgram, TypeNames,
+};
 
 use crate::code::{Function, Name, Names};
 use crate::program::{
@@ -20,13 +20,8 @@ use crate::translate::{Context, Untranslated, formulas};
 /// The driver with its scenes.
 pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
     let Program { signatures, position, functions, implementations, scenes, .. } = &lowered.program;
-    let (mechanism, of, types) = (signatures.mechanism, signatures.driver, &signatures.types);
+    let types = &signatures.types;
     let mut names = Names::default();
-    let field = |name: &model::Name| name.field.clone();
-    let coordinates = mechanism.coordinate_order(of);
-    let named = |indices: &mut dyn Iterator<Item = &linkage_compiler::ids::CoordinateId>| -> Vec<String> {
-        indices.map(|&index| field(&mechanism.coordinates[index].name)).collect()
-    };
     let implementation = |of: Implemented, on: &str| {
         implementations.iter().find(move |one| one.of == of && one.on == on).map(|one| one.functions.as_slice())
     };
@@ -35,13 +30,13 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
     let listed = places(functions);
     let context = Context {
         types,
-        points: mechanism.points.iter().map(|point| field(&point.name)).collect(),
-        outputs: mechanism.outputs.iter().map(|output| field(&output.name)).collect(),
+        points: Family::Points.names(signatures),
+        outputs: Family::Outputs.names(signatures),
         own: listed.clone(),
         of_driver: listed,
         of_pose: of_pose.iter().map(|function| function.name.clone()).collect(),
         of_branch: of_branch.iter().map(|function| function.name.clone()).collect(),
-        users: mechanism.externals.iter().enumerate().map(|(place, external)| (external.id, place)).collect(),
+        users: signatures.user_functions.iter().enumerate().map(|(place, function)| (function.id, place)).collect(),
     };
     let traits = implementations.iter().filter(|one| one.of != Implemented::Itself);
     let traits = traits.map(|one| implemented(one, &context, &mut names)).collect::<Result<_, _>>()?;
@@ -51,25 +46,26 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
     let (of_pose, of_branch) = (all(of_pose, &mut names)?, all(of_branch, &mut names)?);
     let own = listed_functions(functions, &context, &mut names)?;
     let scenes = scenes.iter().map(|one| scene(one, &context, &mut names)).collect::<Result<_, _>>()?;
-    let mut numbers = |texts: Vec<String>| texts.iter().map(|text| names.of(text)).collect::<Vec<Name>>();
-    let fields = coordinates.iter().map(|&index| &mechanism.coordinates[index]);
-    let (points, outputs) = (context.points.clone(), context.outputs.clone());
+    let mut numbers =
+        |of: &mut dyn Iterator<Item = &program::Name>| of.map(|name| names.of(&name.field)).collect::<Vec<Name>>();
     Ok(Driver {
-        mechanism: mechanism.name.to_string(),
-        name: of.name.to_string().into(),
-        parameters: numbers(mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect()),
-        about_parameters: mechanism.parameters.iter().map(|of| parameter(&mechanism.graph, of)).collect(),
-        about_coordinates: fields
-            .map(|of| Coordinate { text: of.name.text.clone(), is_angle: of.kind == Kind::Angle })
+        mechanism: signatures.mechanism.clone(),
+        name: signatures.driver.as_str().into(),
+        parameters: numbers(&mut signatures.parameters.iter().map(|parameter| &parameter.name)),
+        about_parameters: signatures.parameters.iter().map(parameter).collect(),
+        about_coordinates: signatures
+            .coordinates
+            .iter()
+            .map(|of| Coordinate { text: of.name.text.clone(), is_angle: of.is_angle })
             .collect(),
-        input_texts: of.inputs.iter().map(|&id| mechanism.coordinates[id].name.text.as_str().into()).collect(),
-        input_angles: of.inputs.iter().map(|&id| mechanism.coordinates[id].kind == Kind::Angle).collect(),
-        coordinates: numbers(named(&mut coordinates.iter())),
-        unknowns: numbers(named(&mut of.unknowns.iter())),
-        inputs: numbers(named(&mut of.inputs.iter())),
-        points: numbers(points),
-        outputs: numbers(outputs),
-        turns: numbers(position.turns_of_branch().iter().map(|turn| turn.field.clone()).collect()),
+        input_texts: signatures.inputs.iter().map(|of| of.name.text.as_str().into()).collect(),
+        input_angles: signatures.inputs.iter().map(|of| of.is_angle).collect(),
+        coordinates: numbers(&mut signatures.coordinates.iter().map(|of| &of.name)),
+        unknowns: numbers(&mut signatures.unknowns.iter().map(|of| &of.name)),
+        inputs: numbers(&mut signatures.inputs.iter().map(|of| &of.name)),
+        points: numbers(&mut signatures.points.iter()),
+        outputs: numbers(&mut signatures.outputs.iter()),
+        turns: position.turns_of_branch().iter().map(|turn| names.of(&turn.field)).collect(),
         sides: position
             .sides
             .iter()
@@ -80,13 +76,10 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
             })
             .collect(),
         modes: position.modes.iter().map(|modes| (names.of(&modes.field), modes.most)).collect(),
-        users: mechanism
-            .externals
+        users: signatures
+            .user_functions
             .iter()
-            .map(|external| UserFunction {
-                names: external.names.iter().map(|name| name.text.clone()).collect(),
-                arguments: external.arguments.len(),
-            })
+            .map(|of| UserFunction { names: of.names.clone(), arguments: of.arguments })
             .collect(),
         types: type_names(types, &mut names),
         functions: own,
@@ -115,11 +108,8 @@ fn type_names(types: &TypeNames, names: &mut Names) -> Types {
     }
 }
 
-fn parameter(graph: &Graph, of: &model::Parameter) -> Parameter {
-    let default = of.default.and_then(|node| {
-        graph.as_number(node).map(linkage_compiler::graph::Number::to_f64).or_else(|| graph.constant_value(node))
-    });
-    Parameter { text: of.name.text.clone(), default }
+fn parameter(of: &program::Parameter) -> Parameter {
+    Parameter { text: of.name.text.clone(), default: of.default }
 }
 
 /// The columns of many positions.
@@ -139,12 +129,8 @@ fn lanes(implementations: &[program::Implementation<Code>]) -> Lanes {
 }
 
 /// A joint whose force is shown.
-fn joint(place: usize, of: &Load) -> Joint {
-    let (at, on) = match &of.kind {
-        LoadKind::Pin { joint, link } => (Some(joint.clone()), link.clone()),
-        LoadKind::Guide { block, .. } => (None, block.clone()),
-    };
-    Joint { name: of.field.clone(), at, on, place }
+fn joint(of: &program::Joint) -> Joint {
+    Joint { name: of.name.clone(), at: of.at.clone(), on: of.on.clone(), place: of.place }
 }
 
 /// The names as written, the groups, and the drawing.
@@ -225,33 +211,30 @@ fn scene(of: &SceneProgram<Code>, driver: &Context, names: &mut Names) -> Result
         of_branch: driver.of_branch.clone(),
         users: driver.users.clone(),
     };
-    let parameters = signatures.scene.parameters.iter().map(|&id| &signatures.mechanism.scene_parameters[id]);
-    let parameters: Vec<&model::Parameter> = parameters.collect();
-    let loads = signatures.scene.loads.iter().map(|&place| (place, &signatures.mechanism.opened.loads[place]));
     let constants = implementation.iter().flat_map(|one| &one.constants);
     let kinks =
         constants.clone().find_map(|(_, value)| if let ConstantValue::Kinks(all) = value { Some(all) } else { None });
     let kink = |of: &program::Kink| Kink { effect: of.effect.clone(), is_timed: of.is_timed };
     let mut forces: Vec<(Name, Option<usize>)> = Vec::new();
-    for (_, load) in loads.clone() {
-        let length = matches!(load.kind, LoadKind::Pin { .. }).then_some(2);
-        forces.extend(load.fields().iter().map(|field| (names.of(field), length)));
+    for joint in &signatures.joints {
+        let length = joint.at.as_ref().map(|_| 2);
+        forces.extend(joint.fields.iter().map(|field| (names.of(field), length)));
     }
     if signatures.has_multipliers() {
         forces.push((names.of(MULTIPLIERS), Some(signatures.dependent.len())));
     }
     Ok(Scene {
-        name: signatures.scene.name.to_string().into(),
+        name: signatures.scene.as_str().into(),
         types: SceneTypes { scene: names.of(&signatures.types.itself), state: names.of("StateParts") },
         field: names.of(&signatures.field),
-        parameters: parameters.iter().map(|parameter| names.of(&parameter.name.field)).collect(),
-        about_parameters: parameters.iter().map(|of| parameter(&signatures.mechanism.graph, of)).collect(),
+        parameters: signatures.parameters.iter().map(|parameter| names.of(&parameter.name.field)).collect(),
+        about_parameters: signatures.parameters.iter().map(parameter).collect(),
         functions: listed_functions(functions, &context, names)?,
         implementation: implementation.as_ref().map(|one| implemented(one, &context, names)).transpose()?,
-        contacts: signatures.scene.contacts.len(),
+        contacts: signatures.contacts.len(),
         has_bearings: signatures.count_bearings() > 0,
         kinks: kinks.into_iter().flatten().map(kink).collect(),
-        joints: loads.map(|(place, load)| joint(place, load)).collect(),
+        joints: signatures.joints.iter().map(joint).collect(),
         forces,
     })
 }

@@ -1,7 +1,7 @@
 //! The documents of a driver: its derivation, the analysis by hand where formulas for it exist, and its scenes.
 
 use linkage_compiler::document::{self, Document, SceneDocument, SheetDocument};
-use linkage_compiler::graph::Number;
+use linkage_compiler::emit::Declared;
 use linkage_compiler::{Lowered, emit};
 use linkage_report::sheet::Sheet;
 use linkage_runtime::derivation::Derivation;
@@ -28,17 +28,13 @@ impl Documents {
     /// The documents of a driver.
     #[must_use]
     pub fn of(of: &Lowered<'_>) -> Self {
-        let (driver, scenes) = emit::documents(&of.program, &of.derivation);
-        let signatures = &of.program.signatures;
+        let (driver, scenes) = emit::documents(of.declared, &of.program, &of.derivation);
+        let Declared { mechanism, driver: declared } = of.declared;
         let has_formulas = of.derivation.groups.iter().all(|group| group.determinant.is_some());
-        let by_hand = has_formulas.then(|| document::of_sheet(signatures.mechanism, signatures.driver, &of.derivation));
-        let graph = &signatures.mechanism.graph;
-        let defaults = signatures.mechanism.parameters.iter().filter_map(|parameter| {
-            let node = parameter.default?;
-            let value = graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node))?;
-            Some((parameter.name.text.clone(), value))
-        });
-        let about = paragraphs(&signatures.mechanism.documentation());
+        let by_hand = has_formulas.then(|| document::of_sheet(mechanism, declared, &of.derivation));
+        let parameters = of.program.signatures.parameters.iter();
+        let defaults = parameters.filter_map(|parameter| Some((parameter.name.text.clone(), parameter.default?)));
+        let about = paragraphs(&mechanism.documentation());
         Self { driver, by_hand, scenes, defaults: defaults.collect(), about }
     }
 

@@ -1,11 +1,12 @@
 //! Texts: their mechanisms, or their mistakes with the places that editors count.
 
 use linkage_compiler::derivation::Reach;
+use linkage_compiler::emit::Declared;
 use linkage_compiler::graph::Number;
 use linkage_compiler::ids::CoordinateId;
 use linkage_compiler::lower::Code;
 use linkage_compiler::model::VECTOR_FUNCTIONS;
-use linkage_compiler::model::{Kind, Measure, Mechanism, Parameter as Declared, Request, output_angles};
+use linkage_compiler::model::{self, Kind, Measure, Mechanism, Request, output_angles};
 use linkage_compiler::program::SceneProgram;
 use linkage_compiler::syntax::{EFFECTS, KEYWORDS, PROPERTIES};
 
@@ -55,7 +56,7 @@ pub fn words() -> Words {
 pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
     let compiled = Program::compile_with_within(text, MOST_STEPS, &[Request::Drawing], |lowered| {
         let documents = Documents::of(&lowered);
-        let (mechanism, driver) = (lowered.program.signatures.mechanism, lowered.program.signatures.driver);
+        let Declared { mechanism, driver } = lowered.declared;
         let reach = Reach::of(mechanism, driver, &lowered.derivation);
         (About { paragraphs: documents.about().to_vec(), ..about(&lowered) }, documents, reach)
     });
@@ -101,7 +102,7 @@ fn mistake(text: &str, message: &Message) -> Mistake {
 
 /// The names of a mechanism.
 fn about(lowered: &Lowered<'_>) -> About {
-    let (mechanism, driver) = (lowered.program.signatures.mechanism, lowered.program.signatures.driver);
+    let Declared { mechanism, driver } = lowered.declared;
     let coordinate = |id: &CoordinateId| {
         let of = &mechanism.coordinates[*id];
         Quantity { name: of.name.text.clone(), is_angle: of.kind == Kind::Angle }
@@ -121,18 +122,18 @@ fn about(lowered: &Lowered<'_>) -> About {
         points: mechanism.points.iter().map(|point| point.name.text.clone()).collect(),
         outputs: outputs.collect(),
         jumps: angles.iter().map(|angle| angle.and_then(|angle| angle.jump)).collect(),
-        scenes: lowered.program.scenes.iter().map(scene).collect(),
+        scenes: lowered.program.scenes.iter().map(|of| scene(mechanism, of)).collect(),
         refusal,
     }
 }
 
-fn scene(of: &SceneProgram<Code>) -> Scene {
-    let (mechanism, scene) = (of.signatures.mechanism, of.signatures.scene);
+fn scene(mechanism: &Mechanism, of: &SceneProgram<Code>) -> Scene {
+    let scene = &mechanism.scenes[of.signatures.id];
     let parameters = scene.parameters.iter().map(|id| parameter(mechanism, &mechanism.scene_parameters[*id]));
     Scene { name: scene.name.to_string(), parameters: parameters.collect(), simulates: scene.inertia.is_some() }
 }
 
-fn parameter(mechanism: &Mechanism, of: &Declared) -> Parameter {
+fn parameter(mechanism: &Mechanism, of: &model::Parameter) -> Parameter {
     let graph = &mechanism.graph;
     let default =
         of.default.and_then(|node| graph.as_number(node).map(Number::to_f64).or_else(|| graph.constant_value(node)));
@@ -150,7 +151,7 @@ pub fn rust(text: &str, driver: &str) -> Result<String, Refusal> {
     let root = quote!(::linkage);
     let budget = linkage_compiler::budget::Budget::new(MOST_STEPS);
     let compiled = linkage_compiler::text::compile(text, &budget, |of| {
-        (of.program.signatures.driver.name.to_string(), emit::driver(&of.program, Some(&of.derivation), &root))
+        (of.program.signatures.driver.clone(), emit::driver(of.declared, &of.program, Some(&of.derivation), &root))
     });
     let compiled = compiled.map_err(|_| Refusal::new("the text has mistakes"))?;
     let of = compiled.into_iter().find(|of| of.drivers.iter().any(|(name, _)| name == driver));

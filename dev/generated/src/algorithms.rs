@@ -24,7 +24,7 @@ impl Values<'_, '_> {
         };
         all.extend(self.program.scenes.iter().filter(is_moving).map(|scene| {
             let make = Self::scene_function(scene);
-            let title = format!("{}: {}", self.file, scene.signatures.scene.name);
+            let title = format!("{}: {}", self.file, scene.signatures.scene);
             quote! {
                 (#title, |t, s| {
                     let m = crate::called::#own::#make(s);

@@ -44,9 +44,9 @@ impl Values<'_, '_> {
         let design = quote!(let m = #own::#make(n); let of = &m.#field;);
         let functions = scene.functions.iter().filter(|function| function.access.is_public());
         let functions = functions.map(|function| self.call(function, &design));
-        let count = self.mechanism.parameters.len() + scene.signatures.scene.parameters.len();
-        let [mechanism, name, scene] =
-            [&self.mechanism.name, &self.driver.name, &scene.signatures.scene.name].map(ToString::to_string);
+        let count = self.mechanism.parameters.len() + scene.signatures.parameters.len();
+        let signatures = &self.program.signatures;
+        let (mechanism, name, scene) = (&signatures.mechanism, &signatures.driver, &scene.signatures.scene);
         let file = self.file;
         quote! {
             Called {

@@ -45,7 +45,7 @@ fn of_scene(scene: &SceneProgram<Code>) -> Vec<TokenStream> {
     let signatures = &scene.signatures;
     let types = &signatures.types;
     let (name, of, driver) = (&types.itself, over_scalar(&types.itself), over_scalar(&types.driver));
-    let parameters = signatures.scene.parameters.iter().map(|_| quote!(T));
+    let parameters = signatures.parameters.iter().map(|_| quote!(T));
     let arguments = [driver.clone()].into_iter().chain(parameters).collect();
     let mut all: Vec<TokenStream> = constructor(name, &of, arguments).into_iter().chain([map(name, &of)]).collect();
     if scene.implementation.as_ref().is_some_and(|one| one.of == Implemented::Scene) {

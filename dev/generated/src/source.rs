@@ -136,7 +136,7 @@ impl Source {
     pub fn calls(&self, module: &TokenStream) -> Calls {
         let mut all = Calls::default();
         self.each(|of| {
-            let values = Values::new(&self.file, module, &of.program);
+            let values = Values::new(&self.file, module, of.declared, &of.program);
             all.types.extend(values.calls());
             all.values.extend(values.module());
             all.algorithms.extend(values.algorithms());
@@ -159,6 +159,9 @@ impl Source {
 
     fn wrapped(&self, wrappers: impl Fn(&Values<'_, '_>) -> Vec<TokenStream>) -> Vec<TokenStream> {
         let module = TokenStream::new();
-        self.each(|of| wrappers(&Values::new(&self.file, &module, &of.program))).into_iter().flatten().collect()
+        self.each(|of| wrappers(&Values::new(&self.file, &module, of.declared, &of.program)))
+            .into_iter()
+            .flatten()
+            .collect()
     }
 }

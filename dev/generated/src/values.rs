@@ -1,9 +1,11 @@
 //! Values of the types of a mechanism, made of numbers that are asked for one after the other.
 
-use linkage_compiler::ids::CoordinateId;
+use linkage_compiler::emit::Declared;
 use linkage_compiler::lower::Code;
-use linkage_compiler::model::{Driver, Mechanism, Parameter};
-use linkage_compiler::program::{Argument, Passed, Position, Program, SceneProgram, Type, TypeNames};
+use linkage_compiler::model::{Driver, Mechanism};
+use linkage_compiler::program::{
+    Argument, Coordinate, Parameter, Passed, Position, Program, SceneProgram, Type, TypeNames,
+};
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -15,7 +17,7 @@ pub struct Values<'p, 'm> {
     pub file: &'p str,
     /// The module with the types.
     path: &'p TokenStream,
-    pub program: &'p Program<'m, Code>,
+    pub program: &'p Program<Code>,
     pub mechanism: &'m Mechanism,
     pub driver: &'m Driver,
     types: &'p TypeNames,
@@ -23,8 +25,8 @@ pub struct Values<'p, 'm> {
 }
 
 impl<'p, 'm> Values<'p, 'm> {
-    pub fn new(file: &'p str, path: &'p TokenStream, program: &'p Program<'m, Code>) -> Self {
-        let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
+    pub fn new(file: &'p str, path: &'p TokenStream, of: Declared<'m>, program: &'p Program<Code>) -> Self {
+        let Declared { mechanism, driver } = of;
         Self { file, path, program, mechanism, driver, types: &program.signatures.types, position: &program.position }
     }
 
@@ -59,8 +61,8 @@ impl<'p, 'm> Values<'p, 'm> {
     /// `design(n)`, a mechanism.
     fn design(&self) -> TokenStream {
         let path = self.path(&self.driver.name.to_string());
-        let members = numbers(self.mechanism.parameters.iter());
-        let value = match self.mechanism.parameters.len() {
+        let members = numbers(&self.program.signatures.parameters);
+        let value = match self.program.signatures.parameters.len() {
             0 => quote!(#path::<f64>::default()),
             _ if self.has_defaults() => quote!(let usual = #path::<f64>::default(); #path::<f64> { #members }),
             _ => quote!(#path::<f64> { #members }),
@@ -69,21 +71,21 @@ impl<'p, 'm> Values<'p, 'm> {
     }
 
     fn has_defaults(&self) -> bool {
-        self.mechanism.parameters.iter().all(|parameter| parameter.default.is_some())
+        has_defaults(&self.program.signatures.parameters)
     }
 
     /// The name of the function that makes a scene.
     pub fn scene_function(scene: &SceneProgram<Code>) -> Ident {
-        format_ident!("scene_{}", scene.signatures.scene.name.to_string())
+        format_ident!("scene_{}", scene.signatures.scene)
     }
 
     fn scene(&self, scene: &SceneProgram<Code>) -> TokenStream {
-        let path = self.path(&scene.signatures.scene.name.to_string());
+        let path = self.path(&scene.signatures.scene);
         let (function, field) = (Self::scene_function(scene), ident(&scene.signatures.field));
-        let parameters = scene.signatures.scene.parameters.iter().map(|&id| &self.mechanism.scene_parameters[id]);
-        let has_defaults = self.has_defaults() && parameters.clone().all(|parameter| parameter.default.is_some());
+        let parameters = &scene.signatures.parameters;
+        let has_defaults = self.has_defaults() && has_defaults(parameters);
         let usual = has_defaults.then(|| quote!(let usual = #path::<f64>::default();));
-        let members: TokenStream = parameters.map(|parameter| number(parameter, has_defaults)).collect();
+        let members: TokenStream = parameters.iter().map(|parameter| number(parameter, has_defaults)).collect();
         quote! {
             pub fn #function(n: &mut dyn Numbers) -> #path<f64> {
                 #usual
@@ -133,7 +135,7 @@ impl<'p, 'm> Values<'p, 'm> {
         let types = self.types;
         match of {
             Type::Scalar => quote!(n.number()),
-            Type::Own(name) if *name == types.inputs => self.by_name(&self.path(name), self.driver.inputs.iter()),
+            Type::Own(name) if *name == types.inputs => self.by_name(&self.path(name), &self.program.signatures.inputs),
             Type::Own(name) if *name == types.coordinates => self.coordinates(),
             Type::Own(name) if self.kind(name).is_some() => self.by_coordinate(self.kind(name), name),
             Type::Own(name) if *name == types.pose => {
@@ -162,23 +164,18 @@ impl<'p, 'm> Values<'p, 'm> {
     }
 
     fn by_coordinate(&self, kind: Option<&str>, name: &str) -> TokenStream {
-        let order = self.mechanism.coordinate_order(self.driver);
-        let value = self.by_name(&self.path(name), order.iter());
+        let value = self.by_name(&self.path(name), &self.program.signatures.coordinates);
         let kind = kind.map(ident);
         quote!({ n.begin(Kind::#kind); #value })
     }
 
-    fn by_name<'c>(&self, path: &TokenStream, of: impl Iterator<Item = &'c CoordinateId>) -> TokenStream {
-        let members: Vec<TokenStream> = of.map(|&id| self.field(id)).map(|field| quote!(#field: n.number())).collect();
+    fn by_name(&self, path: &TokenStream, of: &[Coordinate]) -> TokenStream {
+        let members: Vec<TokenStream> = of.iter().map(field).map(|field| quote!(#field: n.number())).collect();
         // A type without fields has its scalar as a mark.
         match members.as_slice() {
             [] => quote!(#path::<f64>::from(::linkage::Column::zeros())),
             members => quote!(#path::<f64> { #(#members,)* }),
         }
-    }
-
-    fn field(&self, id: CoordinateId) -> Ident {
-        ident(&self.mechanism.coordinates[id].name.field)
     }
 
     fn branch(&self, path: &TokenStream) -> TokenStream {
@@ -212,16 +209,23 @@ impl<'p, 'm> Values<'p, 'm> {
             _ => return None,
         };
         let kind = ident(self.kind(of)?);
-        let order = self.mechanism.coordinate_order(self.driver);
-        let fields = order.iter().map(|&id| self.field(id));
+        let fields = self.program.signatures.coordinates.iter().map(field);
         Some(quote!(if let Ok(found) = #found { n.keep(Kind::#kind, &[#(found.#fields),*]); }))
     }
 }
 
 /// The members of parameters, with usual values.
-fn numbers<'a>(parameters: impl Iterator<Item = &'a Parameter> + Clone) -> TokenStream {
-    let has_usual = parameters.clone().all(|parameter| parameter.default.is_some());
-    parameters.map(|parameter| number(parameter, has_usual)).collect()
+fn numbers(parameters: &[Parameter]) -> TokenStream {
+    let has_usual = has_defaults(parameters);
+    parameters.iter().map(|parameter| number(parameter, has_usual)).collect()
+}
+
+fn has_defaults(parameters: &[Parameter]) -> bool {
+    parameters.iter().all(|parameter| parameter.default.is_some())
+}
+
+fn field(of: &Coordinate) -> Ident {
+    ident(&of.name.field)
 }
 
 fn number(parameter: &Parameter, has_usual: bool) -> TokenStream {

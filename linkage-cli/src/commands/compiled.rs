@@ -21,7 +21,7 @@ pub fn compiled<R>(source: &Source, f: impl FnMut(Lowered) -> R) -> Result<Vec<C
 /// The results of a function for the drivers of a file: of the one that is asked for, or of all.
 pub fn of_drivers<R>(from: &From, mut f: impl FnMut(Lowered) -> R) -> Result<Vec<(String, R)>, Failure> {
     let source = read(&from.file)?;
-    let compiled = compiled(&source, |lowered| (lowered.program.signatures.driver.name.to_string(), f(lowered)))?;
+    let compiled = compiled(&source, |lowered| (lowered.program.signatures.driver.clone(), f(lowered)))?;
     let mut all: Vec<(String, R)> = compiled.into_iter().flat_map(|compiled| compiled.drivers).collect();
     if let Some(asked) = &from.mechanism {
         let names: Vec<&str> = all.iter().map(|(name, _)| name.as_str()).collect();

@@ -15,7 +15,7 @@ pub fn run(arguments: &Code) -> Result<(), Failure> {
     form(&arguments.output, "this code", &[("Rust", &["rs", "txt"])])?;
     let source = read(&arguments.source.file)?;
     let root = quote!(::linkage);
-    let compiled = compiled(&source, |of| emit::driver(&of.program, Some(&of.derivation), &root))?;
+    let compiled = compiled(&source, |of| emit::driver(of.declared, &of.program, Some(&of.derivation), &root))?;
     let names: Vec<String> = compiled.iter().map(|of| of.mechanism.name.to_string()).collect();
     if let Some(asked) = &arguments.source.mechanism {
         place(&source.name, "mechanism", asked, &names.iter().map(String::as_str).collect::<Vec<_>>())?;

@@ -161,10 +161,10 @@ fn listed(parts: Vec<Part>, stage: &str, mechanism: &Mechanism, asked: Option<&s
 }
 
 /// The mathematics and the planned program of a driver.
-type Planned<'m> = (Derivation, Program<'m, Body, Derived>);
+type Planned = (Derivation, Program<Body, Derived>);
 
 /// Derives, checks and plans one driver.
-fn planned<'m>(mechanism: &'m Mechanism, driver: &'m Driver) -> Result<Planned<'m>, String> {
+fn planned(mechanism: &Mechanism, driver: &Driver) -> Result<Planned, String> {
     let spent = |_| format!("`{}` exceeds the compiler's budget of work", mechanism.name);
     mechanism.graph.budget().spend(derivation::matrices(mechanism, driver)).map_err(spent)?;
     let (mut derivation, mut diagnostics) = (derivation::derive(mechanism, driver), Diagnostics::default());
@@ -177,7 +177,7 @@ fn planned<'m>(mechanism: &'m Mechanism, driver: &'m Driver) -> Result<Planned<'
 }
 
 /// The lowered program of a driver.
-fn lowered<'m>(mechanism: &'m Mechanism, driver: &'m Driver) -> Result<Program<'m, Code>, String> {
+fn lowered(mechanism: &Mechanism, driver: &Driver) -> Result<Program<Code>, String> {
     let (derivation, program) = planned(mechanism, driver)?;
     lower::program(program, &derivation).map_err(|dangling| dangling.to_string())
 }

@@ -3,6 +3,7 @@
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
+use super::Declared;
 use super::functions;
 use super::names::{ident, string};
 use super::numbers::literal;
@@ -11,16 +12,16 @@ use crate::lower::Code;
 use crate::program::{Family, Program};
 
 /// Implements `Formulas` over every number, and `Certifiable` over `f64`.
-pub(super) fn of_driver(program: &Program<Code>, span: Span) -> Option<TokenStream> {
+pub(super) fn of_driver(of: Declared<'_>, program: &Program<Code>, span: Span) -> Option<TokenStream> {
     let (signatures, any) = (&program.signatures, program.any_number.as_ref()?);
-    let (name, mechanism) = (&signatures.driver.name, signatures.mechanism);
+    let (name, parameters) = (&of.driver.name, &signatures.parameters);
     let [p, u, v, q] =
-        [mechanism.parameters.len(), signatures.unknowns(), signatures.inputs(), signatures.components()].map(literal);
-    let fields = mechanism.parameters.iter().map(|parameter| ident(&parameter.name.field));
-    let (error, other) = (ident("PositionError"), other_scalar(mechanism));
+        [parameters.len(), signatures.unknowns.len(), signatures.inputs.len(), signatures.components()].map(literal);
+    let fields = parameters.iter().map(|parameter| ident(&parameter.name.field));
+    let (error, other) = (ident("PositionError"), other_scalar(of.mechanism));
     let functions = any.functions.iter().map(|function| functions::function(function, &error, None, span));
-    let parameters = mechanism.parameters.iter().map(|parameter| string(&parameter.name.text));
-    let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(mechanism));
+    let parameters = parameters.iter().map(|parameter| string(&parameter.name.text));
+    let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(signatures));
     let quantities = quantities.map(|name| string(&name));
     let users = any.user_functions.iter().map(|user| match user {
         Some(name) => {

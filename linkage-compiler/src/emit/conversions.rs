@@ -4,25 +4,25 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use syn::ext::IdentExt;
 
+use super::Declared;
 use super::names::ident;
 use super::numbers::literal;
 use super::types::{field, mark};
 use crate::ids::CoordinateId;
-use crate::model::{Driver, Mechanism};
 use crate::program::{SceneSignatures, Signatures, Taken, TypeNames};
 
 /// Conversions between (u, v) and coordinates or rates by name.
-pub(super) fn of_driver(signatures: &Signatures) -> TokenStream {
-    let (mechanism, driver) = (signatures.mechanism, signatures.driver);
+pub(super) fn of_driver(of: Declared<'_>, signatures: &Signatures) -> TokenStream {
+    let Declared { mechanism, driver } = of;
     let [coordinates, rates] = [&signatures.types.coordinates, &signatures.types.rates].map(|name| ident(name));
-    let [u, v] = [signatures.unknowns(), signatures.inputs()].map(literal);
+    let [u, v] = [signatures.unknowns.len(), signatures.inputs.len()].map(literal);
     let [by_unknowns, by_inputs] = [&u, &v].map(|count| quote!(__rt::Column<T, __rt::D<#count>>));
     let named = |indices: &[CoordinateId]| -> Vec<Ident> {
         indices.iter().map(|&index| field(&mechanism.coordinates[index].name)).collect()
     };
     let (unknowns, inputs) = (named(&driver.unknowns), named(&driver.inputs));
     // In the order of the fields.
-    let fields = fields(mechanism, driver);
+    let fields = fields(of);
     let of_none = mark(&fields);
     let composed = |function: &str, of: &Ident| {
         let function = ident(function);
@@ -47,12 +47,12 @@ pub(super) fn of_driver(signatures: &Signatures) -> TokenStream {
 }
 
 /// The mechanism of a scene; the state in a column, from coordinates and input rates by name, and back.
-pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver) -> TokenStream {
-    let SceneSignatures { mechanism, types, field: inner, inputs, unknowns, .. } = signatures;
+pub(super) fn of_scene(of: Declared<'_>, signatures: &SceneSignatures) -> TokenStream {
+    let SceneSignatures { types, field: inner, inputs, unknowns, .. } = signatures;
     let TypeNames { inputs: inputs_type, coordinates, .. } = types;
     let [inner, inputs_type, coordinates] = [inner, inputs_type, coordinates].map(|name| ident(name));
     let count = literal(unknowns + 2 * inputs.len());
-    let (fields, names) = (fields(mechanism, on), inputs.iter().map(|input| ident(input)).collect::<Vec<_>>());
+    let (fields, names) = (fields(of), inputs.iter().map(|input| ident(input)).collect::<Vec<_>>());
     // `x_rate` may be a coordinate as well.
     let reserved = fields.iter().map(|field| field.unraw().to_string()).collect();
     let mut taken = Taken::new(&reserved);
@@ -76,6 +76,6 @@ pub(super) fn of_scene(signatures: &SceneSignatures, on: &Driver) -> TokenStream
 }
 
 /// The fields of all coordinates, in their order.
-fn fields(mechanism: &Mechanism, driver: &Driver) -> Vec<Ident> {
+fn fields(Declared { mechanism, driver }: Declared<'_>) -> Vec<Ident> {
     mechanism.coordinate_order(driver).iter().map(|&index| field(&mechanism.coordinates[index].name)).collect()
 }

@@ -4,6 +4,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::Declared;
 use super::names::{comment, ident};
 use super::numbers::literal;
 use super::rust::argument;
@@ -13,8 +14,8 @@ use crate::model::Name;
 use crate::program::{Associated, Implementation, Program};
 
 /// The type with one field for each column to find.
-pub(super) fn columns(program: &Program<Code>) -> TokenStream {
-    let (mechanism, driver) = (program.signatures.mechanism, &program.signatures.driver.name);
+pub(super) fn columns(of: Declared<'_>, program: &Program<Code>) -> TokenStream {
+    let (mechanism, driver) = (of.mechanism, &of.driver.name);
     let (visibility, name) = (&mechanism.visibility, ident(&program.signatures.types.columns));
     let fields: Vec<Ident> = program.columns.iter().map(|column| ident(&column.name)).collect();
     let docs = program.columns.iter().map(|column| comment(&format!(" {}", column.doc)));
@@ -42,8 +43,8 @@ pub(super) fn columns(program: &Program<Code>) -> TokenStream {
 }
 
 /// The functions of the trait between parameters and columns.
-pub(super) fn design(program: &Program<Code>, implementation: &Implementation<Code>) -> TokenStream {
-    let parameters = parameters(program);
+pub(super) fn design(of: Declared<'_>, implementation: &Implementation<Code>) -> TokenStream {
+    let parameters = parameters(of);
     let given = implementation.types.iter().find_map(|(name, is)| match is {
         Associated::Dimension(count) if *name == "Given" => Some(literal(*count)),
         _ => None,
@@ -63,12 +64,12 @@ pub(super) fn design(program: &Program<Code>, implementation: &Implementation<Co
 }
 
 /// `batch`, which takes columns or numbers.
-pub(super) fn batch(program: &Program<Code>) -> TokenStream {
-    let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
+pub(super) fn batch(of: Declared<'_>, program: &Program<Code>) -> TokenStream {
+    let Declared { mechanism, driver } = of;
     let (name, types) = (&driver.name, &program.signatures.types);
     let [branch, of_inputs] = [&types.branch, &types.inputs].map(|name| ident(name));
     let named = |names: Vec<&Name>| -> Vec<Ident> { names.into_iter().map(field).collect() };
-    let (parameters, inputs) = (parameters(program), driver.inputs.iter());
+    let (parameters, inputs) = (parameters(of), driver.inputs.iter());
     let inputs = named(inputs.map(|&index| &mechanism.coordinates[index].name).collect());
     let (start, of_start) = match program.position.is_closed {
         true => (inputs.clone(), of_inputs.clone()),
@@ -108,6 +109,6 @@ pub(super) fn batch(program: &Program<Code>) -> TokenStream {
     }
 }
 
-fn parameters(program: &Program<Code>) -> Vec<Ident> {
-    program.signatures.mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect()
+fn parameters(of: Declared<'_>) -> Vec<Ident> {
+    of.mechanism.parameters.iter().map(|parameter| field(&parameter.name)).collect()
 }

@@ -32,7 +32,7 @@ use quote::{quote, quote_spanned};
 use crate::derivation::Derivation;
 use crate::document::{Document, SceneDocument, Table};
 use crate::lower::Code;
-use crate::model::{Mechanism, Request, TypeName};
+use crate::model::{Driver, Mechanism, Request, TypeName};
 use crate::program::{self, Access, Function, Functions, Implemented, Operations, Program};
 use fpcore::Straight;
 use kernels::kernels;
@@ -40,6 +40,14 @@ use names::string;
 pub use numbers::parts_of_pi;
 pub use text::{function_as_text, text};
 pub use types::MOST_ARGUMENTS;
+
+/// The declarations of a driver, with the tokens that they are written in: attributes, visibility, paths and places. Printers
+/// read them besides its program.
+#[derive(Clone, Copy)]
+pub struct Declared<'m> {
+    pub mechanism: &'m Mechanism,
+    pub driver: &'m Driver,
+}
 
 /// Emits the items of a mechanism, those of its drivers last; `root` is the path of the `linkage` crate.
 #[must_use]
@@ -57,45 +65,53 @@ pub fn mechanism(
 #[must_use]
 pub fn stub(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
     let drivers = mechanism.drivers.iter();
-    let drivers = drivers.map(|driver| self::driver(&program::stub(mechanism, driver), None, root));
+    let drivers = drivers.map(|driver| {
+        let program = program::stub(mechanism, driver);
+        self::driver(Declared { mechanism, driver }, &program, None, root)
+    });
     self::mechanism(mechanism, drivers, root)
 }
 
 /// Emits the items of one driver and of its scenes; without a derivation, which only `DERIVATION` and `SHEET` show, a stub.
 #[must_use]
-pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &TokenStream) -> TokenStream {
-    let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
+pub fn driver(
+    of: Declared<'_>,
+    program: &Program<Code>,
+    derivation: Option<&Derivation>,
+    root: &TokenStream,
+) -> TokenStream {
+    let Declared { mechanism, driver } = of;
     let span = spans::of(driver.name.span());
-    let mut tokens = spans::located(types::of_driver(program, root), span, 1);
+    let mut tokens = spans::located(types::of_driver(of, program, root), span, 1);
     let mut implemented = TokenStream::new();
     if mechanism.requests.contains(&Request::Lanes) {
-        tokens.extend(lanes::columns(program));
+        tokens.extend(lanes::columns(of, program));
     }
     for implementation in &program.implementations {
         let first = match implementation.of {
             Implemented::Mechanism => {
-                let conversions = conversions::of_driver(&program.signatures);
+                let conversions = conversions::of_driver(of, &program.signatures);
                 let error = names::ident("PositionError");
                 let functions = program.functions.iter().filter(|function| function.access == Access::OfMechanism);
                 let functions = functions.map(|function| functions::function(function, &error, None, span));
                 Some(quote!(#conversions #(#functions)*))
             }
             Implemented::Lanes => {
-                implemented.extend(lanes::batch(program));
-                Some(lanes::design(program, implementation))
+                implemented.extend(lanes::batch(of, program));
+                Some(lanes::design(of, implementation))
             }
             _ => None,
         };
         implemented.extend(implementations::implementation(implementation, &driver.name, first, span));
     }
-    implemented.extend(any_number::of_driver(program, span));
+    implemented.extend(any_number::of_driver(of, program, span));
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
     let implemented = spans::located(implemented, span, 1);
     let span_of = |function: &Function<Code>| spans::of(mechanism.span_of(driver, &function.name));
     tokens.extend(block(&driver.name, kinematics, &program.functions, &span_of, root, &implemented));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
-    let straight = mechanism.requests.contains(&Request::Fpcore).then(|| Straight::of_driver(program));
+    let straight = mechanism.requests.contains(&Request::Fpcore).then(|| Straight::of_driver(mechanism, program));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
         let kernels = |table: &mut Table| kernels(&program.functions, straight.as_ref(), table);
         let document = crate::document::of_driver(mechanism, driver, derivation, derived, &kernels);
@@ -106,13 +122,14 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
         }
     }
     for (number, scene) in program.scenes.iter().enumerate() {
-        let name = &scene.signatures.scene.name;
+        let declared = &mechanism.scenes[scene.signatures.id];
+        let name = &declared.name;
         let span = spans::of(name.span());
-        tokens.extend(spans::located(scene::types(&scene.signatures, root), span, 1));
-        tokens.extend(drives::types(&scene.signatures, driver, root).map(|types| spans::located(types, span, 1)));
-        tokens.extend(reactions::types(&scene.signatures, root).map(|types| spans::located(types, span, 1)));
+        tokens.extend(spans::located(scene::types(mechanism, &scene.signatures, root), span, 1));
+        tokens.extend(drives::types(of, &scene.signatures, root).map(|types| spans::located(types, span, 1)));
+        tokens.extend(reactions::types(mechanism, &scene.signatures, root).map(|types| spans::located(types, span, 1)));
         let implemented = scene.implementation.as_ref().map(|implementation| {
-            let conversions = conversions::of_scene(&scene.signatures, driver);
+            let conversions = conversions::of_scene(of, &scene.signatures);
             implementations::implementation(implementation, name, Some(conversions), span)
         });
         let text = "The name of the scene in errors.";
@@ -123,8 +140,8 @@ pub fn driver(program: &Program<Code>, derivation: Option<&Derivation>, root: &T
             let derived = (derivation, &derivation.scenes[number]);
             let straight = straight.as_ref().map(|straight| straight.within(scene));
             let kernels = |table: &mut Table| kernels(&scene.functions, straight.as_ref(), table);
-            let of = (driver, scene.signatures.scene);
-            tokens.extend(document::of_scene(name, &crate::document::of_scene(mechanism, of, derived, &kernels), root));
+            let document = crate::document::of_scene(mechanism, (driver, declared), derived, &kernels);
+            tokens.extend(document::of_scene(name, &document, root));
         }
     }
     tokens
@@ -159,9 +176,12 @@ fn block(
 
 /// The documents of a driver and of its scenes, with the formulas of their functions as `derive fpcore` adds them.
 #[must_use]
-pub fn documents(program: &Program<Code>, derivation: &Derivation) -> (Option<Document>, Vec<SceneDocument>) {
-    let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
-    let straight = Straight::of_driver(program);
+pub fn documents(
+    Declared { mechanism, driver }: Declared<'_>,
+    program: &Program<Code>,
+    derivation: &Derivation,
+) -> (Option<Document>, Vec<SceneDocument>) {
+    let straight = Straight::of_driver(mechanism, program);
     let of_driver = program.derived.as_ref().map(|derived| {
         let kernels = |table: &mut Table| kernels(&program.functions, Some(&straight), table);
         crate::document::of_driver(mechanism, driver, derivation, derived, &kernels)
@@ -169,7 +189,8 @@ pub fn documents(program: &Program<Code>, derivation: &Derivation) -> (Option<Do
     let scenes = program.scenes.iter().zip(&derivation.scenes).map(|(scene, derived)| {
         let straight = straight.within(scene);
         let kernels = |table: &mut Table| kernels(&scene.functions, Some(&straight), table);
-        crate::document::of_scene(mechanism, (driver, scene.signatures.scene), (derivation, derived), &kernels)
+        let of = (driver, &mechanism.scenes[scene.signatures.id]);
+        crate::document::of_scene(mechanism, of, (derivation, derived), &kernels)
     });
     (of_driver, scenes.collect())
 }

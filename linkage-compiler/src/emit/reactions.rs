@@ -6,18 +6,18 @@ use quote::quote;
 use super::names::{comment, ident};
 use super::numbers::literal;
 use super::types::derives;
-use crate::model::LoadKind;
-use crate::program::{MULTIPLIERS, SceneSignatures};
+use crate::model::{LoadKind, Mechanism};
+use crate::program::{Joint, MULTIPLIERS, SceneSignatures};
 
-pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<TokenStream> {
+pub(super) fn types(mechanism: &Mechanism, signatures: &SceneSignatures, root: &TokenStream) -> Option<TokenStream> {
     if !signatures.has_reactions() {
         return None;
     }
-    let SceneSignatures { mechanism, scene, reactions_type, unknowns, types, .. } = signatures;
+    let SceneSignatures { scene, joints: shown, reactions_type, unknowns, types, .. } = signatures;
     let (visibility, name, derives) = (&mechanism.visibility, ident(reactions_type), derives(mechanism, root));
     let driver = ident(&types.driver);
     let [mut members, mut joints, mut forces] = [const { Vec::new() }; 3];
-    for &place in &scene.loads {
+    for &Joint { place, .. } in shown {
         let load = &mechanism.opened.loads[place];
         let place = literal(place);
         let of_implied = if load.is_determined {
@@ -67,7 +67,7 @@ pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> Option<
         );
         members.push(quote!(#[doc = #doc] pub #field: #root::__rt::SVector<T, #unknowns>));
     }
-    let title = comment(&format!(" The forces in the joints of [`{}`].", scene.name));
+    let title = comment(&format!(" The forces in the joints of [`{scene}`]."));
     Some(quote! {
         #[doc = #title]
         #derives

@@ -7,11 +7,11 @@ use syn::Attribute;
 use super::names::ident;
 use super::numbers::literal;
 use super::types::{MOST_ARGUMENTS, default_of, docs, docs_of_parameter, field, other_scalar, serde_of_parameters};
-use crate::model::Parameter;
+use crate::model::{Mechanism, Parameter};
 use crate::program::SceneSignatures;
 
-pub(super) fn types(signatures: &SceneSignatures, root: &TokenStream) -> TokenStream {
-    let SceneSignatures { mechanism, scene, .. } = signatures;
+pub(super) fn types(mechanism: &Mechanism, signatures: &SceneSignatures, root: &TokenStream) -> TokenStream {
+    let scene = &mechanism.scenes[signatures.id];
     let (visibility, name, of) = (&mechanism.visibility, &scene.name, &mechanism.drivers[scene.driver].name);
     let (inner, other_scalar) = (ident(&signatures.field), other_scalar(mechanism));
     let parameters: Vec<&Parameter> = scene.parameters.iter().map(|&span| &mechanism.scene_parameters[span]).collect();

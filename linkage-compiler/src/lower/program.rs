@@ -15,10 +15,7 @@ use crate::program::{Access, AnyNumber, Arguments, Body, Derived, Function, Func
 ///
 /// # Errors
 /// If a function refers to something that does not exist: a mistake of the compiler.
-pub fn program<'a>(
-    planned: Program<'a, Body, Derived>,
-    derivation: &Derivation,
-) -> Result<Program<'a, Code>, Dangling> {
+pub fn program(planned: Program<Body, Derived>, derivation: &Derivation) -> Result<Program<Code>, Dangling> {
     let Program { signatures, position, functions, implementations, columns, scenes, any_number, derived } = planned;
     let of_driver = ids(&functions);
     let reserved = signatures.arguments.reserved();

@@ -308,9 +308,9 @@ impl Mechanism {
     }
 
     /// The scenes that a driver drives.
-    pub fn scenes_of<'a>(&'a self, driver: &Driver) -> impl Iterator<Item = &'a Scene> {
+    pub fn scenes_of<'a>(&'a self, driver: &Driver) -> impl Iterator<Item = (SceneId, &'a Scene)> {
         let name = driver.name.to_string();
-        self.scenes.iter().filter(move |scene| self.drivers[scene.driver].name == *name)
+        self.scenes.enumerated().filter(move |(_, scene)| self.drivers[scene.driver].name == *name)
     }
 
     /// True if no type has the name `T` of the scalar type parameter.

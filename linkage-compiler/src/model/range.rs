@@ -43,7 +43,7 @@ impl Mechanism {
     pub fn counted(&self, driver: &Driver) -> BTreeSet<SymbolId> {
         let mut formulas = self.kinematic_formulas(&driver.system.rows);
         let mut graph = Cow::Borrowed(&self.graph);
-        for scene in self.scenes_of(driver) {
+        for (_, scene) in self.scenes_of(driver) {
             formulas.extend(scene.values());
             let (paths, graph) = (scene.paths(&self.bodies), graph.to_mut());
             formulas.extend(self.coordinates.iter().flat_map(|coordinate| graph.partial(&paths, coordinate.symbol)));

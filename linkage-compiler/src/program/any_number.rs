@@ -55,7 +55,7 @@ impl Plan<'_, '_> {
         let (rows, unknowns) = (self.derivation.jacobian_unknowns(), self.derivation.unknowns.ids());
         let columns = self.columns_of::<UnknownId>(&rows, unknowns);
         let doc = lines(["The columns of J = `Psi_u`, with the formulas of the function of this name of a position."]);
-        let signature = self.signatures.jacobian_of_columns("jacobian_unknowns", self.signatures.unknowns());
+        let signature = self.signatures.jacobian_of_columns("jacobian_unknowns", self.signatures.unknowns.len());
         self.matrix_of_columns(signature, doc, columns)
     }
 
@@ -63,7 +63,7 @@ impl Plan<'_, '_> {
         let (rows, inputs) = (self.derivation.jacobian_inputs(), self.derivation.inputs.ids());
         let columns = self.columns_of::<InputId>(&rows, inputs);
         let doc = lines(["The columns of A = `Psi_v`, with the formulas of the function of this name of a position."]);
-        let signature = self.signatures.jacobian_of_columns("jacobian_inputs", self.signatures.inputs());
+        let signature = self.signatures.jacobian_of_columns("jacobian_inputs", self.signatures.inputs.len());
         self.matrix_of_columns(signature, doc, columns)
     }
 
@@ -76,8 +76,8 @@ impl Plan<'_, '_> {
     }
 
     fn quantities_of_columns(&mut self) -> Function<Body> {
-        let mechanism = self.signatures.mechanism;
-        let names = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(mechanism));
+        let signatures = &self.signatures;
+        let names = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(signatures));
         let quantities = self.derivation.points.iter().chain(&self.derivation.outputs);
         let nodes = quantities.flat_map(|quantity: &Quantity| quantity.value.clone());
         let named: Vec<(NodeId, String)> = nodes.zip(names).collect();
@@ -159,7 +159,7 @@ impl Plan<'_, '_> {
 
     /// For each group the name of the first user function in its equations.
     fn user_functions(&self) -> Vec<Option<String>> {
-        let (derivation, mechanism) = (&self.derivation, self.signatures.mechanism);
+        let (derivation, mechanism) = (&self.derivation, self.mechanism);
         let name = |id: NodeId| match derivation.graph.node(id) {
             Node::External(external, _) => {
                 let function = mechanism.externals.iter().find(|function| function.id == external.function)?;
@@ -177,43 +177,43 @@ impl Plan<'_, '_> {
 
 impl Family {
     /// The names of the components of all points or outputs.
-    pub fn components(self, mechanism: &crate::model::Mechanism) -> Vec<String> {
-        let names = self.names(mechanism).into_iter();
+    pub fn components(self, signatures: &Signatures) -> Vec<String> {
+        let names = self.names(signatures).into_iter();
         names.flat_map(|name| self.axes().iter().map(move |axis| format!("{name}{axis}"))).collect()
     }
 }
 
-impl Signatures<'_> {
+impl Signatures {
     /// The functions of the trait `Formulas`, in its order.
     pub fn of_columns(&self) -> Vec<Function<Body>> {
         [
             self.residual_of_columns(),
-            self.jacobian_of_columns("jacobian_unknowns", self.unknowns()),
-            self.jacobian_of_columns("jacobian_inputs", self.inputs()),
+            self.jacobian_of_columns("jacobian_unknowns", self.unknowns.len()),
+            self.jacobian_of_columns("jacobian_inputs", self.inputs.len()),
             self.gamma_of_columns(),
             self.quantities_of_columns(),
         ]
         .into_iter()
-        .chain((!self.mechanism.ranges.is_empty()).then(|| self.ranged_of_columns()))
+        .chain((!self.ranges.is_empty()).then(|| self.ranged_of_columns()))
         .collect()
     }
 
     /// The number of components of points and outputs.
     pub fn components(&self) -> usize {
-        2 * self.mechanism.points.len() + self.mechanism.outputs.len()
+        2 * self.points.len() + self.outputs.len()
     }
 
     fn residual_of_columns(&self) -> Function<Body> {
-        self.function_of_columns("residual", Order::Value, column(self.unknowns()))
+        self.function_of_columns("residual", Order::Value, column(self.unknowns.len()))
     }
 
     fn jacobian_of_columns(&self, name: &str, columns: usize) -> Function<Body> {
-        let returns = Type::Column(Box::new(column(self.unknowns())), columns);
+        let returns = Type::Column(Box::new(column(self.unknowns.len())), columns);
         self.function_of_columns(name, Order::Value, returns)
     }
 
     fn gamma_of_columns(&self) -> Function<Body> {
-        self.function_of_columns("gamma", Order::Rate, column(self.unknowns()))
+        self.function_of_columns("gamma", Order::Rate, column(self.unknowns.len()))
     }
 
     fn quantities_of_columns(&self) -> Function<Body> {
@@ -222,7 +222,7 @@ impl Signatures<'_> {
 
     /// A function of the unknowns and the inputs, and of their rates if it has this order.
     pub(super) fn function_of_columns(&self, name: &str, order: Order, returns: Type) -> Function<Body> {
-        let (names, u, v) = (&self.arguments, self.unknowns(), self.inputs());
+        let (names, u, v) = (&self.arguments, self.unknowns.len(), self.inputs.len());
         let all = [(&names.unknowns, u), (&names.inputs, v), (&names.unknown_rates, u), (&names.input_rates, v)];
         let count = if order == Order::Value { 2 } else { 4 };
         let arguments = all

@@ -23,14 +23,14 @@ impl Plan<'_, '_> {
     fn residual(&mut self) {
         let (residual, scales) = (self.derivation.residual.to_vec(), self.derivation.residual_scales.to_vec());
         let mut doc = lines(["The residual Psi(q) of the loop equations and constraints; Psi(q) = 0 at a position."]);
-        let eliminations = &self.signatures.driver.system.eliminations;
+        let eliminations = &self.driver.system.eliminations;
         if !eliminations.is_empty() {
-            let unknowns = &self.signatures.driver.unknowns;
+            let unknowns = &self.driver.unknowns;
             let eliminated: Vec<CoordinateId> = eliminations.iter().map(|one| unknowns[one.unknown]).collect();
             doc.push(format!("Eliminated from the other equations of their groups: {}.", self.list(&eliminated)));
         }
         doc.extend(self.numbered("Psi", &residual));
-        for constraint in &self.signatures.mechanism.constraints {
+        for constraint in &self.mechanism.constraints {
             doc.extend(constraint.description());
         }
         let body = self.list_of(residual, Expression::sized_vector);
@@ -67,13 +67,13 @@ impl Plan<'_, '_> {
     /// The places of the forces in joints, in the order of `Load`s, and the directions of their first components; the second
     /// is a quarter turn from it.
     pub(super) fn force_places(&mut self) {
-        let count = self.signatures.mechanism.drawn_forces();
+        let count = self.mechanism.drawn_forces();
         if count == 0 {
             return;
         }
         let graph = &mut self.derivation.graph;
         let mut nodes = Vec::new();
-        for load in &self.signatures.mechanism.opened.loads {
+        for load in &self.mechanism.opened.loads {
             nodes.extend(load.at);
             nodes.extend(match load.normal {
                 Some(normal) => normal,
@@ -97,10 +97,10 @@ impl Plan<'_, '_> {
     }
 
     fn jacobians(&mut self) {
-        let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
+        let (u, v) = (self.signatures.unknowns.len(), self.signatures.inputs.len());
         let (j, a) = (self.derivation.jacobian_unknowns(), self.derivation.jacobian_inputs());
-        let (unknowns, inputs) = (&self.signatures.driver.unknowns, &self.signatures.driver.inputs);
-        let order = self.signatures.mechanism.coordinate_order(self.signatures.driver);
+        let (unknowns, inputs) = (&self.driver.unknowns, &self.driver.inputs);
+        let order = self.mechanism.coordinate_order(self.driver);
         let mut doc = vec![format!("The constraint Jacobian J = `Psi_u`; its columns are {}.", self.list(unknowns))];
         doc.extend(self.entries("J", &j));
         let body = self.matrix_function(&entries(&j, unknowns.ids()), u, u);
@@ -115,7 +115,7 @@ impl Plan<'_, '_> {
             vec![format!("The constraint Jacobian `Psi_q` of all coordinates; its columns are {}.", self.list(&order))];
         let pose = &self.signatures.arguments.pose;
         let names = |indices: &[CoordinateId]| -> Vec<String> {
-            indices.iter().map(|&index| self.signatures.mechanism.coordinates[index].name.field.clone()).collect()
+            indices.iter().map(|&index| self.mechanism.coordinates[index].name.field.clone()).collect()
         };
         let part = |indices: &[CoordinateId], function: &str| {
             let columns = Pattern::List(names(indices).into_iter().map(Pattern::name).collect());
@@ -126,15 +126,13 @@ impl Plan<'_, '_> {
         };
         let all = Expression::List(names(&order).into_iter().map(Expression::Name).collect());
         let mut body = Body::plain(Expression::made("SMatrix", all));
-        body.before = vec![
-            part(&self.signatures.driver.unknowns, "jacobian_unknowns"),
-            part(&self.signatures.driver.inputs, "jacobian_inputs"),
-        ];
+        body.before =
+            vec![part(&self.driver.unknowns, "jacobian_unknowns"), part(&self.driver.inputs, "jacobian_inputs")];
         self.add(self.signatures.jacobian(), without_result(doc), body);
     }
 
     fn jacobian_scales(&mut self) {
-        let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
+        let (u, v) = (self.signatures.unknowns.len(), self.signatures.inputs.len());
         let (of_unknowns, of_inputs) = self.derivation.jacobian_scales();
         let (unknowns, inputs) = (self.derivation.unknowns.ids(), self.derivation.inputs.ids());
         let body = self.matrix_function(&entries(&of_unknowns, unknowns), u, u);
@@ -202,7 +200,7 @@ impl Plan<'_, '_> {
 
     /// The names of coordinates as the user wrote them.
     fn list(&self, indices: &[CoordinateId]) -> String {
-        let names = indices.iter().map(|&index| &self.signatures.mechanism.coordinates[index].name.text);
+        let names = indices.iter().map(|&index| &self.mechanism.coordinates[index].name.text);
         names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
     }
 }

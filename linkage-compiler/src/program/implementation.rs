@@ -5,10 +5,9 @@ use std::collections::BTreeSet;
 
 use super::expression::Type;
 use super::function::{Access, Argument, Body, Function, Passed};
-use super::signatures::total;
+use super::signatures::{Coordinate, total};
 use crate::derivation::{self, Derivation, Part};
-use crate::ids::{CoordinateId, Id};
-use crate::model::{Coordinate, Kind, Mechanism};
+use crate::ids::Id;
 
 /// An implementation of a trait, or functions of a type.
 pub struct Implementation<B> {
@@ -165,12 +164,8 @@ pub(super) fn fallible_of_trait<const N: usize>(
 }
 
 /// The constants with the names of some coordinates, and with true for each angle among them.
-pub(super) fn named_coordinates<'a>(
-    mechanism: &'a Mechanism,
-    indices: impl Iterator<Item = &'a CoordinateId>,
-) -> [ConstantValue; 2] {
-    let all: Vec<&Coordinate> = indices.map(|&index| &mechanism.coordinates[index]).collect();
+pub(super) fn named_coordinates(all: &[Coordinate]) -> [ConstantValue; 2] {
     let texts = all.iter().map(|coordinate| coordinate.name.text.clone()).collect();
-    let are_angles = all.iter().map(|coordinate| coordinate.kind == Kind::Angle).collect();
+    let are_angles = all.iter().map(|coordinate| coordinate.is_angle).collect();
     [ConstantValue::Texts(texts), ConstantValue::Flags(are_angles)]
 }

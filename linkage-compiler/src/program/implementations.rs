@@ -35,7 +35,7 @@ pub(super) fn of_driver<B>(
     all.push(of.kinematic());
     all.extend(position.is_closed.then(|| of.assembly()));
     all.extend(has("branches").then(|| of.branches()));
-    let wants = |request| signatures.mechanism.requests.contains(&request);
+    let wants = |request| signatures.requests.contains(&request);
     let lanes = wants(Request::Lanes).then(|| lane_functions::of_driver(signatures, position, functions, derived));
     let (lanes, columns) = lanes.unzip();
     all.extend(lanes);
@@ -44,7 +44,7 @@ pub(super) fn of_driver<B>(
 }
 
 struct Traits<'a> {
-    signatures: &'a Signatures<'a>,
+    signatures: &'a Signatures,
     position: &'a Position,
     derived: Option<&'a Derived>,
 }
@@ -62,11 +62,10 @@ impl Traits<'_> {
     }
 
     fn mechanism(&self) -> Implementation<Body> {
-        let (mechanism, driver) = (self.signatures.mechanism, self.signatures.driver);
-        let [unknowns, are_unknown_angles] = named_coordinates(mechanism, driver.unknowns.iter());
-        let [inputs, are_input_angles] = named_coordinates(mechanism, driver.inputs.iter());
+        let [unknowns, are_unknown_angles] = named_coordinates(&self.signatures.unknowns);
+        let [inputs, are_input_angles] = named_coordinates(&self.signatures.inputs);
         let groups = self.derived.map(|derived| derived.groups.clone()).unwrap_or_default();
-        let [u, v, g] = [self.signatures.unknowns(), self.signatures.inputs(), self.position.groups];
+        let [u, v, g] = [self.signatures.unknowns.len(), self.signatures.inputs.len(), self.position.groups];
         let own = |order| Associated::Type(self.signatures.coordinates_type(order));
         let types = vec![
             ("Scalar", Associated::Type(Type::Scalar)),
@@ -89,14 +88,13 @@ impl Traits<'_> {
             ("GROUPS", ConstantValue::Groups(groups)),
         ];
         let mut functions = self.on_positions().to_vec();
-        functions.extend((!mechanism.implied.is_empty()).then(|| {
+        functions.extend(self.signatures.has_implied.then(|| {
             let pose = Expression::own_call("pose_at", [Expression::name("q")]);
             let value = Expression::own_call("check_implied", [pose.borrowed()]);
             fallible_of_trait("check_implied", [coordinates("q")], Type::Tuple(Vec::new()), Body::result(value))
         }));
-        if !mechanism.ranges.is_empty() {
-            let names = mechanism.ranges.iter().map(|range| range.name.clone());
-            constants.push(("RANGES", ConstantValue::Texts(names.collect())));
+        if !self.signatures.ranges.is_empty() {
+            constants.push(("RANGES", ConstantValue::Texts(self.signatures.ranges.clone())));
             functions.push(ranged_at());
         }
         self.implementation(Implemented::Mechanism, types, constants, functions)
@@ -107,7 +105,7 @@ impl Traits<'_> {
         let pose_at = of_trait("pose_at", [coordinates("q")], Type::OfTrait("Pose"), Body::plain(value));
         let value = Expression::call(Intrinsic::IsFinite, [Expression::name("pose")]);
         let is_finite = of_trait("is_finite", [pose()], Type::Flag, Body::plain(value));
-        let branch_of = match self.signatures.is_open() {
+        let branch_of = match self.signatures.is_open {
             true => Expression::of_type(self.branch(), Intrinsic::OnlyBranch, []),
             false => Expression::own_call("branch_of", [Expression::name("pose")]),
         };
@@ -117,17 +115,17 @@ impl Traits<'_> {
 
     /// Velocities and accelerations, points and outputs: the functions of the type itself under its names in the trait.
     fn kinematic(&self) -> Implementation<Body> {
-        let (mechanism, types) = (self.signatures.mechanism, &self.signatures.types);
+        let types = &self.signatures.types;
         let families = [("P", "Points", "POINTS", Family::Points), ("O", "Outputs", "OUTPUTS", Family::Outputs)];
         let accelerations = Associated::Type(self.signatures.coordinates_type(Order::Acceleration));
-        let count = self.signatures.unknowns() + self.signatures.inputs();
+        let count = self.signatures.unknowns.len() + self.signatures.inputs.len();
         let mut own = vec![("N", Associated::Dimension(count)), ("Accelerations", accelerations)];
         let mut constants = Vec::new();
         let mut functions = vec![self.coordinates_of()];
         functions.extend([Order::Rate, Order::Acceleration].map(|order| self.of_coordinates(order)));
-        functions.extend((!self.signatures.is_open()).then(|| self.velocity_ratios()));
+        functions.extend((!self.signatures.is_open).then(|| self.velocity_ratios()));
         for (number, each, list, family) in families {
-            let names = family.names_as_written(mechanism);
+            let names = family.names_as_written(self.signatures);
             own.push((number, Associated::Dimension(names.len())));
             let has_some = self.signatures.has(family);
             let name = has_some.then(|| self.signatures.each_name(family).to_owned());
@@ -164,7 +162,7 @@ impl Traits<'_> {
     }
 
     fn velocity_ratios(&self) -> Function<Body> {
-        let [u, v] = [self.signatures.unknowns(), self.signatures.inputs()];
+        let [u, v] = [self.signatures.unknowns.len(), self.signatures.inputs.len()];
         let ratios = Expression::own_call("velocity_ratios", [Expression::name("pose")]).tried().converted();
         fallible_of_trait("velocity_ratios", [pose()], Type::Sized("Matrix", vec![u, v]), Body::plain(ratios))
     }
@@ -182,7 +180,7 @@ impl Traits<'_> {
         let name = self.signatures.quantity_ratios(family).name;
         let ratios = Expression::own_call(&name, [Expression::name("pose")]).tried();
         let ratios = Expression::call(Intrinsic::EachSized, [ratios]);
-        let matrix = Type::Sized("Matrix", vec![family.dimension(), self.signatures.inputs()]);
+        let matrix = Type::Sized("Matrix", vec![family.dimension(), self.signatures.inputs.len()]);
         let returns = Type::Each(self.signatures.each_name(family).to_owned(), Box::new(matrix));
         fallible_of_trait(&name, [pose()], returns, Body::plain(ratios))
     }
@@ -246,7 +244,7 @@ impl Traits<'_> {
             of_trait(name, [pose(), ("place", Passed::ByValue(Type::Count))], returns, Body::plain(found))
         };
         functions.extend((!skeleton.guides.is_empty()).then(|| one_of("guide", "guides", 2)));
-        let has_forces = self.signatures.mechanism.drawn_forces() > 0;
+        let has_forces = self.signatures.drawn_forces > 0;
         functions.extend(has_forces.then(|| one_of("force_place", "force_places", 4)));
         self.implementation(Implemented::Skeleton, vec![("Parts", Associated::Dimension(count))], constants, functions)
     }

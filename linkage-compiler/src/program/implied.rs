@@ -29,7 +29,7 @@ impl Plan<'_, '_> {
         let mut doc = lines(["Checks that the implied loops and equations close at a position:"]);
         let zeros: Vec<String> = residuals.iter().map(|&row| format!("0 = {}", self.text(row))).collect();
         doc.extend(fenced(zeros.into_iter()));
-        for implied in &self.signatures.mechanism.implied {
+        for implied in &self.mechanism.implied {
             doc.extend(implied.description());
         }
         doc.extend(lines([
@@ -60,7 +60,7 @@ impl Plan<'_, '_> {
     }
 }
 
-impl Signatures<'_> {
+impl Signatures {
     /// The check of implied loops and equations at a position.
     pub fn check_implied(&self) -> Function<Body> {
         fallible("check_implied", [self.pose()], Type::Tuple(Vec::new()))

@@ -40,7 +40,7 @@ impl Plan<'_, '_> {
             "The position, the rates `q'` and the accelerations `q''` of all coordinates in one computation, from the inputs, their",
             "rates `v'` and their accelerations `v''`.",
         ]);
-        let promise = if self.signatures.is_open() { Vec::new() } else { lines([OF_A_BRANCH]) };
+        let promise = if self.signatures.is_open { Vec::new() } else { lines([OF_A_BRANCH]) };
         let doc = doc.into_iter().chain(promise).chain(lines(ERRORS)).collect();
         self.add(self.signatures.kinematics(&self.position), doc, body);
         if self.signatures.has_quantities() {
@@ -231,7 +231,7 @@ impl Plan<'_, '_> {
             "The position, the rates `q'` and the accelerations `q''` of all coordinates, and the motion of points and outputs, from the",
             "inputs, their rates `v'` and their accelerations `v''`.",
         ]);
-        let promise = if self.signatures.is_open() { Vec::new() } else { lines([OF_A_BRANCH]) };
+        let promise = if self.signatures.is_open { Vec::new() } else { lines([OF_A_BRANCH]) };
         let doc = doc.into_iter().chain(promise).chain(lines(ERRORS)).collect();
         self.add(self.signatures.full_kinematics(&self.position), doc, body);
     }

@@ -8,8 +8,7 @@ use super::branch::Position;
 use super::expression::Expression;
 use super::names::Taken;
 use super::pose_fields::Held;
-use super::signatures::Signatures;
-use crate::model::{Coordinate, Kind, Name};
+use super::signatures::{Coordinate, Name, Signatures};
 
 /// Parts of the names of a point and of its derivatives, with the fields of its motion.
 const VECTORS: [(&str, &str); 3] = [("", "position"), ("_velocity", "velocity"), ("_acceleration", "acceleration")];
@@ -53,7 +52,7 @@ impl Columns {
 
 /// Parameters; inputs, or a guess; rates and accelerations of the inputs.
 fn given(signatures: &Signatures, position: &Position) -> Vec<String> {
-    let parameters = signatures.mechanism.parameters.iter().map(|parameter| &parameter.name);
+    let parameters = signatures.parameters.iter().map(|parameter| &parameter.name);
     let (start, inputs) = (start(signatures, position), inputs(signatures));
     let nothing = BTreeSet::new();
     let mut taken = Taken::new(&nothing);
@@ -64,20 +63,15 @@ fn given(signatures: &Signatures, position: &Position) -> Vec<String> {
     names
 }
 
-pub(super) fn inputs<'a>(signatures: &Signatures<'a>) -> Vec<&'a Name> {
-    let (mechanism, inputs) = (signatures.mechanism, signatures.driver.inputs.iter());
-    inputs.map(|&index| &mechanism.coordinates[index].name).collect()
+pub(super) fn inputs(signatures: &Signatures) -> Vec<&Name> {
+    signatures.inputs.iter().map(|input| &input.name).collect()
 }
 
 /// The inputs, or all coordinates of a guess.
-pub(super) fn start<'a>(signatures: &Signatures<'a>, position: &Position) -> Vec<&'a Name> {
-    let mechanism = signatures.mechanism;
+pub(super) fn start<'s>(signatures: &'s Signatures, position: &Position) -> Vec<&'s Name> {
     match position.is_closed {
         true => inputs(signatures),
-        false => {
-            let order = mechanism.coordinate_order(signatures.driver);
-            order.into_iter().map(|index| &mechanism.coordinates[index].name).collect()
-        }
+        false => signatures.coordinates.iter().map(|coordinate| &coordinate.name).collect(),
     }
 }
 
@@ -99,12 +93,11 @@ impl Naming<'_> {
 
     /// Directions and lengths, then rates, then accelerations; and the angles.
     fn coordinates(&mut self, signatures: &Signatures, derived: Option<&Derived>) -> (Vec<Expression>, Vec<Held>) {
-        let (mechanism, driver) = (signatures.mechanism, signatures.driver);
-        let unknowns: Vec<&Coordinate> = driver.unknowns.iter().map(|&index| &mechanism.coordinates[index]).collect();
+        let unknowns = &signatures.unknowns;
         let (mut values, mut angles) = (Vec::new(), Vec::new());
         let pose = Expression::name("pose");
-        for coordinate in &unknowns {
-            let Name { text, field, .. } = &coordinate.name;
+        for coordinate in unknowns {
+            let Name { text, field } = &coordinate.name;
             let held = held(derived, coordinate);
             match &held {
                 Held::Number(_) => {
@@ -121,7 +114,7 @@ impl Naming<'_> {
             }
         }
         for (ending, of, word) in [("_rate", "rates", "rate"), ("_acceleration", "accelerations", "acceleration")] {
-            for Name { text, field, .. } in unknowns.iter().map(|coordinate| &coordinate.name) {
+            for Name { text, field } in unknowns.iter().map(|coordinate| &coordinate.name) {
                 self.add(&format!("{field}{ending}"), format!("The {word} of `{text}`."));
                 values.push(Expression::name(of).field(field));
             }
@@ -133,15 +126,14 @@ impl Naming<'_> {
 
     /// Points and outputs, each followed by its derivatives, as the function for one lane returns them.
     fn quantities(&mut self, signatures: &Signatures) {
-        let mechanism = signatures.mechanism;
-        for Name { text, field, .. } in mechanism.points.iter().map(|point| &point.name) {
+        for Name { text, field } in &signatures.points {
             for (vector, member) in VECTORS {
                 for axis in ["x", "y"] {
                     self.add(&format!("{field}{vector}_{axis}"), format!("{axis} of the {member} of `{text}`."));
                 }
             }
         }
-        for Name { text, field, .. } in mechanism.outputs.iter().map(|output| &output.name) {
+        for Name { text, field } in &signatures.outputs {
             for (ending, word) in SCALARS {
                 let doc = match ending {
                     "" => format!("`{text}`."),
@@ -157,9 +149,9 @@ impl Naming<'_> {
 fn held(derived: Option<&Derived>, coordinate: &Coordinate) -> Held {
     let name = &coordinate.name.field;
     let held = derived.into_iter().flat_map(|derived| &derived.held).find(|(other, _)| other == name);
-    match (held, coordinate.kind) {
+    match (held, coordinate.is_angle) {
         (Some((_, held)), _) => held.clone(),
-        (None, Kind::Angle) => Held::Direction { field: name.clone(), number: None },
-        (None, _) => Held::Number(name.clone()),
+        (None, true) => Held::Direction { field: name.clone(), number: None },
+        (None, false) => Held::Number(name.clone()),
     }
 }

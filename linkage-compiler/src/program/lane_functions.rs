@@ -8,8 +8,8 @@ use super::function::{Access, Body, Function, Passed};
 use super::functions::Functions;
 use super::implementation::{Associated, ConstantValue, Implementation, Implemented, fallible_of_trait, of_trait};
 use super::lane_columns::{Column, Columns, inputs, start};
+use super::signatures::Name;
 use super::signatures::Signatures;
-use crate::model::Name;
 use linkage_ir::Operations;
 use linkage_ir::{Constant, Intrinsic};
 
@@ -21,7 +21,7 @@ pub(super) fn of_driver<B>(
     derived: Option<&Derived>,
 ) -> (Implementation<Body>, Vec<Column>) {
     let columns = Columns::of(signatures, position, derived);
-    let (parameters, start) = (signatures.mechanism.parameters.len(), start(signatures, position).len());
+    let (parameters, start) = (signatures.parameters.len(), start(signatures, position).len());
     let branch = Type::Bare(signatures.types.branch.clone());
     let types = vec![
         ("Scalar", Associated::Type(Type::Scalar)),
@@ -46,7 +46,7 @@ pub(super) fn of_driver<B>(
 }
 
 struct Lanes<'a, B> {
-    signatures: &'a Signatures<'a>,
+    signatures: &'a Signatures,
     position: &'a Position,
     functions: &'a Functions<B>,
     columns: &'a Columns,
@@ -112,7 +112,7 @@ impl<B> Lanes<'_, B> {
         let at = |of: Expression| Expression::At(Box::new([of, name("lane")]));
         let mut statements = self.bound_inputs(&at).to_vec();
         // The coordinates of an open chain are given: only points and outputs read its kinematics.
-        let is_read = !self.signatures.is_open() || with_quantities;
+        let is_read = !self.signatures.is_open || with_quantities;
         let kinematics = if is_read { Pattern::name("kinematics".to_owned()) } else { Pattern::Ignored };
         let accepted = Pattern::name("is_accepted".to_owned());
         let call = self.call(KINEMATICS, ["start", "branch", "rates", "accelerations"]);
@@ -172,7 +172,7 @@ impl<B> Lanes<'_, B> {
         let call = Expression::own_call(function, arguments).tried();
         let has_quantities = self.has("motion_of_quantities");
         // The coordinates of an open chain are given.
-        if self.signatures.is_open() && !has_quantities {
+        if self.signatures.is_open && !has_quantities {
             statements.push(Statement::Do(call));
         } else {
             statements.push(Statement::Let(self.taken_apart(), call));
@@ -204,7 +204,7 @@ impl<B> Lanes<'_, B> {
         let (inputs, start) = (inputs(self.signatures), start(self.signatures, self.position));
         let types = &self.signatures.types;
         let of_start = if self.position.is_closed { &types.inputs } else { &types.coordinates };
-        let mut columns = self.signatures.mechanism.parameters.len()..;
+        let mut columns = self.signatures.parameters.len()..;
         let mut by_name = |of: &String, names: &[&Name]| {
             let members = names.iter().zip(&mut columns);
             let members = members.map(|(name, column)| {

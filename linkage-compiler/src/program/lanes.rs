@@ -35,7 +35,7 @@ impl Plan<'_, '_> {
         }
         let (kernel, conditions) = self.kinematics_kernel(Failure::Flag);
         let value = self.kinematics_of_results(&kernel);
-        let is_method = !self.signatures.is_open() || self.reads_parameters(&kernel);
+        let is_method = !self.signatures.is_open || self.reads_parameters(&kernel);
         let mut body = flagged(kernel, vec![value], "is_accepted");
         body.before = self.turns_of_branch();
         body.after.push(Statement::LetAccepted(Pattern::local(0), conditions));
@@ -55,7 +55,7 @@ impl Plan<'_, '_> {
 
     /// True if a lane alone has functions of its own, for positions without the values of user functions.
     fn has_lanes_alone(&self) -> bool {
-        self.signatures.mechanism.requests.contains(&Request::Lanes) && !self.pose.externals.is_empty()
+        self.signatures.requests.contains(&Request::Lanes) && !self.pose.externals.is_empty()
     }
 
     /// The position for a lane alone, by the body of `assemble`.
@@ -120,7 +120,7 @@ fn flagged(kernel: Kernel, mut values: Vec<Expression>, flag: &str) -> Body {
     Body { locals: vec![flag.to_owned()], ..Body::of(kernel, Expression::Tuple(values)) }
 }
 
-impl Signatures<'_> {
+impl Signatures {
     /// `kinematics` without branches.
     pub fn kinematics_in_lane(&self) -> Function<Body> {
         let by_value = [Order::Value, Order::Rate, Order::Acceleration].map(|order| {
@@ -147,7 +147,7 @@ impl Signatures<'_> {
             let passed = Passed::ByValue(self.coordinates_type(order));
             Argument { name: self.arguments.of(order).to_owned(), passed }
         });
-        let count = 6 * self.mechanism.points.len() + 3 * self.mechanism.outputs.len();
+        let count = 6 * self.points.len() + 3 * self.outputs.len();
         let returns = Type::List(Box::new(Type::Scalar), count);
         let itself = total("motion_of_quantities", [pose].into_iter().chain(moving), returns);
         Function { access: Access::LaneAlone, ..itself }

@@ -10,8 +10,8 @@ use linkage_ir::Intrinsic;
 impl Plan<'_, '_> {
     /// max |d point / d angle|, which is about the reach of the longest arm.
     pub(super) fn length_scale(&mut self) {
-        let coordinates = &self.signatures.mechanism.coordinates;
-        let inputs = self.signatures.driver.inputs.iter().zip(&self.derivation.inputs);
+        let coordinates = &self.mechanism.coordinates;
+        let inputs = self.driver.inputs.iter().zip(&self.derivation.inputs);
         let (angles, others): (Vec<_>, Vec<_>) = inputs.partition(|(id, _)| coordinates[**id].kind == Kind::Angle);
         let angles: Vec<ColumnId> = angles.into_iter().map(|(_, &column)| column).collect();
         if others.is_empty() {

@@ -21,7 +21,7 @@ impl Plan<'_, '_> {
 
     fn limits_of(&mut self, index: InputId) {
         let Arguments { inputs, branch, guess, position: position_name, .. } = self.signatures.arguments.clone();
-        let coordinate = &self.signatures.mechanism.coordinates[self.signatures.driver.inputs[index]];
+        let coordinate = &self.mechanism.coordinates[self.driver.inputs[index]];
         let (name, kind) = (coordinate.name.clone(), coordinate.kind);
         let (bounds, is_searched) = self.derivation.bounds(&self.assembly, index);
         let one = self.derivation.graph.one();
@@ -89,7 +89,7 @@ impl Plan<'_, '_> {
             Statement::Let(Pattern::name(position_name.clone()), start_position.tried()),
         ];
         body.kernel = Some(kernel);
-        let others = if self.signatures.inputs() == 1 { "" } else { ", with the other inputs fixed" };
+        let others = if self.signatures.inputs.len() == 1 { "" } else { ", with the other inputs fixed" };
         let doc = lines([
             &format!(
                 "The interval of `{}` in which the mechanism can be assembled on a branch, about a position{others}.",

@@ -52,8 +52,8 @@ pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitt
 pub use pose::{Given, PosePlan};
 pub use pose_fields::{Held, PoseField};
 pub use precise::ROUGH;
-pub use scene::{MULTIPLIERS, SceneProgram, SceneSignatures};
-pub use signatures::{Family, Signatures};
+pub use scene::{Joint, MULTIPLIERS, SceneProgram, SceneSignatures};
+pub use signatures::{Coordinate, Family, Name, Parameter, Signatures, UserFunction};
 
 pub use crate::derivation::Part;
 
@@ -67,15 +67,15 @@ use scene::ScenePlan;
 
 /// The program of one driver of a mechanism; `B` is the body of a function, planned or lowered, `D` the derived data,
 /// which a stub lacks.
-pub struct Program<'a, B, D = Option<Derived>> {
-    pub signatures: Signatures<'a>,
+pub struct Program<B, D = Option<Derived>> {
+    pub signatures: Signatures,
     pub position: Position,
     pub functions: Functions<B>,
     /// The functions of its pose, and the traits that it implements.
     pub implementations: Vec<Implementation<B>>,
     /// The columns that `Lanes` finds, if it is requested.
     pub columns: Vec<Column>,
-    pub scenes: Vec<SceneProgram<'a, B>>,
+    pub scenes: Vec<SceneProgram<B>>,
     /// The formulas over numbers of any kind, on request.
     pub any_number: Option<AnyNumber<B>>,
     pub derived: D,
@@ -101,14 +101,14 @@ pub struct Derived {
 ///
 /// # Errors
 /// [`Spent`] if the budget of the invocation is.
-pub fn plan<'a>(
-    mechanism: &'a Mechanism,
-    driver: &'a Driver,
+pub fn plan(
+    mechanism: &Mechanism,
+    driver: &Driver,
     derivation: &mut Derivation,
-) -> Result<Program<'a, Body, Derived>, Spent> {
+) -> Result<Program<Body, Derived>, Spent> {
     let mut plan = Plan::of(mechanism, driver, derivation);
     let mut scenes = Vec::new();
-    for (number, scene) in mechanism.scenes_of(driver).enumerate() {
+    for (number, (scene, _)) in mechanism.scenes_of(driver).enumerate() {
         mechanism.graph.budget().check()?;
         scenes.extend(ScenePlan::of(&mut plan, scene, number).map(ScenePlan::into_program));
     }
@@ -131,12 +131,12 @@ pub fn plan<'a>(
 }
 
 /// The program of a mechanism with mistakes: functions without bodies.
-pub fn stub<'a, B>(mechanism: &'a Mechanism, driver: &'a Driver) -> Program<'a, B> {
+pub fn stub<B>(mechanism: &Mechanism, driver: &Driver) -> Program<B> {
     let (signatures, position) = (Signatures::new(mechanism, driver), Position::guessed(mechanism, driver));
     let functions: Functions<B> = signatures.all(&position).into_iter().map(Function::without_body).collect();
     let (implementations, columns) = implementations::of_driver(&signatures, &position, &functions, None);
     let implementations = implementations.into_iter().map(|of| of.without_choice(|_| true).without_bodies()).collect();
-    let scenes = mechanism.scenes_of(driver).map(|scene| {
+    let scenes = mechanism.scenes_of(driver).map(|(scene, _)| {
         let signatures = SceneSignatures::new(mechanism, driver, scene);
         let functions = signatures.all().into_iter().map(Function::without_body).collect();
         let implementation = scene::implementation(&signatures, Vec::new(), &[]);

@@ -19,7 +19,9 @@ pub const ENDINGS: [&str; 4] = ["", "_rate", "_acceleration", "_jerk"];
 
 /// A driver whose functions are planned one by one.
 pub struct Plan<'d, 'a> {
-    pub signatures: Signatures<'a>,
+    pub mechanism: &'a Mechanism,
+    pub driver: &'a Driver,
+    pub signatures: Signatures,
     pub derivation: &'d mut Derivation,
     pub formulas: Formulas,
     pub pose: PosePlan,
@@ -42,7 +44,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         if wants(Request::Limits) {
             plan.limits();
         }
-        match plan.signatures.is_open() {
+        match plan.signatures.is_open {
             true => plan.length_scale(),
             false => plan.equations(),
         }
@@ -81,6 +83,8 @@ impl<'d, 'a> Plan<'d, 'a> {
         let pose = PosePlan::new(derivation);
         let formulas = Formulas::new(derivation);
         let mut plan = Self {
+            mechanism,
+            driver,
             signatures: Signatures::new(mechanism, driver),
             named: mechanism.named.clone(),
             derivation,
@@ -98,7 +102,7 @@ impl<'d, 'a> Plan<'d, 'a> {
     /// Names subexpressions that equal a point, an output or a derivative of one.
     fn name_quantities(&mut self) {
         for family in [Family::Points, Family::Outputs] {
-            let names = family.names(self.signatures.mechanism);
+            let names = family.names(&self.signatures);
             for (quantity, name) in self.quantities_of(family).to_vec().iter().zip(names) {
                 let orders = [&quantity.value, &quantity.rate, &quantity.acceleration, &quantity.jerk];
                 // Accelerations of outputs seldom occur in other formulas.
@@ -113,7 +117,7 @@ impl<'d, 'a> Plan<'d, 'a> {
 
     /// Adds a function with its doc comment and its body.
     pub(super) fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
-        let doc = if self.signatures.is_open() { without_singular(doc) } else { doc };
+        let doc = if self.signatures.is_open { without_singular(doc) } else { doc };
         let body = self.refined(&signature, body);
         self.functions.push(Function { doc, body: Some(body), ..signature });
     }
@@ -186,7 +190,7 @@ impl<'d, 'a> Plan<'d, 'a> {
     // Sources of symbols.
 
     pub(super) fn parameters(&self) -> Source {
-        let fields = self.signatures.mechanism.parameters.iter();
+        let fields = self.mechanism.parameters.iter();
         let fields = fields.map(|parameter| (parameter.name.field.clone(), parameter.symbol));
         Source { from: Expression::own().dereferenced(), shape: Shape::fields(Type::Itself, fields, true) }
     }
@@ -237,7 +241,7 @@ impl<'d, 'a> Plan<'d, 'a> {
         let pose = &self.signatures.arguments.pose;
         Source {
             from: Expression::own_call(function, [Expression::name(pose)]).tried().columns(),
-            shape: Shape::columns(self.signatures.unknowns(), symbols),
+            shape: Shape::columns(self.signatures.unknowns.len(), symbols),
         }
     }
 

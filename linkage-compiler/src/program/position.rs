@@ -55,7 +55,7 @@ impl Plan<'_, '_> {
     pub(super) fn position(&mut self) {
         self.pose_at();
         self.widening();
-        if self.signatures.is_open() {
+        if self.signatures.is_open {
             // The inputs are the position: nothing is solved, and there are no branches.
             self.assemble();
             return;
@@ -80,7 +80,7 @@ impl Plan<'_, '_> {
         let results = determinants.into_iter().chain(circular).chain(numbers).chain(externals);
         let kernel = self.kernel(vec![self.coordinates(Order::Value)], Vec::new(), unnamed(results));
         let body = Body::of(kernel, self.pose_of_results());
-        let calls = match self.signatures.mechanism.externals.as_slice() {
+        let calls = match self.mechanism.externals.as_slice() {
             [] => "",
             _ => " and one call of each user function",
         };
@@ -139,13 +139,8 @@ impl Plan<'_, '_> {
         let (steps, results) = self.position_steps();
         let nodes: Vec<NodeId> = results.iter().map(|output| output.node).collect();
         let steps = needed_names(&self.derivation.graph, steps, &nodes);
-        self.position = Position::new(
-            (self.signatures.mechanism, self.signatures.driver),
-            self.derivation,
-            &self.pose,
-            &self.assembly,
-            &steps,
-        );
+        self.position =
+            Position::new((self.mechanism, self.driver), self.derivation, &self.pose, &self.assembly, &steps);
         let Arguments { inputs, turn, guess, .. } = self.signatures.arguments.clone();
         let source = if !self.position.is_closed {
             self.guess()
@@ -174,7 +169,7 @@ impl Plan<'_, '_> {
                 true => self.assemble_by_number(),
                 false => self.no_assemble(),
             }
-        } else if self.signatures.is_open() {
+        } else if self.signatures.is_open {
             self.add(self.signatures.assemble(), lines(ASSEMBLE_OPEN), body);
         } else if self.position.turns.is_empty() {
             self.add(self.signatures.assemble(), lines(ASSEMBLE), body);

@@ -175,7 +175,7 @@ impl Plan<'_, '_> {
     }
 
     fn widened(&mut self) {
-        let parameters = &self.signatures.mechanism.parameters;
+        let parameters = &self.mechanism.parameters;
         let parameters = parameters.iter().map(|parameter| Expression::own().field(&parameter.name.field)).collect();
         let widened = Expression::Function(Intrinsic::Widened, None);
         let parameters = Expression::call(Intrinsic::Map, [Expression::List(parameters), widened]);
@@ -203,7 +203,7 @@ impl Plan<'_, '_> {
 
     /// The angles of the directions of a pose that follow from its numbers.
     fn angles_of_numbers(&self) -> Vec<NodeId> {
-        let parameters = self.signatures.mechanism.parameters.iter().map(|parameter| parameter.symbol);
+        let parameters = self.mechanism.parameters.iter().map(|parameter| parameter.symbol);
         let known: Vec<SymbolId> = self.pose.values.iter().map(|(.., symbol)| *symbol).chain(parameters).collect();
         let graph = &self.derivation.graph;
         let is_known = |angle: &NodeId| {
@@ -217,7 +217,7 @@ impl Plan<'_, '_> {
     /// True if the directions of a pose depend on parameters, such as an offset between two angles of a link.
     fn at_numbers_is_method(&self) -> bool {
         let symbols = self.derivation.graph.symbols_of(&self.angles_of_numbers());
-        self.signatures.mechanism.parameters.iter().any(|parameter| symbols.contains(&parameter.symbol))
+        self.mechanism.parameters.iter().any(|parameter| symbols.contains(&parameter.symbol))
     }
 
     /// The pose with directions computed from its numbers: those of a widened pose are rounded.
@@ -245,7 +245,7 @@ impl Plan<'_, '_> {
     }
 }
 
-impl Signatures<'_> {
+impl Signatures {
     /// The rates and accelerations at a pose in twice the precision.
     fn precise_kinematics(&self) -> Function<Body> {
         let inputs = |name: &String| Argument {

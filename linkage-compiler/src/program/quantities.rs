@@ -55,7 +55,7 @@ impl Plan<'_, '_> {
         let mut doc = vec![meaning];
         if order == 0 {
             let axes: &[&str] = if family == Family::Points { &[".x", ".y"] } else { &[""] };
-            let names = family.names(self.signatures.mechanism);
+            let names = family.names(&self.signatures);
             let formulas = names.iter().zip(self.quantities_of(family)).flat_map(|(name, quantity)| {
                 axes.iter().zip(&quantity.value).map(move |(axis, &node)| (format!("{name}{axis}"), node))
             });
@@ -72,7 +72,7 @@ impl Plan<'_, '_> {
         let count = nodes.len();
         let sources = Order::ALL.into_iter().skip(1).take(order).map(|order| self.coordinates(order)).collect();
         let ending = ENDINGS[order];
-        let names = family.names(self.signatures.mechanism);
+        let names = family.names(&self.signatures);
         let names = names.iter().flat_map(|name| family.axes().iter().map(move |axis| format!("{name}{axis}{ending}")));
         let outputs = nodes.into_iter().zip(names).map(|(node, name)| Output::named(node, name)).collect();
         let kernel = self.on_pose(sources, Vec::new(), outputs);
@@ -90,10 +90,10 @@ impl Plan<'_, '_> {
 
     /// `W_l = l_u W + l_v`.
     fn quantity_ratios(&mut self, family: Family) {
-        let v = self.signatures.inputs();
+        let v = self.signatures.inputs.len();
         let (word, dimension) = (family.word(), family.dimension());
         let mut laws = Vec::new();
-        for (name, formulas) in family.names(self.signatures.mechanism).iter().zip(self.formulas_of(family)) {
+        for (name, formulas) in family.names(&self.signatures).iter().zip(self.formulas_of(family)) {
             for (&input, nodes) in self.derivation.inputs.iter().zip(&formulas.ratios) {
                 let by = match v {
                     1 => "ratio".to_owned(),
@@ -118,7 +118,7 @@ impl Plan<'_, '_> {
         let count = nodes.len();
         let ratios: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
         // The count includes the operations of `velocity_ratios`, which it calls.
-        let called = if self.signatures.is_open() { None } else { Some("velocity_ratios") };
+        let called = if self.signatures.is_open { None } else { Some("velocity_ratios") };
         let sources = called.iter().map(|function| self.columns(function, &ratios)).collect();
         let kernel = self.on_pose(sources, Vec::new(), unnamed(nodes));
         let values = Expression::List(Expression::nested(results(0..count), &[v, dimension]));

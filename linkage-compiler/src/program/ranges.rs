@@ -14,7 +14,7 @@ use linkage_ir::{Constant, Intrinsic};
 
 impl Plan<'_, '_> {
     pub(super) fn ranges(&mut self) {
-        let ranges = &self.signatures.mechanism.ranges;
+        let ranges = &self.mechanism.ranges;
         if ranges.is_empty() {
             return;
         }
@@ -32,7 +32,7 @@ impl Plan<'_, '_> {
 
     /// The function of the trait `Formulas` that returns one of them over numbers of any kind.
     pub(super) fn ranged_of_columns(&mut self) -> Option<Function<Body>> {
-        if self.signatures.mechanism.ranges.is_empty() {
+        if self.mechanism.ranges.is_empty() {
             return None;
         }
         let (nodes, all) = self.with_ends(Intrinsic::RangedModuloTurns);
@@ -52,7 +52,7 @@ impl Plan<'_, '_> {
             nodes.push(node);
             Expression::Result(nodes.len() - 1)
         };
-        let made = self.signatures.mechanism.ranges.iter().map(|range| {
+        let made = self.mechanism.ranges.iter().map(|range| {
             let value = result(range.value);
             let ends = range.ends.map(|end| perhaps(end.map(&mut result)));
             let symbol = self.derivation.graph.as_symbol(range.value);
@@ -66,7 +66,7 @@ impl Plan<'_, '_> {
 
     /// The angles of which whole turns change nothing: they are numbers in no formula.
     fn directions_with_ranges(&self) -> BTreeSet<SymbolId> {
-        let Signatures { mechanism, driver, .. } = &self.signatures;
+        let Self { mechanism, driver, .. } = self;
         let turns = self.position.turns.iter().map(|turn| turn.symbol);
         let counted: BTreeSet<SymbolId> = mechanism.counted(driver).into_iter().chain(turns).collect();
         let angles = mechanism.coordinates.iter().filter(|coordinate| coordinate.kind == Kind::Angle);
@@ -81,10 +81,10 @@ fn perhaps(value: Option<Expression>) -> Expression {
     }
 }
 
-impl Signatures<'_> {
+impl Signatures {
     /// The values with ranges at a position.
     pub fn ranges(&self) -> Function<Body> {
-        let count = self.mechanism.ranges.len();
+        let count = self.ranges.len();
         total("ranges", [self.coordinates(Order::Value)], Type::List(Box::new(ranged()), count))
     }
 

@@ -14,7 +14,7 @@ use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     pub(super) fn velocity(&mut self) {
-        if !self.signatures.is_open() {
+        if !self.signatures.is_open {
             self.solve_jacobian();
             self.velocity_ratios();
         }
@@ -69,9 +69,9 @@ impl Plan<'_, '_> {
         let count = names.len();
         let outputs = self.outputs(&names);
         let kernel = self.on_pose(Vec::new(), steps, outputs);
-        let matrix = Expression::matrix(&results(0..count), self.signatures.unknowns());
+        let matrix = Expression::matrix(&results(0..count), self.signatures.unknowns.len());
         let body = Body::of(kernel, matrix).checked("velocity ratios", results(0..count));
-        let mut doc = match self.signatures.inputs() {
+        let mut doc = match self.signatures.inputs.len() {
             1 => lines([
                 "The velocity ratios `W = -J^-1 A` with `u' = W v'`; for one input they are the transmission ratios.",
             ]),
@@ -94,7 +94,7 @@ impl Plan<'_, '_> {
     /// The private functions that scenes call: W, `q' = (W v', v')`, and `u''` at `v'' = 0`. They check determinants only;
     /// their callers check that results are finite.
     pub(super) fn layers(&mut self) {
-        if self.signatures.is_open() {
+        if self.signatures.is_open {
             self.coordinate_rates();
             return;
         }
@@ -105,7 +105,7 @@ impl Plan<'_, '_> {
 
     fn ratio_columns(&mut self) {
         let error_name = self.signatures.arguments.error_name.clone();
-        let (u, v) = (self.signatures.unknowns(), self.signatures.inputs());
+        let (u, v) = (self.signatures.unknowns.len(), self.signatures.inputs.len());
         let steps = self.ratio_steps(Form::Entries);
         let names: Vec<SymbolId> = self.derivation.ratios.iter().flatten().copied().collect();
         let nodes = self.variables(&names);
@@ -131,7 +131,7 @@ impl Plan<'_, '_> {
         }
         nodes.extend(self.derivation.inputs.iter().copied().zip(rates));
         let by_value = Source { from: Expression::name(&input_rates), ..self.inputs(Order::Rate) };
-        let u = self.signatures.unknowns();
+        let u = self.signatures.unknowns.len();
         let columns = (u > 0).then(|| Shape::columns(u, &names));
         let columns = columns.map(|shape| Source { from: Expression::name(&ratios).dereferenced(), shape });
         let sources = columns.into_iter().chain([by_value]).collect();
@@ -198,7 +198,7 @@ impl Plan<'_, '_> {
     }
 
     pub(super) fn acceleration(&mut self) {
-        if !self.signatures.is_open() {
+        if !self.signatures.is_open {
             self.gamma();
         }
         let unknowns = self.accelerations(&self.derivation.unknowns);
@@ -210,7 +210,7 @@ impl Plan<'_, '_> {
         let kernel = Kernel { conclusive: 0..all.len(), ..self.on_pose(sources, steps, unnamed(nodes)) };
         let body = Body::of(kernel, self.coordinates_of(Order::Acceleration, 0));
         let body = body.checked("acceleration", self.checked(0));
-        let text = match self.signatures.is_open() {
+        let text = match self.signatures.is_open {
             true => "The accelerations `q''` of all coordinates: the input accelerations `v''`.",
             false => {
                 "The accelerations `q''` of all coordinates at the rates `q'` and the input accelerations `v''`: `J u'' = -(A v'' + gamma)`."
@@ -226,7 +226,7 @@ impl Plan<'_, '_> {
     }
 
     pub(super) fn jerk(&mut self) {
-        let mut doc = match self.signatures.is_open() {
+        let mut doc = match self.signatures.is_open {
             true => lines(["The jerks `q'''` of all coordinates: the input jerks `v'''`."]),
             false => lines([
                 "The jerks `q'''` of all coordinates at the rates `q'`, the accelerations `q''` and the input jerks `v'''`:",
@@ -317,7 +317,7 @@ impl Plan<'_, '_> {
         let nodes = kernel.steps.iter().flat_map(Step::nodes);
         let nodes: Vec<NodeId> = nodes.chain(kernel.results.iter().map(|output| output.node)).collect();
         let symbols = self.derivation.graph.symbols_of(&nodes);
-        let parameters = &self.signatures.mechanism.parameters;
+        let parameters = &self.mechanism.parameters;
         parameters.iter().any(|parameter| symbols.contains(&parameter.symbol))
     }
 }

@@ -33,7 +33,7 @@ impl Plan<'_, '_> {
     }
 
     pub(super) fn ratio_derivatives(&mut self) {
-        if !self.signatures.is_open() {
+        if !self.signatures.is_open {
             self.unknown_ratio_derivatives();
         }
         for family in [Family::Points, Family::Outputs] {
@@ -61,7 +61,7 @@ impl Plan<'_, '_> {
         let name = |name: &SymbolId| self.derivation.graph.symbol_name(*name);
         let outputs = solved.into_iter().zip(&names).map(|(node, symbol)| Output::named(node, name(symbol)));
         let kernel = self.on_pose(Vec::new(), steps, outputs.collect());
-        let (u, all) = (self.signatures.unknowns(), results(0..names.len()));
+        let (u, all) = (self.signatures.unknowns.len(), results(0..names.len()));
         let matrices = (0..u).map(|unknown| self.symmetric(&all.iter().skip(unknown).step_by(u).cloned().collect()));
         let body = Body::of(kernel, Expression::List(matrices.collect()));
         let body = body.checked("velocity ratio derivatives", all);
@@ -75,7 +75,7 @@ impl Plan<'_, '_> {
         }]);
         let second = self.derivation.ratio_derivatives.as_ref();
         let endings = second.map(|second| second.endings.clone()).unwrap_or_default();
-        let names = family.names(self.signatures.mechanism);
+        let names = family.names(&self.signatures);
         let mut laws = Vec::new();
         for (name, formulas) in names.iter().zip(self.formulas_of(family)) {
             for (ending, nodes) in endings.iter().zip(&formulas.ratio_derivatives) {

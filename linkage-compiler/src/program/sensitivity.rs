@@ -23,7 +23,7 @@ impl Plan<'_, '_> {
         let systems = self.derivation.sensitivity_systems();
         let (steps, solved) = self.derivation.solve(&systems, Form::Factored);
         let solved = Table::from(solved);
-        if !self.signatures.is_open() {
+        if !self.signatures.is_open {
             self.unknown_sensitivity(&systems, steps, &solved);
         }
         for family in [Family::Points, Family::Outputs] {
@@ -39,8 +39,8 @@ impl Plan<'_, '_> {
         mut steps: Vec<Step>,
         solved: &Solutions<ParameterId, NodeId>,
     ) {
-        let (u, p) = (self.signatures.unknowns(), self.signatures.mechanism.parameters.len());
-        let columns = self.signatures.mechanism.parameters.iter();
+        let (u, p) = (self.signatures.unknowns.len(), self.mechanism.parameters.len());
+        let columns = self.mechanism.parameters.iter();
         let columns: Vec<String> = columns.map(|parameter| format!("`{}`", parameter.name.text)).collect();
         let mut doc = lines([
             "The sensitivity du/dp = -J^-1 `Psi_p` of the unknowns to the parameters, at fixed inputs; its columns",
@@ -77,15 +77,15 @@ impl Plan<'_, '_> {
 
     fn quantity_sensitivities(&mut self, family: Family, solved: &Solutions<ParameterId, NodeId>) {
         let (word, dimension) = (family.word(), family.dimension());
-        let names = family.names(self.signatures.mechanism);
-        let open = self.signatures.is_open();
+        let names = family.names(&self.signatures);
+        let open = self.signatures.is_open;
         let mut doc = vec![
             format!("The total derivatives of the {word}s with respect to the parameters, at fixed inputs:"),
             if open { "`dl/dp = l_p`." } else { "`dl/dp = l_p + l_u du/dp`." }.to_owned(),
         ];
         let mut laws = Vec::new();
         for (name, formulas) in names.iter().zip(self.formulas_of(family)) {
-            for (parameter, nodes) in self.signatures.mechanism.parameters.iter().zip(&formulas.sensitivities) {
+            for (parameter, nodes) in self.mechanism.parameters.iter().zip(&formulas.sensitivities) {
                 if nodes.iter().any(|&node| !self.derivation.graph.is_zero(node)) {
                     laws.extend(self.laws(family, name, &format!("by_{}", parameter.name.field), nodes));
                 }

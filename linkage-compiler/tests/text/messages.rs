@@ -5,7 +5,7 @@ use linkage_compiler::text::{self, Message};
 
 /// The messages of a text, and its mechanisms.
 fn compiled(text: &str) -> Result<Vec<String>, Vec<Message>> {
-    let compiled = text::compile(text, &Budget::default(), |of| of.program.signatures.driver.name.to_string())?;
+    let compiled = text::compile(text, &Budget::default(), |of| of.program.signatures.driver.clone())?;
     Ok(compiled.into_iter().flat_map(|of| of.drivers).collect())
 }
 

@@ -16,7 +16,7 @@ pub(crate) fn formulas(lowered: &Lowered) -> Result<Option<Formulas>, Untranslat
     let Some(any) = &lowered.program.any_number else { return Ok(None) };
     let signatures = &lowered.program.signatures;
     let of = |name: &str| formula(any, signatures, name, Form::numbers);
-    let ranges = match signatures.mechanism.ranges.is_empty() {
+    let ranges = match signatures.ranges.is_empty() {
         true => Formula::default(),
         false => formula(any, signatures, "ranged", Form::ranges)?,
     };
@@ -28,7 +28,7 @@ pub(crate) fn formulas(lowered: &Lowered) -> Result<Option<Formulas>, Untranslat
         gamma: of("gamma")?,
         quantities: of("quantities")?,
         ranges,
-        names: quantities.flat_map(|family| family.components(signatures.mechanism)).collect(),
+        names: quantities.flat_map(|family| family.components(signatures)).collect(),
         user_functions: any.user_functions.clone(),
     }))
 }
@@ -111,10 +111,10 @@ impl<'l> Line<'l> {
             next += 1;
             Register(next - 1)
         };
-        let fields = signatures.mechanism.parameters.iter().map(|parameter| parameter.name.field.as_str());
+        let fields = signatures.parameters.iter().map(|parameter| parameter.name.field.as_str());
         let parameters = fields.map(|field| (field, given())).collect();
         // Unknowns and inputs, or these and their rates.
-        let mut counts = [signatures.unknowns(), signatures.inputs()].into_iter().cycle();
+        let mut counts = [signatures.unknowns.len(), signatures.inputs.len()].into_iter().cycle();
         let mut argument = |of: &program::Argument| match of.passed {
             program::Passed::ByValue(_) => Form::Place,
             _ => Form::List((0..counts.next().unwrap_or_default()).map(|_| Form::Number(given())).collect()),

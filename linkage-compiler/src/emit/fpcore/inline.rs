@@ -10,13 +10,15 @@ use crate::graph::Function as Elementary;
 use crate::lower::{self, Block, Code, Pattern, Signed, Statement, ValueId};
 use crate::model::Mechanism;
 use crate::program::{
-    Arguments, CheckKind, Entry, Family, Function, Functions, Intrinsic, Meaning, Order, Passed, Receiver, Type,
+    Arguments, CheckKind, Entry, Family, Function, Functions, Intrinsic, Meaning, Order, Passed, Receiver, Signatures,
+    Type,
 };
 
 /// The functions of a type.
 pub(super) struct Owner<'a> {
     pub(super) functions: &'a Functions<Code>,
-    pub(super) mechanism: &'a Mechanism,
+    /// The mechanism, and the functions of its driver.
+    pub(super) declared: (&'a Mechanism, &'a Signatures),
     arguments: &'a Arguments,
     /// Those of the mechanism of a scene.
     inner: Option<&'a Owner<'a>>,
@@ -26,10 +28,10 @@ impl<'a> Owner<'a> {
     pub(super) fn new(
         functions: &'a Functions<Code>,
         arguments: &'a Arguments,
-        mechanism: &'a Mechanism,
+        declared: (&'a Mechanism, &'a Signatures),
         inner: Option<&'a Owner<'a>>,
     ) -> Self {
-        Self { functions, mechanism, arguments, inner }
+        Self { functions, declared, arguments, inner }
     }
 
     /// The functions of the mechanism.
@@ -211,7 +213,7 @@ impl Inlined {
             }
             V::Intrinsic(of, of_type, arguments) => {
                 let arguments = self.values(arguments, scope);
-                self.intrinsic(scope.of.mechanism, (*of, of_type.as_ref()), &arguments)
+                self.intrinsic(scope.of.declared.1, (*of, of_type.as_ref()), &arguments)
             }
             V::Own(receiver, function, arguments) => {
                 let arguments = self.values(arguments, scope);
@@ -284,7 +286,7 @@ impl Inlined {
     /// A function that the program does not define, by its meaning in the table.
     fn intrinsic(
         &mut self,
-        mechanism: &Mechanism,
+        signatures: &Signatures,
         (of, of_type): (Intrinsic, Option<&Type>),
         arguments: &[Value],
     ) -> Value {
@@ -323,7 +325,7 @@ impl Inlined {
                 Value::PrincipalTurns => argument(principal).clone(),
                 _ => Value::Unknown,
             },
-            Meaning::Named(entry) => named(mechanism, entry, arguments),
+            Meaning::Named(entry) => named(signatures, entry, arguments),
         }
     }
 
@@ -393,7 +395,7 @@ fn from(of: Option<&Type>, arguments: &[Value]) -> Value {
 }
 
 /// The last argument by the names of points or outputs.
-fn named(mechanism: &Mechanism, entry: Entry, arguments: &[Value]) -> Value {
+fn named(signatures: &Signatures, entry: Entry, arguments: &[Value]) -> Value {
     let Some(Value::List(values)) = arguments.last() else { return Value::Unknown };
     let is_of_points = |text: &Value| matches!(text, Value::Text(text) if text.starts_with("point"));
     let family = match entry {
@@ -409,7 +411,7 @@ fn named(mechanism: &Mechanism, entry: Entry, arguments: &[Value]) -> Value {
         (Entry::PointMotion, motion) => parts(["position", "velocity", "acceleration"], motion, &components),
         (Entry::OutputMotion, motion) => parts(["value", "rate", "acceleration"], motion, &Value::clone),
     };
-    Value::members(family.names(mechanism).into_iter().zip(values.iter().map(change)))
+    Value::members(family.names(signatures).into_iter().zip(values.iter().map(change)))
 }
 
 /// `(x, y)` of a point or a vector.

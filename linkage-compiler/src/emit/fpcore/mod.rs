@@ -13,6 +13,7 @@ mod value;
 
 use crate::document::{KernelCode, Table};
 use crate::lower::Code;
+use crate::model::Mechanism;
 use crate::program::{Program, SceneProgram};
 use inline::{Inlined, Owner};
 
@@ -22,15 +23,15 @@ pub(super) struct Straight<'a> {
 }
 
 impl<'a> Straight<'a> {
-    pub(super) fn of_driver(program: &'a Program<Code>) -> Self {
+    pub(super) fn of_driver(mechanism: &'a Mechanism, program: &'a Program<Code>) -> Self {
         let signatures = &program.signatures;
-        Self { owner: Owner::new(&program.functions, &signatures.arguments, signatures.mechanism, None) }
+        Self { owner: Owner::new(&program.functions, &signatures.arguments, (mechanism, signatures), None) }
     }
 
     /// The functions of a scene on this driver.
     pub(super) fn within(&'a self, scene: &'a SceneProgram<Code>) -> Self {
         let arguments = &scene.signatures.arguments;
-        Self { owner: Owner::new(&scene.functions, arguments, self.owner.mechanism, Some(&self.owner)) }
+        Self { owner: Owner::new(&scene.functions, arguments, self.owner.declared, Some(&self.owner)) }
     }
 
     /// The formulas of the function with this name; empty if it has none.
@@ -38,6 +39,6 @@ impl<'a> Straight<'a> {
         let Some(function) = self.owner.functions.named(name) else { return KernelCode::default() };
         let mut inlined = Inlined::default();
         let value = inlined.result(&self.owner, function);
-        lines::code(self.owner.mechanism, &inlined.operations, &inlined.checks, &value, table)
+        lines::code(self.owner.declared.0, &inlined.operations, &inlined.checks, &value, table)
     }
 }

@@ -5,18 +5,19 @@ use quote::quote;
 
 use super::derives::derives;
 use super::parameters::MOST_ARGUMENTS;
+use crate::emit::Declared;
 use crate::emit::names::{comment, ident};
 use crate::lower::Code;
 use crate::program::{Modes, Position, Program, Side};
 
 /// The branch type: a field for each group with two solutions, one for each group whose positions have numbers, and, if
 /// the position has a closed form, one for the turn of each angle that the pose stores as a number.
-pub(super) fn branch(program: &Program<Code>, root: &TokenStream) -> TokenStream {
-    let visibility = &program.signatures.mechanism.visibility;
-    let (driver, branch) = (&program.signatures.driver.name, ident(&program.signatures.types.branch));
+pub(super) fn branch(of: Declared<'_>, program: &Program<Code>, root: &TokenStream) -> TokenStream {
+    let visibility = &of.mechanism.visibility;
+    let (driver, branch) = (&of.driver.name, ident(&program.signatures.types.branch));
     let (Position { sides, modes, .. }, turns) = (&program.position, program.position.turns_of_branch());
-    let derives = derives(program.signatures.mechanism, root);
-    let title = comment(&match program.signatures.is_open() {
+    let derives = derives(of.mechanism, root);
+    let title = comment(&match program.signatures.is_open {
         true => format!(" The branch of [`{driver}`]: an open chain has a single one."),
         false if modes.is_empty() => {
             format!(" The assembly mode of [`{driver}`]: one of the two solutions of each group that has two.")

@@ -13,6 +13,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Attribute;
 
+use super::Declared;
 use super::names::{comment, ident};
 use crate::lower::Code;
 use crate::model::{Coordinate, Guess, Mechanism, Request, TypeName};
@@ -100,8 +101,8 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
 }
 
 /// The types of one driver: parameters, inputs, pose, motion, branch.
-pub(super) fn of_driver(program: &Program<Code>, root: &TokenStream) -> TokenStream {
-    let (mechanism, driver) = (program.signatures.mechanism, program.signatures.driver);
+pub(super) fn of_driver(of: Declared<'_>, program: &Program<Code>, root: &TokenStream) -> TokenStream {
+    let Declared { mechanism, driver } = of;
     let (name, types, visibility) = (&driver.name, &program.signatures.types, &mechanism.visibility);
     let attributes: Vec<Attribute> = if mechanism.is_driven_by_choice() {
         let forwarded = mechanism.attributes.iter().filter(|attribute| !attribute.path().is_ident("doc"));
@@ -162,7 +163,7 @@ pub(super) fn of_driver(program: &Program<Code>, root: &TokenStream) -> TokenStr
         #visibility struct #pose_name<T = f64> { #members }
     });
     tokens.extend(motion::motions(mechanism, name, types, root));
-    tokens.extend(branch(program, root));
+    tokens.extend(branch(of, program, root));
     tokens
 }
 

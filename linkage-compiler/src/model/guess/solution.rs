@@ -86,7 +86,7 @@ fn turns(mechanism: &Mechanism, driver: &Driver, graph: &mut Graph, solved: &BTr
     let mut formulas = mechanism.kinematic_formulas(&driver.system.rows);
     let directions = graph.directions(&formulas);
     let symbols: Vec<SymbolId> = mechanism.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-    for scene in mechanism.scenes_of(driver) {
+    for (_, scene) in mechanism.scenes_of(driver) {
         formulas.extend(scene.values());
         let paths = scene.paths(&mechanism.bodies);
         formulas.extend(symbols.iter().flat_map(|&symbol| graph.partial(&paths, symbol)));

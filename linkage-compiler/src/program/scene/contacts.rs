@@ -139,7 +139,7 @@ impl ScenePlan<'_, '_, '_> {
 
     /// `equations`: M, Q, W and `u''` at `v'' = 0`.
     pub(super) fn equations(&mut self) {
-        let (u, v) = (self.plan.signatures.unknowns(), self.signatures.inputs.len());
+        let (u, v) = (self.plan.signatures.unknowns.len(), self.signatures.inputs.len());
         let (inertia, forces) = (self.layers.inertia.iter().flatten(), &self.layers.forces);
         let ratios = self.plan.derivation.ratios.iter().flatten();
         let symbols: Vec<SymbolId> = inertia.chain(forces).chain(ratios).chain(&self.scene.bias).copied().collect();

@@ -48,7 +48,7 @@ impl ScenePlan<'_, '_, '_> {
             format!("The forces (for angles, torques) that drive {}, by inverse dynamics: `M v'' - Q`,", self.driven()),
             "at this position and these rates of the inputs.".to_owned(),
         ];
-        if !self.signatures.scene.contacts.is_empty() {
+        if !self.signatures.contacts.is_empty() {
             doc.extend(lines([
                 "",
                 "Frictions and stops are those of a motion that starts here: what is at rest sticks if it can.",

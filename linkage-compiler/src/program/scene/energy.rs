@@ -25,7 +25,7 @@ impl ScenePlan<'_, '_, '_> {
     }
 
     pub(super) fn power(&mut self) {
-        let has_contacts = !self.signatures.scene.contacts.is_empty();
+        let has_contacts = !self.signatures.contacts.is_empty();
         let driven = self.signatures.driven.clone();
         let mut doc = match (has_contacts, driven.is_empty()) {
             (false, _) => lines([

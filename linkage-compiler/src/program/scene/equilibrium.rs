@@ -20,7 +20,7 @@ impl ScenePlan<'_, '_, '_> {
         };
         let (free, driven) = (names(&self.signatures.free), names(&self.signatures.driven));
         let start = free.iter().map(|input| Expression::name(&guess).field(input)).collect();
-        let is_open = self.plan.signatures.is_open();
+        let is_open = self.plan.signatures.is_open;
         // In an open chain these are all coordinates, in the order of the fields.
         let given = if is_open { self.plan.fields() } else { [free.as_slice(), &driven].concat() };
         let members = given.into_iter().map(|input| (input.clone(), Expression::name(input)));

@@ -23,7 +23,7 @@ impl ScenePlan<'_, '_, '_> {
         ]);
         doc.extend(fenced(known.iter().map(|(label, change)| format!("{label}: {}", self.plan.text(*change)))));
         let moves = Source {
-            from: Expression::name(self.signatures.moves()).dereferenced(),
+            from: Expression::name(self.signatures.moves.clone()).dereferenced(),
             ..self.plan.coordinates(Order::Rate)
         };
         let body = self.on_coordinates(vec![moves], Vec::new(), unnamed(known.iter().map(|of| of.1)));

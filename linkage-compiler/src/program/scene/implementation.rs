@@ -17,8 +17,10 @@ pub(in crate::program) fn of_scene(
     kinks: Vec<Kink>,
     has_change: &[bool],
 ) -> Option<Implementation<Body>> {
-    signatures.scene.inertia.as_ref()?;
-    let [u, v, c] = [signatures.unknowns, signatures.inputs.len(), signatures.scene.contacts.len()];
+    if !signatures.has_inertia {
+        return None;
+    }
+    let [u, v, c] = [signatures.unknowns, signatures.inputs.len(), signatures.contacts.len()];
     let reactions = match signatures.has_reactions() {
         true => Type::Own(signatures.reactions_type.clone()),
         false => Type::Tuple(Vec::new()),
@@ -41,15 +43,15 @@ pub(in crate::program) fn of_scene(
     functions.extend((!kinks.is_empty()).then(|| of.kink()));
     functions.extend(has_change.contains(&true).then(|| of.gap_changes(has_change)));
     functions.extend([of.unreduced(), of.prescribed()]);
-    functions.extend(signatures.scene.requests.contains(&SceneRequest::Energy).then(|| of.energy()));
-    functions.extend(signatures.scene.requests.contains(&SceneRequest::Power).then(|| of.power()));
+    functions.extend(signatures.requests.contains(&SceneRequest::Energy).then(|| of.energy()));
+    functions.extend(signatures.requests.contains(&SceneRequest::Power).then(|| of.power()));
     constants.extend((!kinks.is_empty()).then_some(("KINKS", ConstantValue::Kinks(kinks))));
     let (of, on, error) = (Implemented::Scene, signatures.types.itself.clone(), "MotionError");
     Some(Implementation { of, on, is_generic: true, error, types, constants, functions })
 }
 
 /// The functions of the trait for a scene.
-struct OfScene<'a>(&'a SceneSignatures<'a>);
+struct OfScene<'a>(&'a SceneSignatures);
 
 fn name(name: &str) -> Expression {
     Expression::name(name)
@@ -109,11 +111,11 @@ impl OfScene<'_> {
 
     /// A column with an entry for each contact.
     fn each_contact(&self, of: Type) -> Type {
-        Type::Column(Box::new(of), self.0.scene.contacts.len())
+        Type::Column(Box::new(of), self.0.contacts.len())
     }
 
     fn has_contacts(&self) -> bool {
-        !self.0.scene.contacts.is_empty()
+        !self.0.contacts.is_empty()
     }
 
     fn check(&self) -> Function<Body> {
@@ -192,12 +194,12 @@ impl OfScene<'_> {
     fn bearings(&self) -> Function<Body> {
         let names: Vec<String> = (1..=self.0.count_bearings()).map(|number| format!("bearing_{number}")).collect();
         let mut left = names.iter();
-        let contacts = self.0.scene.contacts.iter();
-        let all =
-            contacts.map(|contact| perhaps(contact.bearing.and_then(|_| left.next()).map(|bearing| name(bearing))));
+        let contacts = self.0.contacts.iter();
+        let all = contacts
+            .map(|by_reaction| perhaps(by_reaction.then(|| left.next()).flatten().map(|bearing| name(bearing))));
         let all = Expression::List(all.collect()).converted();
         let body = Body { before: vec![Statement::Let(listed(&names), call("bearings").tried())], ..Body::plain(all) };
-        let sizes = vec![self.0.unknowns, self.0.inputs.len(), self.0.scene.contacts.len()];
+        let sizes = vec![self.0.unknowns, self.0.inputs.len(), self.0.contacts.len()];
         let of = Type::Around("Option", Box::new(Type::Sized("Bearing", sizes)));
         fallible_of_trait("bearings", self.motion(), self.each_contact(of), body)
     }

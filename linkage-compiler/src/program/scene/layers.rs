@@ -162,7 +162,7 @@ impl ScenePlan<'_, '_, '_> {
         let input_rates = Expression::name(&arguments.input_rates);
         let mut body = Body::default();
         let driver = Receiver::Type(Type::Bare(self.signatures.types.driver.clone()));
-        if self.plan.signatures.is_open() {
+        if self.plan.signatures.is_open {
             if reads.contains(&Read::Pose) {
                 self.pose_at(&mut body);
             }
@@ -226,7 +226,7 @@ impl ScenePlan<'_, '_, '_> {
         let symbols: BTreeSet<SymbolId> = swept.into_iter().filter_map(|id| graph.as_symbol(id)).collect();
         let rates = |indices: &[ColumnId]| indices.iter().map(|&index| derivation.coordinates[index].rate).collect();
         let all: [(Read, Vec<SymbolId>); 8] = [
-            (Read::Time, self.signatures.mechanism.time.into_iter().collect()),
+            (Read::Time, self.plan.mechanism.time.into_iter().collect()),
             (Read::Q, derivation.coordinates.iter().map(|coordinate| coordinate.value).collect()),
             (Read::Ratios, derivation.ratios.iter().flatten().copied().collect()),
             (Read::Rates, rates(&derivation.unknowns)),
@@ -254,7 +254,7 @@ impl ScenePlan<'_, '_, '_> {
     /// The signature of a layer with these formulas; without parameters it takes no `self`.
     fn layer(&self, name: &str, nodes: &[NodeId], of: Type) -> Function<Body> {
         let symbols = self.plan.derivation.graph.symbols_of(nodes);
-        let mechanism = self.signatures.mechanism;
+        let mechanism = self.plan.mechanism;
         let mut parameters = mechanism.parameters.iter().chain(&mechanism.scene_parameters);
         let is_method = parameters.any(|parameter| symbols.contains(&parameter.symbol));
         Function { is_method, ..layer(name, self.arguments(&self.read_by_layer(nodes)), of) }

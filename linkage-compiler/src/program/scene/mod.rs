@@ -24,12 +24,13 @@ use super::names::Order;
 use super::plan::Plan;
 use crate::derivation::{self, Scene, Step};
 use crate::graph::NodeId;
+use crate::ids::SceneId;
 use crate::model::{self, SceneRequest};
 pub(super) use implementation::of_scene as implementation;
 use linkage_ir::Intrinsic;
 pub use reactions::MULTIPLIERS;
 use reads::{Layers, Read};
-pub use signatures::SceneSignatures;
+pub use signatures::{Joint, SceneSignatures};
 
 const ERRORS: [&str; 4] = [
     "",
@@ -39,8 +40,8 @@ const ERRORS: [&str; 4] = [
 ];
 
 /// The program of one scene.
-pub struct SceneProgram<'a, B> {
-    pub signatures: SceneSignatures<'a>,
+pub struct SceneProgram<B> {
+    pub signatures: SceneSignatures,
     pub functions: Functions<B>,
     /// The trait for simulations, if the scene has inertia.
     pub implementation: Option<Implementation<B>>,
@@ -49,7 +50,7 @@ pub struct SceneProgram<'a, B> {
 /// A scene whose functions are planned one by one.
 pub struct ScenePlan<'p, 'd, 'a> {
     plan: &'p mut Plan<'d, 'a>,
-    pub signatures: SceneSignatures<'a>,
+    pub signatures: SceneSignatures,
     pub scene: Scene,
     pub functions: Vec<Function<Body>>,
     layers: Layers,
@@ -60,11 +61,11 @@ pub struct ScenePlan<'p, 'd, 'a> {
 
 impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
     /// Plans the functions of a scene; `number` is its index among the scenes of the driver.
-    pub fn of(plan: &'p mut Plan<'d, 'a>, scene: &'a model::Scene, number: usize) -> Option<Self> {
+    pub fn of(plan: &'p mut Plan<'d, 'a>, id: SceneId, number: usize) -> Option<Self> {
         let derived = plan.derivation.scenes.get(number)?.clone();
         let mut parts = derived.parts.iter().flat_map(|(_, parts)| parts);
         let has_varying_effects = parts.any(|&part| plan.derivation.graph.constant_value(part).is_none());
-        let signatures = SceneSignatures::new(plan.signatures.mechanism, plan.signatures.driver, scene);
+        let signatures = SceneSignatures::new(plan.mechanism, plan.driver, id);
         let mut planned = ScenePlan {
             plan,
             signatures,
@@ -77,7 +78,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
         planned.reduced_inertia();
         planned.effects();
         planned.reduced_forces();
-        let has_inertia = scene.inertia.is_some();
+        let has_inertia = planned.signatures.has_inertia;
         if has_inertia {
             planned.mass_matrix();
         }
@@ -91,7 +92,9 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             planned.drive_forces();
         }
         let requests = [SceneRequest::Energy, SceneRequest::Power, SceneRequest::Reactions, SceneRequest::Equilibrium];
-        for request in requests.into_iter().filter(|request| scene.requests.contains(request)) {
+        let requests: Vec<SceneRequest> =
+            requests.into_iter().filter(|request| planned.signatures.requests.contains(request)).collect();
+        for request in requests {
             match request {
                 SceneRequest::Energy => planned.energy(),
                 SceneRequest::Power => planned.power(),
@@ -100,7 +103,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
             }
         }
         planned.reactions();
-        if !scene.contacts.is_empty() {
+        if !planned.signatures.contacts.is_empty() {
             planned.contacts();
             planned.bearings();
             planned.equations();
@@ -114,7 +117,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
         Some(planned)
     }
 
-    pub fn into_program(self) -> SceneProgram<'a, Body> {
+    pub fn into_program(self) -> SceneProgram<Body> {
         let kink = |kink: &derivation::Kink| Kink { effect: kink.label.clone(), is_timed: kink.is_timed };
         let kinks = self.scene.kinks.iter().map(kink).collect();
         let has_change: Vec<bool> = self.scene.gap_changes.iter().map(|change| change.is_some()).collect();
@@ -125,7 +128,7 @@ impl<'p, 'd, 'a> ScenePlan<'p, 'd, 'a> {
 
 impl ScenePlan<'_, '_, '_> {
     fn add(&mut self, signature: Function<Body>, doc: Vec<String>, body: Body) {
-        let doc = if self.plan.signatures.is_open() { without_singular(doc) } else { doc };
+        let doc = if self.plan.signatures.is_open { without_singular(doc) } else { doc };
         self.functions.push(Function { doc, body: Some(body), ..signature });
     }
 
@@ -139,10 +142,10 @@ impl ScenePlan<'_, '_, '_> {
     /// The parameters of the mechanism and of the scene, and time.
     fn given(&self) -> Source {
         let of = |parameter: &model::Parameter| (parameter.name.field.clone(), parameter.symbol);
-        let SceneSignatures { mechanism, scene, types, field, .. } = &self.signatures;
+        let (mechanism, SceneSignatures { id, types, field, .. }) = (self.plan.mechanism, &self.signatures);
         let driver = Type::Bare(types.driver.clone());
         let kinematics = Shape::fields(driver, mechanism.parameters.iter().map(of), true);
-        let own = scene.parameters.iter().map(|&at| of(&mechanism.scene_parameters[at]));
+        let own = mechanism.scenes[*id].parameters.iter().map(|&at| of(&mechanism.scene_parameters[at]));
         let own = own.map(|(field, symbol)| (field, Shape::Symbol(symbol)));
         let fields = std::iter::once((field.clone(), kinematics)).chain(own).collect();
         let shape = Shape::Fields { of: Type::Itself, fields, is_whole: true };

@@ -37,9 +37,9 @@ impl ScenePlan<'_, '_, '_> {
     }
 
     pub(super) fn forces(&mut self) {
-        let quadratic = match self.signatures.scene.inertia {
-            Some(_) => ", including the quadratic velocity terms: `M v'' = Q`.",
-            None => ".",
+        let quadratic = match self.signatures.has_inertia {
+            true => ", including the quadratic velocity terms: `M v'' = Q`.",
+            false => ".",
         };
         let mut doc = vec![format!("The generalised forces Q of the inputs{quadratic}")];
         let laws = self.signatures.inputs.iter().zip(&self.scene.forces);
@@ -149,7 +149,7 @@ impl ScenePlan<'_, '_, '_> {
                 "`MotionError::NoInertia` if M is singular: some inputs could accelerate without a force.".to_owned(),
             );
         }
-        let rates = if self.plan.signatures.is_open() { "v'" } else { "(W v', v')" };
+        let rates = if self.plan.signatures.is_open { "v'" } else { "(W v', v')" };
         let mut doc = vec![format!(
             "The rates `q' = {rates}` and the input accelerations `v''` from `M v'' = Q`: the right-hand side for an integrator."
         )];

@@ -1,6 +1,6 @@
 //! `reactions`: the forces in joints, and the Lagrange multipliers of the loop equations and constraints.
 
-use super::{ERRORS, ScenePlan};
+use super::{ERRORS, Joint, ScenePlan};
 use crate::derivation::{Reactions, Step, needed};
 use crate::graph::SymbolId;
 use crate::model::LoadKind;
@@ -22,7 +22,7 @@ impl ScenePlan<'_, '_, '_> {
         let steps = self.plan.derivation.transposed_solution(&derived.multipliers);
         let steps = needed(&self.plan.derivation.graph, steps, &nodes);
         let doc = self.doc_of_reactions(&derived);
-        let has_inertia = self.signatures.scene.inertia.is_some();
+        let has_inertia = self.signatures.has_inertia;
         if !has_inertia {
             let body = self.reactions_at_rest(&derived, steps, outputs, value);
             self.add(self.signatures.reactions(), doc, body);
@@ -49,10 +49,10 @@ impl ScenePlan<'_, '_, '_> {
     /// The results, and the struct that holds them.
     fn shown(&mut self, derived: &Reactions) -> (Vec<Output>, Expression) {
         let (mut outputs, mut members) = (Vec::new(), Vec::new());
-        let loads = &self.signatures.mechanism.opened.loads;
-        for &load in &self.signatures.scene.loads {
-            let Some(index) = derived.opened.iter().position(|&other| other == load) else { continue };
-            let (load, first) = (&loads[load], outputs.len());
+        let loads = &self.plan.mechanism.opened.loads;
+        for &Joint { place, .. } in &self.signatures.joints {
+            let Some(index) = derived.opened.iter().position(|&other| other == place) else { continue };
+            let (load, first) = (&loads[place], outputs.len());
             let parts = match load.kind {
                 LoadKind::Pin { .. } => ["x", "y"].map(|axis| format!("{}_{axis}", load.field)).into(),
                 LoadKind::Guide { .. } => load.fields(),
@@ -76,7 +76,7 @@ impl ScenePlan<'_, '_, '_> {
 
     fn doc_of_reactions(&self, derived: &Reactions) -> Vec<String> {
         let mut doc = lines(["The forces in the joints in the motion of the scene."]);
-        if !self.signatures.scene.contacts.is_empty() {
+        if !self.signatures.contacts.is_empty() {
             doc.extend(lines([
                 "",
                 "Frictions and stops are those of a motion that starts here: what is at rest sticks if it can.",
@@ -121,7 +121,7 @@ impl ScenePlan<'_, '_, '_> {
         let Arguments { time, q, rates, accelerations, input_rates, input_accelerations, pose, .. } =
             &self.signatures.arguments;
         let mut body = Body::default();
-        if !self.signatures.scene.contacts.is_empty() {
+        if !self.signatures.contacts.is_empty() {
             let state = [Expression::own(), at(time), at(q), at(input_rates).converted()];
             return Body { value: Value::Result(Expression::call(Intrinsic::Reactions, state)), ..body };
         }

@@ -1,17 +1,28 @@
 //! The signatures of the functions of a scene: names, arguments and return types.
 
 use super::reads::Read;
-use crate::ids::{CoordinateId, InputId, Table};
-use crate::model::{self, Driver, Mechanism, SceneRequest};
+use std::collections::BTreeSet;
+
+use crate::ids::{CoordinateId, InputId, SceneId, Table};
+use crate::model::{Driver, Load, LoadKind, Mechanism, SceneRequest};
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
 use crate::program::names::{Arguments, Order, TypeNames, argument};
-use crate::program::signatures::{fallible, total};
+use crate::program::signatures::{Parameter, fallible, total};
 
-/// The functions of one scene, without bodies.
-pub struct SceneSignatures<'a> {
-    pub mechanism: &'a Mechanism,
-    pub scene: &'a model::Scene,
+/// The functions of one scene, without bodies: plain data, as that of a driver.
+#[derive(Debug, Clone)]
+pub struct SceneSignatures {
+    /// The scene among those of the mechanism.
+    pub id: SceneId,
+    pub scene: String,
+    pub parameters: Vec<Parameter>,
+    pub requests: BTreeSet<SceneRequest>,
+    pub has_inertia: bool,
+    /// For each friction and stop, true for a friction by the reaction in a joint.
+    pub contacts: Vec<bool>,
+    /// The joints whose forces it shows.
+    pub joints: Vec<Joint>,
     pub types: TypeNames,
     pub arguments: Arguments,
     /// The field that holds the mechanism.
@@ -27,18 +38,52 @@ pub struct SceneSignatures<'a> {
     pub drives_type: String,
     /// The type of the forces in its joints.
     pub reactions_type: String,
-    pub(crate) unknowns: usize,
+    /// The argument for the moves of the coordinates.
+    pub moves: String,
+    pub unknowns: usize,
 }
 
-impl<'a> SceneSignatures<'a> {
-    pub fn new(mechanism: &'a Mechanism, driver: &'a Driver, scene: &'a model::Scene) -> Self {
+/// A joint whose force is shown.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Joint {
+    /// Its place among the forces in joints of the mechanism.
+    pub place: usize,
+    pub name: String,
+    /// The point at a pin; none of a guide.
+    pub at: Option<String>,
+    /// The link on which the force acts.
+    pub on: String,
+    /// The fields of its force: one for a vector, or two numbers.
+    pub fields: Vec<String>,
+}
+
+impl Joint {
+    fn of(place: usize, load: &Load) -> Self {
+        let (at, on) = match &load.kind {
+            LoadKind::Pin { joint, link } => (Some(joint.clone()), link.clone()),
+            LoadKind::Guide { block, .. } => (None, block.clone()),
+        };
+        Self { place, name: load.field.clone(), at, on, fields: load.fields() }
+    }
+}
+
+impl SceneSignatures {
+    pub fn new(mechanism: &Mechanism, driver: &Driver, id: SceneId) -> Self {
+        let scene = &mechanism.scenes[id];
+        let parameters = scene.parameters.iter().map(|&id| &mechanism.scene_parameters[id]);
+        let loads = &mechanism.opened.loads;
         let is_driven = |input: &InputId| scene.drives.iter().any(|drive| drive.input == *input);
         let (driven, free) = driver.inputs.ids().partition(is_driven);
         let field = |index: CoordinateId| mechanism.coordinates[index].name.field.clone();
         let inputs = driver.inputs.iter().map(|&index| field(index));
         Self {
-            mechanism,
-            scene,
+            id,
+            scene: scene.name.to_string(),
+            parameters: parameters.map(|parameter| Parameter::of(&mechanism.graph, parameter)).collect(),
+            requests: scene.requests.clone(),
+            has_inertia: scene.inertia.is_some(),
+            contacts: scene.contacts.iter().map(|contact| contact.bearing.is_some()).collect(),
+            joints: scene.loads.iter().map(|&place| Joint::of(place, &loads[place])).collect(),
             types: TypeNames { itself: scene.name.to_string(), ..TypeNames::new(mechanism, driver) },
             arguments: Arguments::new(mechanism),
             field: argument(mechanism, "mechanism"),
@@ -49,14 +94,14 @@ impl<'a> SceneSignatures<'a> {
             driven,
             drives_type: format!("{}Drives", scene.name),
             reactions_type: format!("{}Reactions", scene.name),
+            moves: argument(mechanism, "moves"),
             unknowns: driver.unknowns.len(),
         }
     }
 
     /// All signatures in the order of emission: the most used first.
     pub fn all(&self) -> Vec<Function<Body>> {
-        let (scene, mut all) = (self.scene, Vec::new());
-        let has_inertia = scene.inertia.is_some();
+        let (has_inertia, mut all) = (self.has_inertia, Vec::new());
         if has_inertia {
             all.extend([self.acceleration(), self.rates()]);
         }
@@ -64,7 +109,7 @@ impl<'a> SceneSignatures<'a> {
             all.extend([self.drive_forces(), self.drives()]);
         }
         let requests = [SceneRequest::Energy, SceneRequest::Power, SceneRequest::Reactions, SceneRequest::Equilibrium];
-        for request in requests.into_iter().filter(|request| scene.requests.contains(request)) {
+        for request in requests.into_iter().filter(|request| self.requests.contains(request)) {
             match request {
                 SceneRequest::Energy => all.push(self.energy()),
                 SceneRequest::Power => all.push(self.power()),
@@ -84,7 +129,7 @@ impl<'a> SceneSignatures<'a> {
             all.push(self.unreduced());
         }
         all.push(self.check());
-        if !scene.contacts.is_empty() {
+        if !self.contacts.is_empty() {
             all.push(self.contacts());
             all.extend((self.count_bearings() > 0).then(|| self.bearings()));
             all.push(self.equations());
@@ -137,11 +182,11 @@ impl<'a> SceneSignatures<'a> {
 
     /// True if a statement asks for the force in a joint.
     pub fn has_reactions(&self) -> bool {
-        self.has_multipliers() || !self.scene.loads.is_empty()
+        self.has_multipliers() || !self.joints.is_empty()
     }
 
     pub fn has_multipliers(&self) -> bool {
-        self.scene.requests.contains(&SceneRequest::Reactions) && self.unknowns > 0
+        self.requests.contains(&SceneRequest::Reactions) && self.unknowns > 0
     }
 
     pub fn reactions(&self) -> Function<Body> {
@@ -150,9 +195,9 @@ impl<'a> SceneSignatures<'a> {
 
     /// The reactions of a known motion.
     pub fn reactions_of(&self) -> Function<Body> {
-        let forces = Type::List(Box::new(Type::Scalar), self.scene.contacts.len());
+        let forces = Type::List(Box::new(Type::Scalar), self.contacts.len());
         let forces = Argument { name: self.arguments.contact_forces.clone(), passed: Passed::ByReference(forces) };
-        let forces = (!self.scene.contacts.is_empty()).then_some(forces);
+        let forces = (!self.contacts.is_empty()).then_some(forces);
         let motion = self.whole_state().into_iter().chain([self.coordinates(Order::Acceleration)]).chain(forces);
         let of = Type::Own(self.reactions_type.clone());
         Function { access: Access::Hidden, ..fallible("reactions_of", motion, of) }
@@ -170,17 +215,17 @@ impl<'a> SceneSignatures<'a> {
 
     pub fn contacts(&self) -> Function<Body> {
         let contact = Type::Sized("Contact", vec![self.unknowns, self.inputs.len()]);
-        let of = Type::List(Box::new(contact), self.scene.contacts.len());
+        let of = Type::List(Box::new(contact), self.contacts.len());
         Function { access: Access::Hidden, ..fallible("contacts", self.whole_state(), of) }
     }
 
     /// The number of frictions by reaction.
     pub fn count_bearings(&self) -> usize {
-        self.scene.contacts.iter().filter(|contact| contact.bearing.is_some()).count()
+        self.contacts.iter().filter(|by_reaction| **by_reaction).count()
     }
 
     pub fn bearings(&self) -> Function<Body> {
-        let sizes = vec![self.unknowns, self.inputs.len(), self.scene.contacts.len()];
+        let sizes = vec![self.unknowns, self.inputs.len(), self.contacts.len()];
         let of = Type::List(Box::new(Type::Sized("Bearing", sizes)), self.count_bearings());
         Function { access: Access::Hidden, ..fallible("bearings", self.whole_state(), of) }
     }
@@ -198,14 +243,9 @@ impl<'a> SceneSignatures<'a> {
 
     /// The changes of gaps while each coordinate moves.
     pub fn gap_changes(&self, many: usize) -> Function<Body> {
-        let moves = Argument { name: self.moves(), ..self.coordinates(Order::Rate) };
+        let moves = Argument { name: self.moves.clone(), ..self.coordinates(Order::Rate) };
         let of = Type::List(Box::new(Type::Scalar), many);
         Function { access: Access::Hidden, ..total("gap_changes", [self.coordinates(Order::Value), moves], of) }
-    }
-
-    /// The argument for the moves of the coordinates.
-    pub fn moves(&self) -> String {
-        argument(self.mechanism, "moves")
     }
 
     pub fn check(&self) -> Function<Body> {

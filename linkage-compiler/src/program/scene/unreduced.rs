@@ -12,7 +12,7 @@ use crate::program::names::Order;
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn unreduced(&mut self) {
         let Some(unreduced) = self.scene.unreduced.clone() else { return };
-        let (u, v) = (self.plan.signatures.unknowns(), self.plan.signatures.inputs());
+        let (u, v) = (self.plan.signatures.unknowns.len(), self.plan.signatures.inputs.len());
         let names = Table::from(self.plan.fields());
         let inertia = |(row, column): (ColumnId, ColumnId)| match row == column {
             true => format!("{}_inertia", names[row]),

@@ -11,7 +11,7 @@ use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn check(&mut self) {
-        let doc = match self.signatures.scene.contacts.as_slice() {
+        let doc = match self.signatures.contacts.as_slice() {
             [] => lines([
                 "Checks that masses and inertias are finite and not negative.",
                 "",

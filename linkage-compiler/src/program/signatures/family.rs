@@ -1,8 +1,9 @@
 //! Functions of points and outputs.
 
+use super::Name;
 use super::Signatures;
 use super::form::fallible;
-use crate::model::{Mechanism, Request};
+use crate::model::Request;
 use crate::program::expression::Type;
 use crate::program::function::{Body, Function};
 use crate::program::names::Order;
@@ -44,30 +45,29 @@ impl Family {
         format!("{}{}", self.word(), ["s", first, "_accelerations", "_jerks"][order])
     }
 
-    /// The names of all points or outputs as the user wrote them.
-    pub fn names_as_written(self, mechanism: &Mechanism) -> Vec<String> {
+    /// The names of all points or outputs.
+    fn of(self, signatures: &Signatures) -> &[Name] {
         match self {
-            Self::Points => mechanism.points.iter().map(|point| point.name.text.clone()).collect(),
-            Self::Outputs => mechanism.outputs.iter().map(|output| output.name.text.clone()).collect(),
+            Self::Points => &signatures.points,
+            Self::Outputs => &signatures.outputs,
         }
+    }
+
+    /// The names of all points or outputs as the user wrote them.
+    pub fn names_as_written(self, signatures: &Signatures) -> Vec<String> {
+        self.of(signatures).iter().map(|name| name.text.clone()).collect()
     }
 
     /// The field names of all points or outputs.
-    pub fn names(self, mechanism: &Mechanism) -> Vec<String> {
-        match self {
-            Self::Points => mechanism.points.iter().map(|point| point.name.field.clone()).collect(),
-            Self::Outputs => mechanism.outputs.iter().map(|output| output.name.field.clone()).collect(),
-        }
+    pub fn names(self, signatures: &Signatures) -> Vec<String> {
+        self.of(signatures).iter().map(|name| name.field.clone()).collect()
     }
 }
 
-impl Signatures<'_> {
+impl Signatures {
     /// True if points, or outputs, are declared.
     pub fn has(&self, family: Family) -> bool {
-        match family {
-            Family::Points => !self.mechanism.points.is_empty(),
-            Family::Outputs => !self.mechanism.outputs.is_empty(),
-        }
+        !family.of(self).is_empty()
     }
 
     /// True if points or outputs are declared.
@@ -77,7 +77,7 @@ impl Signatures<'_> {
 
     /// The number of functions of points and outputs: values, velocities, accelerations, with `derive jerk` jerks.
     pub fn orders(&self) -> usize {
-        if self.mechanism.requests.contains(&Request::Jerk) { 4 } else { 3 }
+        if self.requests.contains(&Request::Jerk) { 4 } else { 3 }
     }
 
     /// Values, rates, accelerations or jerks.
@@ -93,18 +93,18 @@ impl Signatures<'_> {
     }
 
     pub fn quantity_ratios(&self, family: Family) -> Function<Body> {
-        let item = Type::Matrix(family.dimension(), self.inputs());
+        let item = Type::Matrix(family.dimension(), self.inputs.len());
         fallible(format!("{}_ratios", family.word()), [self.pose()], self.each(family, item))
     }
 
     pub fn quantity_ratio_derivatives(&self, family: Family) -> Function<Body> {
-        let matrix = Type::Matrix(self.inputs(), self.inputs());
+        let matrix = Type::Matrix(self.inputs.len(), self.inputs.len());
         let item = if family == Family::Points { Type::List(Box::new(matrix), 2) } else { matrix };
         fallible(format!("{}_ratio_derivatives", family.word()), [self.pose()], self.each(family, item))
     }
 
     pub fn quantity_sensitivities(&self, family: Family) -> Function<Body> {
-        let item = Type::Matrix(family.dimension(), self.mechanism.parameters.len());
+        let item = Type::Matrix(family.dimension(), self.parameters.len());
         fallible(format!("{}_sensitivities", family.word()), [self.pose()], self.each(family, item))
     }
 

@@ -1,5 +1,6 @@
 //! The signatures of the functions of a driver: names, arguments and return types. A stub has nothing else.
 
+mod declared;
 mod equations;
 mod family;
 mod form;
@@ -10,27 +11,71 @@ use super::branch::Position;
 use super::expression::Type;
 use super::function::{Argument, Body, Function, Passed};
 use super::names::{Arguments, Order, TypeNames};
+use crate::ids::{ColumnId, InputId, Table, UnknownId};
 use crate::model::{Driver, Mechanism, Request};
+use std::collections::BTreeSet;
+
+pub use declared::{Coordinate, Name, Parameter, UserFunction};
 pub use family::Family;
 pub use form::{fallible, total};
 
-/// The functions of one driver of a mechanism, without bodies.
-pub struct Signatures<'a> {
-    pub mechanism: &'a Mechanism,
-    pub driver: &'a Driver,
+/// The functions of one driver of a mechanism, without bodies: plain data. Attributes, visibility, paths and places in the text
+/// stay in the [`Mechanism`], which printers read besides.
+#[derive(Debug, Clone)]
+pub struct Signatures {
+    /// The names of the mechanism and of the driver.
+    pub mechanism: String,
+    pub driver: String,
+    pub parameters: Vec<Parameter>,
+    /// All coordinates in the order of their fields, the dependent ones, and the inputs.
+    pub coordinates: Table<ColumnId, Coordinate>,
+    pub unknowns: Table<UnknownId, Coordinate>,
+    pub inputs: Table<InputId, Coordinate>,
+    pub points: Vec<Name>,
+    pub outputs: Vec<Name>,
+    /// The coordinates and outputs with a range.
+    pub ranges: Vec<String>,
+    pub user_functions: Vec<UserFunction>,
+    pub requests: BTreeSet<Request>,
+    /// True if loops or equations are declared as implied by others.
+    pub has_implied: bool,
+    /// True for an open chain, which has no equations.
+    pub is_open: bool,
+    /// True if scenes call its functions.
+    pub has_scenes: bool,
+    /// The number of forces in joints that its drawing can show.
+    pub drawn_forces: usize,
     pub types: TypeNames,
     pub arguments: Arguments,
 }
 
-impl<'a> Signatures<'a> {
-    pub fn new(mechanism: &'a Mechanism, driver: &'a Driver) -> Self {
-        let (types, arguments) = (TypeNames::new(mechanism, driver), Arguments::new(mechanism));
-        Self { mechanism, driver, types, arguments }
+impl Signatures {
+    pub fn new(mechanism: &Mechanism, driver: &Driver) -> Self {
+        let parameters = mechanism.parameters.iter().map(|parameter| Parameter::of(&mechanism.graph, parameter));
+        Self {
+            mechanism: mechanism.name.to_string(),
+            driver: driver.name.to_string(),
+            parameters: parameters.collect(),
+            coordinates: Coordinate::all(mechanism, &mechanism.coordinate_order(driver)),
+            unknowns: Coordinate::all(mechanism, &driver.unknowns),
+            inputs: Coordinate::all(mechanism, &driver.inputs),
+            points: mechanism.points.iter().map(|point| (&point.name).into()).collect(),
+            outputs: mechanism.outputs.iter().map(|output| (&output.name).into()).collect(),
+            ranges: mechanism.ranges.iter().map(|range| range.name.clone()).collect(),
+            user_functions: mechanism.externals.iter().map(UserFunction::from).collect(),
+            requests: mechanism.requests.clone(),
+            has_implied: !mechanism.implied.is_empty(),
+            is_open: mechanism.is_open(),
+            has_scenes: mechanism.scenes_of(driver).next().is_some(),
+            drawn_forces: mechanism.drawn_forces(),
+            types: TypeNames::new(mechanism, driver),
+            arguments: Arguments::new(mechanism),
+        }
     }
 
     /// All signatures in the order of emission: the most used first.
     pub fn all(&self, position: &Position) -> Vec<Function<Body>> {
-        let wants = |request| self.mechanism.requests.contains(&request);
+        let wants = |request| self.requests.contains(&request);
         let families = || [Family::Points, Family::Outputs].into_iter().filter(|&family| self.has(family));
         let mut all = vec![self.kinematics(position)];
         if self.has_quantities() {
@@ -38,14 +83,14 @@ impl<'a> Signatures<'a> {
         }
         all.push(self.motion());
         all.extend(self.assemblies(position));
-        if !self.is_open() {
+        if !self.is_open {
             all.extend([self.branch_of(), self.branch_near(), self.solve(), self.solve_any_branch()]);
         }
         all.push(self.pose_at());
-        if !self.mechanism.implied.is_empty() {
+        if self.has_implied {
             all.push(self.check_implied());
         }
-        if !self.mechanism.ranges.is_empty() {
+        if !self.ranges.is_empty() {
             all.push(self.ranges());
         }
         all.extend([self.velocity(), self.acceleration()]);
@@ -56,25 +101,25 @@ impl<'a> Signatures<'a> {
             all.extend((0..self.orders()).map(|order| self.quantities(family, order)));
         }
         if wants(Request::Limits) {
-            all.extend(self.driver.inputs.ids().map(|index| self.limits(position, index)));
+            all.extend(self.inputs.ids().map(|index| self.limits(position, index)));
         }
-        if !self.is_open() {
+        if !self.is_open {
             all.push(self.velocity_ratios());
         }
         all.extend(families().map(|family| self.quantity_ratios(family)));
         if wants(Request::VelocityRatioDerivatives) {
-            all.extend((!self.is_open()).then(|| self.ratio_derivatives()));
+            all.extend((!self.is_open).then(|| self.ratio_derivatives()));
             all.extend(families().map(|family| self.quantity_ratio_derivatives(family)));
         }
         if wants(Request::Sensitivity) {
-            all.extend((!self.is_open()).then(|| self.sensitivity()));
+            all.extend((!self.is_open).then(|| self.sensitivity()));
             all.extend(families().map(|family| self.quantity_sensitivities(family)));
         }
         if wants(Request::Drawing) {
             // The number of joints is that of the finished mechanism.
             all.push(self.joints(0));
         }
-        if !self.is_open() {
+        if !self.is_open {
             all.extend(self.equations(position));
         }
         all
@@ -95,19 +140,6 @@ impl<'a> Signatures<'a> {
             self.gamma(),
             self.solve_jacobian(),
         ]
-    }
-
-    /// True for an open chain, which has no equations.
-    pub fn is_open(&self) -> bool {
-        self.mechanism.is_open()
-    }
-
-    pub fn unknowns(&self) -> usize {
-        self.driver.unknowns.len()
-    }
-
-    pub fn inputs(&self) -> usize {
-        self.driver.inputs.len()
     }
 
     pub(super) fn pose(&self) -> Argument {

@@ -7,7 +7,7 @@ use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
 use crate::program::names::Order;
 
-impl Signatures<'_> {
+impl Signatures {
     pub fn velocity(&self) -> Function<Body> {
         let arguments = [self.pose(), self.inputs_by(Order::Rate)];
         public_inlined(fallible("velocity", arguments, self.coordinates_type(Order::Rate)))
@@ -64,12 +64,12 @@ impl Signatures<'_> {
     }
 
     fn columns(&self) -> Type {
-        Type::List(Box::new(Type::List(Box::new(Type::Scalar), self.unknowns())), self.inputs())
+        Type::List(Box::new(Type::List(Box::new(Type::Scalar), self.unknowns.len())), self.inputs.len())
     }
 
     pub fn coordinate_rates(&self) -> Function<Body> {
         let ratios = Argument { name: self.arguments.ratios.clone(), passed: Passed::ByReference(self.columns()) };
-        let ratios = (!self.is_open()).then_some(ratios);
+        let ratios = (!self.is_open).then_some(ratios);
         let arguments = ratios.into_iter().chain([self.input_rates()]);
         let rates = layer(total("coordinate_rates", arguments, self.coordinates_type(Order::Rate)));
         Function { is_method: false, ..rates }
@@ -81,8 +81,8 @@ impl Signatures<'_> {
         let of = Type::ReducedMotion {
             pose: self.types.pose.clone(),
             rates: self.types.rates.clone(),
-            unknowns: self.unknowns(),
-            inputs: self.inputs(),
+            unknowns: self.unknowns.len(),
+            inputs: self.inputs.len(),
         };
         layer(fallible("reduced_motion", arguments, of))
     }

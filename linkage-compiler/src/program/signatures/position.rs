@@ -8,10 +8,9 @@ use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
 use crate::program::names::Order;
 
-impl Signatures<'_> {
+impl Signatures {
     pub fn pose_at(&self) -> Function<Body> {
-        let is_layer = self.mechanism.scenes_of(self.driver).next().is_some();
-        let access = if is_layer { Access::PublicLayer } else { Access::PublicInlined };
+        let access = if self.has_scenes { Access::PublicLayer } else { Access::PublicInlined };
         Function { access, ..total("pose_at", [self.coordinates(Order::Value)], self.pose_type()) }
     }
 
@@ -43,7 +42,7 @@ impl Signatures<'_> {
         if !position.turns.is_empty() {
             all.push(self.assemble_near());
         }
-        if !self.is_open() {
+        if !self.is_open {
             all.push(self.branches(position));
         }
         all
@@ -116,9 +115,9 @@ impl Signatures<'_> {
             true => self.inputs_by(Order::Value),
             false => self.guess(),
         };
-        let name = match self.inputs() {
+        let name = match self.inputs.len() {
             1 => "limits".to_owned(),
-            _ => format!("limits_of_{}", self.mechanism.coordinates[self.driver.inputs[index]].name.field),
+            _ => format!("limits_of_{}", self.inputs[index].name.field),
         };
         fallible(name, [from, self.branch()], Type::Runtime("Limits", Vec::new()))
     }
