@@ -1,8 +1,8 @@
 //! A scene of a mechanism: the names of its parameters, and the one that is meant.
 
 use linkage_compiler::Lowered;
-use linkage_compiler::lower::Code;
 use linkage_compiler::model::{Measure, Parameter, SceneRequest};
+use linkage_compiler::program::Code;
 use linkage_compiler::program::SceneProgram;
 
 use crate::failure::Failure;

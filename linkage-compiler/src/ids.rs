@@ -18,6 +18,8 @@
 use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut};
 
+pub use linkage_ir::{ExternalId, FunctionId, ValueId};
+
 /// An index into the tables of one space.
 pub trait Id: Copy {
     fn new(index: usize) -> Self;
@@ -74,9 +76,23 @@ ids! {
     ParameterId
     /// A parameter that only scenes use.
     SceneParameterId
-    /// A function of the program of a driver, or of a scene.
-    FunctionId
 }
+
+macro_rules! of_code {
+    ($($id:ident)*) => {$(
+        impl Id for $id {
+            fn new(index: usize) -> Self {
+                Self::new(index)
+            }
+
+            fn index(self) -> usize {
+                self.index()
+            }
+        }
+    )*};
+}
+
+of_code! { ExternalId FunctionId ValueId }
 
 /// A list that is indexed by the ids of one space.
 #[derive(Debug, Clone, PartialEq, Eq)]

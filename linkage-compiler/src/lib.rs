@@ -24,8 +24,7 @@ pub mod syntax;
 #[cfg(feature = "text")]
 pub mod text;
 
-use std::collections::BTreeMap;
-
+use linkage_ir::code::Code;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -34,10 +33,10 @@ use derivation::Derivation;
 use diagnostics::Diagnostics;
 use document::{Document, SceneDocument, SheetDocument};
 use emit::Declared;
-pub use facade::Facade;
-use lower::Code;
 use model::{Driver, Mechanism};
 use program::{Operations, Program};
+
+pub use facade::Facade;
 
 /// Expands the body of one `linkage!` invocation; `root` is the path of the `linkage` crate.
 ///
@@ -131,6 +130,8 @@ pub struct Lowered<'m> {
     pub derivation: Derivation,
     /// Its functions as operations.
     pub program: Program<Code>,
+    /// The largest rounding errors that its functions can have.
+    pub bounds: lower::Bounds,
 }
 
 /// Derives, checks, plans and lowers one driver; `None` after a mistake.
@@ -147,8 +148,8 @@ fn lowered<'m>(
         return Ok(None);
     }
     let planned = program::plan(mechanism, driver, &mut derivation)?;
-    let program = match lower::program(planned, &derivation) {
-        Ok(program) => program,
+    let (program, bounds) = match lower::program(planned, &derivation) {
+        Ok(lowered) => lowered,
         Err(dangling) => {
             // Formulas that a spent budget cut off refer to what was left out.
             budget.check()?;
@@ -157,7 +158,7 @@ fn lowered<'m>(
         }
     };
     derivation::check_numbers(mechanism, driver, &mut derivation.graph, diagnostics);
-    Ok(Some(Lowered { declared: Declared { mechanism, driver }, derivation, program }))
+    Ok(Some(Lowered { declared: Declared { mechanism, driver }, derivation, program, bounds }))
 }
 
 /// Applies a function to each driver, one after the other to limit memory; `None` after a mistake.
@@ -219,7 +220,7 @@ pub struct Expansion {
 /// The messages of mistakes that appear in derivatives, or that of a spent budget.
 pub fn compile(mechanism: &Mechanism, root: &TokenStream) -> Result<Expansion, Vec<String>> {
     let (mut nodes, mut operations) = (0, Operations::default());
-    let drivers = each_driver(mechanism, |Lowered { declared, derivation, program }| {
+    let drivers = each_driver(mechanism, |Lowered { declared, derivation, program, .. }| {
         nodes += derivation.graph.len();
         operations = operations.plus(emit::operations(&program));
         emit::driver(declared, &program, Some(&derivation), root)
@@ -275,7 +276,7 @@ pub struct Bounds {
     pub parameters: Vec<String>,
     /// The names of the coordinates in the bounds, of their rates and accelerations.
     pub coordinates: Vec<[String; 3]>,
-    pub functions: BTreeMap<String, lower::Bound>,
+    pub functions: lower::Bounds,
 }
 
 /// Returns the largest rounding errors that the functions of a mechanism can have, for each driver.
@@ -283,12 +284,8 @@ pub struct Bounds {
 /// # Errors
 /// As [`compile`].
 pub fn bounds(mechanism: &Mechanism) -> Result<Vec<Bounds>, Vec<String>> {
-    each_driver(mechanism, |Lowered { derivation, program, .. }| {
+    each_driver(mechanism, |Lowered { derivation, program, bounds, .. }| {
         let name = |symbol| derivation.graph.symbol_name(symbol).to_owned();
-        let bounds = program.functions.iter().filter_map(|function| {
-            let bound = function.body.as_ref()?.bound.clone()?;
-            Some((function.name.clone(), bound))
-        });
         Bounds {
             driver: program.signatures.driver.clone(),
             parameters: mechanism.parameters.iter().map(|parameter| name(parameter.symbol)).collect(),
@@ -297,7 +294,7 @@ pub fn bounds(mechanism: &Mechanism) -> Result<Vec<Bounds>, Vec<String>> {
                 .iter()
                 .map(|one| [one.value, one.rate, one.acceleration].map(name))
                 .collect(),
-            functions: bounds.collect(),
+            functions: bounds,
         }
     })
 }

@@ -3,8 +3,9 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use linkage_ir::code::Function;
+
 use crate::call_error::CallError;
-use crate::code::{Function, Record, Shape};
 use crate::convert;
 use crate::data::Data;
 use crate::error::{Error, Mistake};
@@ -80,7 +81,7 @@ impl Design {
         let given = self.all_given(driver, given)?;
         let count = length(driver, &given)?;
         let wanted: Vec<usize> = found.iter().map(|name| place(&driver.lanes.found, name)).collect::<Result<_, _>>()?;
-        let branch = convert::to_value(driver, branch, &Shape::Record(Record::Branch))?;
+        let branch = convert::branch(driver, branch)?;
         let has_quantities = wanted.iter().any(|place| *place >= driver.lanes.coordinates);
         let run = Run { driver, given, branch };
         let of = driver.traits.iter().find(|one| one.of == "Lanes");
@@ -149,7 +150,7 @@ impl Run<'_> {
     /// The mechanism with the parameters among these columns.
     fn own(&self, columns: &[Value]) -> Value {
         let values = self.driver.parameters.iter().copied().zip(columns.iter().cloned());
-        Value::record(self.driver.types.mechanism, values)
+        Value::record(values)
     }
 
     /// The tape of the wanted columns.

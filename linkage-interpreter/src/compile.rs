@@ -2,50 +2,27 @@
 
 use std::sync::Arc;
 
-use linkage_compiler::Lowered;
-use linkage_compiler::derivation;
-use linkage_compiler::ids::{FunctionId, Table};
-use linkage_compiler::lower::Code;
-use linkage_compiler::program::{
-    self, ConstantValue, Family, Implemented, MULTIPLIERS, Program, SceneProgram, TypeNames,
-};
+use linkage_compiler::program::{self, ConstantValue, Implemented, MULTIPLIERS, Program, SceneProgram};
+use linkage_compiler::{Lowered, derivation};
+use linkage_ir::Name;
+use linkage_ir::code::{Code, Function, Names, Readable};
 
-use crate::code::{Function, Name, Names};
+use crate::formulas::{Untranslated, formulas};
 use crate::program::{
-    Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Part, Scene, SceneTypes, Side, Types,
-    UserFunction, Written,
+    Coordinate, Driver, Group, Implementation, Joint, Kink, Lanes, Parameter, Part, Scene, Side, UserFunction, Written,
 };
-use crate::translate::{Context, Untranslated, formulas};
 
 /// The driver with its scenes.
 pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
-    let Program { signatures, position, functions, implementations, scenes, .. } = &lowered.program;
+    let Program { signatures, position, functions, implementations, scenes, names, .. } = &lowered.program;
     let types = &signatures.types;
-    let mut names = Names::default();
-    let implementation = |of: Implemented, on: &str| {
-        implementations.iter().find(move |one| one.of == of && one.on == on).map(|one| one.functions.as_slice())
+    let mut names = names.clone();
+    let own = |on: &str| {
+        let of = implementations.iter().find(|one| one.of == Implemented::Itself && one.on == on);
+        of.map(|one| all(&one.functions)).unwrap_or_default()
     };
-    let of_pose = implementation(Implemented::Itself, &types.pose).unwrap_or_default();
-    let of_branch = implementation(Implemented::Itself, &types.branch).unwrap_or_default();
-    let listed = places(functions);
-    let context = Context {
-        types,
-        points: Family::Points.names(signatures),
-        outputs: Family::Outputs.names(signatures),
-        own: listed.clone(),
-        of_driver: listed,
-        of_pose: of_pose.iter().map(|function| function.name.clone()).collect(),
-        of_branch: of_branch.iter().map(|function| function.name.clone()).collect(),
-        users: signatures.user_functions.iter().enumerate().map(|(place, function)| (function.id, place)).collect(),
-    };
-    let traits = implementations.iter().filter(|one| one.of != Implemented::Itself);
-    let traits = traits.map(|one| implemented(one, &context, &mut names)).collect::<Result<_, _>>()?;
-    let all = |functions: &[program::Function<Code>], names: &mut Names| -> Result<Vec<Function>, Untranslated> {
-        functions.iter().map(|function| context.function(function, names)).collect()
-    };
-    let (of_pose, of_branch) = (all(of_pose, &mut names)?, all(of_branch, &mut names)?);
-    let own = listed_functions(functions, &context, &mut names)?;
-    let scenes = scenes.iter().map(|one| scene(one, &context, &mut names)).collect::<Result<_, _>>()?;
+    let traits = implementations.iter().filter(|one| one.of != Implemented::Itself).map(implemented).collect();
+    let scenes = scenes.iter().map(|one| scene(one, &mut names)).collect();
     let mut numbers =
         |of: &mut dyn Iterator<Item = &program::Name>| of.map(|name| names.of(&name.field)).collect::<Vec<Name>>();
     Ok(Driver {
@@ -81,10 +58,10 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
             .iter()
             .map(|of| UserFunction { names: of.names.clone(), arguments: of.arguments })
             .collect(),
-        types: type_names(types, &mut names),
-        functions: own,
-        of_pose,
-        of_branch,
+        types: types.clone(),
+        functions: all(functions),
+        of_pose: own(&types.pose),
+        of_branch: own(&types.branch),
         traits,
         scenes,
         lanes: lanes(implementations),
@@ -92,20 +69,6 @@ pub(crate) fn driver(lowered: &Lowered) -> Result<Driver, Untranslated> {
         formulas: formulas(lowered)?,
         names,
     })
-}
-
-fn type_names(types: &TypeNames, names: &mut Names) -> Types {
-    Types {
-        mechanism: names.of(&types.driver),
-        inputs: names.of(&types.inputs),
-        coordinates: names.of(&types.coordinates),
-        points: names.of(&types.points),
-        outputs: names.of(&types.outputs),
-        branch: names.of(&types.branch),
-        point_motion: names.of("PointMotion"),
-        output_motion: names.of("OutputMotion"),
-        assembled: names.of("Assembled"),
-    }
 }
 
 fn parameter(of: &program::Parameter) -> Parameter {
@@ -174,43 +137,37 @@ fn part(of: &derivation::Part) -> Part {
     }
 }
 
-/// The places of the functions that are emitted, by their ids.
-fn places(functions: &program::Functions<Code>) -> Vec<Option<usize>> {
-    let by_id: &Table<FunctionId, program::Function<Code>> = functions.by_id();
-    let place = |of: &program::Function<Code>| functions.iter().position(|other| std::ptr::eq(of, other));
-    by_id.iter().map(place).collect()
-}
-
-fn listed_functions(
-    functions: &program::Functions<Code>,
-    context: &Context,
-    names: &mut Names,
-) -> Result<Vec<Function>, Untranslated> {
-    functions.iter().map(|function| context.function(function, names)).collect()
-}
-
-fn implemented(
-    of: &program::Implementation<Code>,
-    context: &Context,
-    names: &mut Names,
-) -> Result<Implementation, Untranslated> {
-    let functions = of.functions.iter().map(|function| context.function(function, names));
-    let of = of.of.name().unwrap_or_default().to_owned();
-    Ok(Implementation { of, functions: functions.collect::<Result<_, _>>()? })
-}
-
-fn scene(of: &SceneProgram<Code>, driver: &Context, names: &mut Names) -> Result<Scene, Untranslated> {
-    let SceneProgram { signatures, functions, implementation } = of;
-    let context = Context {
-        types: &signatures.types,
-        points: driver.points.clone(),
-        outputs: driver.outputs.clone(),
-        own: places(functions),
-        of_driver: driver.of_driver.clone(),
-        of_pose: driver.of_pose.clone(),
-        of_branch: driver.of_branch.clone(),
-        users: driver.users.clone(),
+/// These functions without what only those who read them need.
+fn all<'f>(functions: impl IntoIterator<Item = &'f Function>) -> Vec<Function> {
+    let code = |of: &Code| {
+        let Code { slots, values, statements, value, readable: _ } = of;
+        let (values, statements) = (values.clone(), statements.clone());
+        Code { slots: *slots, values, statements, value: *value, readable: Readable::default() }
     };
+    let run = |of: &Function| {
+        let Function { name, doc: _, access, is_method, arguments, returns, is_fallible, body } = of;
+        let (name, arguments, returns) = (name.clone(), arguments.clone(), returns.clone());
+        let (doc, body) = (Vec::new(), body.as_ref().map(code));
+        Function {
+            name,
+            doc,
+            access: *access,
+            is_method: *is_method,
+            arguments,
+            returns,
+            is_fallible: *is_fallible,
+            body,
+        }
+    };
+    functions.into_iter().map(run).collect()
+}
+
+fn implemented(of: &program::Implementation<Code>) -> Implementation {
+    Implementation { of: of.of.name().unwrap_or_default().to_owned(), functions: all(&of.functions) }
+}
+
+fn scene(of: &SceneProgram<Code>, names: &mut Names) -> Scene {
+    let SceneProgram { signatures, functions, implementation } = of;
     let constants = implementation.iter().flat_map(|one| &one.constants);
     let kinks =
         constants.clone().find_map(|(_, value)| if let ConstantValue::Kinks(all) = value { Some(all) } else { None });
@@ -223,18 +180,17 @@ fn scene(of: &SceneProgram<Code>, driver: &Context, names: &mut Names) -> Result
     if signatures.has_multipliers() {
         forces.push((names.of(MULTIPLIERS), Some(signatures.dependent.len())));
     }
-    Ok(Scene {
+    Scene {
         name: signatures.scene.as_str().into(),
-        types: SceneTypes { scene: names.of(&signatures.types.itself), state: names.of("StateParts") },
         field: names.of(&signatures.field),
         parameters: signatures.parameters.iter().map(|parameter| names.of(&parameter.name.field)).collect(),
         about_parameters: signatures.parameters.iter().map(parameter).collect(),
-        functions: listed_functions(functions, &context, names)?,
-        implementation: implementation.as_ref().map(|one| implemented(one, &context, names)).transpose()?,
+        functions: all(functions),
+        implementation: implementation.as_ref().map(implemented),
         contacts: signatures.contacts.len(),
         has_bearings: signatures.count_bearings() > 0,
         kinks: kinks.into_iter().flatten().map(kink).collect(),
         joints: signatures.joints.iter().map(joint).collect(),
         forces,
-    })
+    }
 }

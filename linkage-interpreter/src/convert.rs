@@ -2,29 +2,34 @@
 
 use std::sync::Arc;
 
+use linkage_ir::Name;
+use linkage_ir::code::{Passed, Type};
 use linkage_runtime::AssemblyMode;
 
-use crate::code::{Name, Record as Of, Shape};
 use crate::data::Data;
 use crate::error::Mistake;
 use crate::machine::Value;
 use crate::program::{Driver, Side};
+use crate::shape::{Record, passed};
 
-/// The value of an argument of this form.
-pub(crate) fn to_value(driver: &Driver, data: &Data, shape: &Shape) -> Result<Value, Mistake> {
-    match shape {
-        Shape::Record(Of::Inputs) => by_name(driver, data, driver.types.inputs, &driver.inputs),
-        Shape::Record(Of::Coordinates | Of::Rates | Of::Accelerations | Of::Jerks) => {
-            by_name(driver, data, driver.types.coordinates, &driver.coordinates)
+/// The value of an argument of a function of the type with this name.
+pub(crate) fn to_value(driver: &Driver, data: &Data, of: &Passed, itself: &str) -> Result<Value, Mistake> {
+    let Some(of) = passed(of) else { return any(driver, data) };
+    match driver.record(of, itself) {
+        Some(Record::Inputs) => by_name(driver, data, &driver.inputs),
+        Some(Record::Coordinates | Record::Rates | Record::Accelerations | Record::Jerks) => {
+            by_name(driver, data, &driver.coordinates)
         }
-        Shape::Record(Of::Branch) => branch(driver, data),
-        Shape::Number => data.number().map(Value::Number).ok_or_else(|| Mistake::expected("a number", data)),
+        Some(Record::Branch) => branch(driver, data),
+        None if matches!(of, Type::Scalar | Type::Lanes) => {
+            data.number().map(Value::Number).ok_or_else(|| Mistake::expected("a number", data))
+        }
         _ => any(driver, data),
     }
 }
 
 /// Numbers by name: from fields, from a list in order, or from the only number.
-fn by_name(driver: &Driver, data: &Data, of: Name, names: &[Name]) -> Result<Value, Mistake> {
+fn by_name(driver: &Driver, data: &Data, names: &[Name]) -> Result<Value, Mistake> {
     let number = |data: &Data| data.number().map(Value::Number).ok_or_else(|| Mistake::expected("a number", data));
     let values = match data {
         Data::Number(_) | Data::Count(_) if names.len() == 1 => vec![number(data)?],
@@ -42,11 +47,11 @@ fn by_name(driver: &Driver, data: &Data, of: Name, names: &[Name]) -> Result<Val
         }
         other => return Err(Mistake::expected("numbers by name", other)),
     };
-    Ok(Value::record(of, names.iter().copied().zip(values)))
+    Ok(Value::record(names.iter().copied().zip(values)))
 }
 
 /// A branch: a word for each group with two solutions; turns are 0 and positions have no number if they are not given.
-fn branch(driver: &Driver, data: &Data) -> Result<Value, Mistake> {
+pub(crate) fn branch(driver: &Driver, data: &Data) -> Result<Value, Mistake> {
     let sides = driver.sides.iter().map(|side| side.field);
     let modes = driver.modes.iter().map(|(field, _)| *field);
     let names: Vec<Name> = sides.chain(modes).chain(driver.turns.iter().copied()).collect();
@@ -81,7 +86,7 @@ fn branch(driver: &Driver, data: &Data) -> Result<Value, Mistake> {
         };
         values.push((*field, Value::Count(turn)));
     }
-    Ok(Value::record(driver.types.branch, values))
+    Ok(Value::record(values))
 }
 
 fn solution(side: &Side, word: &Data) -> Result<Value, Mistake> {
@@ -106,7 +111,7 @@ fn any(driver: &Driver, data: &Data) -> Result<Value, Mistake> {
                 let name = driver.names.find(name).ok_or_else(|| Mistake::unknown(name, []))?;
                 Ok((name, any(driver, data)?))
             });
-            Value::record(Name::NAME, fields.collect::<Result<Vec<_>, Mistake>>()?)
+            Value::record(fields.collect::<Result<Vec<_>, Mistake>>()?)
         }
     })
 }

@@ -40,7 +40,6 @@
 
 mod at_run_time;
 mod call_error;
-mod code;
 mod columns;
 #[cfg(feature = "compiler")]
 mod compile;
@@ -51,9 +50,8 @@ mod formulas;
 mod machine;
 mod mechanism;
 mod program;
+mod shape;
 mod tape;
-#[cfg(feature = "compiler")]
-mod translate;
 mod words;
 mod written;
 
@@ -63,7 +61,6 @@ pub use at_run_time::{
     Prepared, PreparedScene, QuantityCount, SceneAtRunTime, StateCount, WithFormulas,
 };
 pub use call_error::CallError;
-pub use code::{Argument, Record, Shape};
 pub use columns::{Columns, Rejected, Values};
 pub use data::Data;
 pub use error::{Error, Mistake};
@@ -71,6 +68,7 @@ pub use error::{Error, Mistake};
 pub use linkage_compiler::text::Message;
 pub use machine::Defect;
 pub use mechanism::{Design, Mechanism, SceneDesign};
+pub use shape::{Argument, Record, Shape};
 pub use words::Words;
 
 /// The mechanisms of a text. One with several choices of inputs is several.
@@ -84,6 +82,12 @@ impl FromIterator<Mechanism> for Program {
     fn from_iter<I: IntoIterator<Item = Mechanism>>(mechanisms: I) -> Self {
         Self::of(mechanisms.into_iter().collect())
     }
+}
+
+/// A message about a text as a whole.
+#[cfg(feature = "compiler")]
+fn without_place(text: String) -> Message {
+    Message { line: 1, column: 1, length: 0, text, help: None }
 }
 
 impl Program {
@@ -160,9 +164,9 @@ impl Program {
             // As when it is read: what is compiled can be written and read again.
             Ok(driver) => match written::checked(&driver) {
                 Ok(()) => Ok((Mechanism::new(driver.into()), lent)),
-                Err(what) => Err(vec![translate::without_place(format!("`{}` cannot be run: {what}", driver.name))]),
+                Err(what) => Err(vec![without_place(format!("`{}` cannot be run: {what}", driver.name))]),
             },
-            Err(untranslated) => Err(vec![translate::without_place(untranslated.to_string())]),
+            Err(untranslated) => Err(vec![without_place(untranslated.to_string())]),
         });
         mechanisms.collect()
     }

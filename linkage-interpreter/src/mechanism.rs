@@ -2,14 +2,17 @@
 
 use std::sync::Arc;
 
+use linkage_ir::Name;
+use linkage_ir::code::Function;
+
 use crate::at_run_time::{NotPrepared, OfTheRuntime, Prepared, PreparedScene};
 use crate::call_error::CallError;
-use crate::code::{Access, Argument, Function};
 use crate::convert::{to_data, to_value};
 use crate::data::Data;
 use crate::error::Mistake;
 use crate::machine::{Defect, Kind, Machine, Of, User, Value};
 use crate::program::{Driver, Scene, UserFunction};
+use crate::shape::Argument;
 
 /// A mechanism, or one choice of inputs of a mechanism with several.
 #[derive(Clone)]
@@ -27,7 +30,7 @@ impl std::fmt::Debug for Mechanism {
 
 impl Driver {
     /// True if this is the name of a field.
-    pub(crate) fn is(&self, name: crate::code::Name, text: &str) -> bool {
+    pub(crate) fn is(&self, name: Name, text: &str) -> bool {
         self.names.text(name) == text
     }
 }
@@ -133,7 +136,7 @@ impl Mechanism {
 
     /// The names of the public functions.
     pub fn functions(&self) -> impl Iterator<Item = &str> {
-        let public = self.driver.functions.iter().filter(|function| function.access == Access::Public);
+        let public = self.driver.functions.iter().filter(|function| function.access.is_public());
         public.map(|function| function.name.as_str())
     }
 
@@ -238,15 +241,16 @@ impl Design {
 
     fn own(&self) -> Value {
         let values = self.parameters.iter().copied().map(Value::Number);
-        Value::record(self.of.driver.types.mechanism, self.of.driver.parameters.iter().copied().zip(values))
+        Value::record(self.of.driver.parameters.iter().copied().zip(values))
     }
 
     /// The arguments of a function.
     ///
     /// # Errors
     /// If there is no such function.
-    pub fn arguments(&self, function: &str) -> Result<&[Argument], Mistake> {
-        named(&self.of.driver.functions, function).map(|function| function.arguments.as_slice())
+    pub fn arguments(&self, function: &str) -> Result<Vec<Argument>, Mistake> {
+        let driver = &self.of.driver;
+        named(&driver.functions, function).map(|function| driver.arguments(function, &driver.name))
     }
 
     /// A scene with the default values of its parameters, and NaN where there is none.
@@ -277,7 +281,7 @@ impl Design {
         let function = named(&driver.functions, function)?;
         self.of.complete()?;
         let mut machine = Machine::new(driver, None, &self.of.users, Kind::Double).with_algorithms(&OfTheRuntime);
-        let arguments = given(driver, function, arguments)?;
+        let arguments = given(driver, function, &driver.name, arguments)?;
         let own = if function.is_method { self.own() } else { Value::Absent };
         let value = machine.call(Of::Driver, function, own, arguments)?;
         Ok(to_data(driver, &value))
@@ -294,24 +298,24 @@ impl Design {
         let function = of_traits.find(|function| function.name == "coordinates_of");
         let function = function.ok_or_else(|| CallError::Defect(Defect::new("no function `coordinates_of`")))?;
         let mut machine = Machine::new(driver, None, &self.of.users, Kind::Double);
-        let arguments = given(driver, function, std::slice::from_ref(pose))?;
+        let arguments = given(driver, function, &driver.name, std::slice::from_ref(pose))?;
         let value = machine.call(Of::Driver, function, Value::Absent, arguments)?;
         Ok(to_data(driver, &value))
     }
 }
 
 fn named<'f>(all: &'f [Function], name: &str) -> Result<&'f Function, Mistake> {
-    let public = || all.iter().filter(|function| function.access == Access::Public);
+    let public = || all.iter().filter(|function| function.access.is_public());
     let found = public().find(|function| function.name == name);
     found.ok_or_else(|| Mistake::unknown(name, public().map(|function| function.name.as_str())))
 }
 
-fn given(driver: &Driver, function: &Function, arguments: &[Data]) -> Result<Vec<Value>, Mistake> {
+fn given(driver: &Driver, function: &Function, itself: &str, arguments: &[Data]) -> Result<Vec<Value>, Mistake> {
     if arguments.len() != function.arguments.len() {
         let names: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
         return Err(Mistake::new(format!("`{}` takes {}", function.name, names.join(", "))));
     }
-    function.arguments.iter().zip(arguments).map(|(of, data)| to_value(driver, data, &of.shape)).collect()
+    function.arguments.iter().zip(arguments).map(|(of, data)| to_value(driver, data, &of.passed, itself)).collect()
 }
 
 /// A scene with values of its parameters, of a design.
@@ -371,15 +375,16 @@ impl SceneDesign {
     ///
     /// # Errors
     /// If there is no such function.
-    pub fn arguments(&self, function: &str) -> Result<&[Argument], Mistake> {
-        named(&self.scene().functions, function).map(|function| function.arguments.as_slice())
+    pub fn arguments(&self, function: &str) -> Result<Vec<Argument>, Mistake> {
+        let scene = self.scene();
+        named(&scene.functions, function).map(|function| self.of.of.driver.arguments(function, &scene.name))
     }
 
     fn own(&self) -> Value {
         let scene = self.scene();
         let values = self.parameters.iter().copied().map(Value::Number);
         let parameters = scene.parameters.iter().copied().zip(values);
-        Value::record(scene.types.scene, std::iter::once((scene.field, self.of.own())).chain(parameters))
+        Value::record(std::iter::once((scene.field, self.of.own())).chain(parameters))
     }
 
     /// Calls a function.
@@ -392,7 +397,7 @@ impl SceneDesign {
         self.of.of.complete()?;
         let mut machine =
             Machine::new(driver, Some(scene), &self.of.of.users, Kind::Double).with_algorithms(&OfTheRuntime);
-        let arguments = given(driver, function, arguments)?;
+        let arguments = given(driver, function, &self.scene().name, arguments)?;
         let own = if function.is_method { self.own() } else { Value::Absent };
         let value = machine.call(Of::Scene, function, own, arguments)?;
         Ok(to_data(driver, &value))

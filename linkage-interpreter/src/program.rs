@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use linkage_ir::Name;
+use linkage_ir::code::{Function, Names, TypeNames};
 use linkage_runtime::InputValues;
 use serde::{Deserialize, Serialize};
 
-use crate::code::{Function, Name, Names};
 use crate::formulas::Formulas;
 
 /// One mechanism, or one choice of inputs of a mechanism with several.
@@ -16,7 +17,7 @@ pub(crate) struct Driver {
     /// The name in errors.
     pub(crate) name: Arc<str>,
     pub(crate) names: Names,
-    pub(crate) types: Types,
+    pub(crate) types: TypeNames,
     pub(crate) parameters: Vec<Name>,
     pub(crate) about_parameters: Vec<Parameter>,
     /// All coordinates, in the order of their fields; the dependent ones; the inputs.
@@ -123,7 +124,6 @@ impl Driver {
 pub(crate) struct Scene {
     /// The name in errors.
     pub(crate) name: Arc<str>,
-    pub(crate) types: SceneTypes,
     /// The field that holds the mechanism.
     pub(crate) field: Name,
     pub(crate) parameters: Vec<Name>,
@@ -195,25 +195,4 @@ pub(crate) struct UserFunction {
     /// The names of its value and its derivatives.
     pub(crate) names: Vec<String>,
     pub(crate) arguments: usize,
-}
-
-/// The names of types.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Types {
-    pub(crate) mechanism: Name,
-    pub(crate) inputs: Name,
-    pub(crate) coordinates: Name,
-    pub(crate) points: Name,
-    pub(crate) outputs: Name,
-    pub(crate) branch: Name,
-    pub(crate) point_motion: Name,
-    pub(crate) output_motion: Name,
-    pub(crate) assembled: Name,
-}
-
-/// The names of types of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct SceneTypes {
-    pub(crate) scene: Name,
-    pub(crate) state: Name,
 }

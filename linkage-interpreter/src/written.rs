@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use linkage_ir::code::{Block, Code, Function, Pattern, Receiver, Statement, Type, Value};
+use linkage_ir::{Intrinsic, Name, Slot, ValueId};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de, ser};
 
 use crate::Program;
-use crate::code::{Block, Expression, Function, Id, Pattern, Slot, Statement};
 use crate::formulas::Counts;
 use crate::mechanism::Mechanism;
 use crate::program::Driver;
@@ -13,7 +14,7 @@ use crate::program::Driver;
 /// The version of the form in which compiled mechanisms are written. It changes with the form.
 const VERSION: u32 = 3;
 
-/// The deepest nesting of the expressions of a function, and so of the calls that compute them. The gallery's is 11.
+/// The deepest nesting of the values of a function, and so of the calls that compute them. The gallery's is 11.
 const DEEPEST: usize = 200;
 
 /// The most entries of a list that repeats one value.
@@ -61,11 +62,16 @@ impl<'de> Deserialize<'de> for Program {
 /// Checks that everything that functions refer to exists. Calls that do not end are found when they run: a function of a
 /// mechanism may call itself in twice the precision.
 pub(crate) fn checked(driver: &Driver) -> Result<(), &'static str> {
-    let scenes = driver.scenes.iter().flat_map(|scene| &scene.functions);
-    let of_scenes = driver.scenes.iter().filter_map(|scene| scene.implementation.as_ref());
-    let of_traits = driver.traits.iter().chain(of_scenes).flat_map(|one| &one.functions);
-    let all = driver.functions.iter().chain(&driver.of_pose).chain(&driver.of_branch).chain(scenes);
-    all.chain(of_traits).try_for_each(check)?;
+    let of_traits = driver.traits.iter().flat_map(|one| &one.functions);
+    let of_driver = driver.functions.iter().chain(of_traits);
+    of_driver.clone().try_for_each(|function| check(function, driver, &driver.functions))?;
+    for own in [&driver.of_pose, &driver.of_branch] {
+        own.iter().try_for_each(|function| check(function, driver, own))?;
+    }
+    for scene in &driver.scenes {
+        let of_trait = scene.implementation.iter().flat_map(|one| &one.functions);
+        scene.functions.iter().chain(of_trait).try_for_each(|function| check(function, driver, &scene.functions))?;
+    }
     if driver.parameters.len() != driver.about_parameters.len()
         || driver.coordinates.len() != driver.about_coordinates.len()
         || driver.inputs.len() != driver.input_texts.len()
@@ -98,146 +104,105 @@ pub(crate) fn checked(driver: &Driver) -> Result<(), &'static str> {
     driver.formulas.as_ref().map_or(Ok(()), |formulas| formulas.check(counts))
 }
 
-/// Checks a function.
-fn check(function: &Function) -> Result<(), &'static str> {
-    if (function.slots as usize) < function.arguments.len() + 1 {
+/// Checks a function, which calls these functions of its own type.
+fn check(function: &Function, driver: &Driver, own: &[Function]) -> Result<(), &'static str> {
+    let has_names = |names: &[(Name, ValueId)]| names.iter().all(|(name, _)| driver.names.has(*name));
+    let Some(code) = &function.body else { return Err("a function has no body") };
+    if (code.slots as usize) < function.arguments.len() + 1 {
         return Err("an argument has no slot");
     }
-    for (place, expression) in function.expressions.iter().enumerate() {
+    for (place, value) in code.values.iter().enumerate() {
         let mut is_earlier = true;
-        each_part(expression, &mut |part| is_earlier &= (part.0 as usize) < place);
+        each_part(value, &mut |part| is_earlier &= part.index() < place);
         if !is_earlier {
-            return Err("an expression refers to a later one");
+            return Err("a value refers to a later one");
         }
-        match expression {
-            Expression::Slot(of) => slot(function, *of)?,
-            Expression::Repeated(_, count) if *count > MOST_REPEATED => return Err("a list is too long"),
-            Expression::Closure(patterns, block) => {
-                patterns.iter().try_for_each(|pattern| pattern_of(function, pattern))?;
-                block_of(function, block)?;
+        match value {
+            Value::Given(of) => slot(code, *of)?,
+            Value::Own(receiver, of, _) => {
+                let is_own = matches!(receiver, Receiver::Itself | Receiver::ItsType);
+                if of.index() >= if is_own { own.len() } else { driver.functions.len() } {
+                    return Err("a function does not exist");
+                }
             }
-            Expression::Block(block) => block_of(function, block)?,
+            Value::UserFunction(of, _) if of.index() >= driver.users.len() => {
+                return Err("a user function does not exist");
+            }
+            Value::Field(_, name) if !driver.names.has(*name) => return Err("a name does not exist"),
+            Value::Struct(_, fields, _) if !has_names(fields) => return Err("a name does not exist"),
+            Value::Repeated(_, count) if *count > MOST_REPEATED => return Err("a list is too long"),
+            Value::Intrinsic(Intrinsic::Zeros, Some(of), _) => match &**of {
+                Type::Runtime(_, sizes) if sizes.iter().all(|size| *size <= MOST_REPEATED) => {}
+                _ => return Err("a list is too long"),
+            },
+            Value::Closure { arguments, body, .. } => {
+                arguments.iter().try_for_each(|pattern| pattern_of(code, pattern))?;
+                block_of(code, body)?;
+            }
+            Value::Block(block) => block_of(code, block)?,
             _ => {}
         }
     }
-    if depth(function) > DEEPEST {
-        return Err("expressions are nested too deeply");
+    if depth(code) > DEEPEST {
+        return Err("values are nested too deeply");
     }
-    statements(function, &function.statements)?;
-    let (crate::code::Returned::Plain(value) | crate::code::Returned::Outcome(value)) = function.value;
-    expression_of(function, value)
+    statements(code, &code.statements)?;
+    [code.value.returned(), code.value.literal()].into_iter().try_for_each(|value| value_of(code, value))
 }
 
-fn block_of(function: &Function, block: &Block) -> Result<(), &'static str> {
-    statements(function, &block.statements)?;
-    expression_of(function, block.value)
+fn block_of(code: &Code, block: &Block) -> Result<(), &'static str> {
+    statements(code, &block.statements)?;
+    value_of(code, block.value)
 }
 
-fn statements(function: &Function, all: &[Statement]) -> Result<(), &'static str> {
-    all.iter().try_for_each(|statement| match statement {
-        Statement::Let(pattern, value) => {
-            pattern_of(function, pattern)?;
-            expression_of(function, *value)
+fn statements(code: &Code, all: &[Statement]) -> Result<(), &'static str> {
+    all.iter().try_for_each(|statement| {
+        if let Some(pattern) = statement.pattern() {
+            pattern_of(code, pattern)?;
         }
-        Statement::Do(value) | Statement::Return(value) => expression_of(function, *value),
-        Statement::Assign(place, value) => {
-            slot(function, place.of)?;
-            place.at.iter().chain([value]).try_for_each(|id| expression_of(function, *id))
-        }
-        Statement::LetElse(pattern, value, otherwise) => {
-            pattern_of(function, pattern)?;
-            [value, otherwise].into_iter().try_for_each(|id| expression_of(function, *id))
-        }
-        Statement::Unless(conditions, inside) => {
-            conditions.iter().try_for_each(|id| expression_of(function, *id))?;
-            statements(function, inside)
+        match statement {
+            Statement::Store(inside) => statements(code, std::slice::from_ref(inside)),
+            Statement::Unless(conditions, inside) => {
+                conditions.iter().try_for_each(|id| value_of(code, *id))?;
+                statements(code, inside)
+            }
+            Statement::Let(_, value) | Statement::Do(value) | Statement::Return(value) => value_of(code, *value),
+            Statement::Assign(one, other) | Statement::LetElse(_, one, other) => {
+                [one, other].into_iter().try_for_each(|id| value_of(code, *id))
+            }
         }
     })
 }
 
-fn pattern_of(function: &Function, pattern: &Pattern) -> Result<(), &'static str> {
-    match pattern {
-        Pattern::Bound(of) => slot(function, *of),
-        Pattern::Ignored => Ok(()),
-        Pattern::Present(inside) => pattern_of(function, inside),
-        Pattern::List(all) => all.iter().try_for_each(|pattern| pattern_of(function, pattern)),
-        Pattern::Record(fields) => fields.iter().try_for_each(|(_, pattern)| pattern_of(function, pattern)),
-    }
+fn pattern_of(code: &Code, pattern: &Pattern) -> Result<(), &'static str> {
+    let mut checked = Ok(());
+    pattern.each(&mut |of| checked = checked.and_then(|()| slot(code, *of)));
+    checked
 }
 
-fn slot(function: &Function, slot: Slot) -> Result<(), &'static str> {
-    if slot.0 < function.slots { Ok(()) } else { Err("a slot does not exist") }
+fn slot(code: &Code, slot: Slot) -> Result<(), &'static str> {
+    if slot.index() < code.slots as usize { Ok(()) } else { Err("a slot does not exist") }
 }
 
-fn expression_of(function: &Function, id: Id) -> Result<(), &'static str> {
-    if (id.0 as usize) < function.expressions.len() { Ok(()) } else { Err("an expression does not exist") }
+fn value_of(code: &Code, id: ValueId) -> Result<(), &'static str> {
+    if id.index() < code.values.len() { Ok(()) } else { Err("a value does not exist") }
 }
 
-/// The deepest nesting of the expressions of a function, which refer to earlier ones only.
-fn depth(function: &Function) -> usize {
-    let mut depths: Vec<usize> = Vec::with_capacity(function.expressions.len());
-    for expression in &function.expressions {
+/// The deepest nesting of the values of a function, which refer to earlier ones only.
+fn depth(code: &Code) -> usize {
+    let mut depths: Vec<usize> = Vec::with_capacity(code.values.len());
+    for value in &code.values {
         let mut inside = 0;
-        each_part(expression, &mut |part| inside = inside.max(depths[part.0 as usize]));
+        each_part(value, &mut |part| inside = inside.max(depths[part.index()]));
         depths.push(inside + 1);
     }
     depths.into_iter().max().unwrap_or(0)
 }
 
-/// Visits the expressions that one refers to.
-fn each_part(expression: &Expression, visit: &mut dyn FnMut(Id)) {
-    let mut all = |ids: &[Id]| ids.iter().copied().for_each(&mut *visit);
-    match expression {
-        Expression::Slot(_)
-        | Expression::Number(_)
-        | Expression::Flag(_)
-        | Expression::Quantities
-        | Expression::Text(_)
-        | Expression::OwnName
-        | Expression::Count(_)
-        | Expression::Absent
-        | Expression::OfRuntime(_) => {}
-        Expression::Sum(terms) => terms.iter().for_each(|(_, term)| visit(*term)),
-        Expression::Product(ids)
-        | Expression::Call(_, ids)
-        | Expression::All(ids)
-        | Expression::List(ids)
-        | Expression::Intrinsic(_, ids)
-        | Expression::Own(_, ids)
-        | Expression::OfType(_, _, ids)
-        | Expression::User(_, ids) => all(ids),
-        Expression::Quotient(one, other) | Expression::At(one, other) => all(&[*one, *other]),
-        Expression::Square(one)
-        | Expression::Negative(one)
-        | Expression::Field(one, _)
-        | Expression::Index(one, _)
-        | Expression::Repeated(one, _)
-        | Expression::Made(_, one)
-        | Expression::Try(one) => all(&[*one]),
-        Expression::Record(_, fields, rest) => {
-            fields.iter().map(|(_, value)| *value).chain(*rest).for_each(visit);
-        }
-        Expression::OfMechanism(on, _, ids) => {
-            all(ids);
-            on.iter().copied().for_each(visit);
-        }
-        Expression::Closure(_, block) | Expression::Block(block) => each_of_block(block, visit),
-    }
-}
-
-fn each_of_block(block: &Block, visit: &mut dyn FnMut(Id)) {
-    block.statements.iter().for_each(|statement| each_of_statement(statement, visit));
-    visit(block.value);
-}
-
-fn each_of_statement(statement: &Statement, visit: &mut dyn FnMut(Id)) {
-    match statement {
-        Statement::Let(_, value) | Statement::Do(value) | Statement::Return(value) => visit(*value),
-        Statement::Assign(place, value) => place.at.iter().chain([value]).for_each(|id| visit(*id)),
-        Statement::LetElse(_, value, otherwise) => [value, otherwise].into_iter().for_each(|id| visit(*id)),
-        Statement::Unless(conditions, inside) => {
-            conditions.iter().for_each(|id| visit(*id));
-            inside.iter().for_each(|statement| each_of_statement(statement, visit));
-        }
+/// Visits the values that one refers to, also within statements.
+fn each_part(value: &Value, visit: &mut dyn FnMut(ValueId)) {
+    match value {
+        Value::Closure { body, .. } | Value::Block(body) => body.each_value(visit),
+        other => other.each_part(visit),
     }
 }

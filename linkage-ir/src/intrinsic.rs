@@ -126,7 +126,7 @@ pub enum Entry {
 /// One row of the table.
 #[derive(Debug)]
 pub struct Row {
-    /// The path in the runtime, or the name of the method.
+    /// The path in the runtime, or the name of the method, in Rust; several methods may have the same.
     pub name: &'static str,
     pub form: Form,
     pub roles: &'static [Role],

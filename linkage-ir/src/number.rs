@@ -10,6 +10,7 @@ use crate::Ratio;
 /// Arithmetic on ratios is exact; a result whose numerator or denominator leaves `i64`
 /// becomes a float, never a wrapped integer.
 #[derive(Debug, Clone, Copy)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Number {
     /// `numerator / denominator`.
     Ratio(i64, i64),

@@ -96,6 +96,26 @@ fn a_function_of_other_arguments_is_damage() {
     }
 }
 
+/// The number of a function, a name or a value of another program, which this one does not have, is an error of reading.
+#[test]
+fn numbers_of_another_program_are_damage() {
+    let text = serde_json::to_string(&Program::compile(&text_of("four_bar_effects")).expect("it compiles"));
+    let text = text.expect("it is written");
+    let damaged = |from: &str, what: &str| {
+        let at = text.find(from).unwrap_or_else(|| panic!("{from}")) + from.len();
+        let digits = text[at..].find(|one: char| !one.is_ascii_digit()).expect("more");
+        let other = format!("{}99999{}", &text[..at], &text[at + digits..]);
+        let error = serde_json::from_str::<Program>(&other).expect_err("damage").to_string();
+        assert!(error.contains("is damaged") && error.contains(what), "{error}");
+    };
+    damaged("{\"Own\":[\"Itself\",", "a function does not exist");
+    damaged("{\"Given\":", "a slot does not exist");
+    damaged("{\"Square\":", "a value refers to a later one");
+    let of_field = text.find("{\"Field\":[").expect("a field") + "{\"Field\":[".len();
+    let of = &text[of_field..][..=text[of_field..].find(',').expect("two numbers")];
+    damaged(&format!("{{\"Field\":[{of}"), "a name does not exist");
+}
+
 /// Damaged files are errors, or run: to a value, an error or a defect, without a panic.
 #[test]
 fn damaged_files_do_not_panic() {

@@ -4,9 +4,9 @@ use linkage_compiler::derivation::Reach;
 use linkage_compiler::emit::Declared;
 use linkage_compiler::graph::Number;
 use linkage_compiler::ids::CoordinateId;
-use linkage_compiler::lower::Code;
 use linkage_compiler::model::VECTOR_FUNCTIONS;
 use linkage_compiler::model::{self, Kind, Measure, Mechanism, Request, output_angles};
+use linkage_compiler::program::Code;
 use linkage_compiler::program::SceneProgram;
 use linkage_compiler::syntax::{EFFECTS, KEYWORDS, PROPERTIES};
 

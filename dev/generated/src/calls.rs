@@ -1,6 +1,6 @@
 //! Calls whose results are texts.
 
-use linkage_compiler::lower::Code;
+use linkage_compiler::program::Code;
 use linkage_compiler::program::{Access, Function, Implemented, SceneProgram, Type};
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -2,7 +2,7 @@
 //! scene as a column. The program has no functions for them, their signatures are those of the types.
 
 use linkage_compiler::emit::MOST_ARGUMENTS;
-use linkage_compiler::lower::Code;
+use linkage_compiler::program::Code;
 use linkage_compiler::program::{Implemented, SceneProgram};
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, format_ident, quote};

@@ -1,8 +1,8 @@
 //! Values of the types of a mechanism, made of numbers that are asked for one after the other.
 
 use linkage_compiler::emit::Declared;
-use linkage_compiler::lower::Code;
 use linkage_compiler::model::{Driver, Mechanism};
+use linkage_compiler::program::Code;
 use linkage_compiler::program::{
     Argument, Coordinate, Parameter, Passed, Position, Program, SceneProgram, Type, TypeNames,
 };

@@ -1,6 +1,7 @@
 //! Functions without type parameters, each of which calls a function of emitted code.
 
-use linkage_compiler::lower::Code;
+use linkage_compiler::emit::type_tokens;
+use linkage_compiler::program::Code;
 use linkage_compiler::program::{Access, Argument, Associated, Function, Implementation, Implemented, Passed, Type};
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
@@ -78,7 +79,7 @@ impl Values<'_, '_> {
         let own = |of: &Type| match of {
             Type::Itself => on.of.clone(),
             Type::OfTrait(name) => associated(name, types),
-            other => other.to_token_stream(),
+            other => type_tokens(other),
         };
         let itself = function.is_method.then(|| {
             let of = &on.of;
@@ -145,7 +146,7 @@ impl Values<'_, '_> {
 fn associated(name: &str, types: &[&[(&'static str, Associated)]]) -> TokenStream {
     let found = types.iter().flat_map(|list| list.iter()).find(|(other, _)| *other == name);
     match found.map(|(_, of)| of) {
-        Some(Associated::Type(of)) => of.to_token_stream(),
+        Some(Associated::Type(of)) => type_tokens(of),
         Some(Associated::Text) => quote!(&'static str),
         _ => unreachable!("no type `{name}`"),
     }

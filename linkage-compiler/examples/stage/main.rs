@@ -19,8 +19,8 @@ use std::process::ExitCode;
 
 use linkage_compiler::derivation::{self, Derivation};
 use linkage_compiler::diagnostics::{Diagnostics, suggestion};
-use linkage_compiler::lower::Code;
 use linkage_compiler::model::{Driver, Mechanism};
+use linkage_compiler::program::Code;
 use linkage_compiler::program::{self, Body, Derived, Function, Program};
 use linkage_compiler::{lower, syntax};
 
@@ -179,7 +179,8 @@ fn planned(mechanism: &Mechanism, driver: &Driver) -> Result<Planned, String> {
 /// The lowered program of a driver.
 fn lowered(mechanism: &Mechanism, driver: &Driver) -> Result<Program<Code>, String> {
     let (derivation, program) = planned(mechanism, driver)?;
-    lower::program(program, &derivation).map_err(|dangling| dangling.to_string())
+    let (program, _) = lower::program(program, &derivation).map_err(|dangling| dangling.to_string())?;
+    Ok(program)
 }
 
 /// Visits the functions of a driver, of its scenes and of the traits of both, each with its type or trait.

@@ -1,8 +1,8 @@
 //! The stages that the compiler and its reports print: documents, code, Rust and FPCore.
 
 use linkage_compiler::model::Mechanism;
-use linkage_compiler::program::Function;
-use linkage_compiler::{documents, emit, lower};
+use linkage_compiler::program::{Code, Function};
+use linkage_compiler::{documents, emit};
 use linkage_lent::{Lender, Unsound};
 use linkage_report::{Document, FpCore};
 use quote::{ToTokens, quote};
@@ -24,8 +24,8 @@ pub fn code(mechanism: &Mechanism) -> Result<Vec<Part>, String> {
     let mut parts = Vec::new();
     for driver in mechanism.drivers.iter() {
         let program = lowered(mechanism, driver)?;
-        let mut add = |of: &str, function: &Function<lower::Code>| {
-            let text = emit::function_as_text(function);
+        let mut add = |of: &str, function: &Function<Code>| {
+            let text = emit::function_as_text(function, &program.names);
             parts.push(Part { of: of.to_owned(), name: function.name.clone(), text });
         };
         each_function(&program, &mut add);

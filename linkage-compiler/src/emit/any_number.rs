@@ -1,5 +1,6 @@
 //! The implementations of the runtime's traits for formulas over numbers of any kind.
 
+use linkage_ir::code::Code;
 use proc_macro2::{Span, TokenStream};
 use quote::quote;
 
@@ -8,7 +9,6 @@ use super::functions;
 use super::names::{ident, string};
 use super::numbers::literal;
 use super::types::other_scalar;
-use crate::lower::Code;
 use crate::program::{Family, Program};
 
 /// Implements `Formulas` over every number, and `Certifiable` over `f64`.
@@ -19,7 +19,8 @@ pub(super) fn of_driver(of: Declared<'_>, program: &Program<Code>, span: Span) -
         [parameters.len(), signatures.unknowns.len(), signatures.inputs.len(), signatures.components()].map(literal);
     let fields = parameters.iter().map(|parameter| ident(&parameter.name.field));
     let (error, other) = (ident("PositionError"), other_scalar(of.mechanism));
-    let functions = any.functions.iter().map(|function| functions::function(function, &error, None, span));
+    let functions =
+        any.functions.iter().map(|function| functions::function(function, &program.names, &error, None, span));
     let parameters = parameters.iter().map(|parameter| string(&parameter.name.text));
     let quantities = [Family::Points, Family::Outputs].into_iter().flat_map(|family| family.components(signatures));
     let quantities = quantities.map(|name| string(&name));

@@ -3,12 +3,12 @@
 
 use std::collections::BTreeSet;
 
+use linkage_ir::code::Code;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::names::ident;
 use crate::graph::ExternalId;
-use crate::lower::Code;
 use crate::model::{ExternalFunction, Mechanism, TypeName};
 use crate::program::{Functions, Taken, call_of};
 use crate::syntax::identifier;
@@ -21,8 +21,10 @@ pub(super) fn calls(
     root: &TokenStream,
 ) -> Option<TokenStream> {
     let bodies = functions.iter().filter_map(|function| function.body.as_ref());
-    let called: BTreeSet<ExternalId> = bodies.flat_map(|body| body.externals.iter().copied()).collect();
-    let calls = mechanism.externals.iter().filter(|external| called.contains(&external.id)).map(call);
+    let called: BTreeSet<ExternalId> = bodies.flat_map(|body| body.readable.externals.iter().copied()).collect();
+    let calls = mechanism.externals.iter().enumerate();
+    let calls =
+        calls.filter(|(place, _)| called.contains(&ExternalId::new(*place))).map(|(_, external)| call(external));
     let calls: Vec<TokenStream> = calls.collect();
     (!calls.is_empty()).then(|| quote!(impl<T: #root::__rt::Real> #of<T> { #(#calls)* }))
 }

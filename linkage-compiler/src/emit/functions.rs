@@ -1,27 +1,29 @@
 //! Functions of a program as Rust.
 
+use linkage_ir::code::{Code, Names, Returned};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::names::comment;
 use super::printer::Printer;
-use super::rust::{Rust, argument};
+use super::rust::{Rust, argument, tokens};
 use super::spans;
-use crate::lower::{Code, Returned};
 use crate::program::{Access, Argument, Function, Operations, Passed, Type, count};
 use crate::syntax::identifier;
 
 /// Emits a function with its doc comment, at a place; `error` is its error type. Without a body it is a stub.
 pub(super) fn function(
     function: &Function<Code>,
+    names: &Names,
     error: &Ident,
     generics: Option<TokenStream>,
     span: Span,
 ) -> TokenStream {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = function;
     // Only functions that others call show their operation counts.
-    let cost = body.as_ref().filter(|_| access.is_public() || *access == Access::OfTrait).map(|code| code.operations);
-    let bound = body.as_ref().and_then(|code| code.bound.as_ref()?.sentence());
+    let readable = body.as_ref().map(|code| &code.readable);
+    let cost = readable.filter(|_| access.is_public() || *access == Access::OfTrait).map(|of| of.operations);
+    let bound = readable.and_then(|of| of.accuracy.clone());
     // A trait documents its functions.
     let is_shown = !matches!(access, Access::OfTrait | Access::OfMechanism | Access::Lane) || !doc.is_empty();
     let doc = is_shown.then(|| {
@@ -35,14 +37,18 @@ pub(super) fn function(
     let name = identifier(name, span);
     let itself = is_method.then(|| quote!(&self));
     let arguments = arguments.iter().enumerate().map(|(index, Argument { name, passed })| {
-        let name = argument(name, body.as_ref().is_some_and(|code| code.uses.contains(&index)));
-        match passed {
-            Passed::ByValue(of) => quote!(#name: #of),
-            Passed::ByReference(of) => quote!(#name: &#of),
-            Passed::ByMutableReference(of) => quote!(#name: &mut #of),
-            Passed::Converted(of) => quote!(#name: impl __rt::Into<#of>),
-            Passed::Turns => quote!(#name: &impl __rt::Turn<T>),
-        }
+        let name = argument(name, readable.is_some_and(|of| of.uses.contains(&index)));
+        let (of, passed) = match passed {
+            Passed::ByValue(of) => (tokens(of), quote!()),
+            Passed::ByReference(of) => (tokens(of), quote!(&)),
+            Passed::ByMutableReference(of) => (tokens(of), quote!(&mut)),
+            Passed::Converted(of) => {
+                let of = tokens(of);
+                (quote!(impl __rt::Into<#of>), quote!())
+            }
+            Passed::Turns => (quote!(&impl __rt::Turn<T>), quote!()),
+        };
+        quote!(#name: #passed #of)
     });
     let arguments = itself.into_iter().chain(arguments);
     let is_iterator = matches!(returns, Type::Branches { .. } | Type::Iterator { .. });
@@ -68,7 +74,7 @@ pub(super) fn function(
     };
     let body = match body {
         Some(code) => {
-            let printer = Printer { code, style: Rust };
+            let printer = Printer { code, names, style: Rust };
             let (statements, value) = (printer.statements(&code.statements), printer.value(code.value.returned()));
             let value = match code.value {
                 Returned::Plain(_) if *is_fallible => quote!(__rt::Ok(#value)),
@@ -81,6 +87,7 @@ pub(super) fn function(
         None if is_iterator => quote!(::core::iter::empty()),
         None => quote!(::core::unreachable!()),
     };
+    let returns = tokens(returns);
     let result = if *is_fallible { quote!(__rt::Result<#returns, __rt::#error>) } else { quote!(#returns) };
     let attributes = spans::located(attributes, span, 0);
     quote_spanned! {span=>

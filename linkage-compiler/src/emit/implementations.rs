@@ -1,18 +1,20 @@
 //! Functions of types besides the main ones, and implementations of traits of the runtime.
 
+use linkage_ir::code::{Code, Names};
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::functions;
 use super::names::{ident, string};
 use super::numbers::literal;
-use crate::lower::Code;
+use super::rust::tokens;
 use crate::model::TypeName;
 use crate::program::{Associated, ConstantValue, Group, Implementation, Implemented, Kink, Part};
 
 /// Emits an implementation. `owner` is the driver or the scene, `first` are functions of the trait that come first.
 pub(super) fn implementation(
     implementation: &Implementation<Code>,
+    names: &Names,
     owner: &TypeName,
     first: Option<TokenStream>,
     span: Span,
@@ -22,7 +24,7 @@ pub(super) fn implementation(
     let error = ident(error);
     let functions = functions.iter().map(|function| {
         let generics = generics(*of, &function.name);
-        functions::function(function, &error, generics, span)
+        functions::function(function, names, &error, generics, span)
     });
     let implemented = of.name().map(|name| {
         let name = ident(name);
@@ -53,7 +55,10 @@ fn generics(of: Implemented, function: &str) -> Option<TokenStream> {
 fn associated(name: &str, is: &Associated) -> TokenStream {
     let name = ident(name);
     match is {
-        Associated::Type(of) => quote!(type #name = #of;),
+        Associated::Type(of) => {
+            let of = tokens(of);
+            quote!(type #name = #of;)
+        }
         Associated::Text => quote!(type #name = &'static str;),
         Associated::Dimension(count) => {
             let count = literal(*count);

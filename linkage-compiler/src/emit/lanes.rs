@@ -1,6 +1,7 @@
 //! Many positions at once: the type of the columns to find, the function that takes the given ones, and the conversions
 //! between parameters and columns.
 
+use linkage_ir::code::Code;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -9,7 +10,6 @@ use super::names::{comment, ident};
 use super::numbers::literal;
 use super::rust::argument;
 use super::types::{field, mark, other_scalar};
-use crate::lower::Code;
 use crate::model::Name;
 use crate::program::{Associated, Implementation, Program};
 

@@ -26,18 +26,19 @@ mod spans;
 mod text;
 mod types;
 
+use linkage_ir::code::{Code, Names};
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use crate::derivation::Derivation;
 use crate::document::{Document, SceneDocument, Table};
-use crate::lower::Code;
 use crate::model::{Driver, Mechanism, Request, TypeName};
 use crate::program::{self, Access, Function, Functions, Implemented, Operations, Program};
 use fpcore::Straight;
 use kernels::kernels;
 use names::string;
-pub use numbers::parts_of_pi;
+
+pub use rust::tokens as type_tokens;
 pub use text::{function_as_text, text};
 pub use types::MOST_ARGUMENTS;
 
@@ -93,7 +94,8 @@ pub fn driver(
                 let conversions = conversions::of_driver(of, &program.signatures);
                 let error = names::ident("PositionError");
                 let functions = program.functions.iter().filter(|function| function.access == Access::OfMechanism);
-                let functions = functions.map(|function| functions::function(function, &error, None, span));
+                let functions =
+                    functions.map(|function| functions::function(function, &program.names, &error, None, span));
                 Some(quote!(#conversions #(#functions)*))
             }
             Implemented::Lanes => {
@@ -102,14 +104,20 @@ pub fn driver(
             }
             _ => None,
         };
-        implemented.extend(implementations::implementation(implementation, &driver.name, first, span));
+        implemented.extend(implementations::implementation(implementation, &program.names, &driver.name, first, span));
     }
     implemented.extend(any_number::of_driver(of, program, span));
     let text = "The name of the mechanism in errors.";
     let kinematics = (text, "PositionError");
     let implemented = spans::located(implemented, span, 1);
     let span_of = |function: &Function<Code>| spans::of(mechanism.span_of(driver, &function.name));
-    tokens.extend(block(&driver.name, kinematics, &program.functions, &span_of, root, &implemented));
+    tokens.extend(block(
+        (&driver.name, kinematics),
+        (&program.functions, &program.names),
+        &span_of,
+        root,
+        &implemented,
+    ));
     tokens.extend(external::calls(mechanism, &program.functions, &driver.name, root));
     let straight = mechanism.requests.contains(&Request::Fpcore).then(|| Straight::of_driver(mechanism, program));
     if let Some((derived, derivation)) = program.derived.as_ref().zip(derivation) {
@@ -130,11 +138,17 @@ pub fn driver(
         tokens.extend(reactions::types(mechanism, &scene.signatures, root).map(|types| spans::located(types, span, 1)));
         let implemented = scene.implementation.as_ref().map(|implementation| {
             let conversions = conversions::of_scene(of, &scene.signatures);
-            implementations::implementation(implementation, name, Some(conversions), span)
+            implementations::implementation(implementation, &program.names, name, Some(conversions), span)
         });
         let text = "The name of the scene in errors.";
         let implemented = spans::located(implemented.unwrap_or_default(), span, 1);
-        tokens.extend(block(name, (text, "MotionError"), &scene.functions, &|_| span, root, &implemented));
+        tokens.extend(block(
+            (name, (text, "MotionError")),
+            (&scene.functions, &program.names),
+            &|_| span,
+            root,
+            &implemented,
+        ));
         tokens.extend(external::calls(mechanism, &scene.functions, name, root));
         if let Some(derivation) = derivation {
             let derived = (derivation, &derivation.scenes[number]);
@@ -150,16 +164,15 @@ pub fn driver(
 /// The `impl` block of a type with its functions, and trait implementations that call them, in an anonymous constant.
 /// `text` documents `NAME`; `error` is the error type.
 fn block(
-    of: &TypeName,
-    (text, error): (&str, &str),
-    functions: &Functions<Code>,
+    (of, (text, error)): (&TypeName, (&str, &str)),
+    (functions, names): (&Functions<Code>, &Names),
     span_of: &dyn Fn(&Function<Code>) -> Span,
     root: &TokenStream,
     implemented: &TokenStream,
 ) -> TokenStream {
     let (error, name) = (names::ident(error), string(&of.to_string()));
     let own = functions.iter().filter(|function| function.access != Access::OfMechanism);
-    let functions = own.map(|function| functions::function(function, &error, None, span_of(function)));
+    let functions = own.map(|function| functions::function(function, names, &error, None, span_of(function)));
     let text = names::comment(&format!(" {text}"));
     quote_spanned! {spans::of(of.span())=>
         const _: () = {
@@ -200,5 +213,5 @@ pub fn documents(
 pub fn operations(program: &Program<Code>) -> Operations {
     let scenes = program.scenes.iter().flat_map(|scene| scene.functions.iter());
     let bodies = program.functions.iter().chain(scenes).filter_map(|function| function.body.as_ref());
-    bodies.fold(Operations::default(), |sum, body| sum.plus(body.operations))
+    bodies.fold(Operations::default(), |sum, body| sum.plus(body.readable.operations))
 }

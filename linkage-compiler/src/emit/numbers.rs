@@ -1,42 +1,30 @@
 //! Numbers as Rust: literals, ratios, multiples of pi.
 
-use std::f64::consts::PI;
-
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::graph::Number;
+use crate::lower::parts_of_pi;
 
 /// An integer literal without suffix.
 pub(super) fn literal(count: usize) -> Literal {
     Literal::usize_unsuffixed(count)
 }
 
-/// (count, parts) if the number is count * pi / parts with parts up to 180.
-pub fn parts_of_pi(number: Number) -> Option<(f64, f64)> {
-    /// Fractions with larger counts are so close together that any number is near one.
-    const MOST: f64 = 1e6;
-    let Number::Float(value) = number else { return None };
-    // 180 parts are whole degrees; finer fractions of pi are written as decimals.
-    (1..=180_u32).map(f64::from).find_map(|parts| {
-        let count = (value / PI * parts).round();
-        let same = count != 0.0
-            && count.abs() < MOST
-            && (count * PI / parts - value).abs() <= 4.0 * f64::EPSILON * value.abs();
-        same.then_some((count, parts))
-    })
-}
-
 /// A multiple of pi as an expression: `pi / 2` instead of 1.5707….
-pub(super) fn turn(number: Number) -> Option<TokenStream> {
-    let (count, parts) = parts_of_pi(number)?;
-    let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
-    Some(match (count == 1.0, parts == 1.0) {
+pub(super) fn turn(count: i32, parts: u32) -> TokenStream {
+    let (n, d) = (float(count), float(parts));
+    match (count == 1, parts == 1) {
         (true, true) => quote!(T::pi()),
         (true, false) => quote!(T::pi() / __rt::real::<T>(#d)),
         (false, true) => quote!(T::pi() * __rt::real::<T>(#n)),
         (false, false) => quote!(T::pi() * __rt::real::<T>(#n) / __rt::real::<T>(#d)),
-    })
+    }
+}
+
+/// An integer as the literal of a float.
+fn float(value: impl Into<f64>) -> Literal {
+    Literal::f64_unsuffixed(value.into())
 }
 
 /// A constant as an `f64`.
@@ -44,7 +32,7 @@ pub(super) fn plain(number: Number) -> TokenStream {
     let magnitude = number.absolute();
     let tokens = match parts_of_pi(magnitude) {
         Some((count, parts)) => {
-            let (n, d) = (Literal::f64_unsuffixed(count), Literal::f64_unsuffixed(parts));
+            let (n, d) = (float(count), float(parts));
             quote!(::core::f64::consts::PI * #n / #d)
         }
         None => separated(magnitude.to_f64()),
@@ -129,20 +117,4 @@ pub(super) fn separated(value: f64) -> TokenStream {
         let literal = Literal::f64_unsuffixed(value);
         quote!(#literal)
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fractions_of_pi_have_small_counts() {
-        let fractions = [(1.0, 1.0), (2.0, 3.0), (7.0, 180.0), (999_999.0, 1.0)];
-        for (count, parts) in fractions {
-            assert_eq!(parts_of_pi(Number::Float(count * PI / parts)), Some((count, parts)));
-        }
-        for large in [1e17, 1e154, 1e300] {
-            assert_eq!(parts_of_pi(Number::Float(large)), None);
-        }
-    }
 }

@@ -1,7 +1,9 @@
 //! The printer of lowered code: one order of visits and one rule of precedence for all styles.
 
+use linkage_ir::code::{Block, Called, Callee, Code, Names, Pattern, Signed, Statement, Value};
+use linkage_ir::{Slot, ValueId};
+
 use crate::graph::{Function, Number};
-use crate::lower::{Block, Called, Callee, Code, Pattern, Signed, Statement, Value, ValueId};
 use crate::program::{Constant, Form, Intrinsic, Receiver, Type};
 
 /// The precedence of an expression.
@@ -32,7 +34,9 @@ pub(super) trait Style {
     fn brackets(&self, inside: Self::Text) -> Self::Text;
     fn name(&self, name: &str) -> Self::Text;
     fn number(&self, number: Number) -> Self::Text;
-    fn number_binding(&self, number: Number) -> Binding;
+    /// A multiple of pi, and its precedence.
+    fn turn(&self, number: Number, count: i32, parts: u32) -> Self::Text;
+    fn turn_binding(&self) -> Binding;
     fn exact(&self, number: Number) -> Self::Text;
     fn exact_binding(&self, number: Number) -> Binding;
     /// The terms, each with true if it is subtracted.
@@ -95,6 +99,7 @@ pub(super) trait Style {
 /// The code of a function in a style.
 pub(super) struct Printer<'c, S> {
     pub(super) code: &'c Code,
+    pub(super) names: &'c Names,
     pub(super) style: S,
 }
 
@@ -105,14 +110,7 @@ impl<S: Style> Printer<'_, S> {
 
     fn statement(&self, statement: &Statement) -> S::Text {
         match statement {
-            Statement::Let(pattern, value) => {
-                let value = match pattern {
-                    // The pattern gives the value its name.
-                    Pattern::Bound(bound) if bound == value => self.computed(*value),
-                    _ => self.value(*value),
-                };
-                self.style.let_statement(self.pattern(pattern), value)
-            }
+            Statement::Let(pattern, value) => self.style.let_statement(self.pattern(pattern), self.value(*value)),
             Statement::Do(value) => self.style.do_statement(self.value(*value)),
             Statement::Assign(to, value) => self.style.assignment(self.value(*to), self.value(*value)),
             Statement::Return(value) => self.style.return_statement(self.value(*value)),
@@ -122,24 +120,25 @@ impl<S: Style> Printer<'_, S> {
             Statement::Unless(conditions, inside) => {
                 self.style.unless(self.values(conditions), self.statements(inside))
             }
+            Statement::Store(inside) => self.statement(inside),
         }
     }
 
     fn pattern(&self, pattern: &Pattern) -> S::Text {
         let all = |patterns: &[Pattern]| patterns.iter().map(|pattern| self.pattern(pattern)).collect();
         match pattern {
-            Pattern::Bound(bound) => self.value(*bound),
-            Pattern::Mutable(bound) => self.style.mutable(self.value(*bound)),
-            Pattern::Typed(bound, of) => self.style.typed(self.value(*bound), of),
+            Pattern::Bound(bound) => self.name(*bound),
+            Pattern::Mutable(bound) => self.style.mutable(self.name(*bound)),
+            Pattern::Typed(bound, of) => self.style.typed(self.name(*bound), of),
             Pattern::Case(case, inside) => self.style.case(*case, self.pattern(inside)),
             Pattern::Ignored => self.style.ignored(),
             Pattern::List(patterns) => self.style.list(all(patterns)),
             Pattern::Tuple(patterns) => self.style.tuple(all(patterns)),
             Pattern::Struct { of, fields, is_whole } => {
                 let fields = fields.iter().map(|(field, pattern)| {
-                    let is_name =
-                        matches!(pattern, Pattern::Bound(bound) if self.code.name(*bound) == Some(field.as_str()));
-                    (field.clone(), (!is_name).then(|| self.pattern(pattern)))
+                    let field = self.names.text(*field);
+                    let is_name = matches!(pattern, Pattern::Bound(bound) if self.code.name(*bound) == field);
+                    (field.to_owned(), (!is_name).then(|| self.pattern(pattern)))
                 });
                 self.style.struct_pattern(of, fields.collect(), *is_whole)
             }
@@ -150,12 +149,8 @@ impl<S: Style> Printer<'_, S> {
         values.iter().map(|value| self.value(*value)).collect()
     }
 
-    /// A value by its name, or computed where it is used.
-    pub(super) fn value(&self, id: ValueId) -> S::Text {
-        match self.code.name(id) {
-            Some(name) => self.style.name(name),
-            None => self.computed(id),
-        }
+    fn name(&self, slot: Slot) -> S::Text {
+        self.style.name(self.code.name(slot))
     }
 
     /// A value in brackets if it binds less tightly than `at_least`.
@@ -166,11 +161,10 @@ impl<S: Style> Printer<'_, S> {
 
     fn binding(&self, id: ValueId) -> Binding {
         match self.code.operation(id) {
-            _ if self.code.name(id).is_some() => Binding::Atom,
             Value::Sum(_) | Value::All(_) | Value::Closure { .. } => Binding::Sum,
             Value::Product(_) | Value::Quotient(..) => Binding::Product,
             Value::Square(_) => self.style.square_binding(),
-            Value::Constant(number) => self.style.number_binding(*number),
+            Value::Turn(..) => self.style.turn_binding(),
             Value::Exact(number) => self.style.exact_binding(*number),
             // -a * b parses as (-a) * b, which is equal but for the sign of a zero in twice the precision, and costs the same.
             Value::Negative(inside) => match self.binding(*inside) {
@@ -184,11 +178,13 @@ impl<S: Style> Printer<'_, S> {
         }
     }
 
-    /// The operation of a value.
-    fn computed(&self, id: ValueId) -> S::Text {
+    /// A value by its name, or computed where it is used.
+    pub(super) fn value(&self, id: ValueId) -> S::Text {
         let style = &self.style;
         match self.code.operation(id) {
+            Value::Given(slot) => self.name(*slot),
             Value::Constant(number) => style.number(*number),
+            Value::Turn(number, count, parts) => style.turn(*number, *count, *parts),
             Value::Exact(number) => style.exact(*number),
             Value::Sum(terms) => {
                 let term = |(index, term): (usize, &Signed)| {
@@ -222,7 +218,9 @@ impl<S: Style> Printer<'_, S> {
             Value::Text(text) => style.text(text),
             Value::Count(count) => style.count(*count),
             Value::Path(constant) => style.constant(*constant),
-            Value::Field(of, name) => style.field(self.operand(*of, Binding::Atom), name),
+            Value::Field(of, name) => style.field(self.operand(*of, Binding::Atom), self.names.text(*name)),
+            Value::Member(of, place) => style.field(self.operand(*of, Binding::Atom), &place.to_string()),
+            Value::Columns(of) => style.field(style.field(self.operand(*of, Binding::Atom), "data"), "0"),
             Value::Index(of, index) => style.index(self.operand(*of, Binding::Atom), *index),
             Value::At(of, index) => style.entry(self.operand(*of, Binding::Atom), self.value(*index)),
             Value::List(values) => style.list(self.values(values)),
@@ -230,18 +228,16 @@ impl<S: Style> Printer<'_, S> {
             Value::Tuple(values) => style.tuple(self.values(values)),
             Value::Struct(of, members, rest) => {
                 let members = members.iter().map(|(field, value)| {
-                    let is_name = self.code.name(*value) == Some(field.as_str());
-                    (field.clone(), (!is_name).then(|| self.value(*value)))
+                    let field = self.names.text(*field);
+                    let is_name = self.code.name_of(*value) == Some(field);
+                    (field.to_owned(), (!is_name).then(|| self.value(*value)))
                 });
                 style.structure(of, members.collect(), rest.map(|rest| self.value(rest)))
             }
-            Value::Intrinsic(of, of_type, arguments) => self.intrinsic(*of, of_type.as_ref(), arguments),
-            Value::Function(of, of_type) => style.function(of_type.as_ref(), of.row().name),
+            Value::Intrinsic(of, of_type, arguments) => self.intrinsic(*of, of_type.as_deref(), arguments),
+            Value::Function(of, of_type) => style.function(of_type.as_deref(), of.row().name),
             Value::Own(receiver, function, arguments) => {
-                let callee = match receiver {
-                    Receiver::Itself | Receiver::ItsType => self.callee(Callee::Own(*function)),
-                    Receiver::Value(_) | Receiver::Type(_) => self.callee(Callee::OfDriver(*function)),
-                };
+                let callee = self.callee(receiver.callee(*function));
                 let on = match receiver {
                     Receiver::Itself if callee.is_of_mechanism => On::Mechanism(style.name("self")),
                     Receiver::Itself => On::Value(style.name("self")),
@@ -250,7 +246,7 @@ impl<S: Style> Printer<'_, S> {
                         On::Mechanism(style.borrowed(self.operand(*of, Binding::Prefix)))
                     }
                     Receiver::Value(of) => On::Value(self.operand(*of, Binding::Atom)),
-                    Receiver::Type(of) => On::Type(of.clone()),
+                    Receiver::Type(of) => On::Type((**of).clone()),
                 };
                 style.call(on, &callee.name, self.values(arguments))
             }
@@ -262,20 +258,16 @@ impl<S: Style> Printer<'_, S> {
             Value::Borrowed(value) => style.borrowed(self.operand(*value, Binding::Prefix)),
             Value::MutablyBorrowed(value) => style.mutably_borrowed(self.operand(*value, Binding::Prefix)),
             Value::Dereferenced(value) => style.dereferenced(self.operand(*value, Binding::Prefix)),
-            Value::Closure { arguments, body: Block { statements, value }, moves } => {
+            Value::Closure { arguments, body, moves } => {
+                let Block { statements, value } = &**body;
                 let arguments = arguments.iter().map(|argument| self.pattern(argument)).collect();
                 style.closure(arguments, self.statements(statements), self.value(*value), *moves)
             }
-            Value::Block(Block { statements, value }) => {
+            Value::Block(block) => {
+                let Block { statements, value } = &**block;
                 let is_unit = matches!(self.code.operation(*value), Value::Tuple(all) if all.is_empty());
                 style.block(self.statements(statements), (!is_unit).then(|| self.value(*value)))
             }
-            Value::Symbol(_)
-            | Value::Direction(..)
-            | Value::Bound
-            | Value::Itself
-            | Value::Argument(_)
-            | Value::External(..) => unreachable!("lowering names all values that are bound"),
         }
     }
 

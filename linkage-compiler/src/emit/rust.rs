@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::names::{ident, string};
-use super::numbers::{constant, exact, is_long, literal, parts_of_pi, turn};
+use super::numbers::{constant, exact, is_long, literal, turn};
 use super::printer::{Binding, Member, On, Style};
 use crate::graph::{Function, Number};
 use crate::program::{Constant, Intrinsic, Type};
@@ -24,11 +24,15 @@ impl Style for Rust {
     }
 
     fn number(&self, number: Number) -> TokenStream {
-        turn(number).unwrap_or_else(|| constant(number))
+        constant(number)
     }
 
-    fn number_binding(&self, number: Number) -> Binding {
-        if parts_of_pi(number).is_some() { Binding::Product } else { Binding::Atom }
+    fn turn(&self, _number: Number, count: i32, parts: u32) -> TokenStream {
+        turn(count, parts)
+    }
+
+    fn turn_binding(&self) -> Binding {
+        Binding::Product
     }
 
     fn exact(&self, number: Number) -> TokenStream {
@@ -243,6 +247,7 @@ impl Style for Rust {
     }
 
     fn typed(&self, name: TokenStream, of: &Type) -> TokenStream {
+        let of = tokens(of);
         quote!(#name: #of)
     }
 
@@ -275,81 +280,84 @@ fn parsed(path: &str) -> TokenStream {
     path.parse().unwrap_or_default()
 }
 
-impl ToTokens for Type {
-    fn to_tokens(&self, tokens: &mut TokenStream) {
-        tokens.extend(match self {
-            Self::Scalar => quote!(T),
-            Self::Text => quote!(&'static str),
-            Self::Flag => quote!(bool),
-            Self::Count => quote!(usize),
-            Self::Lanes => quote!([T; W]),
-            Self::Itself => quote!(Self),
-            Self::OfTrait(name) => {
-                let name = ident(name);
-                quote!(Self::#name)
-            }
-            Self::Own(name) => {
-                let name = ident(name);
-                quote!(#name<T>)
-            }
-            Self::Wide(name) => {
-                let name = ident(name);
-                quote!(#name<__rt::Wide>)
-            }
-            Self::Bare(name) => ident(name).into_token_stream(),
-            Self::Each(name, item) => {
-                let name = ident(name);
-                quote!(#name<#item>)
-            }
-            Self::Vector(rows) => {
-                let rows = literal(*rows);
-                quote!(__rt::SVector<T, #rows>)
-            }
-            Self::Matrix(rows, columns) => {
-                let (rows, columns) = (literal(*rows), literal(*columns));
-                quote!(__rt::SMatrix<T, #rows, #columns>)
-            }
-            Self::Point => quote!(__rt::Point2<T>),
-            Self::Plane => quote!(__rt::Vector2<T>),
-            Self::Runtime(name, sizes) => {
-                let (name, sizes) = (runtime(name), sizes.iter().map(|size| literal(*size)));
-                quote!(#name<T #(, #sizes)*>)
-            }
-            Self::Sized(name, sizes) => {
-                let (name, sizes) = (runtime(name), sizes.iter().map(|size| literal(*size)));
-                quote!(#name<T #(, __rt::D<#sizes>)*>)
-            }
-            Self::Around(name, item) => {
-                let name = runtime(name);
-                quote!(#name<#item>)
-            }
-            Self::List(item, count) => {
-                let count = literal(*count);
-                quote!([#item; #count])
-            }
-            Self::Column(item, count) => {
-                let count = literal(*count);
-                quote!(__rt::Column<#item, __rt::D<#count>>)
-            }
-            Self::Tuple(items) => quote!((#(#items),*)),
-            Self::ReducedMotion { pose, rates, unknowns, inputs } => {
-                let [pose, rates] = [pose, rates].map(|name| ident(name));
-                let [unknowns, inputs] = [unknowns, inputs].map(|count| literal(*count));
-                quote!(__rt::ReducedMotion<#pose<T>, #rates<T>, T, #unknowns, #inputs>)
-            }
-            Self::StateRates { rates, inputs } => {
-                let [rates, inputs] = [rates, inputs].map(|name| ident(name));
-                quote!(__rt::StateRates<#rates<T>, #inputs<T>>)
-            }
-            Self::Branches { branch, pose } => {
-                let (branch, pose) = (ident(branch), ident(pose));
-                quote!(impl __rt::Iterator<Item = __rt::Assembled<#branch, #pose<T>>> + '_)
-            }
-            Self::Iterator { item, is_cloned } => {
-                let clone = is_cloned.then(|| quote!(+ __rt::Clone));
-                quote!(impl __rt::Iterator<Item = #item> #clone)
-            }
-        });
+/// A type as it is written in emitted code.
+#[must_use]
+pub fn tokens(of: &Type) -> TokenStream {
+    match of {
+        Type::Scalar => quote!(T),
+        Type::Text => quote!(&'static str),
+        Type::Flag => quote!(bool),
+        Type::Count => quote!(usize),
+        Type::Lanes => quote!([T; W]),
+        Type::Itself => quote!(Self),
+        Type::OfTrait(name) => {
+            let name = ident(name);
+            quote!(Self::#name)
+        }
+        Type::Own(name) => {
+            let name = ident(name);
+            quote!(#name<T>)
+        }
+        Type::Wide(name) => {
+            let name = ident(name);
+            quote!(#name<__rt::Wide>)
+        }
+        Type::Bare(name) => ident(name).into_token_stream(),
+        Type::Each(name, item) => {
+            let (name, item) = (ident(name), tokens(item));
+            quote!(#name<#item>)
+        }
+        Type::Vector(rows) => {
+            let rows = literal(*rows);
+            quote!(__rt::SVector<T, #rows>)
+        }
+        Type::Matrix(rows, columns) => {
+            let (rows, columns) = (literal(*rows), literal(*columns));
+            quote!(__rt::SMatrix<T, #rows, #columns>)
+        }
+        Type::Point => quote!(__rt::Point2<T>),
+        Type::Plane => quote!(__rt::Vector2<T>),
+        Type::Runtime(name, sizes) => {
+            let (name, sizes) = (runtime(name), sizes.iter().map(|size| literal(*size)));
+            quote!(#name<T #(, #sizes)*>)
+        }
+        Type::Sized(name, sizes) => {
+            let (name, sizes) = (runtime(name), sizes.iter().map(|size| literal(*size)));
+            quote!(#name<T #(, __rt::D<#sizes>)*>)
+        }
+        Type::Around(name, item) => {
+            let (name, item) = (runtime(name), tokens(item));
+            quote!(#name<#item>)
+        }
+        Type::List(item, count) => {
+            let (item, count) = (tokens(item), literal(*count));
+            quote!([#item; #count])
+        }
+        Type::Column(item, count) => {
+            let (item, count) = (tokens(item), literal(*count));
+            quote!(__rt::Column<#item, __rt::D<#count>>)
+        }
+        Type::Tuple(items) => {
+            let items = items.iter().map(tokens);
+            quote!((#(#items),*))
+        }
+        Type::ReducedMotion { pose, rates, unknowns, inputs } => {
+            let [pose, rates] = [pose, rates].map(|name| ident(name));
+            let [unknowns, inputs] = [unknowns, inputs].map(|count| literal(*count));
+            quote!(__rt::ReducedMotion<#pose<T>, #rates<T>, T, #unknowns, #inputs>)
+        }
+        Type::StateRates { rates, inputs } => {
+            let [rates, inputs] = [rates, inputs].map(|name| ident(name));
+            quote!(__rt::StateRates<#rates<T>, #inputs<T>>)
+        }
+        Type::Branches { branch, pose } => {
+            let (branch, pose) = (ident(branch), ident(pose));
+            quote!(impl __rt::Iterator<Item = __rt::Assembled<#branch, #pose<T>>> + '_)
+        }
+        Type::Iterator { item, is_cloned } => {
+            let (item, clone) = (tokens(item), is_cloned.then(|| quote!(+ __rt::Clone)));
+            quote!(impl __rt::Iterator<Item = #item> #clone)
+        }
     }
 }
 
@@ -358,8 +366,11 @@ fn path(of: &Type) -> TokenStream {
     match of {
         Type::Own(name) | Type::Bare(name) | Type::Each(name, _) => ident(name).into_token_stream(),
         Type::Runtime(name, _) | Type::Sized(name, _) => runtime(name),
-        Type::List(..) => quote!(<#of>),
-        other => other.to_token_stream(),
+        Type::List(..) => {
+            let of = tokens(of);
+            quote!(<#of>)
+        }
+        other => tokens(other),
     }
 }
 

@@ -2,38 +2,40 @@
 
 use std::fmt::Write;
 
+use linkage_ir::code::{Code, Names};
+
 use super::printer::{Binding, Member, On, Printer, Style};
 use crate::graph::{Function as Elementary, Number};
-use crate::lower::{Bound, Code};
 use crate::program::{Access, Constant, Function, Intrinsic, Operations, Program, Type, count};
 
 /// The functions of a driver and of its scenes.
 #[must_use]
 pub fn text(program: &Program<Code>) -> String {
-    let mut text = functions(&program.signatures.types.itself, &program.functions);
+    let names = &program.names;
+    let mut text = functions(&program.signatures.types.itself, &program.functions, names);
     for implementation in &program.implementations {
-        text += &functions(&implementation.title(), &implementation.functions);
+        text += &functions(&implementation.title(), &implementation.functions, names);
     }
     for scene in &program.scenes {
-        text += &functions(&scene.signatures.types.itself, &scene.functions);
+        text += &functions(&scene.signatures.types.itself, &scene.functions, names);
         if let Some(implementation) = &scene.implementation {
-            text += &functions(&implementation.title(), &implementation.functions);
+            text += &functions(&implementation.title(), &implementation.functions, names);
         }
     }
     text
 }
 
-fn functions<'f>(of: &str, functions: impl IntoIterator<Item = &'f Function<Code>>) -> String {
+fn functions<'f>(of: &str, functions: impl IntoIterator<Item = &'f Function<Code>>, names: &Names) -> String {
     let mut text = format!("{of}\n");
     for function in functions {
-        text += &format!("\n{}", function_as_text(function));
+        text += &format!("\n{}", function_as_text(function, names));
     }
     text + "\n"
 }
 
 /// A function: its signature, its operation counts, how large its rounding errors can be, and its statements.
 #[must_use]
-pub fn function_as_text(function: &Function<Code>) -> String {
+pub fn function_as_text(function: &Function<Code>, names: &Names) -> String {
     let mut text = String::new();
     let arguments: Vec<&str> = function.arguments.iter().map(|argument| argument.name.as_str()).collect();
     let access = match function.access {
@@ -46,13 +48,13 @@ pub fn function_as_text(function: &Function<Code>) -> String {
     let or_error = if function.is_fallible { " or an error" } else { "" };
     let _ = writeln!(text, "{access}{}({}){or_error}", function.name, arguments.join(", "));
     let Some(code) = &function.body else { return text };
-    if code.operations != Operations::default() {
-        let _ = writeln!(text, "    # {}", count(code.operations));
+    if code.readable.operations != Operations::default() {
+        let _ = writeln!(text, "    # {}", count(code.readable.operations));
     }
-    if let Some(bound) = code.bound.as_ref().and_then(Bound::sentence) {
+    if let Some(bound) = &code.readable.accuracy {
         let _ = writeln!(text, "    # {bound}");
     }
-    let printer = Printer { code, style: Plain };
+    let printer = Printer { code, names, style: Plain };
     let lines = printer.statements(&code.statements).into_iter().chain([printer.value(code.value.returned())]);
     lines.for_each(|line| {
         let _ = writeln!(text, "    {line}");
@@ -82,7 +84,11 @@ impl Style for Plain {
         }
     }
 
-    fn number_binding(&self, _number: Number) -> Binding {
+    fn turn(&self, number: Number, _count: i32, _parts: u32) -> String {
+        self.number(number)
+    }
+
+    fn turn_binding(&self) -> Binding {
         Binding::Atom
     }
 

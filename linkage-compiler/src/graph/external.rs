@@ -7,7 +7,7 @@ impl Graph {
     /// Adds a user function with the names of its value and of its derivatives by the first argument, in order.
     pub fn external(&mut self, names: Vec<String>) -> ExternalId {
         self.externals.push(names);
-        ExternalId(self.externals.len() - 1)
+        ExternalId::new(self.externals.len() - 1)
     }
 
     /// The names of the value and of the declared derivatives, in order.

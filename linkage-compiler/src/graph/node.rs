@@ -2,6 +2,8 @@
 
 use super::{Function, Number};
 
+pub use linkage_ir::ExternalId;
+
 /// An expression of a [`Graph`](super::Graph).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub(super) usize);
@@ -9,10 +11,6 @@ pub struct NodeId(pub(super) usize);
 /// A symbol of a [`Graph`](super::Graph): a parameter, a coordinate, a rate, or a result of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SymbolId(pub(super) usize);
-
-/// The number of a user function in a [`Graph`](super::Graph).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ExternalId(pub(super) usize);
 
 /// A user function, or a derivative of it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -111,13 +109,6 @@ impl Fault {
 
 impl NodeId {
     pub(crate) fn index(self) -> usize {
-        self.0
-    }
-}
-
-impl ExternalId {
-    #[must_use]
-    pub fn index(self) -> usize {
         self.0
     }
 }

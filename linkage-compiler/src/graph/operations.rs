@@ -2,10 +2,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use linkage_ir::ElementaryFunction as Function;
+
 use super::Number;
 use super::arena::Graph;
 use super::node::{Node, NodeId};
-use linkage_ir::ElementaryFunction as Function;
 
 /// The partial derivatives of `f` at `arguments`, one for each; `value` is `f(arguments)`.
 type Partials = fn(graph: &mut Graph, arguments: &[NodeId], value: NodeId) -> Vec<NodeId>;

@@ -1,14 +1,13 @@
 //! The functions that code calls.
 
+use linkage_ir::ValueId;
+use linkage_ir::code::{Callee, Returned};
 use rustc_hash::FxHashSet;
 
-use super::code::{Callee, Code, Returned};
-use super::id::ValueId;
-use super::statement::{Block, Statement};
-use super::value::Value;
-use crate::program::Receiver;
+use super::code::Draft;
+use super::value::{Block, Statement, Value};
 
-impl Code {
+impl Draft {
     /// The functions of the program that it calls, once for each call.
     pub fn calls(&self) -> Vec<Callee> {
         calls(&self.values, &self.statements, self.value, false)
@@ -42,6 +41,7 @@ impl Calls<'_> {
     fn statements(&mut self, statements: &[Statement]) {
         for statement in statements {
             match statement {
+                Statement::Store(inside) => self.statements(std::slice::from_ref(inside)),
                 Statement::Let(_, value) | Statement::Do(value) | Statement::Return(value) => self.value(*value),
                 Statement::Assign(one, other) => [one, other].into_iter().for_each(|value| self.value(*value)),
                 Statement::LetElse(_, value, otherwise) => {
@@ -67,14 +67,11 @@ impl Calls<'_> {
                 continue;
             }
             let values = self.values;
-            let value = &values[id.0];
+            let value = &values[id.index()];
             match value {
                 Value::Closure { .. } if self.only_always => {}
                 Value::Closure { body, .. } | Value::Block(body) => self.block(body),
-                Value::Own(Receiver::Itself | Receiver::ItsType, function, _) => self.all.push(Callee::Own(*function)),
-                Value::Own(Receiver::Value(_) | Receiver::Type(_), function, _) => {
-                    self.all.push(Callee::OfDriver(*function));
-                }
+                Value::Own(receiver, function, _) => self.all.push(receiver.callee(*function)),
                 _ => {}
             }
             value.each_part(|part| stack.push(part));

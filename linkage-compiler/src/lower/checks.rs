@@ -1,11 +1,10 @@
 //! Checks of the results of a kernel: that they are finite, unless that is proven.
 
+use linkage_ir::ValueId;
 use rustc_hash::FxHashSet;
 
-use super::id::{Signed, ValueId};
 use super::naming::Hint;
-use super::statement::Statement;
-use super::value::Value;
+use super::value::{Signed, Statement, Value};
 use super::writer::Writer;
 use crate::ids::GroupId;
 use crate::program::{self, Expression, Intrinsic, Variable};
@@ -73,7 +72,7 @@ impl Writer<'_> {
         }
         let mut all = Vec::new();
         for condition in conditions {
-            if !self.values.is_bound[condition.0] {
+            if !self.values.is_bound[condition.index()] {
                 let name = match self.values.get(condition) {
                     Value::Intrinsic(Intrinsic::IsFinite, ..) => "are_finite",
                     Value::Intrinsic(of, ..) => of.row().name.trim_start_matches("lane::"),
@@ -93,7 +92,7 @@ impl Writer<'_> {
     /// Each value once, without zero and one.
     fn to_check(&self, values: Vec<ValueId>) -> Vec<ValueId> {
         let mut seen = FxHashSet::default();
-        let mut is_kept = |value: &ValueId| match self.values.is_bound[value.0] {
+        let mut is_kept = |value: &ValueId| match self.values.is_bound[value.index()] {
             true => seen.insert(*value),
             false => self.values.is_formula(*value),
         };

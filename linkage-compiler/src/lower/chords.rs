@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::id::ValueId;
+use linkage_ir::ValueId;
+
 use super::naming::{Hint, Hinted};
 use super::schedule::Line;
-use super::statement::{Pattern, Statement};
-use super::value::Value;
+use super::value::{Pattern, Statement, Value};
 use super::writer::{Absorbed, Writer};
 use crate::derivation::ChordGeometry;
 use crate::ids::{GroupId, Id};
@@ -20,7 +20,7 @@ impl Writer<'_> {
         let size = self.signed(of, *size);
         let geometry = geometry.map(|value| self.signed(of, value));
         let branch = self.variable(self.context.branch);
-        let side = self.field(branch, self.context.derivation.groups[*group].branch(self.context.derivation));
+        let side = self.field(branch, &self.context.derivation.groups[*group].branch(self.context.derivation));
         let (function, arguments) = self.chord_call(*group, (factors, size, side), geometry);
         if self.is_flagged() {
             let Some(form) = function.row().in_lane.filter(|form| form.result == LaneResult::Flagged) else {
@@ -74,8 +74,8 @@ impl Writer<'_> {
                     ("distance_squared", distance_squared),
                     ("factors", factors),
                 ];
-                let members = members.map(|(name, value)| (name.to_owned(), value)).to_vec();
-                let triangle = self.add(Value::Struct(Type::Runtime("Triangle", Vec::new()), members, None));
+                let members = members.map(|(name, value)| (self.field_name(name), value)).to_vec();
+                let triangle = self.add(Value::Struct(Box::new(Type::Runtime("Triangle", Vec::new())), members, None));
                 if is_regular {
                     (Intrinsic::RegularElbowChord, vec![triangle, side])
                 } else {

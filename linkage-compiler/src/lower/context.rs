@@ -1,6 +1,9 @@
 //! The data that the functions of one driver or scene share.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+
+use linkage_ir::code::Names;
 
 use crate::derivation::Derivation;
 use crate::graph::NodeId;
@@ -8,15 +11,7 @@ use crate::ids::FunctionId;
 use crate::program::PosePlan;
 
 /// The functions of a type by their names in planned code.
-pub(super) type FunctionIds = BTreeMap<String, Known>;
-
-/// A function of a type.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Known {
-    pub(super) id: FunctionId,
-    /// True for a function of the trait `Mechanism`.
-    pub(super) is_of_mechanism: bool,
-}
+pub(super) type FunctionIds = BTreeMap<String, FunctionId>;
 
 /// The data that the functions of one driver or scene share.
 pub struct Context<'a> {
@@ -31,6 +26,8 @@ pub struct Context<'a> {
     pub branch: &'a str,
     pub turn: &'a str,
     pub memory: &'a str,
+    /// The names of fields.
+    pub(super) names: &'a RefCell<Names>,
     /// The functions of the type, and those of the driver.
     pub(super) own: &'a FunctionIds,
     pub(super) of_driver: &'a FunctionIds,

@@ -5,12 +5,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use linkage_ir::ValueId;
+use linkage_ir::code::Callee;
 use rustc_hash::FxHashMap;
 
-use super::code::Callee;
-use super::id::{Signed, ValueId};
 use super::schedule::{Line, Schedule};
-use super::value::Value;
+use super::value::{Leaf, Signed, Value, with_operands};
 use crate::graph::Function;
 use crate::program::{Intrinsic, Operations};
 
@@ -92,7 +92,7 @@ impl Counts {
                 numbers.insert(id, number);
             }
         }
-        let is_external = |id: &&ValueId| matches!(kernel.value(**id), Value::External(..));
+        let is_external = |id: &&ValueId| matches!(kernel.value(**id), Value::Given(Leaf::External(..)));
         count.others.functions += kernel.used().iter().filter(is_external).count();
         for line in &kernel.lines {
             match line {
@@ -113,7 +113,7 @@ impl Counts {
         let division = Operations { divisions: 1, ..Operations::default() };
         let call = Operations { functions: 1, ..Operations::default() };
         let none = Operations::default();
-        let value = value.clone().with_operands(&mut |id| numbers[&id]);
+        let value = with_operands(value.clone(), &mut |id| numbers[&id]);
         match value {
             Value::Sum(terms) => {
                 let sum = terms.into_iter().reduce(|left, right| {
@@ -121,7 +121,7 @@ impl Counts {
                     terms.sort_unstable_by_key(|term| (term.negative, term.value));
                     Signed::positive(self.numbered(Value::Sum(terms), addition, count))
                 });
-                sum.map_or(ValueId(0), |sum| sum.value)
+                sum.map_or(ValueId::new(0), |sum| sum.value)
             }
             Value::Product(factors) => self.product(factors, multiplication, count),
             Value::Square(base) => self.product(vec![base; 2], multiplication, count),
@@ -143,11 +143,11 @@ impl Counts {
             factors.sort_unstable();
             self.numbered(Value::Product(factors), cost, count)
         });
-        product.unwrap_or(ValueId(0))
+        product.unwrap_or(ValueId::new(0))
     }
 
     fn numbered(&mut self, operation: Value, cost: Operations, count: &mut Count) -> ValueId {
-        let next = ValueId(self.numbers.len());
+        let next = ValueId::new(self.numbers.len());
         let number = *self.numbers.entry(operation).or_insert(next);
         if cost != Operations::default() {
             count.numbered.insert(number, cost);
@@ -160,7 +160,7 @@ impl Counts {
 mod tests {
     use super::*;
     use crate::graph::Graph;
-    use crate::ids::{FunctionId, Id};
+    use crate::ids::FunctionId;
     use crate::lower::schedule;
     use crate::program::Given;
 

@@ -3,24 +3,25 @@
 use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
 
+use linkage_ir::ValueId;
+use linkage_ir::code::{Callee, Returned};
 use rustc_hash::FxHashSet;
 
 use super::calls;
 use super::checks::Checked;
-use super::code::{Called, Callee, Code, Returned};
-use super::context::{Context, Known};
+use super::code::Draft;
+use super::context::Context;
 use super::counts::{Count, Counts};
-use super::id::ValueId;
 use super::naming::{self, Hint};
 use super::rounding::{Bound, DIRECTION, Roundings};
 use super::schedule::Schedule;
 use super::scheduling::schedule;
-use super::value::Value;
+use super::value::{Leaf, Value};
 use super::writer::Writer;
 use super::{proven, reads, stored, stretches, unneeded};
-use crate::graph::{ExternalId, Function as Elementary, Node, NodeId, SymbolId};
+use crate::graph::{Function as Elementary, Node, NodeId, SymbolId};
 use crate::ids::GroupId;
-use crate::program::{self, Access, Body, Failure, Function, Given, Kernel, Output, Source, Taken, call_of};
+use crate::program::{self, Access, Body, Failure, Function, Given, Kernel, Output, Source, Taken};
 
 /// The functions lowered so far, as far as later ones need them.
 pub(super) struct Lowered {
@@ -51,7 +52,7 @@ pub(super) fn function(
     callees: &[Callee],
     context: &Context,
     lowered: &mut Lowered,
-) -> Result<Function<Code>, Dangling> {
+) -> Result<Function<Draft>, Dangling> {
     let Function { name, doc, access, is_method, arguments, returns, is_fallible, body } = planned;
     let signature = Signature {
         is_layer: matches!(access, Access::Layer | Access::PublicLayer),
@@ -64,7 +65,7 @@ pub(super) fn function(
         let count = if access == Access::Cold { Count::default() } else { count };
         let operations = count.total();
         callees.iter().for_each(|callee| lowered.counts.insert(*callee, count.clone()));
-        Ok(Code { operations, ..code })
+        Ok(Draft { operations, ..code })
     });
     let body = code.transpose().map_err(|what| Dangling { function: name.clone(), what })?;
     Ok(Function { name, doc, access, is_method, arguments, returns, is_fallible, body })
@@ -80,7 +81,7 @@ struct Signature<'f> {
 
 impl Signature<'_> {
     /// The code of a body and its operations; otherwise what the body refers to and does not exist.
-    fn body(&self, body: Body, context: &Context, lowered: &mut Lowered) -> Result<(Code, Count), String> {
+    fn body(&self, body: Body, context: &Context, lowered: &mut Lowered) -> Result<(Draft, Count), String> {
         let Body { before, kernel, after, value, locals, operations } = body;
         let schedule = kernel.as_ref().map(|kernel| self.scheduled(kernel, context));
         let bound = kernel.as_ref().zip(schedule.as_ref()).and_then(|(kernel, schedule)| {
@@ -121,19 +122,18 @@ impl Signature<'_> {
         let mut statements = unneeded::taken_apart_at_once(&mut values, statements, value);
         let value = unneeded::unnamed(&mut values, &mut statements, value);
         let uses = used.iter().filter_map(|id| match values.get(*id) {
-            Value::Argument(index) => Some(*index),
+            Value::Given(Leaf::Argument(index)) => Some(*index),
             _ => None,
         });
         let uses = uses.collect();
-        let functions = callees(context, &externals);
         let graph = &context.derivation.graph;
-        let names = naming::names(&hints, &values, graph, Taken::new(context.reserved), functions);
+        let names = naming::names(&hints, &values, graph, Taken::new(context.reserved));
         let is_branch_free = schedule.as_ref().is_none_or(Schedule::is_branch_free);
         let values = values.all;
         let calls = calls::always(&values, &statements, value);
         let count = lowered.counts.of_body(schedule.as_ref(), self.is_layer, &calls, operations);
         let operations = count.total();
-        Ok((Code { values, statements, value, operations, uses, externals, is_branch_free, bound, names }, count))
+        Ok((Draft { values, statements, value, operations, uses, externals, is_branch_free, bound, names }, count))
     }
 
     fn scheduled(&self, kernel: &Kernel, context: &Context) -> Schedule {
@@ -157,25 +157,14 @@ impl Signature<'_> {
     }
 }
 
-/// The names of all functions that code can call.
-fn callees(context: &Context, externals: &BTreeSet<ExternalId>) -> Vec<(Callee, Called)> {
-    let named = |name: &String, of: &Known| Called { name: name.clone(), is_of_mechanism: of.is_of_mechanism };
-    let own = context.own.iter().map(|(name, of)| (Callee::Own(of.id), named(name, of)));
-    let of_driver = context.of_driver.iter().map(|(name, of)| (Callee::OfDriver(of.id), named(name, of)));
-    let graph = &context.derivation.graph;
-    let user = |id| Called { name: call_of(graph.external_names(id)), is_of_mechanism: false };
-    let users = externals.iter().map(|&id| (Callee::User(id), user(id)));
-    own.chain(of_driver).chain(users).collect()
-}
-
 impl Writer<'_> {
     /// Gives the arguments their meaning.
     fn arguments(&mut self, names: &[&str]) {
-        let own = self.values.add(Value::Itself);
+        let own = self.values.add(Value::Given(Leaf::Itself));
         self.variables.insert("self".to_owned(), own);
         self.hint(own, Hint::Fixed("self".to_owned()));
         for (index, name) in names.iter().enumerate() {
-            let id = self.values.add(Value::Argument(index));
+            let id = self.values.add(Value::Given(Leaf::Argument(index)));
             self.variables.insert((*name).to_owned(), id);
             self.hint(id, Hint::Fixed((*name).to_owned()));
         }

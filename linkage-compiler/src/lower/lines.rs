@@ -1,11 +1,11 @@
 //! Conversion of the lines of a schedule to statements.
 
-use super::id::{Signed, ValueId};
+use linkage_ir::ValueId;
+
 use super::naming::{Hint, Hinted};
 use super::schedule::{Circular, Line, Schedule};
-use super::statement::{Block, Pattern, Statement};
 use super::stretches;
-use super::value::Value;
+use super::value::{Block, Leaf, Pattern, Signed, Statement, Value};
 use super::writer::{Absorbed, Writer};
 use crate::graph::{Function, SymbolId};
 use crate::ids::GroupId;
@@ -62,7 +62,7 @@ impl Writer<'_> {
                 let angles = self.all_signed(of, &angles);
                 let angles = self.list(angles);
                 let pairs = several.iter().map(|one| self.pair(of, one)).collect();
-                let call = Value::Intrinsic(Intrinsic::SinesCosines, Some(Type::Scalar), vec![angles]);
+                let call = Value::Intrinsic(Intrinsic::SinesCosines, Some(Box::new(Type::Scalar)), vec![angles]);
                 let call = self.add(call);
                 self.let_value(Pattern::List(pairs), call);
             }
@@ -183,7 +183,7 @@ impl Writer<'_> {
         let scales = self.list(scales);
         let arguments = vec![self.error_name(), self.group(group), columns, scales];
         let of_runtime = Type::Runtime("Factorization", Vec::new());
-        let call = self.add(Value::Intrinsic(Intrinsic::Factorization, Some(of_runtime), arguments));
+        let call = self.add(Value::Intrinsic(Intrinsic::Factorization, Some(Box::new(of_runtime)), arguments));
         let name = self.bound("factors");
         let solves = |line: &Line| matches!(line, Line::Solve { group: other, .. } if *other == group);
         let is_used = of.schedule.lines.iter().any(solves);
@@ -204,13 +204,13 @@ impl Writer<'_> {
     /// Binds a value to the name of a symbol.
     fn name(&mut self, of: Absorbed<'_>, symbol: SymbolId, value: Signed) {
         let id = of.id(value.value);
-        let is_bound = self.values.is_bound[id.0];
+        let is_bound = self.values.is_bound[id.index()];
         let is_named = |writer: &Self| {
             let is_known = match of.schedule.value(value.value) {
-                Value::Symbol(_) | Value::Call(Function::Sin | Function::Cos, _) => true,
+                Value::Given(Leaf::Symbol(_)) | Value::Call(Function::Sin | Function::Cos, _) => true,
                 _ => of.schedule.name(value.value).is_some(),
             };
-            is_known && !writer.values.is_negative[id.0]
+            is_known && !writer.values.is_negative[id.index()]
         };
         // A value with a name needs no other.
         if is_bound && !value.negative && is_named(self) {
@@ -260,7 +260,7 @@ impl Writer<'_> {
         self.hints.push(Hinted::Within(inside_hints));
         self.symbols = outside;
         let statements = stretches::divided(&mut self.values, inside, &[value]);
-        self.add(Value::Closure { arguments, body: Block { statements, value }, moves: false })
+        self.add(Value::Closure { arguments, body: Box::new(Block { statements, value }), moves: false })
     }
 
     /// A call of a runtime function that names the mechanism and the group in its errors.

@@ -1,10 +1,10 @@
 //! The positions of a group of loops, as calls of the runtime.
 
-use super::id::{Signed, ValueId};
+use linkage_ir::ValueId;
+
 use super::naming::Hint;
 use super::schedule::Line;
-use super::statement::{Block, Pattern};
-use super::value::Value;
+use super::value::{Block, Pattern, Signed, Value};
 use super::writer::{Absorbed, Writer};
 use crate::graph::Number;
 use crate::ids::GroupId;
@@ -37,7 +37,7 @@ impl Writer<'_> {
         find.push(self.of_directions(unknowns));
         let take = [self.error_name(), self.group(*group)];
         let branch = self.variable(self.context.branch);
-        let mode = self.field(branch, self.context.derivation.groups[*group].branch(self.context.derivation));
+        let mode = self.field(branch, &self.context.derivation.groups[*group].branch(self.context.derivation));
         find.push(self.evaluation(targets, system));
         let all = self.call(method, find);
         let all = self.tried(all);
@@ -58,7 +58,7 @@ impl Writer<'_> {
         let memory = self.variable(self.context.memory);
         match groups.clone().count() {
             1 => memory,
-            _ => self.field(memory, groups.take_while(|other| *other != group).count().to_string()),
+            _ => self.add(Value::Member(memory, groups.take_while(|other| *other != group).count())),
         }
     }
 
@@ -83,8 +83,8 @@ impl Writer<'_> {
 
     /// A struct of the runtime.
     fn structure<const N: usize>(&mut self, of: &'static str, members: [(&str, ValueId); N]) -> ValueId {
-        let members = members.map(|(name, value)| (name.to_owned(), value)).to_vec();
-        self.add(Value::Struct(Type::Runtime(of, Vec::new()), members, None))
+        let members = members.map(|(name, value)| (self.field_name(name), value)).to_vec();
+        self.add(Value::Struct(Box::new(Type::Runtime(of, Vec::new())), members, None))
     }
 
     /// The function from the directions to the unknowns, each an integer combination of them.
@@ -101,7 +101,7 @@ impl Writer<'_> {
             let all: Vec<ValueId> = unknowns.iter().map(|factors| self.combination(factors, &directions)).collect();
             (Pattern::List(directions.into_iter().map(Pattern::Bound).collect()), self.list(all))
         };
-        let body = Block { statements: Vec::new(), value };
+        let body = Box::new(Block { statements: Vec::new(), value });
         self.add(Value::Closure { arguments: vec![argument], body, moves: false })
     }
 

@@ -1,10 +1,10 @@
 //! Names of values: those given by the user, and generated ones that describe the operation. They are given last.
 
+use linkage_ir::ValueId;
 use rustc_hash::FxHashSet;
 
-use super::code::{Called, Callee, Names};
-use super::id::{Signed, ValueId};
-use super::value::Value;
+use super::code::Names;
+use super::value::{Leaf, Signed, Value};
 use super::values::Values;
 use crate::graph::{Function, Graph, Number, SymbolId};
 use crate::program::{Intrinsic, LONGEST_NAME, Taken};
@@ -34,18 +34,12 @@ pub(super) enum Hinted {
 }
 
 /// Names all bound values; `taken` are the names that no value may have.
-pub(super) fn names(
-    hints: &[Hinted],
-    values: &Values,
-    graph: &Graph,
-    taken: Taken<'_>,
-    functions: impl IntoIterator<Item = (Callee, Called)>,
-) -> Names {
-    let names = Names { values: vec![None; values.all.len()], functions: functions.into_iter().collect() };
+pub(super) fn names(hints: &[Hinted], values: &Values, graph: &Graph, taken: Taken<'_>) -> Names {
+    let names = vec![None; values.all.len()];
     let mut naming = Naming { graph, values, taken, names, symbols: FxHashSet::default() };
     naming.all(hints);
     let mut names = naming.names;
-    for (name, is_bound) in names.values.iter_mut().zip(&values.is_bound) {
+    for (name, is_bound) in names.iter_mut().zip(&values.is_bound) {
         name.take_if(|_| !is_bound);
     }
     names
@@ -66,7 +60,7 @@ impl Naming<'_> {
             match hinted {
                 Hinted::Value(id, hint) => {
                     let name = self.named(*id, hint);
-                    self.names.values[id.0] = Some(name);
+                    self.names[id.index()] = Some(name);
                 }
                 Hinted::Within(inside) => {
                     let taken = self.taken.clone();
@@ -109,7 +103,7 @@ impl Naming<'_> {
     }
 
     fn name(&self, id: ValueId) -> Option<&str> {
-        self.names.values[id.0].as_deref()
+        self.names[id.index()].as_deref()
     }
 
     /// A name made of the names of the operands, if all have one.
@@ -123,7 +117,7 @@ impl Naming<'_> {
                 let &[a, b] = terms.as_slice() else { return None };
                 // The description of a value whose name stands for its negative is that of the value.
                 let is_negative = |term: Signed| {
-                    term.negative != (self.name(term.value).is_some() && self.values.is_negative[term.value.0])
+                    term.negative != (self.name(term.value).is_some() && self.values.is_negative[term.value.index()])
                 };
                 let (first, second, sign) = match [a, b].map(is_negative) {
                     [false, false] => (a, b, "plus"),
@@ -144,7 +138,7 @@ impl Naming<'_> {
                     Some(format!("{}_{argument}", function.name()))
                 }
                 _ => match value {
-                    Value::External(external, _) => self.graph.external_name(external).map(str::to_owned),
+                    Value::Given(Leaf::External(external, _)) => self.graph.external_name(external).map(str::to_owned),
                     _ => None,
                 },
             },
@@ -189,7 +183,7 @@ impl Naming<'_> {
 
     /// The name of a value, unless it stands for the negative.
     fn text(&self, id: ValueId) -> Option<String> {
-        self.name(id).filter(|_| !self.values.is_negative[id.0]).map(str::to_owned)
+        self.name(id).filter(|_| !self.values.is_negative[id.index()]).map(str::to_owned)
     }
 
     /// The stem of the numbered name of a value without description.

@@ -1,7 +1,7 @@
 //! Operation counts of a kernel.
 
 use super::schedule::{Line, Schedule};
-use super::value::Value;
+use super::value::{Leaf, Value};
 use crate::graph::Function;
 use crate::program::{Intrinsic, Operations};
 
@@ -11,13 +11,13 @@ impl Schedule {
     pub fn operations(&self) -> Operations {
         let mut total = Operations::default();
         for &id in self.used() {
-            match &self.values[id.0] {
+            match &self.values[id.index()] {
                 Value::Sum(terms) => total.additions += terms.len() - 1,
                 Value::Product(factors) => total.multiplications += factors.len() - 1,
                 Value::Quotient(..) => total.divisions += 1,
                 Value::Square(_) => total.multiplications += 1,
                 Value::Call(Function::Abs | Function::IfNonzero, _) => {}
-                Value::Call(..) | Value::External(..) => total.functions += 1,
+                Value::Call(..) | Value::Given(Leaf::External(..)) => total.functions += 1,
                 _ => {}
             }
         }

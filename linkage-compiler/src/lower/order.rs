@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use linkage_ir::ValueId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::id::{Signed, ValueId};
 use super::schedule::{Circular, Line};
-use super::value::Value;
+use super::value::{Leaf, Signed, Value};
 use crate::graph::{ExternalId, Function, Graph, SymbolId};
 
 /// The largest nesting of an inline expression; deeper ones get a line, for readability.
@@ -37,13 +37,15 @@ impl Ordering {
         let (mut circular, mut externals) = (BTreeMap::new(), FxHashMap::default());
         let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
         while let Some(id) = stack.pop() {
-            uses[id.0] += 1;
-            if uses[id.0] > 1 {
+            uses[id.index()] += 1;
+            if uses[id.index()] > 1 {
                 continue;
             }
-            let value = &values[id.0];
+            let value = &values[id.index()];
             match value {
-                Value::Symbol(_) | Value::Direction(..) | Value::Constant(_) => height[id.0] = Some(0),
+                Value::Given(Leaf::Symbol(_)) | Value::Given(Leaf::Direction(..)) | Value::Constant(_) => {
+                    height[id.index()] = Some(0)
+                }
                 Value::Call(function @ (Function::Sin | Function::Cos), arguments) => {
                     let angle = arguments[0];
                     let empty = Circular { angle, sine: None, cosine: None };
@@ -53,7 +55,7 @@ impl Ordering {
                         _ => one.cosine = Some(id),
                     }
                 }
-                Value::External(external, arguments) => {
+                Value::Given(Leaf::External(external, arguments)) => {
                     let given = graph.external_names(external.function).len();
                     let call = (external.function, arguments.clone());
                     let call = externals.entry(call).or_insert_with(|| vec![None; given]);
@@ -61,7 +63,7 @@ impl Ordering {
                         *index = Some(id);
                     }
                 }
-                Value::Square(base) => squared[base.0] = true,
+                Value::Square(base) => squared[base.index()] = true,
                 _ => {}
             }
             value.each_part(|part| stack.push(part));
@@ -71,12 +73,12 @@ impl Ordering {
 
     /// Every value that the roots depend on, ascending.
     pub(super) fn used(&self) -> Vec<ValueId> {
-        (0..self.uses.len()).filter(|&index| self.uses[index] > 0).map(ValueId).collect()
+        (0..self.uses.len()).filter(|&index| self.uses[index] > 0).map(ValueId::new).collect()
     }
 
     /// True if a value is used more than once.
     pub(super) fn is_shared(&self, value: ValueId) -> bool {
-        self.uses[value.0] > 1
+        self.uses[value.index()] > 1
     }
 
     /// Adds the lines that `root` depends on; `named` if the caller adds the line of `root` itself.
@@ -84,15 +86,15 @@ impl Ordering {
         let mut stack = vec![(root, false)];
         while let Some((id, expanded)) = stack.pop() {
             let (values, heights) = (&self.values, &self.height);
-            if heights[id.0].is_some() {
+            if heights[id.index()].is_some() {
                 continue;
             }
-            let value = &values[id.0];
+            let value = &values[id.index()];
             if !expanded {
                 stack.push((id, true));
                 let first = stack.len();
                 value.each_part(|part| {
-                    if heights[part.0].is_none() {
+                    if heights[part.index()].is_none() {
                         stack.push((part, false));
                     }
                 });
@@ -100,18 +102,18 @@ impl Ordering {
                 stack[first..].reverse();
                 continue;
             }
-            if named && id == root && !matches!(value, Value::External(..)) && self.paired(id).is_none() {
-                self.height[id.0] = Some(0);
+            if named && id == root && !matches!(value, Value::Given(Leaf::External(..))) && self.paired(id).is_none() {
+                self.height[id.index()] = Some(0);
                 continue;
             }
             let mut height = 0;
             value.each_part(|part| {
-                if let Some(inside) = heights[part.0] {
+                if let Some(inside) = heights[part.index()] {
                     height = height.max(inside + 1);
                 }
             });
-            let deserves = self.uses[id.0] > 1 || self.squared[id.0] || height > DEEPEST_INLINE;
-            self.height[id.0] = Some(if self.pair(id) || self.call(id) {
+            let deserves = self.uses[id.index()] > 1 || self.squared[id.index()] || height > DEEPEST_INLINE;
+            self.height[id.index()] = Some(if self.pair(id) || self.call(id) {
                 0
             } else if deserves {
                 self.lines.push(Line::Let(id));
@@ -161,10 +163,10 @@ impl Ordering {
             if known.contains(&id) || !seen.insert(id) {
                 continue;
             }
-            match &self.values[id.0] {
-                Value::Symbol(symbol) if introduced.contains(symbol) => return false,
+            match &self.values[id.index()] {
+                Value::Given(Leaf::Symbol(symbol)) if introduced.contains(symbol) => return false,
                 Value::Call(Function::Sin | Function::Cos, _) => return false,
-                _ => self.values[id.0].each_part(|part| stack.push(part)),
+                _ => self.values[id.index()].each_part(|part| stack.push(part)),
             }
         }
         known.extend(seen);
@@ -173,7 +175,7 @@ impl Ordering {
 
     /// The sine-cosine pair of a value, if the value is one of them and both are used.
     fn paired(&self, id: ValueId) -> Option<Circular> {
-        let Value::Call(Function::Sin | Function::Cos, arguments) = &self.values[id.0] else { return None };
+        let Value::Call(Function::Sin | Function::Cos, arguments) = &self.values[id.index()] else { return None };
         let angle = arguments[0];
         self.circular.get(&(angle.value, angle.negative)).copied().filter(Circular::is_pair)
     }
@@ -189,17 +191,17 @@ impl Ordering {
     /// Marks the sine and cosine as named.
     fn give_names(&mut self, one: &Circular) {
         for value in one.sine.into_iter().chain(one.cosine) {
-            self.height[value.0] = Some(0);
+            self.height[value.index()] = Some(0);
         }
     }
 
     /// Adds one line for the value and all derivatives of a user function; returns true then.
     fn call(&mut self, id: ValueId) -> bool {
-        let Value::External(external, arguments) = &self.values[id.0] else { return false };
+        let Value::Given(Leaf::External(external, arguments)) = &self.values[id.index()] else { return false };
         let (function, arguments) = (external.function, arguments.clone());
         let values = self.externals.get(&(function, arguments.clone())).cloned().unwrap_or_default();
         for value in values.iter().flatten() {
-            self.height[value.0] = Some(0);
+            self.height[value.index()] = Some(0);
         }
         self.lines.push(Line::External { function, arguments, values });
         true

@@ -1,10 +1,10 @@
 //! Lowering of planned expressions, patterns and statements around a kernel, whose results are known.
 
+use linkage_ir::ValueId;
+
 use super::checks::Checked;
-use super::id::{Signed, ValueId};
 use super::naming::Hint;
-use super::statement::{Block, Pattern, Statement};
-use super::value::Value;
+use super::value::{Block, Pattern, Signed, Statement, Value};
 use super::writer::Writer;
 use crate::program::{self, Expression, Intrinsic, ROUGH, Receiver, Variable};
 
@@ -55,7 +55,7 @@ impl Writer<'_> {
                     let outside = self.variables.clone();
                     let argument = self.fixed(ROUGH);
                     self.variables.insert(ROUGH.to_owned(), argument);
-                    let body = Block { statements: Vec::new(), value: self.expression(precise, checked) };
+                    let body = Box::new(Block { statements: Vec::new(), value: self.expression(precise, checked) });
                     self.variables = outside;
                     let arguments = vec![Pattern::Bound(argument)];
                     let precise = self.add(Value::Closure { arguments, body, moves: false });
@@ -90,14 +90,18 @@ impl Writer<'_> {
     }
 
     pub(super) fn planned_pattern(&mut self, pattern: &program::Pattern<Variable>) -> Pattern {
-        pattern.clone().map(&mut |variable| match variable {
-            Variable::Name(name) => {
-                let id = self.fixed(&name);
-                self.variables.insert(name, id);
-                id
-            }
-            Variable::Local(index) => self.local(index),
-        })
+        let names = self.context.names;
+        pattern.clone().map(
+            &mut |variable| match variable {
+                Variable::Name(name) => {
+                    let id = self.fixed(&name);
+                    self.variables.insert(name, id);
+                    id
+                }
+                Variable::Local(index) => self.local(index),
+            },
+            &mut |field| names.borrow_mut().of(&field),
+        )
     }
 
     fn local(&mut self, index: usize) -> ValueId {
@@ -131,10 +135,10 @@ impl Writer<'_> {
                 Value::Call(*function, arguments)
             }
             E::All(conditions) => Value::All(self.expressions(conditions, checked)),
-            E::Text(text) => Value::Text(text.clone()),
+            E::Text(text) => Value::Text(text.as_str().into()),
             E::Count(count) => Value::Count(*count),
             E::Constant(constant) => Value::Path(*constant),
-            E::Field(of, name) => Value::Field(self.expression(of, checked), name.clone()),
+            E::Field(of, name) => return self.planned_field(of, name, checked),
             E::Index(of, index) => Value::Index(self.expression(of, checked), *index),
             E::At(parts) => {
                 let [of, index] = [&parts[0], &parts[1]].map(|part| self.expression(part, checked));
@@ -144,19 +148,21 @@ impl Writer<'_> {
             E::Repeated(value, count) => Value::Repeated(self.expression(value, checked), *count),
             E::Tuple(all) => Value::Tuple(self.expressions(all, checked)),
             E::Struct(of, members, rest) => {
-                let members =
-                    members.iter().map(|(field, value)| (field.clone(), self.expression(value, checked))).collect();
+                let members = members
+                    .iter()
+                    .map(|(field, value)| (self.field_name(field), self.expression(value, checked)))
+                    .collect();
                 let rest = rest.as_ref().map(|rest| self.expression(rest, checked));
-                Value::Struct(of.clone(), members, rest)
+                Value::Struct(Box::new(of.clone()), members, rest)
             }
             E::Intrinsic(of, None, arguments) => {
                 let arguments = self.expressions(arguments, checked);
                 return self.call(*of, arguments);
             }
             E::Intrinsic(of, of_type, arguments) => {
-                Value::Intrinsic(*of, of_type.clone(), self.expressions(arguments, checked))
+                Value::Intrinsic(*of, of_type.clone().map(Box::new), self.expressions(arguments, checked))
             }
-            E::Function(of, of_type) => Value::Function(*of, of_type.clone()),
+            E::Function(of, of_type) => Value::Function(*of, of_type.clone().map(Box::new)),
             E::Own(receiver, name, arguments) => return self.own(receiver, name, arguments, checked),
             E::Try(inside) => Value::Try(self.expression(inside, checked)),
             E::Borrowed(inside) => Value::Borrowed(self.expression(inside, checked)),
@@ -179,11 +185,26 @@ impl Writer<'_> {
         self.add(value)
     }
 
-    fn block(&mut self, statements: &[program::Statement], value: &Expression, checked: &Checked) -> Block {
+    /// A field by its name, an entry of a tuple, or the columns of a matrix.
+    fn planned_field(&mut self, of: &Expression, name: &str, checked: &Checked) -> ValueId {
+        if let (Expression::Field(matrix, data), "0") = (of, name)
+            && data == "data"
+        {
+            let matrix = self.expression(matrix, checked);
+            return self.add(Value::Columns(matrix));
+        }
+        let of = self.expression(of, checked);
+        match name.parse() {
+            Ok(place) => self.add(Value::Member(of, place)),
+            Err(_) => self.field(of, name),
+        }
+    }
+
+    fn block(&mut self, statements: &[program::Statement], value: &Expression, checked: &Checked) -> Box<Block> {
         let before = std::mem::take(&mut self.statements);
         self.planned(statements, checked);
         let value = self.expression(value, checked);
-        Block { statements: std::mem::replace(&mut self.statements, before), value }
+        Box::new(Block { statements: std::mem::replace(&mut self.statements, before), value })
     }
 
     /// A call of a function of the program.
@@ -202,7 +223,7 @@ impl Writer<'_> {
         };
         let arguments = self.expressions(arguments, checked);
         match functions.get(name) {
-            Some(function) => self.add(Value::Own(receiver, function.id, arguments)),
+            Some(function) => self.add(Value::Own(receiver, *function, arguments)),
             None => self.dangle(|| format!("the function `{name}`")),
         }
     }

@@ -3,11 +3,10 @@
 
 use std::ops::Range;
 
+use linkage_ir::{Name, ValueId};
 use rustc_hash::FxHashMap;
 
-use super::id::ValueId;
-use super::statement::{Pattern, Statement};
-use super::value::Value;
+use super::value::{Pattern, Statement, Value};
 use super::values::Values;
 use crate::graph::Function;
 use crate::program::{Finite, Intrinsic};
@@ -47,12 +46,12 @@ pub(super) fn proven(
         proven.follow(operands, &mut implied);
     }
     for chord in chords {
-        finite[chord.0] = true;
+        finite[chord.index()] = true;
     }
     (proven.finite, proven.implied) = (finite, implied);
     for result in results {
         let id = proven.itself(*result);
-        proven.checked[id.0] = true;
+        proven.checked[id.index()] = true;
     }
     results.iter().map(|result| proven.is_finite(proven.itself(*result))).collect()
 }
@@ -100,7 +99,7 @@ impl Proven<'_> {
         match self.values.get(id) {
             Value::List(all) => all.clone(),
             Value::Struct(_, members, _) => {
-                let factors = members.iter().filter(|(field, _)| field == "factors");
+                let factors = members.iter().filter(|(field, _)| *field == Name::FACTORS);
                 factors.flat_map(|(_, value)| self.factors(*value)).collect()
             }
             _ => Vec::new(),
@@ -111,7 +110,7 @@ impl Proven<'_> {
     fn follow(&self, mut stack: Vec<ValueId>, finite: &mut [bool]) {
         while let Some(id) = stack.pop() {
             let id = self.itself(id);
-            if std::mem::replace(&mut finite[id.0], true) {
+            if std::mem::replace(&mut finite[id.index()], true) {
                 continue;
             }
             stack.extend(self.operands(id));
@@ -137,10 +136,10 @@ impl Proven<'_> {
         let value = |id: ValueId| self.values.get(id);
         let is_small =
             |id: ValueId| matches!(value(id), Value::Constant(number) | Value::Exact(number) if number.to_f64() <= 1.0);
-        let is_finite = |id: ValueId| self.finite[self.itself(id).0];
-        let is_checked = |id: ValueId| self.checked[self.itself(id).0];
-        self.finite[id.0]
-            || self.implied[id.0]
+        let is_finite = |id: ValueId| self.finite[self.itself(id).index()];
+        let is_checked = |id: ValueId| self.checked[self.itself(id).index()];
+        self.finite[id.index()]
+            || self.implied[id.index()]
             || match value(id) {
                 Value::Call(Function::Sin | Function::Cos, angle) => is_finite(angle[0].value),
                 Value::Intrinsic(Intrinsic::SineInLane | Intrinsic::CosineInLane, _, angle) => is_finite(angle[0]),

@@ -1,10 +1,9 @@
 //! Reads: where the fields of arguments are read.
 
+use linkage_ir::ValueId;
 use rustc_hash::FxHashSet;
 
-use super::id::ValueId;
-use super::statement::{Pattern, Statement};
-use super::value::Value;
+use super::value::{Pattern, Statement, Value, bound_by};
 use super::values::Values;
 use crate::program::Type;
 
@@ -14,7 +13,7 @@ pub(super) fn passed_on(values: &mut Values, statements: &mut Vec<Statement>, re
     values.uses().statements(statements, &mut |id| {
         used.insert(id);
     });
-    for result in results.iter().filter(|result| !values.is_bound[result.0]) {
+    for result in results.iter().filter(|result| !values.is_bound[result.index()]) {
         values.uses().inside(*result, &mut |id| {
             used.insert(id);
         });
@@ -28,7 +27,7 @@ pub(super) fn passed_on(values: &mut Values, statements: &mut Vec<Statement>, re
             let is_used = used.contains(bound);
             if !is_used {
                 for result in results.iter_mut().filter(|result| *result == bound) {
-                    *result = values.add(Value::Field(of, field.clone()));
+                    *result = values.add(Value::Field(of, *field));
                 }
             }
             is_used
@@ -45,7 +44,7 @@ pub(super) fn parameters_where_used(values: &Values, statements: &mut Vec<Statem
         |statement: &Statement| matches!(statement, Statement::Let(Pattern::Struct { of: Type::Itself, .. }, _));
     let Some(index) = statements.iter().position(is_parameters) else { return };
     let parameters = statements.remove(index);
-    let bound: FxHashSet<ValueId> = parameters.bound().into_iter().collect();
+    let bound: FxHashSet<ValueId> = bound_by(&parameters).into_iter().collect();
     let uses = |statement: &Statement| {
         let mut is_used = false;
         values.uses().statement(statement, &mut |id| is_used |= bound.contains(&id));

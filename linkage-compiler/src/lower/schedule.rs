@@ -1,7 +1,8 @@
 //! Straight-line code: lines that compute values in order.
 
-use super::id::{Signed, ValueId};
-use super::value::Value;
+use linkage_ir::ValueId;
+
+use super::value::{Leaf, Signed, Value};
 use crate::derivation::ChordGeometry;
 use crate::graph::{ExternalId, Function, SymbolId};
 use crate::ids::GroupId;
@@ -119,7 +120,7 @@ pub struct Schedule {
 impl Schedule {
     #[must_use]
     pub fn value(&self, id: ValueId) -> &Value {
-        &self.values[id.0]
+        &self.values[id.index()]
     }
 
     /// The preferred name of a value, with true if it is the name of the negative of the value.
@@ -155,7 +156,7 @@ impl Schedule {
                 function,
                 Function::Sin | Function::Cos | Function::Atan2 | Function::Hypot | Function::Sqrt | Function::Abs
             ),
-            Value::External(..) => false,
+            Value::Given(Leaf::External(..)) => false,
             _ => true,
         };
         self.lines.iter().all(is_plain) && self.used().iter().all(is_inlined)
@@ -164,7 +165,7 @@ impl Schedule {
     /// The symbols that are used.
     pub(super) fn symbols(&self) -> impl Iterator<Item = SymbolId> {
         self.used().iter().filter_map(|&id| match self.value(id) {
-            Value::Symbol(symbol) => Some(*symbol),
+            Value::Given(Leaf::Symbol(symbol)) => Some(*symbol),
             _ => None,
         })
     }

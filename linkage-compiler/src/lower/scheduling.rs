@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use super::id::{Signed, ValueId};
+use linkage_ir::ValueId;
+
 use super::order::Ordering;
 use super::schedule::{Line, Schedule};
 use super::translate::Builder;
+use super::value::Signed;
 use super::{factors, joined, sharing, terms};
 use crate::derivation::Step;
 use crate::graph::{Graph, NodeId, SymbolId};

@@ -13,10 +13,10 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use linkage_ir::ValueId;
 use rustc_hash::FxHashMap;
 
-use super::id::{Signed, ValueId};
-use super::value::Value;
+use super::value::{Leaf, Signed, Value, is_circular};
 use crate::budget::Budget;
 
 /// The longest sum or product in which all pairs of operands are considered; in a longer one only neighbours are, since
@@ -66,8 +66,8 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget, 
     let mut is_used = vec![false; values.len()];
     let mut stack: Vec<ValueId> = roots.iter().map(|root| root.value).collect();
     while let Some(id) = stack.pop() {
-        if !std::mem::replace(&mut is_used[id.0], true) {
-            values[id.0].each_part(|part| stack.push(part));
+        if !std::mem::replace(&mut is_used[id.index()], true) {
+            values[id.index()].each_part(|part| stack.push(part));
         }
     }
     for kind in [Kind::Sums, Kind::Products] {
@@ -80,7 +80,7 @@ pub(super) fn share(values: &mut Vec<Value>, roots: &[Signed], budget: &Budget, 
                 }
                 _ => return None,
             };
-            Some(List { value: ValueId(index), parts, is_changed: false })
+            Some(List { value: ValueId::new(index), parts, is_changed: false })
         });
         let keeps_components = is_inlined && kind == Kind::Products;
         Sharing::new(kind, lists.collect(), values, budget, keeps_components).run(values);
@@ -132,8 +132,8 @@ enum Factor {
 impl Factor {
     fn of(value: &Value, values: &[Value]) -> Self {
         match value {
-            Value::Symbol(_) => Self::Symbol,
-            circular if circular.is_circular(values) => Self::Circular,
+            Value::Given(Leaf::Symbol(_)) => Self::Symbol,
+            circular if is_circular(circular, values) => Self::Circular,
             _ => Self::Other,
         }
     }
@@ -143,9 +143,9 @@ impl<'a> Sharing<'a> {
     fn new(kind: Kind, lists: Vec<List>, values: &[Value], budget: &'a Budget, keeps_components: bool) -> Self {
         let (mut met, mut frequent) = (vec![false; values.len()], vec![keeps_components; values.len()]);
         for list in &lists {
-            frequent[list.value.0] = true;
+            frequent[list.value.index()] = true;
             for part in &list.parts {
-                frequent[part.value.0] |= std::mem::replace(&mut met[part.value.0], true);
+                frequent[part.value.index()] |= std::mem::replace(&mut met[part.value.index()], true);
             }
         }
         let factors = values.iter().map(|value| Factor::of(value, values)).collect();
@@ -171,7 +171,7 @@ impl<'a> Sharing<'a> {
             }
         }
         for List { value, parts, .. } in self.lists.into_iter().filter(|list| list.is_changed) {
-            values[value.0] = match self.kind {
+            values[value.index()] = match self.kind {
                 Kind::Sums => Value::Sum(parts),
                 Kind::Products => Value::Product(parts.into_iter().map(|part| part.value).collect()),
             };
@@ -190,7 +190,7 @@ impl<'a> Sharing<'a> {
                     Kind::Sums => Value::Sum(vec![Signed { negative: false, value: pair.first }, second]),
                     Kind::Products => Value::Product(vec![pair.first, pair.second]),
                 });
-                (ValueId(values.len() - 1), false)
+                (ValueId::new(values.len() - 1), false)
             }
         };
         for &place in holders {
@@ -243,7 +243,7 @@ impl<'a> Sharing<'a> {
 
     /// True for the product of a symbol, such as a length, and a sine or cosine.
     fn is_component(&self, pair: Pair) -> bool {
-        let factors = [pair.first, pair.second].map(|value| self.factors.get(value.0));
+        let factors = [pair.first, pair.second].map(|value| self.factors.get(value.index()));
         self.kind == Kind::Products
             && factors.contains(&Some(&Factor::Symbol))
             && factors.contains(&Some(&Factor::Circular))
@@ -264,7 +264,7 @@ impl<'a> Sharing<'a> {
 
     fn is_frequent(&self, part: Signed) -> bool {
         // Values made by sharing are frequent.
-        self.frequent.get(part.value.0).is_none_or(|is_frequent| *is_frequent)
+        self.frequent.get(part.value.index()).is_none_or(|is_frequent| *is_frequent)
     }
 }
 

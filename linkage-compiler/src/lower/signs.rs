@@ -1,9 +1,10 @@
 //! Signs: translation moves them out of values, to the sums and results that use these. Here they return to the place
 //! where they are written: a - b instead of -(b - a).
 
-use super::id::{Signed, ValueId};
+use linkage_ir::ValueId;
+
 use super::terms;
-use super::value::Value;
+use super::value::{Signed, Value};
 use super::values::{Numbers, Values};
 use crate::program::Intrinsic;
 
@@ -12,7 +13,7 @@ impl Values {
     /// one, is written with the difference reversed. The sign of a sum that waits for its last term is written where it is
     /// known earlier.
     pub(super) fn signed(&mut self, signed: Signed) -> Signed {
-        if !self.is_bound[signed.value.0] && !self.is_settled[signed.value.0] {
+        if !self.is_bound[signed.value.index()] && !self.is_settled[signed.value.index()] {
             self.turn(signed);
             self.settle(signed.value);
         }
@@ -30,32 +31,32 @@ impl Values {
         let id = signed.value;
         let written = self.signed(signed);
         if written.negative {
-            let inside = self.all[id.0].clone();
+            let inside = self.all[id.index()].clone();
             let inside = self.add(inside);
-            self.all[id.0] = Value::Negative(inside);
+            self.all[id.index()] = Value::Negative(inside);
         }
         self.bind(id, signed.negative);
     }
 
     /// Marks a value that a statement binds, with true if its name stands for the negative.
     pub(super) fn bind(&mut self, id: ValueId, is_negative: bool) {
-        self.is_bound[id.0] = true;
-        self.is_settled[id.0] = true;
-        self.is_negative[id.0] = is_negative;
+        self.is_bound[id.index()] = true;
+        self.is_settled[id.index()] = true;
+        self.is_negative[id.index()] = is_negative;
     }
 
     /// A value that is bound or settled, with the sign that it has there.
     fn at_hand(&self, Signed { negative, value }: Signed) -> Signed {
         let is_zero = matches!(self.get(value), Value::Constant(number) if number.is_zero());
-        Signed { negative: negative != self.is_negative[value.0] && !is_zero, value: self.itself(value) }
+        Signed { negative: negative != self.is_negative[value.index()] && !is_zero, value: self.itself(value) }
     }
 
     /// True if a value is written as its negative, with the signs of its factors.
     fn is_written_negative(&self, id: ValueId) -> bool {
-        if self.is_bound[id.0] || self.is_settled[id.0] {
-            return self.is_negative[id.0];
+        if self.is_bound[id.index()] || self.is_settled[id.index()] {
+            return self.is_negative[id.index()];
         }
-        let own = self.is_negative[id.0];
+        let own = self.is_negative[id.index()];
         match self.get(id) {
             Value::Product(factors) => {
                 factors.iter().fold(own, |sign, factor| sign != self.is_written_negative(*factor))
@@ -96,28 +97,28 @@ impl Values {
             return;
         }
         let Some(&first) = factors.first() else { return };
-        let Some(index) = factors.iter().rposition(|factor| self.is_bound[factor.0]) else { return };
-        let is_sum = matches!(self.get(first), Value::Sum(_)) && !self.is_bound[first.0];
+        let Some(index) = factors.iter().rposition(|factor| self.is_bound[factor.index()]) else { return };
+        let is_sum = matches!(self.get(first), Value::Sum(_)) && !self.is_bound[first.index()];
         if !is_sum || !self.is_earlier(factors[index], first) {
             return;
         }
-        let is_negative = self.is_negative[factors[index].0];
+        let is_negative = self.is_negative[factors[index].index()];
         let negative = self.add(Value::Negative(self.itself(factors[index])));
-        self.is_negative[negative.0] = !is_negative;
-        if let Value::Product(factors) = &mut self.all[product.0] {
+        self.is_negative[negative.index()] = !is_negative;
+        if let Value::Product(factors) = &mut self.all[product.index()] {
             factors[index] = negative;
         }
     }
 
     fn is_open(&self, id: ValueId) -> bool {
-        !self.is_bound[id.0] && !self.is_settled[id.0]
+        !self.is_bound[id.index()] && !self.is_settled[id.index()]
     }
 
     /// Replaces a sum by its negative.
     fn reverse(&mut self, sum: ValueId) {
-        if let Value::Sum(terms) = &mut self.all[sum.0] {
+        if let Value::Sum(terms) = &mut self.all[sum.index()] {
             terms.iter_mut().for_each(|term| term.negative = !term.negative);
-            self.is_negative[sum.0] = !self.is_negative[sum.0];
+            self.is_negative[sum.index()] = !self.is_negative[sum.index()];
         }
     }
 
@@ -127,26 +128,26 @@ impl Values {
 
     /// True if the term is written with a minus, as far as names tell.
     fn is_taken_away(&self, term: Signed) -> bool {
-        term.negative != (self.is_bound[term.value.0] && self.is_negative[term.value.0])
+        term.negative != (self.is_bound[term.value.index()] && self.is_negative[term.value.index()])
     }
 
     /// Settles the signs in a value that is written where it is used.
     fn settle(&mut self, id: ValueId) {
-        if self.is_bound[id.0] || std::mem::replace(&mut self.is_settled[id.0], true) {
+        if self.is_bound[id.index()] || std::mem::replace(&mut self.is_settled[id.index()], true) {
             return;
         }
-        let settled = match self.all[id.0].clone() {
+        let settled = match self.all[id.index()].clone() {
             Value::Product(factors) => {
                 for factor in &factors {
                     self.settle(*factor);
-                    self.is_negative[id.0] ^= self.is_negative[factor.0];
+                    self.is_negative[id.index()] ^= self.is_negative[factor.index()];
                 }
                 Value::Product(factors.into_iter().map(|factor| self.itself(factor)).collect())
             }
             Value::Quotient(above, below) => {
                 for part in [above, below] {
                     self.settle(part);
-                    self.is_negative[id.0] ^= self.is_negative[part.0];
+                    self.is_negative[id.index()] ^= self.is_negative[part.index()];
                 }
                 Value::Quotient(self.itself(above), self.itself(below))
             }
@@ -176,7 +177,7 @@ impl Values {
             }
             other => other,
         };
-        self.all[id.0] = settled;
+        self.all[id.index()] = settled;
     }
 
     /// The terms of a sum, with a positive one first if it has one.

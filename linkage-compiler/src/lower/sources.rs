@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use linkage_ir::{Name, ValueId};
+
 use super::checks::Checked;
-use super::id::ValueId;
 use super::naming::Hint;
-use super::statement::{Pattern, Statement};
-use super::value::Value;
+use super::value::{Leaf, Pattern, Statement, Value};
 use super::writer::{Absorbed, Writer};
 use crate::graph::{Function, NodeId, SymbolId};
 use crate::program::{Expression, Shape, Source};
@@ -64,8 +64,9 @@ impl Writer<'_> {
             Shape::List(shapes) => all(shapes).map(Pattern::List),
             Shape::Tuple(shapes) => all(shapes).map(Pattern::Tuple),
             Shape::Fields { of, fields, is_whole } => {
-                let named = fields.iter().map(|(field, shape)| Some((field.clone(), self.shape(shape, unbound)?)));
-                let named: Vec<(String, Pattern)> = named.flatten().collect();
+                let named =
+                    fields.iter().map(|(field, shape)| Some((self.field_name(field), self.shape(shape, unbound)?)));
+                let named: Vec<(Name, Pattern)> = named.flatten().collect();
                 let is_whole = *is_whole && named.len() == fields.len();
                 (!named.is_empty()).then(|| Pattern::Struct { of: of.clone(), fields: named, is_whole })
             }
@@ -76,7 +77,7 @@ impl Writer<'_> {
     fn directions(&mut self, of: Absorbed<'_>) {
         let mut used: Vec<(NodeId, Function, ValueId)> = Vec::new();
         for &id in of.schedule.used() {
-            if let Value::Direction(function, angle) = of.schedule.value(id) {
+            if let Value::Given(Leaf::Direction(function, angle)) = of.schedule.value(id) {
                 used.push((*angle, *function, of.id(id)));
             }
         }

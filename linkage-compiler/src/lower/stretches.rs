@@ -6,11 +6,10 @@
 
 use std::collections::BTreeSet;
 
+use linkage_ir::ValueId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::id::ValueId;
-use super::statement::{Block, Pattern, Statement};
-use super::value::Value;
+use super::value::{Block, Pattern, Statement, Value, bound_by};
 use super::values::Values;
 
 /// The largest number of `let`s that are not divided. The longest function of the mechanisms under test has 150
@@ -87,7 +86,9 @@ fn read_late(values: &Values, statements: Vec<Statement>) -> Vec<Statement> {
 /// True if a value is a field or a tuple of fields.
 fn is_read(values: &Values, id: ValueId) -> bool {
     match values.get(id) {
-        Value::Field(of, _) => values.is_bound[of.0] || is_read(values, *of),
+        Value::Field(of, _) | Value::Member(of, _) | Value::Columns(of) => {
+            values.is_bound[of.index()] || is_read(values, *of)
+        }
         Value::Tuple(all) => !all.is_empty() && all.iter().all(|one| is_read(values, *one)),
         _ => false,
     }
@@ -119,7 +120,7 @@ fn stretch(values: &mut Values, statements: Vec<Statement>, crossing: Vec<ValueI
         &[only] => only,
         all => values.add(Value::Tuple(all.to_vec())),
     };
-    let block = values.add(Value::Block(Block { statements, value }));
+    let block = values.add(Value::Block(Box::new(Block { statements, value })));
     match crossing.as_slice() {
         [] => Statement::Do(block),
         &[only] => Statement::Let(Pattern::Bound(only), block),
@@ -154,7 +155,7 @@ impl Liveness {
                 used_last.push(*id);
             }
         }
-        let bound: Vec<Vec<ValueId>> = statements.iter().map(Statement::bound).collect();
+        let bound: Vec<Vec<ValueId>> = statements.iter().map(bound_by).collect();
         let is_separate = bound.iter().map(|bound| bound.len() > MOST_NAMES).collect();
         Self { bound, used_last, last, is_separate }
     }

@@ -1,10 +1,10 @@
 //! The order of terms in a sum: those that are known first come first, so that little is left to do when the last one is
 //! there.
 
+use linkage_ir::ValueId;
 use rustc_hash::FxHashMap;
 
-use super::id::{Signed, ValueId};
-use super::value::Value;
+use super::value::{Leaf, Signed, Value};
 use crate::derivation::Step;
 use crate::graph::SymbolId;
 
@@ -17,12 +17,12 @@ pub(super) fn order(values: &mut [Value], steps: &[Step]) -> Vec<usize> {
     }
     let mut known = vec![None; values.len()];
     for id in 0..values.len() {
-        settle(values, &introduced, &mut known, ValueId(id));
+        settle(values, &introduced, &mut known, ValueId::new(id));
     }
     let known: Vec<usize> = known.into_iter().map(Option::unwrap_or_default).collect();
     for value in values {
         if let Value::Sum(terms) = value {
-            sort(terms, |id| known[id.0], |term| term.negative);
+            sort(terms, |id| known[id.index()], |term| term.negative);
         }
     }
     known
@@ -43,7 +43,7 @@ fn settle(values: &[Value], introduced: &FxHashMap<SymbolId, usize>, known: &mut
     let mut stack = vec![root];
     while let Some(&id) = stack.last() {
         let (mut open, mut last) = (None, 0);
-        values[id.0].each_part(|part| match known[part.0] {
+        values[id.index()].each_part(|part| match known[part.index()] {
             Some(step) => last = last.max(step),
             None => open = Some(part),
         });
@@ -52,9 +52,9 @@ fn settle(values: &[Value], introduced: &FxHashMap<SymbolId, usize>, known: &mut
             continue;
         }
         stack.pop();
-        if let Value::Symbol(symbol) = &values[id.0] {
+        if let Value::Given(Leaf::Symbol(symbol)) = &values[id.index()] {
             last = introduced.get(symbol).copied().unwrap_or_default();
         }
-        known[id.0] = Some(last);
+        known[id.index()] = Some(last);
     }
 }

@@ -3,10 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use linkage_ir::ValueId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::id::{Signed, ValueId};
-use super::value::Value;
+use super::value::{Leaf, Signed, Value};
 use crate::graph::{Function, Graph, Node, NodeId, Number};
 use crate::program::Given;
 
@@ -46,14 +46,14 @@ impl<'a> Builder<'a> {
     fn leaf(&mut self, id: NodeId) -> Option<Signed> {
         let value = match self.graph.node(id) {
             Node::Constant(number) => return Some(self.constant(*number)),
-            Node::Symbol(symbol) => Value::Symbol(*symbol),
+            Node::Symbol(symbol) => Value::Given(Leaf::Symbol(*symbol)),
             Node::Call(function @ (Function::Sin | Function::Cos), angle)
                 if self.given.directions.contains(&angle[0]) =>
             {
-                Value::Direction(*function, angle[0])
+                Value::Given(Leaf::Direction(*function, angle[0]))
             }
             _ => match self.given.values.get(&id) {
-                Some(symbol) => Value::Symbol(*symbol),
+                Some(symbol) => Value::Given(Leaf::Symbol(*symbol)),
                 None => return self.given.constant(self.graph, id).map(|value| self.constant(Number::Float(value))),
             },
         };
@@ -76,7 +76,7 @@ impl<'a> Builder<'a> {
     fn intern(&mut self, value: Value) -> ValueId {
         *self.ids.entry(value).or_insert_with_key(|value| {
             self.values.push(value.clone());
-            ValueId(self.values.len() - 1)
+            ValueId::new(self.values.len() - 1)
         })
     }
 
@@ -113,7 +113,7 @@ impl<'a> Builder<'a> {
             }
             Node::External(external, arguments) => {
                 let arguments = arguments.iter().map(|argument| self.of[argument]).collect();
-                self.positive(Value::External(external.clone(), arguments))
+                self.positive(Value::Given(Leaf::External(external.clone(), arguments)))
             }
             Node::Constant(_) | Node::Pi | Node::Symbol(_) => self.constant(Number::ZERO),
         }
@@ -171,7 +171,7 @@ impl<'a> Builder<'a> {
     /// Collects equal factors of a product into squares, and all numbers into one.
     fn gathered(&mut self, mut constant: Number, mut factors: Vec<ValueId>) -> (Number, Vec<ValueId>) {
         factors.retain(|factor| {
-            let Value::Constant(number) = self.values[factor.0] else { return true };
+            let Value::Constant(number) = self.values[factor.index()] else { return true };
             let product = self.folded(constant, number);
             constant = product.unwrap_or(constant);
             product.is_none()
@@ -265,7 +265,7 @@ impl<'a> Builder<'a> {
         if factor.is_one() {
             return value;
         }
-        match self.values[value.0].clone() {
+        match self.values[value.index()].clone() {
             Value::Constant(number) => match self.folded(number, factor) {
                 Some(product) => self.constant(product).value,
                 None => self.multiply(factor, vec![value]),

@@ -1,11 +1,10 @@
 //! Statements that nothing needs.
 
+use linkage_ir::ValueId;
+use linkage_ir::code::Returned;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::code::Returned;
-use super::id::ValueId;
-use super::statement::{Pattern, Statement};
-use super::value::Value;
+use super::value::{Pattern, Statement, Value};
 use super::values::Values;
 
 /// Removes `let`s with unused names, unless they may fail; adds the values that the others use.
@@ -44,7 +43,7 @@ pub(super) fn taken_apart_at_once(values: &mut Values, statements: Vec<Statement
     };
     let apart = statements.iter().filter_map(|statement| match statement {
         Statement::Let(pattern @ (Pattern::Struct { .. } | Pattern::List(_) | Pattern::Tuple(_)), of)
-            if values.is_bound[of.0] && uses[of] == 1 && is_bound(of) =>
+            if values.is_bound[of.index()] && uses[of] == 1 && is_bound(of) =>
         {
             Some((*of, pattern.clone()))
         }
@@ -55,7 +54,7 @@ pub(super) fn taken_apart_at_once(values: &mut Values, statements: Vec<Statement
         Statement::Let(Pattern::Bound(bound), value) => {
             let pattern = apart.get(&bound).cloned();
             // The value has no name any more.
-            values.is_bound[bound.0] &= pattern.is_none() || bound != value;
+            values.is_bound[bound.index()] &= pattern.is_none() || bound != value;
             Some(Statement::Let(pattern.unwrap_or(Pattern::Bound(bound)), value))
         }
         Statement::Let(_, of) if apart.contains_key(&of) => None,
@@ -72,7 +71,7 @@ pub(super) fn unnamed(values: &mut Values, statements: &mut Vec<Statement>, valu
     };
     match statements.pop_if(is_named) {
         Some(Statement::Let(Pattern::Bound(bound), last)) => {
-            values.is_bound[bound.0] &= bound != last;
+            values.is_bound[bound.index()] &= bound != last;
             Returned::Plain(last)
         }
         _ => value,

@@ -1,8 +1,8 @@
 //! Uses: the bound values, arguments among them, that statements read.
 
-use super::id::ValueId;
-use super::statement::{Block, Statement};
-use super::value::Value;
+use linkage_ir::ValueId;
+
+use super::value::{Block, Pattern, Statement, Value};
 
 /// The values of a function, and which of them a statement binds.
 #[derive(Clone, Copy)]
@@ -17,7 +17,7 @@ impl Uses<'_> {
         match statement {
             // A pattern that binds its value gives it a name.
             Statement::Let(pattern, value) => match *pattern {
-                super::statement::Pattern::Bound(bound) if bound == *value => self.inside(*value, visit),
+                Pattern::Bound(bound) if bound == *value => self.inside(*value, visit),
                 _ => self.value(*value, visit),
             },
             Statement::Do(value) | Statement::Return(value) => self.value(*value, visit),
@@ -25,6 +25,7 @@ impl Uses<'_> {
                 self.value(*one, visit);
                 self.value(*other, visit);
             }
+            Statement::Store(inside) => self.statement(inside, visit),
             Statement::Unless(conditions, inside) => {
                 conditions.iter().for_each(|condition| self.value(*condition, visit));
                 self.statements(inside, visit);
@@ -38,12 +39,12 @@ impl Uses<'_> {
 
     /// Visits a bound value, or every one that another value is computed from.
     pub(super) fn value(&self, id: ValueId, visit: &mut dyn FnMut(ValueId)) {
-        if self.is_bound[id.0] { visit(id) } else { self.inside(id, visit) }
+        if self.is_bound[id.index()] { visit(id) } else { self.inside(id, visit) }
     }
 
     /// Visits every bound value that a value is computed from.
     pub(super) fn inside(&self, id: ValueId, visit: &mut dyn FnMut(ValueId)) {
-        match &self.values[id.0] {
+        match &self.values[id.index()] {
             Value::Closure { body, .. } | Value::Block(body) => self.block(body, visit),
             value => value.each_part(|part| self.value(part, visit)),
         }

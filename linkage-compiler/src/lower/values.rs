@@ -1,8 +1,9 @@
 //! The values of a function while it is lowered, with what is known of each.
 
-use super::id::{Signed, ValueId};
+use linkage_ir::ValueId;
+
 use super::uses::Uses;
-use super::value::Value;
+use super::value::{Leaf, Signed, Value};
 use crate::graph::Number;
 
 /// The numbers that a function computes with.
@@ -55,32 +56,32 @@ impl Values {
 
     /// Adds a value whose operands are settled.
     pub(super) fn add(&mut self, value: Value) -> ValueId {
-        let is_leaf = matches!(value, Value::Itself | Value::Argument(_));
+        let is_leaf = matches!(value, Value::Given(Leaf::Itself) | Value::Given(Leaf::Argument(_)));
         self.all.push(value);
         self.is_bound.push(is_leaf);
         self.is_negative.push(false);
         self.is_settled.push(true);
         self.stands_for.push(None);
         self.known.push(0);
-        ValueId(self.all.len() - 1)
+        ValueId::new(self.all.len() - 1)
     }
 
     /// Adds a value that a pattern binds.
     pub(super) fn bound(&mut self) -> ValueId {
-        let id = self.add(Value::Bound);
-        self.is_bound[id.0] = true;
+        let id = self.add(Value::Given(Leaf::Bound));
+        self.is_bound[id.index()] = true;
         id
     }
 
     /// Lets a symbol stand for a bound value.
     pub(super) fn alias(&mut self, symbol: ValueId, value: ValueId) {
-        self.stands_for[symbol.0] = Some(value);
-        self.is_bound[symbol.0] = true;
+        self.stands_for[symbol.index()] = Some(value);
+        self.is_bound[symbol.index()] = true;
     }
 
     /// The value that this one stands for.
     pub(super) fn itself(&self, id: ValueId) -> ValueId {
-        self.stands_for[id.0].unwrap_or(id)
+        self.stands_for[id.index()].unwrap_or(id)
     }
 
     pub(super) fn number(&mut self, number: Number) -> ValueId {
@@ -93,16 +94,16 @@ impl Values {
     }
 
     pub(super) fn get(&self, id: ValueId) -> &Value {
-        &self.all[id.0]
+        &self.all[id.index()]
     }
 
     /// True if a value is known before another one.
     pub(super) fn is_earlier(&self, one: ValueId, other: ValueId) -> bool {
-        self.known[one.0] < self.known[other.0]
+        self.known[one.index()] < self.known[other.index()]
     }
 
     pub(super) fn last_step(&self, id: ValueId) -> usize {
-        self.known[id.0]
+        self.known[id.index()]
     }
 
     pub(super) fn uses(&self) -> Uses<'_> {
@@ -112,7 +113,7 @@ impl Values {
     /// True if a value is neither bound nor zero nor one.
     pub(super) fn is_formula(&self, id: ValueId) -> bool {
         match self.get(id) {
-            _ if self.is_bound[id.0] => false,
+            _ if self.is_bound[id.index()] => false,
             Value::Constant(number) => !number.is_zero() && !number.is_one(),
             _ => true,
         }

@@ -1,15 +1,15 @@
 //! Code under construction: values, statements, and what names mean so far.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
+use linkage_ir::{Name, ValueId};
 use rustc_hash::FxHashMap;
 
 use super::context::Context;
-use super::id::{Signed, ValueId};
 use super::naming::{Hint, Hinted};
 use super::schedule::Schedule;
-use super::statement::{Pattern, Statement};
-use super::value::Value;
+use super::value::{Leaf, Pattern, Signed, Statement, Value, with_operands};
 use super::values::{Numbers, Values};
 use crate::graph::{ExternalId, SymbolId};
 use crate::ids::GroupId;
@@ -51,7 +51,7 @@ pub(super) struct Absorbed<'s> {
 
 impl Absorbed<'_> {
     pub(super) fn id(self, value: ValueId) -> ValueId {
-        ValueId(self.first + value.0)
+        ValueId::new(self.first + value.index())
     }
 
     pub(super) fn signed(self, signed: Signed) -> Signed {
@@ -60,7 +60,8 @@ impl Absorbed<'_> {
 
     /// The value of a symbol, if a line uses it.
     pub(super) fn symbol(self, symbol: SymbolId) -> Option<ValueId> {
-        let is_it = |id: &&ValueId| matches!(self.schedule.value(**id), Value::Symbol(other) if *other == symbol);
+        let is_it =
+            |id: &&ValueId| matches!(self.schedule.value(**id), Value::Given(Leaf::Symbol(other)) if *other == symbol);
         self.schedule.used().iter().find(is_it).map(|id| self.id(*id))
     }
 }
@@ -104,14 +105,14 @@ impl<'a> Writer<'a> {
     /// Adds the values of a schedule. Symbols that are bound outside stand for their values.
     pub(super) fn absorb<'s>(&mut self, schedule: &'s Schedule, inside: &[SymbolId]) -> Absorbed<'s> {
         let first = self.values.all.len();
-        let shifted = |value: &Value| value.clone().with_operands(&mut |id| ValueId(first + id.0));
+        let shifted = |value: &Value| with_operands(value.clone(), &mut |id| ValueId::new(first + id.index()));
         self.values.absorb(schedule.values.iter().map(shifted).collect(), schedule.known.clone());
         for &id in schedule.used() {
-            let Value::Symbol(symbol) = schedule.value(id) else { continue };
+            let Value::Given(Leaf::Symbol(symbol)) = schedule.value(id) else { continue };
             if inside.contains(symbol) {
                 self.symbols.remove(symbol);
             } else if let Some(&known) = self.symbols.get(symbol) {
-                self.values.alias(ValueId(first + id.0), known);
+                self.values.alias(ValueId::new(first + id.index()), known);
             }
         }
         Absorbed { schedule, first }
@@ -119,7 +120,7 @@ impl<'a> Writer<'a> {
 
     /// Binds a symbol and names it by its own name.
     pub(super) fn introduce(&mut self, within: Absorbed<'_>, symbol: SymbolId) -> ValueId {
-        let id = within.symbol(symbol).unwrap_or_else(|| self.values.add(Value::Symbol(symbol)));
+        let id = within.symbol(symbol).unwrap_or_else(|| self.values.add(Value::Given(Leaf::Symbol(symbol))));
         self.values.bind(id, false);
         self.symbols.insert(symbol, id);
         self.hint(id, Hint::Symbol(symbol));
@@ -162,12 +163,18 @@ impl<'a> Writer<'a> {
         self.add(Value::List(values.into_iter().collect()))
     }
 
-    pub(super) fn text(&mut self, text: impl Into<String>) -> ValueId {
+    pub(super) fn text(&mut self, text: impl Into<Arc<str>>) -> ValueId {
         self.add(Value::Text(text.into()))
     }
 
-    pub(super) fn field(&mut self, of: ValueId, name: impl Into<String>) -> ValueId {
-        self.add(Value::Field(of, name.into()))
+    pub(super) fn field(&mut self, of: ValueId, name: &str) -> ValueId {
+        let name = self.field_name(name);
+        self.add(Value::Field(of, name))
+    }
+
+    /// The number of a name of a field.
+    pub(super) fn field_name(&self, text: &str) -> Name {
+        self.context.names.borrow_mut().of(text)
     }
 
     pub(super) fn tried(&mut self, value: ValueId) -> ValueId {

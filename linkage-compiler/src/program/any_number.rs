@@ -1,5 +1,7 @@
 //! The formulas over numbers of any kind: Psi, its derivatives, points and outputs as functions of columns.
 
+use linkage_ir::Intrinsic;
+
 use super::doc::{fenced, lines};
 use super::expression::{Expression, Type};
 use super::function::{Access, Argument, Body, Function, Kernel, Output, Passed, Shape, Source, results};
@@ -10,7 +12,6 @@ use super::signatures::{Family, Signatures, total};
 use crate::derivation::{Quantity, Row};
 use crate::graph::{Node, NodeId, SymbolId};
 use crate::ids::{ColumnId, Id, InputId, RowId, Table, UnknownId};
-use linkage_ir::Intrinsic;
 
 /// The formulas of a driver over numbers of any kind, and facts about them.
 pub struct AnyNumber<B> {

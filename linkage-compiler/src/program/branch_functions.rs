@@ -1,11 +1,12 @@
 //! The function of a branch that lists all branches.
 
+use linkage_ir::Intrinsic;
+
 use super::branch::{Modes, Position, Side};
 use super::expression::{Expression, Pattern, Type};
 use super::function::{Body, Function};
 use super::implementation::{Implementation, Implemented};
 use super::signatures::{Signatures, total};
-use linkage_ir::Intrinsic;
 
 /// `all`, if the branches can be counted.
 pub(super) fn of_branch(signatures: &Signatures, position: &Position) -> Option<Implementation<Body>> {
@@ -51,7 +52,7 @@ fn all(position: &Position) -> Expression {
     // The first side changes faster than the others.
     let order = sides.iter().rev().chain(&numbers);
     let each = Expression::Closure {
-        arguments: vec![Pattern::List(order.map(|field| Pattern::name((*field).clone())).collect())],
+        arguments: vec![Pattern::List(order.map(|field| Pattern::bound((*field).clone())).collect())],
         statements: Vec::new(),
         value: Box::new(Expression::structure(Type::Itself, members)),
         moves: false,

@@ -1,5 +1,7 @@
 //! Psi and its Jacobians.
 
+use linkage_ir::Intrinsic;
+
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type, Variable};
 use super::function::{Body, results};
@@ -7,7 +9,6 @@ use super::plan::{Plan, unnamed};
 use crate::derivation::{Row, Step};
 use crate::graph::NodeId;
 use crate::ids::{CoordinateId, Id, RowId, Table};
-use linkage_ir::Intrinsic;
 
 /// Matrices with more entries than this are written entry by entry if most of these are zero.
 const LARGEST_DENSE: usize = 16;
@@ -118,7 +119,7 @@ impl Plan<'_, '_> {
             indices.iter().map(|&index| self.mechanism.coordinates[index].name.field.clone()).collect()
         };
         let part = |indices: &[CoordinateId], function: &str| {
-            let columns = Pattern::List(names(indices).into_iter().map(Pattern::name).collect());
+            let columns = Pattern::List(names(indices).into_iter().map(Pattern::bound).collect());
             let column = Type::List(Box::new(Type::Scalar), u);
             let of = Type::List(Box::new(column), indices.len());
             let matrix = Expression::own_call(function, [Expression::name(pose)]);

@@ -1,7 +1,10 @@
 //! Planned code: expressions, statements and patterns, before they are lowered.
 
+use linkage_ir::{Constant, Form, Intrinsic, code};
+
 use crate::graph::{Function, Number};
-use linkage_ir::{Constant, Form, Intrinsic};
+
+pub use linkage_ir::code::{Receiver, Type};
 
 /// A planned expression.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,19 +66,6 @@ pub enum Expression {
     Block(Vec<Statement>, Box<Expression>),
 }
 
-/// The value or type that a function of the program is called on.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Receiver<E> {
-    /// `self.f()`
-    Itself,
-    /// `Self::f()`
-    ItsType,
-    /// `value.f()`, a function of the driver.
-    Value(E),
-    /// `Type::f()`, a function of the driver.
-    Type(Type),
-}
-
 /// A planned statement.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Statement {
@@ -104,6 +94,25 @@ pub enum Statement {
     LetPassed(Pattern<Variable>),
 }
 
+impl From<String> for Variable {
+    fn from(name: String) -> Self {
+        Self::Name(name)
+    }
+}
+
+impl From<&str> for Variable {
+    fn from(name: &str) -> Self {
+        Self::Name(name.to_owned())
+    }
+}
+
+/// A local value by its index.
+impl From<usize> for Variable {
+    fn from(index: usize) -> Self {
+        Self::Local(index)
+    }
+}
+
 /// A variable of planned code.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Variable {
@@ -113,89 +122,8 @@ pub enum Variable {
     Local(usize),
 }
 
-/// A pattern that binds variables.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Pattern<V> {
-    Bound(V),
-    Mutable(V),
-    /// `Some(pattern)` or `Ok(pattern)`
-    Case(Intrinsic, Box<Pattern<V>>),
-    Typed(V, Type),
-    Ignored,
-    List(Vec<Pattern<V>>),
-    Tuple(Vec<Pattern<V>>),
-    /// `Type { field: pattern, .. }`
-    Struct {
-        of: Type,
-        fields: Vec<(String, Pattern<V>)>,
-        is_whole: bool,
-    },
-}
-
-/// A type.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub enum Type {
-    /// The scalar `T`.
-    Scalar,
-    /// `&'static str`
-    Text,
-    /// `bool`
-    Flag,
-    /// `usize`
-    Count,
-    /// One number for each of several lanes: `[T; W]`.
-    Lanes,
-    /// `Self`
-    Itself,
-    /// A type of a trait: `Self::Name`.
-    OfTrait(&'static str),
-    /// A type of the mechanism over the scalar: `Name<T>`.
-    Own(String),
-    /// A type of the mechanism over the scalar of twice the precision: `Name<Wide>`.
-    Wide(String),
-    /// A type of the mechanism without a scalar: `Name`.
-    Bare(String),
-    /// One quantity for each of the points or outputs: `Name<Item>`.
-    Each(String, Box<Type>),
-    /// A column with its length as a type: `Column<Item, D<2>>`.
-    Column(Box<Type>, usize),
-    Vector(usize),
-    Matrix(usize, usize),
-    /// `Point2<T>`
-    Point,
-    /// `Vector2<T>`
-    Plane,
-    /// A type of the runtime with const generics: `Name<T, 2>`.
-    Runtime(&'static str, Vec<usize>),
-    /// A type of the runtime with dimensions as types: `Name<T, D<2>>`.
-    Sized(&'static str, Vec<usize>),
-    /// A generic type of the runtime: `Name<Item>`.
-    Around(&'static str, Box<Type>),
-    List(Box<Type>, usize),
-    Tuple(Vec<Type>),
-    /// `ReducedMotion<Pose, Rates, T, U, V>`: the values that functions of scenes share.
-    ReducedMotion {
-        pose: String,
-        rates: String,
-        unknowns: usize,
-        inputs: usize,
-    },
-    /// `StateRates<Rates, Inputs>`: `q'` and `v''`.
-    StateRates {
-        rates: String,
-        inputs: String,
-    },
-    /// `impl Iterator<Item = Result<(Branch, Pose), PositionError>>`
-    Branches {
-        branch: String,
-        pose: String,
-    },
-    /// `impl Iterator<Item>`, and `Clone`.
-    Iterator {
-        item: Box<Type>,
-        is_cloned: bool,
-    },
-}
+/// A pattern of planned code.
+pub type Pattern<V> = code::Pattern<V, String>;
 
 impl Expression {
     pub fn name(name: impl Into<String>) -> Self {
@@ -371,50 +299,5 @@ impl Expression {
             lists.push(Self::List(Self::nested(values.by_ref().take(each).collect(), inner)));
         }
         lists
-    }
-}
-
-impl Pattern<Variable> {
-    pub fn name(name: impl Into<String>) -> Self {
-        Self::Bound(Variable::Name(name.into()))
-    }
-
-    pub fn local(index: usize) -> Self {
-        Self::Bound(Variable::Local(index))
-    }
-
-    /// `name: Type`
-    pub fn typed(name: impl Into<String>, of: Type) -> Self {
-        Self::Typed(Variable::Name(name.into()), of)
-    }
-}
-
-impl<V> Pattern<V> {
-    /// Visits every variable that the pattern binds.
-    pub fn each<'p>(&'p self, visit: &mut dyn FnMut(&'p V)) {
-        match self {
-            Self::Bound(variable) | Self::Mutable(variable) | Self::Typed(variable, _) => visit(variable),
-            Self::Case(_, inside) => inside.each(visit),
-            Self::List(all) | Self::Tuple(all) => all.iter().for_each(|pattern| pattern.each(visit)),
-            Self::Struct { fields, .. } => fields.iter().for_each(|(_, pattern)| pattern.each(visit)),
-            Self::Ignored => {}
-        }
-    }
-
-    /// The pattern with other variables.
-    pub fn map<W>(self, to: &mut dyn FnMut(V) -> W) -> Pattern<W> {
-        match self {
-            Self::Bound(variable) => Pattern::Bound(to(variable)),
-            Self::Mutable(variable) => Pattern::Mutable(to(variable)),
-            Self::Typed(variable, of) => Pattern::Typed(to(variable), of),
-            Self::Case(case, inside) => Pattern::Case(case, Box::new(inside.map(to))),
-            Self::List(all) => Pattern::List(all.into_iter().map(|pattern| pattern.map(to)).collect()),
-            Self::Tuple(all) => Pattern::Tuple(all.into_iter().map(|pattern| pattern.map(to)).collect()),
-            Self::Struct { of, fields, is_whole } => {
-                let fields = fields.into_iter().map(|(field, pattern)| (field, pattern.map(to))).collect();
-                Pattern::Struct { of, fields, is_whole }
-            }
-            Self::Ignored => Pattern::Ignored,
-        }
     }
 }

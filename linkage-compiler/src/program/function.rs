@@ -3,104 +3,15 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use linkage_ir::Operations;
+
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::pose::Given;
 use crate::derivation::Step;
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::GroupId;
-use linkage_ir::Operations;
 
-/// A function of the emitted program, whose body is planned or lowered.
-#[derive(Debug, Clone)]
-pub struct Function<B> {
-    pub name: String,
-    /// The lines of its doc comment.
-    pub doc: Vec<String>,
-    pub access: Access,
-    /// True if it takes `&self`.
-    pub is_method: bool,
-    /// The other arguments.
-    pub arguments: Vec<Argument>,
-    pub returns: Type,
-    /// True if it returns a `Result`.
-    pub is_fallible: bool,
-    /// `None` in a stub.
-    pub body: Option<B>,
-}
-
-/// The callers of a function, which decide its visibility and attributes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
-    Public,
-    /// Public, `#[inline]`: inlined together, the functions on a pose read it from registers, not from memory.
-    PublicInlined,
-    /// Public, but called mostly by the runtime through traits: `#[doc(hidden)]`.
-    Hidden,
-    /// Public, `#[deprecated]` with the doc comment as the note.
-    Deprecated,
-    /// Private, `#[inline]`.
-    Inlined,
-    /// Private to scenes, `#[inline(always)]`: the optimiser removes results that the caller does not use.
-    Layer,
-    /// Public, and a [`Layer`](Self::Layer) for scenes.
-    PublicLayer,
-    /// Private or of a trait, `#[inline(always)]`: called in a loop that the compiler vectorises.
-    Lane,
-    /// Private, `#[inline]`: called for a lane alone, by the implementation of a trait.
-    LaneAlone,
-    /// Private, called only after an error: `#[cold]`.
-    Cold,
-    /// A function of a trait.
-    OfTrait,
-    /// A function of the trait `Mechanism` that others call: by the path of the trait, so that a function of the user of the
-    /// same name is not meant.
-    OfMechanism,
-}
-
-impl Access {
-    /// True if the callers are not functions of the program.
-    pub fn is_called_from_outside(self) -> bool {
-        self.is_public() || matches!(self, Self::Lane | Self::LaneAlone)
-    }
-
-    pub fn is_public(self) -> bool {
-        matches!(
-            self,
-            Self::Public
-                | Self::PublicInlined
-                | Self::Hidden
-                | Self::Deprecated
-                | Self::PublicLayer
-                | Self::OfMechanism
-        )
-    }
-
-    /// True if the callers are functions of the program alone.
-    pub fn is_private(self) -> bool {
-        matches!(self, Self::Inlined | Self::Layer | Self::Lane | Self::LaneAlone | Self::Cold)
-    }
-}
-
-#[derive(Debug, Clone)]
-pub struct Argument {
-    pub name: String,
-    pub passed: Passed,
-}
-
-/// The way an argument is passed.
-#[derive(Debug, Clone)]
-pub enum Passed {
-    /// `T`
-    ByValue(Type),
-    /// `&T`
-    ByReference(Type),
-    /// `&mut T`
-    ByMutableReference(Type),
-    /// `impl Into<T>`
-    Converted(Type),
-    /// `&impl Turn<T>`, the source of the turns of angles.
-    Turns,
-}
+pub use linkage_ir::code::{Access, Argument, Function, Passed};
 
 /// The body of a function: statements, at most one kernel among them, and a value.
 #[derive(Debug, Clone, Default)]
@@ -255,14 +166,6 @@ impl Shape {
     }
 }
 
-impl<B> Function<B> {
-    /// This signature without a body.
-    pub fn without_body<C>(self) -> Function<C> {
-        let Self { name, doc, access, is_method, arguments, returns, is_fallible, body: _ } = self;
-        Function { name, doc, access, is_method, arguments, returns, is_fallible, body: None }
-    }
-}
-
 impl From<NodeId> for Output {
     fn from(node: NodeId) -> Self {
         Self { node, name: None }
@@ -309,7 +212,7 @@ impl Body {
     pub fn bound(&mut self, preferred: impl Into<String>, value: Expression) -> Expression {
         self.locals.push(preferred.into());
         let index = self.locals.len() - 1;
-        self.after.push(Statement::Let(Pattern::local(index), value));
+        self.after.push(Statement::Let(Pattern::bound(index), value));
         Expression::Local(index)
     }
 }

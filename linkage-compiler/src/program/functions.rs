@@ -3,56 +3,46 @@
 use super::function::Function;
 use crate::ids::{FunctionId, Table};
 
-/// The functions of a driver or of a scene. They are listed in the order of the emitted code.
+/// The functions of a driver or of a scene; those of a lowered program are in the order of the emitted code.
 #[derive(Debug, Clone)]
-pub struct Functions<B> {
-    all: Table<FunctionId, Function<B>>,
-    order: Vec<FunctionId>,
-}
+pub struct Functions<B>(Table<FunctionId, Function<B>>);
 
 impl<B> Functions<B> {
-    /// Those with these ids, in this order.
-    pub fn listed(all: Table<FunctionId, Function<B>>, order: Vec<FunctionId>) -> Self {
-        Self { all, order }
-    }
-
     pub fn iter(&self) -> impl Iterator<Item = &Function<B>> {
-        self.order.iter().map(|id| &self.all[*id])
+        self.0.iter()
     }
 
-    /// All functions by id, also those that are not listed.
+    /// The functions by id.
     pub fn by_id(&self) -> &Table<FunctionId, Function<B>> {
-        &self.all
+        &self.0
     }
 
-    /// The listed function with this name.
+    /// The function with this name.
     pub fn named(&self, name: &str) -> Option<&Function<B>> {
         self.iter().find(|function| function.name == name)
     }
 
-    /// True if a function with this name is listed.
+    /// True if there is a function with this name.
     pub fn has(&self, name: &str) -> bool {
         self.named(name).is_some()
     }
 
     pub fn into_table(self) -> Table<FunctionId, Function<B>> {
-        self.all
+        self.0
     }
 }
 
 impl<B> FromIterator<Function<B>> for Functions<B> {
     fn from_iter<I: IntoIterator<Item = Function<B>>>(functions: I) -> Self {
-        let all: Table<FunctionId, Function<B>> = functions.into_iter().collect();
-        let order = all.ids().collect();
-        Self { all, order }
+        Self(functions.into_iter().collect())
     }
 }
 
 impl<'f, B> IntoIterator for &'f Functions<B> {
     type Item = &'f Function<B>;
-    type IntoIter = Box<dyn Iterator<Item = &'f Function<B>> + 'f>;
+    type IntoIter = std::slice::Iter<'f, Function<B>>;
 
     fn into_iter(self) -> Self::IntoIter {
-        Box::new(self.iter())
+        self.0.iter()
     }
 }

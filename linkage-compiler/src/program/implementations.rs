@@ -1,6 +1,8 @@
 //! The traits that a driver implements: `Mechanism` and `Kinematic`, `Assembly` if its position has a closed form, `Branches`
 //! if all positions are listed, `Lanes` and `Skeleton` on request.
 
+use linkage_ir::Intrinsic;
+
 use super::Derived;
 use super::branch::Position;
 use super::branch_functions::of_branch;
@@ -17,7 +19,6 @@ use super::pose_functions::of_pose;
 use super::ranges;
 use super::signatures::{Family, Signatures};
 use crate::model::Request;
-use linkage_ir::Intrinsic;
 
 /// The implementations of a driver with these functions, and the columns of its lanes.
 pub(super) fn of_driver<B>(
@@ -154,7 +155,7 @@ impl Traits<'_> {
 
     /// `velocity` or `acceleration`.
     fn of_coordinates(&self, order: Order) -> Function<Body> {
-        let of = self.signatures.types.of(order);
+        let of = order.type_of(&self.signatures.types);
         match order {
             Order::Rate => self.forward("velocity", "velocity", ["pose", "input_rates"], of),
             _ => self.forward("acceleration", "acceleration", ["pose", "rates", "input_accelerations"], of),
@@ -210,7 +211,7 @@ impl Traits<'_> {
         let found = || Expression::name("found");
         let coordinates = Expression::call(Intrinsic::Coordinates, [found().field("pose")]);
         let each = Expression::Closure {
-            arguments: vec![Pattern::name("found".to_owned())],
+            arguments: vec![Pattern::bound("found".to_owned())],
             statements: Vec::new(),
             value: Box::new(Expression::Tuple(vec![found().field("branch"), coordinates])),
             moves: false,

@@ -1,5 +1,7 @@
 //! Implied loops and equations: they follow from Psi(q) = 0 if the dimensions are right, and are checked at each position.
 
+use linkage_ir::Intrinsic;
+
 use super::doc::{fenced, lines};
 use super::expression::{Expression, Statement};
 use super::function::{Body, Function, Value, results};
@@ -7,7 +9,6 @@ use super::plan::{Plan, unnamed};
 use super::signatures::{Signatures, fallible};
 use crate::graph::NodeId;
 use crate::program::Type;
-use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     /// The residual and the scale of each row.

@@ -3,6 +3,8 @@
 
 use std::collections::BTreeSet;
 
+use linkage_ir::Intrinsic;
+
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Failure, Kernel, Source, Value, results};
@@ -14,7 +16,6 @@ use super::signatures::Family;
 use crate::derivation::{ChordGeometry, Form, Quantity, Step, merged, needed_names};
 use crate::graph::NodeId;
 use crate::ids::{ColumnId, GroupId, Table};
-use linkage_ir::Intrinsic;
 
 const ERRORS: [&str; 3] =
     ["", "# Errors", "The error that the separate calls for position, velocity and acceleration return first."];
@@ -80,9 +81,9 @@ impl Plan<'_, '_> {
         let precise = [name(&names.pose).borrowed(), name(&names.input_rates), name(&names.input_accelerations)];
         let precise = precise.into_iter().chain([Expression::name(ROUGH)]);
         let precise = Expression::own_call("precise_kinematics", precise);
-        let both = [&names.rates, &names.accelerations].map(|name| Pattern::name(name.clone()));
+        let both = [&names.rates, &names.accelerations].map(|name| Pattern::bound(name.clone()));
         let rough = Expression::Tuple(vec![rates.clone(), accelerations.clone()]);
-        body.after.push(Statement::Let(Pattern::name(names.pose.clone()), pose.clone()));
+        body.after.push(Statement::Let(Pattern::bound(names.pose.clone()), pose.clone()));
         body.after.push(Statement::Refine(Pattern::Tuple(both.to_vec()), rough, precise));
         let of_names = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
         let of_names = of_names.map(|(field, value)| (field.to_owned(), name(value)));
@@ -192,7 +193,7 @@ impl Plan<'_, '_> {
         let branch = Expression::name(&names.branch);
         let fields = self.position.turns.iter().map(|turn| branch.clone().field(&turn.field));
         let turns = Expression::call(Intrinsic::Turns, [Expression::List(fields.collect())]);
-        vec![Statement::Let(Pattern::name(names.turn.clone()), turns)]
+        vec![Statement::Let(Pattern::bound(names.turn.clone()), turns)]
     }
 
     /// The position by this call, then the rates and the accelerations, each by a call that finds its error.
@@ -203,7 +204,7 @@ impl Plan<'_, '_> {
         let rates = Expression::own_call("velocity", [at_pose.clone(), name(&names.input_rates)]);
         let accelerations = Expression::own_call("acceleration", [at_pose, at_rates, name(&names.input_accelerations)]);
         let before = [(&names.pose, pose), (&names.rates, rates), (&names.accelerations, accelerations)];
-        let before = before.map(|(name, call)| Statement::Let(Pattern::name(name.clone()), call.tried()));
+        let before = before.map(|(name, call)| Statement::Let(Pattern::bound(name.clone()), call.tried()));
         let members = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
         let members = members.map(|(field, value)| (field.to_owned(), name(value)));
         let of = Type::Bare(self.signatures.types.kinematics.clone());
@@ -217,7 +218,7 @@ impl Plan<'_, '_> {
         let arguments = own.arguments.iter().map(|argument| Expression::name(&argument.name));
         let call = Expression::own_call(&own.name, arguments).tried();
         let parts = [("pose", &names.pose), ("rates", &names.rates), ("accelerations", &names.accelerations)];
-        let fields = parts.map(|(field, name)| (field.to_owned(), Pattern::name(name.clone())));
+        let fields = parts.map(|(field, name)| (field.to_owned(), Pattern::bound(name.clone())));
         let of = Type::Bare(self.signatures.types.kinematics.clone());
         let pattern = Pattern::Struct { of, fields: fields.to_vec(), is_whole: true };
         let kernel = self.quantities_kernel(Failure::Error);

@@ -1,6 +1,9 @@
 //! The trait for many positions at once: its function for one of several lanes, without branches, and its function for a
 //! lane alone.
 
+use linkage_ir::Operations;
+use linkage_ir::{Constant, Intrinsic};
+
 use super::Derived;
 use super::branch::Position;
 use super::expression::{Expression, Pattern, Receiver, Statement, Type, Variable};
@@ -10,8 +13,6 @@ use super::implementation::{Associated, ConstantValue, Implementation, Implement
 use super::lane_columns::{Column, Columns, inputs, start};
 use super::signatures::Name;
 use super::signatures::Signatures;
-use linkage_ir::Operations;
-use linkage_ir::{Constant, Intrinsic};
 
 /// The implementation of a driver with these functions, and the columns to find.
 pub(super) fn of_driver<B>(
@@ -61,7 +62,7 @@ fn name(name: &str) -> Expression {
 }
 
 fn bound(name: &str, value: Expression) -> Statement {
-    Statement::Let(Pattern::name(name.to_owned()), value)
+    Statement::Let(Pattern::bound(name.to_owned()), value)
 }
 
 /// `if !QUANTITIES { return value; }`
@@ -113,8 +114,8 @@ impl<B> Lanes<'_, B> {
         let mut statements = self.bound_inputs(&at).to_vec();
         // The coordinates of an open chain are given: only points and outputs read its kinematics.
         let is_read = !self.signatures.is_open || with_quantities;
-        let kinematics = if is_read { Pattern::name("kinematics".to_owned()) } else { Pattern::Ignored };
-        let accepted = Pattern::name("is_accepted".to_owned());
+        let kinematics = if is_read { Pattern::bound("kinematics".to_owned()) } else { Pattern::Ignored };
+        let accepted = Pattern::bound("is_accepted".to_owned());
         let call = self.call(KINEMATICS, ["start", "branch", "rates", "accelerations"]);
         statements.push(Statement::Let(Pattern::Tuple(vec![kinematics, accepted]), call));
         if is_read {
@@ -144,7 +145,7 @@ impl<B> Lanes<'_, B> {
             flags.push(name(&flag));
         }
         if with_quantities {
-            let to = ["quantities", "are_accepted"].map(|name| Pattern::name(name.to_owned()));
+            let to = ["quantities", "are_accepted"].map(|name| Pattern::bound(name.to_owned()));
             let call = self.call(QUANTITIES_IN_LANE, ["pose", "rates", "accelerations"]);
             statements.push(Statement::Let(Pattern::Tuple(to.to_vec()), call));
             statements.extend(stored(self.quantities(), coordinates.len() + angles.len(), &at));
@@ -224,7 +225,7 @@ impl<B> Lanes<'_, B> {
 
     /// The fields of `kinematics`.
     fn taken_apart(&self) -> Pattern<Variable> {
-        let fields = ["pose", "rates", "accelerations"].map(|name| (name.to_owned(), Pattern::name(name.to_owned())));
+        let fields = ["pose", "rates", "accelerations"].map(|name| (name.to_owned(), Pattern::bound(name.to_owned())));
         let of = Type::Own(self.signatures.types.kinematics.clone());
         Pattern::Struct { of, fields: fields.to_vec(), is_whole: true }
     }

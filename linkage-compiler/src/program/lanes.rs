@@ -38,7 +38,7 @@ impl Plan<'_, '_> {
         let is_method = !self.signatures.is_open || self.reads_parameters(&kernel);
         let mut body = flagged(kernel, vec![value], "is_accepted");
         body.before = self.turns_of_branch();
-        body.after.push(Statement::LetAccepted(Pattern::local(0), conditions));
+        body.after.push(Statement::LetAccepted(Pattern::bound(0), conditions));
         let doc =
             lines(["`kinematics` without branches; false if `kinematics` takes another way or returns an error."]);
         self.add(Function { is_method, ..self.signatures.kinematics_in_lane() }, doc, body);
@@ -47,7 +47,7 @@ impl Plan<'_, '_> {
             let is_method = self.reads_parameters(&kernel);
             let values = results(0..kernel.results.len());
             let mut body = flagged(kernel, vec![Expression::List(values)], "is_right");
-            body.after.push(Statement::LetPassed(Pattern::local(0)));
+            body.after.push(Statement::LetPassed(Pattern::bound(0)));
             let doc = lines(["`motion_of_quantities` without branches; false if that takes another way."]);
             self.add(Function { is_method, ..self.signatures.quantities_in_lane() }, doc, body);
         }

@@ -1,11 +1,12 @@
 //! `length_scale` of an open chain with lengths as inputs: no loop equation gives these a scale.
 
+use linkage_ir::Intrinsic;
+
 use super::expression::Expression;
 use super::function::{Body, results};
 use super::plan::{Plan, unnamed};
 use crate::ids::ColumnId;
 use crate::model::Kind;
-use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     /// max |d point / d angle|, which is about the reach of the longest arm.

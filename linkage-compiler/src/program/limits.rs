@@ -1,5 +1,7 @@
 //! Functions for the limits of inputs.
 
+use linkage_ir::{Constant, Intrinsic};
+
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Statement, Type};
 use super::function::{Body, Source};
@@ -7,7 +9,6 @@ use super::names::{Arguments, Order};
 use super::plan::{Plan, unnamed};
 use crate::ids::{Id, InputId};
 use crate::model::Kind;
-use linkage_ir::{Constant, Intrinsic};
 
 impl Plan<'_, '_> {
     /// `limits`, or one function for each of several inputs.
@@ -67,7 +68,7 @@ impl Plan<'_, '_> {
             Expression::own_call("assemble", [inputs, branch_argument.clone()])
         };
         let assemble = Expression::Closure {
-            arguments: vec![Pattern::name(position_name.clone())],
+            arguments: vec![Pattern::bound(position_name.clone())],
             statements: Vec::new(),
             value: Box::new(assembled),
             moves: false,
@@ -85,8 +86,8 @@ impl Plan<'_, '_> {
         let arguments = [Expression::own(), number, position().borrowed(), bounds, search, assemble, coordinates];
         let mut body = Body::result(Expression::call(Intrinsic::Limits, arguments));
         body.before = vec![
-            Statement::Let(Pattern::name(inputs), start),
-            Statement::Let(Pattern::name(position_name.clone()), start_position.tried()),
+            Statement::Let(Pattern::bound(inputs), start),
+            Statement::Let(Pattern::bound(position_name.clone()), start_position.tried()),
         ];
         body.kernel = Some(kernel);
         let others = if self.signatures.inputs.len() == 1 { "" } else { ", with the other inputs fixed" };

@@ -37,6 +37,15 @@ mod sensitivity;
 mod signatures;
 mod stored;
 
+use crate::budget::Spent;
+use crate::derivation::{ClosedForm, Derivation, Formulas, Skeleton};
+use crate::graph::NodeId;
+use crate::ids::{GroupId, Table};
+use crate::model::{Driver, Mechanism, Request};
+use plan::Plan;
+use scene::ScenePlan;
+
+pub use crate::derivation::Part;
 pub use any_number::AnyNumber;
 pub use branch::{AngleTurn, Modes, Position, Side};
 pub use doc::count;
@@ -45,25 +54,16 @@ pub use function::{Access, Argument, Body, Failure, Function, Kernel, Output, Pa
 pub use functions::Functions;
 pub use implementation::{Associated, ConstantValue, Group, Implementation, Implemented, Kink};
 pub use lane_columns::Column;
+pub use linkage_ir::code::{Code, Names};
 pub use linkage_ir::{
     CheckKind, Constant, Entry, Finite, Form, InLane, Intrinsic, LaneResult, Meaning, Operations, Role, Row,
 };
-pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types};
+pub use names::{Arguments, LONGEST_NAME, Order, Taken, TypeNames, call_of, emitted_types, type_names};
 pub use pose::{Given, PosePlan};
 pub use pose_fields::{Held, PoseField};
 pub use precise::ROUGH;
 pub use scene::{Joint, MULTIPLIERS, SceneProgram, SceneSignatures};
 pub use signatures::{Coordinate, Family, Name, Parameter, Signatures, UserFunction};
-
-pub use crate::derivation::Part;
-
-use crate::budget::Spent;
-use crate::derivation::{ClosedForm, Derivation, Formulas, Skeleton};
-use crate::graph::NodeId;
-use crate::ids::{GroupId, Table};
-use crate::model::{Driver, Mechanism, Request};
-use plan::Plan;
-use scene::ScenePlan;
 
 /// The program of one driver of a mechanism; `B` is the body of a function, planned or lowered, `D` the derived data,
 /// which a stub lacks.
@@ -79,6 +79,8 @@ pub struct Program<B, D = Option<Derived>> {
     /// The formulas over numbers of any kind, on request.
     pub any_number: Option<AnyNumber<B>>,
     pub derived: D,
+    /// The names of fields in lowered code.
+    pub names: Names,
 }
 
 /// The derived data that bodies of functions and types are made of.
@@ -127,7 +129,8 @@ pub fn plan(
         named,
     };
     let (implementations, columns) = implementations::of_driver(&signatures, &position, &functions, Some(&derived));
-    Ok(Program { signatures, position, functions, implementations, columns, scenes, any_number, derived })
+    let names = Names::default();
+    Ok(Program { signatures, position, functions, implementations, columns, scenes, any_number, derived, names })
 }
 
 /// The program of a mechanism with mistakes: functions without bodies.
@@ -147,5 +150,6 @@ pub fn stub<B>(mechanism: &Mechanism, driver: &Driver) -> Program<B> {
         functions: signatures.of_columns().into_iter().map(Function::without_body).collect(),
         user_functions: Vec::new(),
     });
-    Program { signatures, position, functions, implementations, columns, scenes, any_number, derived: None }
+    let names = Names::default();
+    Program { signatures, position, functions, implementations, columns, scenes, any_number, derived: None, names }
 }

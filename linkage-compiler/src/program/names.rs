@@ -8,6 +8,8 @@ use crate::derivation::Coordinate;
 use crate::graph::SymbolId;
 use crate::model::{Driver, Mechanism, Request, SceneRequest};
 
+pub use linkage_ir::code::TypeNames;
+
 /// The greatest length of a generated name in bytes; values with longer ones are numbered.
 pub const LONGEST_NAME: usize = 36;
 
@@ -107,6 +109,16 @@ impl Order {
     /// All of them, in order.
     pub const ALL: [Self; 4] = [Self::Value, Self::Rate, Self::Acceleration, Self::Jerk];
 
+    /// The type of all coordinates, or of their derivatives with respect to time.
+    pub fn type_of(self, names: &TypeNames) -> &str {
+        match self {
+            Self::Value => &names.coordinates,
+            Self::Rate => &names.rates,
+            Self::Acceleration => &names.accelerations,
+            Self::Jerk => &names.jerks,
+        }
+    }
+
     /// The symbol of a coordinate or of its derivative.
     pub fn symbol(self, of: &Coordinate) -> SymbolId {
         match self {
@@ -118,64 +130,25 @@ impl Order {
     }
 }
 
-/// The names of the types of one driver, or of one of its scenes.
-#[derive(Debug, Clone)]
-pub struct TypeNames {
-    /// The type that has the functions.
-    pub itself: String,
-    /// The driver, with the kinematics.
-    pub driver: String,
-    pub inputs: String,
-    pub pose: String,
-    pub coordinates: String,
-    pub rates: String,
-    pub accelerations: String,
-    pub jerks: String,
-    pub points: String,
-    pub outputs: String,
-    pub motion: String,
-    pub kinematics: String,
-    pub full_kinematics: String,
-    /// The columns of many positions.
-    pub columns: String,
-    pub branch: String,
-}
-
-impl TypeNames {
-    pub fn new(mechanism: &Mechanism, driver: &Driver) -> Self {
-        let (own, shared) = (&driver.name, &mechanism.name);
-        Self {
-            itself: own.to_string(),
-            driver: own.to_string(),
-            inputs: format!("{own}Inputs"),
-            pose: format!("{own}Pose"),
-            coordinates: format!("{shared}Coordinates"),
-            rates: format!("{shared}Rates"),
-            accelerations: format!("{shared}Accelerations"),
-            jerks: format!("{shared}Jerks"),
-            points: format!("{shared}Points"),
-            outputs: format!("{shared}Outputs"),
-            motion: format!("{own}Motion"),
-            kinematics: format!("{own}Kinematics"),
-            full_kinematics: format!("{own}FullKinematics"),
-            columns: format!("{own}Columns"),
-            branch: format!("{own}Branch"),
-        }
-    }
-
-    /// The type of all coordinates, or of their derivatives with respect to time.
-    pub fn of(&self, order: Order) -> &str {
-        match order {
-            Order::Value => &self.coordinates,
-            Order::Rate => &self.rates,
-            Order::Acceleration => &self.accelerations,
-            Order::Jerk => &self.jerks,
-        }
-    }
-
-    /// The name of a function of the driver in the call lists of scenes.
-    pub fn function(&self, name: &str) -> String {
-        format!("{}::{name}", self.driver)
+/// The names of the types of a driver.
+pub fn type_names(mechanism: &Mechanism, driver: &Driver) -> TypeNames {
+    let (own, shared) = (&driver.name, &mechanism.name);
+    TypeNames {
+        itself: own.to_string(),
+        driver: own.to_string(),
+        inputs: format!("{own}Inputs"),
+        pose: format!("{own}Pose"),
+        coordinates: format!("{shared}Coordinates"),
+        rates: format!("{shared}Rates"),
+        accelerations: format!("{shared}Accelerations"),
+        jerks: format!("{shared}Jerks"),
+        points: format!("{shared}Points"),
+        outputs: format!("{shared}Outputs"),
+        motion: format!("{own}Motion"),
+        kinematics: format!("{own}Kinematics"),
+        full_kinematics: format!("{own}FullKinematics"),
+        columns: format!("{own}Columns"),
+        branch: format!("{own}Branch"),
     }
 }
 
@@ -186,7 +159,7 @@ pub fn emitted_types(mechanism: &Mechanism) -> BTreeMap<String, Vec<String>> {
     let has = |request| mechanism.requests.contains(&request);
     let mut shared = Vec::new();
     for driver in &mechanism.drivers {
-        let names = TypeNames::new(mechanism, driver);
+        let names = type_names(mechanism, driver);
         let columns = has(Request::Lanes).then_some(names.columns);
         let full = has_quantities.then_some(names.full_kinematics);
         let own = [names.itself, names.inputs, names.pose, names.motion, names.kinematics, names.branch];

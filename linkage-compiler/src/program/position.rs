@@ -1,5 +1,7 @@
 //! Functions for the position: from coordinates, near a guess, and group by group in closed form.
 
+use linkage_ir::{Constant, Intrinsic};
+
 use super::branch::Position;
 use super::doc::{lines, without_result};
 use super::expression::{Expression, Pattern, Statement, Type, Variable};
@@ -9,7 +11,6 @@ use super::plan::{Plan, unnamed};
 use crate::derivation::{Step, needed_names};
 use crate::graph::{Function as Elementary, NodeId, SymbolId};
 use crate::ids::GroupId;
-use linkage_ir::{Constant, Intrinsic};
 
 /// The promise of a function that takes a branch.
 pub(super) const OF_A_BRANCH: &str =
@@ -268,7 +269,7 @@ impl Plan<'_, '_> {
         let countable = Expression::call(Intrinsic::Countable, [Expression::mechanism(), near.clone()]);
         let nearest = Type::Runtime("NearestTurns", Vec::new());
         let nearest = Expression::of_type(nearest, Intrinsic::New, [near]);
-        vec![Statement::Do(countable.tried()), Statement::Let(Pattern::name(turn.to_owned()), nearest)]
+        vec![Statement::Do(countable.tried()), Statement::Let(Pattern::bound(turn.to_owned()), nearest)]
     }
 
     /// The inputs of a guess, and the guesses of the unknowns without closed form.
@@ -370,14 +371,14 @@ impl Plan<'_, '_> {
             false => Expression::own_call("assemble", at),
         };
         let assemble = Expression::Closure {
-            arguments: vec![Pattern::name(branch)],
+            arguments: vec![Pattern::bound(branch)],
             statements: Vec::new(),
             value: Box::new(assemble),
             moves: true,
         };
         let mut body = Body::result(Expression::call(Intrinsic::Existing, [all, assemble]));
         let converted = Expression::name(&inputs).converted();
-        body.before = vec![Statement::Let(Pattern::name(inputs), converted)];
+        body.before = vec![Statement::Let(Pattern::bound(inputs), converted)];
         if is_listed {
             body.before.push(Statement::Let(Pattern::Mutable(Variable::Name(memory)), self.no_memory()));
             self.add(signature, lines(BRANCHES_BY_NUMBER), body);
@@ -437,10 +438,10 @@ impl Plan<'_, '_> {
             let nearest = Type::Runtime("NearestTurns", Vec::new());
             let nearest = Expression::of_type(nearest, Intrinsic::New, [numbers]);
             let at = [inputs, Expression::name(&branch), Expression::name(&turn).borrowed()];
-            let counted = Pattern::List(turns.iter().map(|turn| Pattern::name(turn.field.clone())).collect());
+            let counted = Pattern::List(turns.iter().map(|turn| Pattern::bound(turn.field.clone())).collect());
             body.before = vec![
-                Statement::Let(Pattern::name(branch.clone()), members),
-                Statement::Let(Pattern::name(turn.clone()), nearest),
+                Statement::Let(Pattern::bound(branch.clone()), members),
+                Statement::Let(Pattern::bound(turn.clone()), nearest),
                 // If the assembly fails, the turns are those of the angles alone.
                 Statement::Let(Pattern::Ignored, Expression::own_call("assemble_in_turns", at)),
                 Statement::Let(counted, Expression::call(Intrinsic::TurnsFound, [Expression::name(&turn)])),

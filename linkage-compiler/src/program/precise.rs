@@ -1,6 +1,8 @@
 //! The functions that solve groups by factorisation in twice the precision, where a group is nearly singular: the emitted
 //! function itself over a scalar of twice the precision, from the angles of the pose as numbers.
 
+use linkage_ir::Intrinsic;
+
 use super::doc::lines;
 use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Access, Argument, Body, Failure, Function, Kernel, Passed, Source, Value};
@@ -9,7 +11,6 @@ use super::plan::{Plan, unnamed};
 use super::signatures::{Family, Signatures, total};
 use crate::derivation::Step;
 use crate::graph::{Function as Elementary, Node, NodeId, SymbolId};
-use linkage_ir::Intrinsic;
 
 /// The function that widens the mechanism.
 const WIDENED: &str = "widened";
@@ -51,7 +52,7 @@ impl Plan<'_, '_> {
         let arguments = signature.arguments.iter().map(|argument| Expression::name(&argument.name));
         let call = Expression::own_call(&precise, arguments.chain([Expression::name(ROUGH)]));
         let value = body.local("refined");
-        body.after.push(Statement::Refine(Pattern::local(body.locals.len() - 1), rough, call));
+        body.after.push(Statement::Refine(Pattern::bound(body.locals.len() - 1), rough, call));
         body.value = Value::Plain(value);
         self.precise(precise, signature);
         body
@@ -69,7 +70,7 @@ impl Plan<'_, '_> {
         let wide = Expression::call(Intrinsic::ValueOf, [wide]).tried();
         let value = match &of.returns {
             Type::Own(motion) if *motion == self.signatures.types.motion => {
-                before.push(Statement::Let(Pattern::name(MOTION.to_owned()), wide));
+                before.push(Statement::Let(Pattern::bound(MOTION.to_owned()), wide));
                 self.rounded_motion(&Expression::name(MOTION))
             }
             returns => Expression::call(rounding(returns), [wide, Expression::name(ROUGH)]),
@@ -114,10 +115,10 @@ impl Plan<'_, '_> {
         {
             let wide = Expression::name(MECHANISM).driver_call(function, arguments);
             let wide = Expression::call(Intrinsic::ValueOf, [wide]).tried();
-            before.push(Statement::Let(Pattern::name(name.clone()), wide));
+            before.push(Statement::Let(Pattern::bound(name.clone()), wide));
         }
         let parts = [&rates, &accelerations].map(|name| format!("{ROUGH}_{name}"));
-        let pattern = Pattern::Tuple(parts.iter().cloned().map(Pattern::name).collect());
+        let pattern = Pattern::Tuple(parts.iter().cloned().map(Pattern::bound).collect());
         before.push(Statement::Let(pattern, Expression::name(ROUGH)));
         let rounded = |(name, part)| {
             let pair = [Expression::name(name), Expression::name(part)];
@@ -133,7 +134,7 @@ impl Plan<'_, '_> {
 
     /// `let mechanism = self.widened();`
     fn let_widened(&self) -> Statement {
-        Statement::Let(Pattern::name(MECHANISM.to_owned()), Expression::own_call(WIDENED, []))
+        Statement::Let(Pattern::bound(MECHANISM.to_owned()), Expression::own_call(WIDENED, []))
     }
 
     /// The statement that widens an argument.
@@ -145,7 +146,7 @@ impl Plan<'_, '_> {
                 match self.at_numbers_is_method() {
                     true => Expression::name(MECHANISM).driver_call(AT_NUMBERS, [wide]),
                     false => Expression::called_on(
-                        Receiver::Type(Type::Bare(self.signatures.types.driver.clone())),
+                        Receiver::Type(Box::new(Type::Bare(self.signatures.types.driver.clone()))),
                         AT_NUMBERS,
                         [wide],
                     ),
@@ -159,7 +160,7 @@ impl Plan<'_, '_> {
             Passed::ByReference(Type::Own(of)) | Passed::ByValue(Type::Own(of)) | Passed::Converted(Type::Own(of)) => {
                 Pattern::typed(name.clone(), Type::Wide(of.clone()))
             }
-            _ => Pattern::name(name.clone()),
+            _ => Pattern::bound(name.clone()),
         };
         Statement::Let(pattern, value)
     }

@@ -1,5 +1,7 @@
 //! Points and outputs: value, rate, acceleration, jerk and their own velocity ratios.
 
+use linkage_ir::Intrinsic;
+
 use super::doc::{fenced, lines};
 use super::expression::Expression;
 use super::function::{Body, Output, results};
@@ -8,7 +10,6 @@ use super::plan::{ENDINGS, Plan, unnamed};
 use super::signatures::Family;
 use crate::derivation::{Quantity, QuantityFormulas};
 use crate::graph::{NodeId, SymbolId};
-use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     pub(super) fn quantities_of(&self, family: Family) -> &[Quantity] {

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use linkage_ir::{Constant, Intrinsic};
+
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Type};
 use super::function::{Argument, Body, Function, Passed};
@@ -10,7 +12,6 @@ use super::plan::{Plan, unnamed};
 use super::signatures::{Signatures, total};
 use crate::graph::{NodeId, SymbolId};
 use crate::model::Kind;
-use linkage_ir::{Constant, Intrinsic};
 
 impl Plan<'_, '_> {
     pub(super) fn ranges(&mut self) {

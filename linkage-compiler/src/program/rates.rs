@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use linkage_ir::Intrinsic;
+
 use super::doc::{fenced, lines, without_result};
 use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Body, Function, Kernel, Shape, Source, results};
@@ -10,7 +12,6 @@ use super::plan::{Plan, unnamed};
 use crate::derivation::{Assembly, Form, Step};
 use crate::graph::{NodeId, Number, SymbolId};
 use crate::ids::{ColumnId, Table, UnknownId};
-use linkage_ir::Intrinsic;
 
 impl Plan<'_, '_> {
     pub(super) fn velocity(&mut self) {
@@ -166,7 +167,7 @@ impl Plan<'_, '_> {
             (&ratios, ratios_at),
             (&rates, Expression::called_on(Receiver::ItsType, "coordinate_rates", moving)),
         ];
-        let before = before.map(|(name, value)| Statement::Let(Pattern::name(name.clone()), value));
+        let before = before.map(|(name, value)| Statement::Let(Pattern::bound(name.clone()), value));
         let moving = Source { from: name(&rates), ..self.coordinates(Order::Rate) };
         let at_pose = Source { from: name(&pose), ..self.pose_source() };
         let sources = vec![self.parameters(), at_pose, moving];

@@ -1,5 +1,7 @@
 //! Functions for the sensitivities of unknowns, points and outputs to the parameters.
 
+use linkage_ir::Intrinsic;
+
 use super::doc::{fenced, lines};
 use super::equations::as_results;
 use super::expression::{Expression, Statement};
@@ -10,7 +12,6 @@ use crate::algebra::simplify;
 use crate::derivation::{Form, Solutions, Step, System, needed};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{Id, ParameterId, Table, UnknownId};
-use linkage_ir::Intrinsic;
 
 const ERRORS: [&str; 3] = [
     "",

@@ -54,7 +54,7 @@ fn a_reference_to_nothing_is_an_error() {
     assert_eq!(error_of(value(guess().dereferenced())), None);
     // The statements of an inner function are code as well.
     let inside = Expression::Closure {
-        arguments: vec![Pattern::name("one")],
+        arguments: vec![Pattern::bound("one")],
         statements: vec![Statement::Do(Expression::name("two"))],
         value: Box::new(Expression::name("one")),
         moves: false,
@@ -62,7 +62,7 @@ fn a_reference_to_nothing_is_an_error() {
     assert!(error_of(value(inside)).is_some_and(|error| error.contains("the variable `two`")));
     // An argument of an inner function has no meaning after it.
     let closure = Expression::Closure {
-        arguments: vec![Pattern::name("one")],
+        arguments: vec![Pattern::bound("one")],
         statements: Vec::new(),
         value: Box::new(Expression::name("one")),
         moves: false,

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use linkage_compiler::lower::Code;
+use linkage_compiler::program::Code;
 use linkage_compiler::program::{self, Access, Function, Functions, Position};
 use proc_macro2::{TokenStream, TokenTree};
 

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use linkage_dynamics::__rt::{bearing_loss, drive_forces, reactions};
 use linkage_dynamics::MotionError;
+use linkage_ir::Name;
 use linkage_runtime::limits::{Bound, Limit, Limits, Search, limits};
 use linkage_runtime::{PositionError, RangeEnd, UpTo, newton, newton_any_branch};
 
 use super::read::{number, numbers};
 use super::{AtRunTime, MOST_INPUTS, NotPrepared, PoseAtRunTime, Prepared, PreparedScene, SceneAtRunTime};
 use crate::call_error::CallError;
-use crate::code::Name;
 use crate::error::Error;
 use crate::machine::{Algorithms, AroundPosition, Defect, Evaluated, Failure, Load, Moving, Value, Whole};
 
@@ -75,13 +75,13 @@ impl Algorithms for OfTheRuntime {
             Ok(match is_on_any_branch {
                 false => {
                     let found = newton(mechanism, &guess)?;
-                    Value::record(Name::OF, solution(&found.coordinates, found.iterations, found.residual))
+                    Value::record(solution(&found.coordinates, found.iterations, found.residual))
                 }
                 true => {
                     let found = newton_any_branch(mechanism, &guess)?;
                     let fields = solution(&found.coordinates, found.iterations, found.residual);
                     let same_branch = [(Name::SAME_BRANCH, Value::Flag(found.same_branch))];
-                    Value::record(Name::OF, fields.into_iter().chain(same_branch))
+                    Value::record(fields.into_iter().chain(same_branch))
                 }
             })
         })
@@ -142,11 +142,11 @@ fn limits_value(Limits { of, is_angle, lower, upper }: Limits<f64, &str>) -> Val
         (Name::LOWER, limit_value(lower)),
         (Name::UPPER, limit_value(upper)),
     ];
-    Value::record(Name::OF, fields)
+    Value::record(fields)
 }
 
 fn limit_value(limit: Limit<f64, &str>) -> Value {
-    let kind = |name, fields: Vec<(Name, Value)>| Value::record(Name::OF, [(name, Value::record(Name::OF, fields))]);
+    let kind = |name, fields: Vec<(Name, Value)>| Value::record([(name, Value::record(fields))]);
     match limit {
         Limit::Unlimited => text("Unlimited"),
         Limit::Exact { input, group } => {

@@ -29,7 +29,7 @@ impl Eq for BranchAtRunTime<'_> {}
 impl Debug for BranchAtRunTime<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Driver { names, types, sides, modes, turns, .. } = self.driver;
-        let mut text = f.debug_struct(names.text(types.branch));
+        let mut text = f.debug_struct(&types.branch);
         for (side, is_first) in sides.iter().zip(self.sides) {
             let [first, second] = &side.solutions;
             text.field(names.text(side.field), &format_args!("{}", if is_first { first } else { second }));
@@ -108,6 +108,6 @@ impl<'p> BranchAtRunTime<'p> {
         let sides = driver.sides.iter().map(|side| side.field).zip(self.sides.into_iter().map(Value::Side));
         let modes = driver.modes.iter().map(|(name, _)| *name).zip(self.modes.into_iter().map(Value::Mode));
         let turns = driver.turns.iter().copied().zip(self.turns.into_iter().map(|turn| Value::Count(turn.into())));
-        Value::record(driver.types.branch, sides.chain(modes).chain(turns))
+        Value::record(sides.chain(modes).chain(turns))
     }
 }

@@ -10,7 +10,7 @@ impl Prepared<'_> {
     /// The mechanism with other values of its parameters.
     fn with(&self, parameters: &[f64]) -> Value {
         let numbers = parameters.iter().copied().map(Value::Number);
-        Value::record(self.driver.types.mechanism, self.driver.parameters.iter().copied().zip(numbers))
+        Value::record(self.driver.parameters.iter().copied().zip(numbers))
     }
 }
 

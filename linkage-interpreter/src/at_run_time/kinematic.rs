@@ -1,5 +1,6 @@
 //! Velocities and accelerations, points and outputs.
 
+use linkage_ir::Name;
 use linkage_runtime::kinematic::{
     FullKinematics, FullKinematicsOf, Kinematic, Kinematics, KinematicsOf, Motion, MotionOf, Quantity, Ratios,
 };
@@ -9,7 +10,6 @@ use linkage_runtime::{Build as _, Column, D, Dim, PositionError};
 use super::parameters::Parameters;
 use super::read::{List, Read, field, matrix};
 use super::{AllCoordinates, AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, PoseAtRunTime};
-use crate::code::Name;
 use crate::machine::Value;
 
 /// The result of a call, or the error of the mechanism.

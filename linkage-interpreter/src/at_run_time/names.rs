@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::code::Expression;
+use linkage_ir::code::Value;
+
 use crate::program::Driver;
 
 /// The names that functions of the runtime give themselves, of those that compiled code calls.
@@ -31,10 +32,13 @@ impl<'d> Texts<'d> {
         let of_scenes = scenes.clone().flat_map(|scene| &scene.functions);
         let of_traits = driver.traits.iter().chain(scenes.clone().filter_map(|scene| scene.implementation.as_ref()));
         let functions = driver.functions.iter().chain(of_traits.flat_map(|one| &one.functions)).chain(of_scenes);
-        let texts = functions.flat_map(|function| &function.expressions).filter_map(|expression| match expression {
-            Expression::Text(text) => Some(&**text),
-            _ => None,
-        });
+        let texts =
+            functions.flat_map(|function| &function.body).flat_map(|code| &code.values).filter_map(
+                |value| match value {
+                    Value::Text(text) => Some(&**text),
+                    _ => None,
+                },
+            );
         let names = [&*driver.name].into_iter().chain(scenes.map(|scene| &*scene.name));
         let inputs = driver.input_texts.iter().map(|name| &**name);
         Self(texts.chain(names).chain(inputs).chain(OF_THE_RUNTIME.iter().copied()).collect())

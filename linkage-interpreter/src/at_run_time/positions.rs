@@ -49,7 +49,7 @@ impl<'p, V: Dim, P: Parameters> Branches for AtRunTime<'p, V, P> {
             self.result("branches", [self.inputs_value(&inputs)])?;
             Vec::new()
         } else {
-            let branch = self.read_branch(&Value::record(self.prepared.driver.types.branch, []));
+            let branch = self.read_branch(&Value::record([]));
             let pose = self.assemble(inputs, branch)?;
             vec![(self.branch_of(&pose), Self::coordinates_of(&pose))]
         };

@@ -4,6 +4,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
+use linkage_ir::Name;
+use linkage_ir::code::Function;
 use linkage_runtime::skeleton::{NoDrawing, Part};
 use linkage_runtime::{Bounded, Dim, Group, PositionError};
 
@@ -12,7 +14,6 @@ use super::parameters::OfDesign;
 use super::parts;
 use super::{AtRunTime, Count, MOST, MOST_INPUTS, MOST_OF_POSE, NotPrepared};
 use crate::call_error::CallError;
-use crate::code::{Function, Name};
 use crate::error::Error;
 use crate::machine::{Defect, Failure, Kind, MOST_UNKNOWNS, Machine, Of, User, Value};
 use crate::program::Driver;
@@ -99,7 +100,7 @@ impl<'d> Prepared<'d> {
             failed: RefCell::new(None),
         };
         let anywhere = driver.coordinates.iter().map(|name| (*name, Value::Number(1.0)));
-        let pose = prepared.called(&prepared.own, "pose_at", [Value::record(driver.types.coordinates, anywhere)]);
+        let pose = prepared.called(&prepared.own, "pose_at", [Value::record(anywhere)]);
         prepared.pose = pose.map_err(|failure| match CallError::from(failure) {
             CallError::Mistake(mistake) => NotPrepared::Mistake(mistake),
             CallError::Defect(defect) => NotPrepared::Defect(defect),

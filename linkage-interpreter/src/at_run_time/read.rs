@@ -1,5 +1,6 @@
 //! Between values of the machine and the columns of the runtime.
 
+use linkage_ir::Name;
 use linkage_runtime::kinematic::Quantity;
 use linkage_runtime::nalgebra::{Point2, Vector2};
 use linkage_runtime::{Bounded, Build as _, Column, Dim, Matrix, OutputMotion, PointMotion, Ranged};
@@ -8,7 +9,6 @@ use smallvec::SmallVec;
 use super::coordinates::column;
 use super::parameters::Parameters;
 use super::{AtRunTime, BranchAtRunTime, CoordinatesAtRunTime, Count, MOST, MOST_OF_POSE, PoseAtRunTime, Prepared};
-use crate::code::Name;
 use crate::machine::{Defect, Value};
 
 /// A quantity for each point or output.
@@ -132,13 +132,13 @@ impl<'p, V: Dim, P: Parameters> AtRunTime<'p, V, P> {
     pub(crate) fn coordinates_value(&self, q: &CoordinatesAtRunTime<V>) -> Value {
         let driver = self.prepared.driver;
         let names = driver.unknowns.iter().chain(&driver.inputs).copied();
-        Value::record(driver.types.coordinates, names.zip(q.all().into_iter().map(Value::Number)))
+        Value::record(names.zip(q.all().into_iter().map(Value::Number)))
     }
 
     /// The value of inputs, or of their rates or accelerations.
     pub(crate) fn inputs_value(&self, inputs: &Column<f64, V>) -> Value {
         let driver = self.prepared.driver;
-        Value::record(driver.types.inputs, driver.inputs.iter().copied().zip(inputs.iter().copied().map(Value::Number)))
+        Value::record(driver.inputs.iter().copied().zip(inputs.iter().copied().map(Value::Number)))
     }
 
     /// The value of a pose.

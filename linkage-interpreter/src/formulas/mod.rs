@@ -3,12 +3,16 @@
 //! Over intervals a constant that is a double differs from one that is only near a double: it keeps its kind.
 
 mod check;
+#[cfg(feature = "compiler")]
+mod compile;
 mod run;
 
 use linkage_ir::ElementaryFunction;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use check::Counts;
+#[cfg(feature = "compiler")]
+pub(crate) use compile::{Untranslated, formulas};
 pub(crate) use run::{Given, Registers};
 
 /// The formulas of a mechanism with `derive intervals`, in the order of emitted code.

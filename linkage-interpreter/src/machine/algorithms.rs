@@ -2,11 +2,13 @@
 
 use std::cell::RefCell;
 
+use linkage_ir::ValueId;
+use linkage_ir::code::Code;
+
 use super::defect::Defect;
 use super::failure::Evaluated;
 use super::value::Value;
 use super::{Machine, User};
-use crate::code::{Function, Id};
 use crate::program::{Driver, Scene};
 
 /// A mechanism with its user functions and its parameters.
@@ -82,7 +84,7 @@ impl<'c> Machine<'c> {
     }
 
     /// The limits of an input; the last argument of emitted code, the function that finds the coordinates of a pose, is known.
-    pub(super) fn limits(&mut self, code: &'c Function, arguments: &'c [Id]) -> Evaluated<Value> {
+    pub(super) fn limits(&mut self, code: &'c Code, arguments: &'c [ValueId]) -> Evaluated<Value> {
         let algorithms = self.algorithms()?;
         let values = self.values(code, arguments)?;
         let [own, place, position, bounds, search, assemble] = values.as_slice() else {

@@ -1,38 +1,40 @@
-//! Statements and expressions.
+//! Statements, and the values of operations.
 
 use std::rc::Rc;
 use std::sync::Arc;
+
+use linkage_ir::code::{Block, Code, Function, Pattern, Receiver, Returned, Statement, Type, Value as Operation};
+use linkage_ir::{Constant, FunctionId, Intrinsic, Name, Slot, ValueId};
+use linkage_runtime::__rt::Wide;
+use smallvec::SmallVec;
 
 use super::defect::Defect;
 use super::failure::{Evaluated, Failure};
 use super::operations::of_runtime;
 use super::scalar::Scalar;
-use super::value::Value;
+use super::value::{Record, Value};
 use super::{Kind, Machine, Of};
-use crate::code::{Block, Expression, Function, Id, Pattern, Place, Returned, Slot, Statement};
 use crate::tape::{Flag, Traced};
-use linkage_runtime::__rt::Wide;
-use smallvec::SmallVec;
 
 impl<'c> Machine<'c> {
     /// Runs the statements of a function, and returns its value: that of its success if it is fallible.
-    pub(super) fn body(&mut self, code: &'c Function) -> Evaluated<Value> {
+    pub(super) fn body(&mut self, code: &'c Code) -> Evaluated<Value> {
         if let Some(value) = self.statements(code, &code.statements)? {
             return Ok(value);
         }
         match code.value {
-            Returned::Plain(value) => self.value(code, value),
-            Returned::Outcome(value) => self.success(code, value),
+            Returned::Plain(value) | Returned::Stored { literal: value, .. } => self.value(code, value),
+            Returned::Result(value) => self.success(code, value),
         }
     }
 
     /// Runs statements; a value if one returns.
-    fn statements(&mut self, code: &'c Function, all: &'c [Statement]) -> Evaluated<Option<Value>> {
+    fn statements(&mut self, code: &'c Code, all: &'c [Statement]) -> Evaluated<Option<Value>> {
         for statement in all {
             match statement {
                 // Most statements of a function.
                 Statement::Let(Pattern::Bound(slot), value)
-                    if self.kind == Kind::Double && Self::expression(code, *value)?.is_arithmetic() =>
+                    if self.kind == Kind::Double && operation(code, *value)?.is_arithmetic() =>
                 {
                     let number = self.computed::<f64>(code, *value)?;
                     self.set(*slot, Value::Number(number))?;
@@ -48,7 +50,7 @@ impl<'c> Machine<'c> {
                 }
                 Statement::Assign(place, value) => {
                     let value = self.value(code, *value)?;
-                    self.assign(code, place, value)?;
+                    self.assign(code, *place, value)?;
                 }
                 Statement::Return(value) => return self.returned(code, *value).map(Some),
                 Statement::LetElse(pattern, value, otherwise) => {
@@ -63,6 +65,8 @@ impl<'c> Machine<'c> {
                         return self.returned(code, *otherwise).map(Some);
                     }
                 }
+                // The literal at the end has these members.
+                Statement::Store(_) => {}
                 Statement::Unless(conditions, inside) => {
                     let mut are_true = true;
                     for condition in conditions {
@@ -79,16 +83,16 @@ impl<'c> Machine<'c> {
     }
 
     /// The value that a statement returns: that of the success of a fallible function.
-    fn returned(&mut self, code: &'c Function, value: Id) -> Evaluated<Value> {
-        if code.is_fallible { self.success(code, value) } else { self.value(code, value) }
+    fn returned(&mut self, code: &'c Code, value: ValueId) -> Evaluated<Value> {
+        if self.is_fallible { self.success(code, value) } else { self.value(code, value) }
     }
 
     /// Binds the variables of a pattern; false if the value is absent or an error where it must not be.
     fn bind(&mut self, pattern: &Pattern, value: Value) -> Evaluated<bool> {
         match pattern {
-            Pattern::Bound(slot) => self.set(*slot, value)?,
+            Pattern::Bound(slot) | Pattern::Mutable(slot) | Pattern::Typed(slot, _) => self.set(*slot, value)?,
             Pattern::Ignored => {}
-            Pattern::Present(inside) => {
+            Pattern::Case(_, inside) => {
                 return match value {
                     Value::Absent => Ok(false),
                     Value::Outcome(outcome) => match &*outcome {
@@ -98,7 +102,7 @@ impl<'c> Machine<'c> {
                     value => self.bind(inside, value),
                 };
             }
-            Pattern::List(patterns) => {
+            Pattern::List(patterns) | Pattern::Tuple(patterns) => {
                 let values = value.as_list()?;
                 if values.len() != patterns.len() {
                     return Err(value.expected("a list of another length").into());
@@ -107,7 +111,7 @@ impl<'c> Machine<'c> {
                     self.bind(pattern, value.clone())?;
                 }
             }
-            Pattern::Record(fields) => {
+            Pattern::Struct { fields, .. } => {
                 for (name, pattern) in fields {
                     let field = value.field(*name)?.clone();
                     self.bind(pattern, field)?;
@@ -119,29 +123,40 @@ impl<'c> Machine<'c> {
 
     #[inline]
     fn set(&mut self, slot: Slot, value: Value) -> Evaluated<()> {
-        let place = self.slots.get_mut(self.base + slot.0 as usize);
+        let place = self.slots.get_mut(self.base + slot.index());
         *place.ok_or_else(|| Defect::new("a slot that does not exist"))? = value;
         Ok(())
     }
 
-    fn slot(&self, slot: Slot) -> Result<&Value, Defect> {
-        self.slots.get(self.base + slot.0 as usize).ok_or_else(|| Defect::new("a slot that does not exist"))
+    pub(super) fn slot(&self, slot: Slot) -> Result<&Value, Defect> {
+        self.slots.get(self.base + slot.index()).ok_or_else(|| Defect::new("a slot that does not exist"))
     }
 
     /// Replaces a part of a bound value.
-    fn assign(&mut self, code: &'c Function, place: &'c Place, value: Value) -> Evaluated<()> {
-        let mut indices = Vec::with_capacity(place.at.len());
-        for index in &place.at {
-            match self.value(code, *index)? {
-                // All lanes at once.
-                Value::Absent => {}
-                index => indices.push(index.as_count()?),
-            }
-        }
-        let base = self.base;
-        let slot = self.slots.get_mut(base + place.of.0 as usize);
+    fn assign(&mut self, code: &'c Code, mut place: ValueId, value: Value) -> Evaluated<()> {
+        let mut indices = Vec::new();
+        let slot = loop {
+            place = match operation(code, place)? {
+                Operation::Given(slot) => break *slot,
+                Operation::Index(of, index) => {
+                    indices.push(*index);
+                    *of
+                }
+                Operation::At(of, index) => {
+                    match self.value(code, *index)? {
+                        // All lanes at once.
+                        Value::Absent => {}
+                        index => indices.push(index.as_count()?),
+                    }
+                    *of
+                }
+                Operation::Borrowed(of) | Operation::MutablyBorrowed(of) | Operation::Dereferenced(of) => *of,
+                _ => return Err(Defect::new("a place that is no part of a bound value").into()),
+            };
+        };
+        let slot = self.slots.get_mut(self.base + slot.index());
         let mut part = slot.ok_or_else(|| Defect::new("a slot that does not exist"))?;
-        for index in indices {
+        for index in indices.into_iter().rev() {
             let Value::List(all) = part else { return Err(part.expected("a list").into()) };
             let entry = Rc::make_mut(all).get_mut(index);
             part = entry.ok_or_else(|| Defect::new("an entry that does not exist"))?;
@@ -150,35 +165,36 @@ impl<'c> Machine<'c> {
         Ok(())
     }
 
-    fn expression(code: &'c Function, id: Id) -> Result<&'c Expression, Defect> {
-        code.expressions.get(id.0 as usize).ok_or_else(|| Defect::new("an expression that does not exist"))
-    }
-
-    /// The value of an expression.
-    pub(super) fn value(&mut self, code: &'c Function, id: Id) -> Evaluated<Value> {
-        match Self::expression(code, id)? {
-            Expression::Slot(slot) => Ok(self.slot(*slot)?.clone()),
-            Expression::Number(_)
-            | Expression::Sum(_)
-            | Expression::Product(_)
-            | Expression::Quotient(..)
-            | Expression::Square(_)
-            | Expression::Negative(_)
-            | Expression::Call(..) => match self.kind {
-                Kind::Double => self.number::<f64>(code, id).map(Scalar::into_value),
-                Kind::Wide => self.number::<Wide>(code, id).map(Scalar::into_value),
-                Kind::Traced => self.number::<Traced>(code, id).map(Scalar::into_value),
+    /// The value of an operation.
+    pub(super) fn value(&mut self, code: &'c Code, id: ValueId) -> Evaluated<Value> {
+        match operation(code, id)? {
+            Operation::Given(slot) => Ok(self.slot(*slot)?.clone()),
+            Operation::Constant(_)
+            | Operation::Turn(..)
+            | Operation::Sum(_)
+            | Operation::Product(_)
+            | Operation::Quotient(..)
+            | Operation::Square(_)
+            | Operation::Negative(_)
+            | Operation::Call(..)
+            | Operation::Intrinsic(Intrinsic::Square, ..) => match self.kind {
+                Kind::Double => self.computed::<f64>(code, id).map(Scalar::into_value),
+                Kind::Wide => self.computed::<Wide>(code, id).map(Scalar::into_value),
+                Kind::Traced => self.computed::<Traced>(code, id).map(Scalar::into_value),
             },
-            Expression::All(conditions) => self.all(code, conditions),
-            Expression::Flag(flag) => Ok(Value::Flag(*flag)),
-            Expression::Quantities => Ok(Value::Flag(self.has_quantities)),
-            Expression::Text(text) => Ok(Value::Text(Arc::clone(text))),
-            Expression::OwnName => Ok(Value::Text(Arc::clone(self.own_name()))),
-            Expression::Count(count) => Ok(Value::Count(*count as i64)),
-            Expression::Absent => Ok(Value::Absent),
-            Expression::Field(of, name) => self.part(code, *of, |value| value.field(*name)),
-            Expression::Index(of, index) => self.part(code, *of, |value| entry(value, *index)),
-            Expression::At(of, index) => match self.value(code, *index)? {
+            Operation::Exact(_) => Err(Defect::new("a number of any kind in a function of a scalar").into()),
+            Operation::All(conditions) => self.all(code, conditions),
+            Operation::Text(text) => Ok(Value::Text(Arc::clone(text))),
+            Operation::Count(count) => Ok(Value::Count(*count as i64)),
+            Operation::Path(Constant::Name) => Ok(Value::Text(Arc::clone(self.own_name()))),
+            Operation::Path(Constant::False) => Ok(Value::Flag(false)),
+            Operation::Path(Constant::Quantities) => Ok(Value::Flag(self.has_quantities)),
+            Operation::Path(constant) => Ok(of_runtime(*constant)?),
+            Operation::Field(of, name) => self.part(code, *of, |value| value.field(*name)),
+            Operation::Member(of, index) | Operation::Index(of, index) => {
+                self.part(code, *of, |value| entry(value, *index))
+            }
+            Operation::At(of, index) => match self.value(code, *index)? {
                 // All lanes at once.
                 Value::Absent => self.value(code, *of),
                 index => {
@@ -186,23 +202,24 @@ impl<'c> Machine<'c> {
                     self.part(code, *of, |value| entry(value, index))
                 }
             },
-            Expression::List(all) => self.list(code, all),
-            Expression::Repeated(value, count) => {
+            Operation::List(all) | Operation::Tuple(all) => self.list(code, all),
+            Operation::Repeated(value, count) => {
                 let value = self.value(code, *value)?;
                 Ok(Value::list(std::iter::repeat_n(value, *count)))
             }
-            Expression::Record(of, fields, rest) => self.record(code, *of, fields, *rest),
-            Expression::Closure(..) => Ok(Value::Closure(id)),
-            Expression::Block(block) => self.block(code, block, false),
-            Expression::Try(inside) => self.success(code, *inside),
-            Expression::Intrinsic(of, _) if !of.row().fails => self.found(code, id),
-            Expression::OfRuntime(constant) => Ok(of_runtime(*constant)?),
-            Expression::Made(of, value) => {
-                let value = self.value(code, *value)?;
-                Ok(self.made(*of, &value)?)
-            }
-            Expression::User(place, arguments) => self.user(code, *place, arguments),
-            Expression::Own(..) | Expression::OfMechanism(..) | Expression::OfType(..) | Expression::Intrinsic(..) => {
+            Operation::Struct(of, fields, rest) => self.record(code, of, fields, *rest),
+            // What takes a function as an argument knows it.
+            Operation::Function(..) => Ok(Value::Absent),
+            Operation::Closure { .. } => Ok(Value::Closure(id)),
+            Operation::Block(block) => self.block(code, block, false),
+            Operation::Try(inside) => self.success(code, *inside),
+            // Values have no places but those of an assignment, and a matrix is its columns.
+            Operation::Borrowed(of)
+            | Operation::MutablyBorrowed(of)
+            | Operation::Dereferenced(of)
+            | Operation::Columns(of) => self.value(code, *of),
+            Operation::UserFunction(place, arguments) => self.user(code, place.index(), arguments),
+            Operation::Own(..) | Operation::Intrinsic(..) => {
                 if !self.is_fallible(code, id)? {
                     return self.found(code, id);
                 }
@@ -218,7 +235,7 @@ impl<'c> Machine<'c> {
     }
 
     /// The value of the success of an expression, or its error: `expression?`. A value that is absent is returned.
-    pub(super) fn success(&mut self, code: &'c Function, id: Id) -> Evaluated<Value> {
+    pub(super) fn success(&mut self, code: &'c Code, id: ValueId) -> Evaluated<Value> {
         match self.found(code, id)? {
             Value::Outcome(outcome) => match &*outcome {
                 Ok(value) => Ok(value.clone()),
@@ -229,16 +246,20 @@ impl<'c> Machine<'c> {
         }
     }
 
-    /// The value of a call that succeeds, or its error; the value of any other expression.
-    fn found(&mut self, code: &'c Function, id: Id) -> Evaluated<Value> {
-        match Self::expression(code, id)? {
-            Expression::Own(place, arguments) => {
-                let function = at(self.own_functions(), *place)?;
-                let arguments = self.values(code, arguments)?;
-                let own = self.slot(Slot(0))?.clone();
-                self.call(self.of, function, own, arguments)
-            }
-            Expression::OfMechanism(on, place, arguments) => {
+    /// The value of a call that succeeds, or its error; the value of any other operation.
+    fn found(&mut self, code: &'c Code, id: ValueId) -> Evaluated<Value> {
+        match operation(code, id)? {
+            Operation::Own(receiver, place, arguments) => {
+                let on = match receiver {
+                    Receiver::Itself | Receiver::ItsType => {
+                        let function = at(self.own_functions(), *place)?;
+                        let arguments = self.values(code, arguments)?;
+                        let own = self.slot(Slot::ITSELF)?.clone();
+                        return self.call(self.of, function, own, arguments);
+                    }
+                    Receiver::Value(on) => Some(*on),
+                    Receiver::Type(_) => None,
+                };
                 let function = at(&self.driver.functions, *place)?;
                 let own = on.map_or(Ok(Value::Absent), |on| self.value(code, on))?;
                 let arguments = self.values(code, arguments)?;
@@ -252,30 +273,47 @@ impl<'c> Machine<'c> {
                 self.kind = last;
                 result
             }
-            Expression::OfType(of, place, arguments) => {
-                let (functions, of) = self.of_type(*of);
-                let function = at(functions, *place)?;
-                let mut arguments = self.values(code, arguments)?.into_iter();
-                let own = if function.is_method { arguments.next().unwrap_or(Value::Absent) } else { Value::Absent };
-                self.call(of, function, own, arguments)
-            }
-            Expression::Intrinsic(of, arguments) => self.operation(code, *of, arguments),
+            Operation::Intrinsic(of, of_type, arguments) => match self.of_type(*of)? {
+                Some((function, of)) => {
+                    let mut arguments = self.values(code, arguments)?.into_iter();
+                    let own =
+                        if function.is_method { arguments.next().unwrap_or(Value::Absent) } else { Value::Absent };
+                    self.call(of, function, own, arguments)
+                }
+                None => self.operation(code, *of, of_type.as_deref(), arguments),
+            },
             _ => self.value(code, id),
         }
     }
 
+    /// The function of a pose or of a branch that an intrinsic is.
+    fn of_type(&self, of: Intrinsic) -> Result<Option<(&'c Function, Of)>, Defect> {
+        let (functions, of, name) = match of {
+            Intrinsic::All => (&self.driver.of_branch, Of::Branch, "all"),
+            Intrinsic::Coordinates => (&self.driver.of_pose, Of::Pose, "coordinates"),
+            _ => return Ok(None),
+        };
+        let function = functions.iter().find(|function| function.name == name);
+        let function = function.ok_or_else(|| Defect::new("a function that does not exist"))?;
+        Ok(Some((function, of)))
+    }
+
     /// True for a call of a function that can fail.
-    fn is_fallible(&self, code: &'c Function, id: Id) -> Evaluated<bool> {
-        Ok(match Self::expression(code, id)? {
-            Expression::Own(place, _) => at(self.own_functions(), *place)?.is_fallible,
-            Expression::OfMechanism(_, place, _) => at(&self.driver.functions, *place)?.is_fallible,
-            Expression::OfType(of, place, _) => at(self.of_type(*of).0, *place)?.is_fallible,
-            Expression::Intrinsic(of, _) => of.row().fails,
+    fn is_fallible(&self, code: &'c Code, id: ValueId) -> Evaluated<bool> {
+        Ok(match operation(code, id)? {
+            Operation::Own(Receiver::Itself | Receiver::ItsType, place, _) => {
+                at(self.own_functions(), *place)?.is_fallible
+            }
+            Operation::Own(_, place, _) => at(&self.driver.functions, *place)?.is_fallible,
+            Operation::Intrinsic(of, ..) => match self.of_type(*of)? {
+                Some((function, _)) => function.is_fallible,
+                None => of.row().fails,
+            },
             _ => false,
         })
     }
 
-    pub(super) fn values(&mut self, code: &'c Function, ids: &[Id]) -> Evaluated<Values> {
+    pub(super) fn values(&mut self, code: &'c Code, ids: &[ValueId]) -> Evaluated<Values> {
         let mut values = Values::with_capacity(ids.len());
         for id in ids {
             values.push(self.value(code, *id)?);
@@ -284,7 +322,7 @@ impl<'c> Machine<'c> {
     }
 
     /// The list of these values. Its length is known, so that memory is taken once.
-    fn list(&mut self, code: &'c Function, ids: &[Id]) -> Evaluated<Value> {
+    fn list(&mut self, code: &'c Code, ids: &[ValueId]) -> Evaluated<Value> {
         let mut failed = None;
         let list = Value::list(ids.iter().map(|id| match failed {
             None => self.value(code, *id).unwrap_or_else(|failure| {
@@ -299,12 +337,16 @@ impl<'c> Machine<'c> {
     /// A part of a value, which is not copied if it is bound.
     fn part(
         &mut self,
-        code: &'c Function,
-        of: Id,
+        code: &'c Code,
+        mut of: ValueId,
         part: impl FnOnce(&Value) -> Result<&Value, Defect>,
     ) -> Evaluated<Value> {
-        if let Expression::Slot(slot) = Self::expression(code, of)? {
-            return Ok(part(self.slot(*slot)?)?.clone());
+        loop {
+            of = match operation(code, of)? {
+                Operation::Given(slot) => return Ok(part(self.slot(*slot)?)?.clone()),
+                Operation::Borrowed(inside) | Operation::Dereferenced(inside) => *inside,
+                _ => break,
+            };
         }
         let whole = self.value(code, of)?;
         Ok(part(&whole)?.clone())
@@ -312,25 +354,29 @@ impl<'c> Machine<'c> {
 
     fn record(
         &mut self,
-        code: &'c Function,
-        of: crate::code::Name,
-        fields: &[(crate::code::Name, Id)],
-        rest: Option<Id>,
+        code: &'c Code,
+        of: &Type,
+        fields: &[(Name, ValueId)],
+        rest: Option<ValueId>,
     ) -> Evaluated<Value> {
         let mut all = Vec::with_capacity(fields.len());
         for (name, value) in fields {
-            all.push((*name, self.value(code, *value)?));
+            // The mark of a type without numbers stands for its scalar.
+            if !matches!(operation(code, *value)?, Operation::Path(Constant::Mark)) {
+                all.push((*name, self.value(code, *value)?));
+            }
         }
         if let Some(rest) = rest {
             let rest = self.value(code, rest)?;
             let others = rest.as_record()?.fields.iter();
             all.extend(others.filter(|(name, _)| !fields.iter().any(|(own, _)| own == name)).cloned());
         }
-        Ok(Value::record(of, all))
+        let of = if let Type::Runtime(name, _) = of { name } else { "" };
+        Ok(Value::Record(Rc::new(Record { of, fields: all })))
     }
 
     /// Statements and a value; that of its success if it is fallible.
-    fn block(&mut self, code: &'c Function, block: &'c Block, is_fallible: bool) -> Evaluated<Value> {
+    fn block(&mut self, code: &'c Code, block: &'c Block, is_fallible: bool) -> Evaluated<Value> {
         if let Some(value) = self.statements(code, &block.statements)? {
             return Err(Box::new(Failure::Return(value)));
         }
@@ -340,13 +386,13 @@ impl<'c> Machine<'c> {
     /// Calls a function without a name: its value, or that of its success.
     pub(super) fn closure(
         &mut self,
-        code: &'c Function,
+        code: &'c Code,
         closure: &Value,
         arguments: impl IntoIterator<Item = Value>,
         is_fallible: bool,
     ) -> Evaluated<Value> {
         let Value::Closure(id) = closure else { return Err(closure.expected("a function").into()) };
-        let Expression::Closure(patterns, block) = Self::expression(code, *id)? else {
+        let Operation::Closure { arguments: patterns, body: block, .. } = operation(code, *id)? else {
             return Err(closure.expected("a function").into());
         };
         for (pattern, argument) in patterns.iter().zip(arguments) {
@@ -361,7 +407,7 @@ impl<'c> Machine<'c> {
         }
     }
 
-    fn all(&mut self, code: &'c Function, conditions: &[Id]) -> Evaluated<Value> {
+    fn all(&mut self, code: &'c Code, conditions: &[ValueId]) -> Evaluated<Value> {
         let mut all = Flag::Constant(true);
         for condition in conditions {
             all = match self.value(code, *condition)? {
@@ -376,7 +422,7 @@ impl<'c> Machine<'c> {
         })
     }
 
-    fn user(&mut self, code: &'c Function, place: usize, arguments: &[Id]) -> Evaluated<Value> {
+    fn user(&mut self, code: &'c Code, place: usize, arguments: &[ValueId]) -> Evaluated<Value> {
         let mut numbers = Vec::with_capacity(arguments.len());
         for argument in arguments {
             numbers.push(self.number::<f64>(code, *argument)?);
@@ -390,70 +436,6 @@ impl<'c> Machine<'c> {
         })
     }
 
-    /// The number that an expression computes, in the order of emitted code.
-    #[inline]
-    pub(super) fn number<S: Scalar>(&mut self, code: &'c Function, id: Id) -> Evaluated<S> {
-        // Most operands of an operation.
-        if let Some(Expression::Slot(slot)) = code.expressions.get(id.0 as usize)
-            && let Some(number) = self.slots.get(self.base + slot.0 as usize).and_then(S::of)
-        {
-            return Ok(number);
-        }
-        self.computed(code, id)
-    }
-
-    fn computed<S: Scalar>(&mut self, code: &'c Function, id: Id) -> Evaluated<S> {
-        let first = |all: &'c [Id]| all.split_first().ok_or_else(|| Defect::new("an operation on nothing"));
-        Ok(match Self::expression(code, id)? {
-            Expression::Slot(slot) => {
-                let value = self.slot(*slot)?;
-                S::of(value).ok_or_else(|| value.expected("a number"))?
-            }
-            Expression::Number(constant) => S::constant(*constant),
-            Expression::Sum(terms) => {
-                let mut terms = terms.iter();
-                let (is_negative, first) = terms.next().ok_or_else(|| Defect::new("an operation on nothing"))?;
-                let first = self.number::<S>(code, *first)?;
-                let mut sum = if *is_negative { first.negative() } else { first };
-                for (is_negative, term) in terms {
-                    let term = self.number::<S>(code, *term)?;
-                    sum = if *is_negative { sum.minus(&term) } else { sum.plus(&term) };
-                }
-                sum
-            }
-            Expression::Product(factors) => {
-                let (first, others) = first(factors)?;
-                let mut product = self.number::<S>(code, *first)?;
-                for factor in others {
-                    product = product.times(&self.number::<S>(code, *factor)?);
-                }
-                product
-            }
-            Expression::Quotient(above, below) => {
-                let above = self.number::<S>(code, *above)?;
-                above.over(&self.number::<S>(code, *below)?)
-            }
-            Expression::Square(base) => {
-                let base = self.number::<S>(code, *base)?;
-                base.clone().times(&base)
-            }
-            Expression::Negative(inside) => self.number::<S>(code, *inside)?.negative(),
-            Expression::Call(function, arguments) => match arguments.as_slice() {
-                [only] => S::call(*function, &[self.number(code, *only)?])?,
-                [one, other] => S::call(*function, &[self.number(code, *one)?, self.number(code, *other)?])?,
-                several => {
-                    let several: Vec<S> =
-                        several.iter().map(|argument| self.number(code, *argument)).collect::<Evaluated<_>>()?;
-                    S::call(*function, &several)?
-                }
-            },
-            _ => {
-                let value = self.value(code, id)?;
-                S::of(&value).ok_or_else(|| value.expected("a number"))?
-            }
-        })
-    }
-
     /// The name of the mechanism or scene in errors.
     pub(super) fn own_name(&self) -> &'c Arc<str> {
         match (self.of, self.scene) {
@@ -463,11 +445,21 @@ impl<'c> Machine<'c> {
     }
 }
 
+#[cold]
+fn no_value() -> Defect {
+    Defect::new("a value that does not exist")
+}
+
+#[inline(always)]
+pub(super) fn operation(code: &Code, id: ValueId) -> Result<&Operation, Defect> {
+    code.values.get(id.index()).ok_or_else(no_value)
+}
+
 /// Values side by side, few of them without memory of their own.
 pub(super) type Values = SmallVec<[Value; 8]>;
 
-fn at<T>(all: &[T], place: usize) -> Result<&T, Defect> {
-    all.get(place).ok_or_else(|| Defect::new("a function that does not exist"))
+fn at(all: &[Function], place: FunctionId) -> Result<&Function, Defect> {
+    all.get(place.index()).ok_or_else(|| Defect::new("a function that does not exist"))
 }
 
 /// An entry of a list.

@@ -5,6 +5,8 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use linkage_ir::Name;
+use linkage_ir::code::Code;
 use linkage_runtime::__rt::{Factorization, Loops, Memory, Unknown, newton_group, product_of_pivots};
 use linkage_runtime::AssemblyMode;
 
@@ -13,7 +15,6 @@ use super::defect::Defect;
 use super::failure::{Evaluated, Failure};
 use super::scalar::Single;
 use super::value::{Factors, Found, Kept, Value};
-use crate::code::{Function, Name};
 use crate::error::Error;
 
 /// The most unknowns of a group that is factorised.
@@ -117,7 +118,7 @@ impl<'c> Machine<'c> {
     /// kept, and the numbers are none.
     fn evaluated<const N: usize>(
         &mut self,
-        code: &'c Function,
+        code: &'c Code,
         evaluation: &Value,
         at: [f64; N],
         failed: &mut Option<Box<Failure>>,
@@ -138,7 +139,7 @@ impl<'c> Machine<'c> {
     /// The unknowns of a group near a start, by Newton's method.
     pub(super) fn newton_group(
         &mut self,
-        code: &'c Function,
+        code: &'c Code,
         [mechanism, group]: [&Arc<str>; 2],
         start: &Value,
         evaluation: &Value,
@@ -158,7 +159,7 @@ impl<'c> Machine<'c> {
     /// All positions of a group, those found last if it is the same group.
     pub(super) fn modes(
         &mut self,
-        code: &'c Function,
+        code: &'c Code,
         memory: &Value,
         names: [&Arc<str>; 2],
         loops: &Value,
@@ -183,7 +184,7 @@ impl<'c> Machine<'c> {
 
     fn modes_of<const L: usize, const N: usize>(
         &mut self,
-        code: &'c Function,
+        code: &'c Code,
         memory: &mut Memory<f64, L, N>,
         [mechanism, group]: [&Arc<str>; 2],
         loops: &Value,

@@ -2,6 +2,7 @@
 //! themselves.
 
 mod algorithms;
+mod arithmetic;
 mod defect;
 mod evaluate;
 mod failure;
@@ -12,15 +13,16 @@ mod turns;
 mod value;
 
 pub(crate) use algorithms::{Algorithms, AroundPosition, Load, Moving, Whole};
+use linkage_ir::code::Function;
+
+use crate::program::{Driver, Scene};
+use crate::tape::Flag;
+
 pub use defect::Defect;
 pub(crate) use failure::{Evaluated, Failure};
 pub(crate) use groups::MOST_UNKNOWNS;
 pub(crate) use scalar::Scalar;
 pub(crate) use value::Value;
-
-use crate::code::{Function, Type};
-use crate::program::{Driver, Scene};
-use crate::tape::Flag;
 
 /// The scalar of the function that runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,6 +65,8 @@ pub(crate) struct Machine<'c> {
     base: usize,
     kind: Kind,
     of: Of,
+    /// True if the function that runs can fail.
+    is_fallible: bool,
     /// The calls within each other, and all calls.
     depth: usize,
     calls: usize,
@@ -72,7 +76,20 @@ impl<'c> Machine<'c> {
     pub(crate) fn new(driver: &'c Driver, scene: Option<&'c Scene>, users: &'c [Option<User>], kind: Kind) -> Self {
         let of = if scene.is_some() { Of::Scene } else { Of::Driver };
         let (slots, has_quantities, algorithms) = (Vec::new(), false, None);
-        Self { driver, scene, users, has_quantities, algorithms, slots, base: 0, kind, of, depth: 0, calls: 0 }
+        Self {
+            driver,
+            scene,
+            users,
+            has_quantities,
+            algorithms,
+            slots,
+            base: 0,
+            kind,
+            of,
+            is_fallible: false,
+            depth: 0,
+            calls: 0,
+        }
     }
 
     pub(crate) fn with_algorithms(mut self, algorithms: &'c dyn Algorithms) -> Self {
@@ -91,13 +108,6 @@ impl<'c> Machine<'c> {
             (Of::Scene, Some(scene)) => &scene.functions,
             (Of::Pose, _) => &self.driver.of_pose,
             (Of::Branch, _) => &self.driver.of_branch,
-        }
-    }
-
-    fn of_type(&self, of: Type) -> (&'c [Function], Of) {
-        match of {
-            Type::Pose => (&self.driver.of_pose, Of::Pose),
-            Type::Branch => (&self.driver.of_branch, Of::Branch),
         }
     }
 
@@ -150,21 +160,23 @@ impl<'c> Machine<'c> {
         if self.depth == DEEPEST || self.calls > MOST_CALLS {
             return Err(Defect::new(format!("calls of {} do not end", function.name)).into());
         }
+        let code = function.body.as_ref().ok_or_else(|| Defect::new(format!("no body of {}", function.name)))?;
         self.depth += 1;
         let from = self.slots.len();
         let (base, last) = (std::mem::replace(&mut self.base, from), std::mem::replace(&mut self.of, of));
+        let is_fallible = std::mem::replace(&mut self.is_fallible, function.is_fallible);
         self.slots.push(own);
         self.slots.extend(arguments);
-        let end = from + function.slots as usize;
+        let end = from + code.slots as usize;
         let result = if self.slots.len() > end {
             Err(Defect::new(format!("too many arguments of {}", function.name)).into())
         } else {
             self.slots.resize(end, Value::Absent);
-            self.body(function)
+            self.body(code)
         };
         read(self.slots.get_mut(from..).unwrap_or_default());
         self.slots.truncate(from);
-        (self.base, self.of) = (base, last);
+        (self.base, self.of, self.is_fallible) = (base, last, is_fallible);
         self.depth -= 1;
         match result {
             Ok(value) => Ok(value),

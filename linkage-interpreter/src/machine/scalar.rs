@@ -1,13 +1,12 @@
 //! The numbers that formulas are computed in: doubles, twice the precision, and lanes of doubles.
 
-use linkage_ir::ElementaryFunction;
+use linkage_ir::{ElementaryFunction, Number};
 use linkage_runtime::__rt::{Wide, real};
 use linkage_runtime::Real;
 use linkage_runtime::derivation::value_of;
 
 use super::defect::Defect;
 use super::value::Value;
-use crate::code::Constant;
 use crate::tape::{Binary, Ternary, Traced, Unary};
 
 /// A number of formulas.
@@ -15,7 +14,10 @@ pub(crate) trait Scalar: Clone {
     /// The number that a value is.
     fn of(value: &Value) -> Option<Self>;
     fn into_value(self) -> Value;
-    fn constant(constant: Constant) -> Self;
+    /// A constant as emitted code writes it.
+    fn constant(number: Number) -> Self;
+    /// The multiple of pi by a count, divided by a number of parts.
+    fn turn(count: i32, parts: u32) -> Self;
     fn plus(self, other: &Self) -> Self;
     fn minus(self, other: &Self) -> Self;
     fn times(self, other: &Self) -> Self;
@@ -31,15 +33,19 @@ pub(crate) trait Single: Scalar + Real {}
 impl Single for f64 {}
 impl Single for Wide {}
 
-/// The constant as emitted code writes it, over any scalar.
-fn constant<T: Real>(constant: Constant) -> T {
-    match constant {
-        Constant::Double(value) => real(value),
-        Constant::Turn(count, parts) => {
-            let turned = if count == 1.0 { T::pi() } else { T::pi() * real(count) };
-            if parts == 1.0 { turned } else { turned / real(parts) }
-        }
+/// The double that a constant is in emitted code, which writes zero without its sign.
+fn double(number: Number) -> f64 {
+    match number {
+        Number::Ratio(above, 1) => above as f64,
+        Number::Ratio(above, below) => above as f64 / below as f64,
+        Number::Float(0.0) => 0.0,
+        Number::Float(value) => value,
     }
+}
+
+fn turn<T: Real>(count: i32, parts: u32) -> T {
+    let turned = if count == 1 { T::pi() } else { T::pi() * real(count.into()) };
+    if parts == 1 { turned } else { turned / real(parts.into()) }
 }
 
 macro_rules! single {
@@ -59,8 +65,13 @@ macro_rules! single {
             }
 
             #[inline]
-            fn constant(of: Constant) -> Self {
-                constant(of)
+            fn constant(number: Number) -> Self {
+                real(double(number))
+            }
+
+            #[inline]
+            fn turn(count: i32, parts: u32) -> Self {
+                turn(count, parts)
             }
 
             #[inline]
@@ -119,8 +130,12 @@ impl Scalar for Traced {
         }
     }
 
-    fn constant(constant: Constant) -> Self {
-        Self::Constant(f64::constant(constant))
+    fn constant(number: Number) -> Self {
+        Self::Constant(double(number))
+    }
+
+    fn turn(count: i32, parts: u32) -> Self {
+        Self::Constant(turn(count, parts))
     }
 
     fn plus(self, other: &Self) -> Self {

@@ -5,11 +5,11 @@ use std::fmt::Debug;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use linkage_ir::{Name, ValueId};
 use linkage_runtime::__rt::{Memory, NearestTurns, Wide};
 use linkage_runtime::AssemblyMode;
 
 use super::defect::Defect;
-use crate::code::{Id, Name};
 use crate::error::Error;
 use crate::tape::{Flag, Traced};
 
@@ -36,8 +36,8 @@ pub(crate) enum Value {
     /// The solution of the positive root, or that of the negative one.
     Side(bool),
     Mode(AssemblyMode),
-    /// A function without a name, by its expression.
-    Closure(Id),
+    /// A function without a name, by its value.
+    Closure(ValueId),
     /// The inputs of a position, for errors.
     At(Rc<[f64]>),
     Turns(Rc<Turning>),
@@ -82,8 +82,8 @@ pub(crate) enum Kept {
 /// Fields by name.
 #[derive(Debug, Clone)]
 pub(crate) struct Record {
-    /// The type.
-    pub(crate) of: Name,
+    /// The type of the runtime that it is; nothing of other types.
+    pub(crate) of: &'static str,
     pub(crate) fields: Vec<(Name, Value)>,
 }
 
@@ -110,8 +110,8 @@ impl Value {
         Self::List(values.into_iter().collect())
     }
 
-    pub(crate) fn record(of: Name, fields: impl IntoIterator<Item = (Name, Self)>) -> Self {
-        Self::Record(Rc::new(Record { of, fields: fields.into_iter().collect() }))
+    pub(crate) fn record(fields: impl IntoIterator<Item = (Name, Self)>) -> Self {
+        Self::Record(Rc::new(Record { of: "", fields: fields.into_iter().collect() }))
     }
 
     pub(crate) fn outcome(outcome: Result<Self, Error>) -> Self {
@@ -212,7 +212,8 @@ impl Value {
             Self::List(all) => Self::list(all.iter().map(|value| value.map_leaves(other))),
             Self::Matrix(all) => Self::Matrix(all.iter().map(|value| value.map_leaves(other)).collect()),
             Self::Record(record) => {
-                Self::record(record.of, record.fields.iter().map(|(name, value)| (*name, value.map_leaves(other))))
+                let fields = record.fields.iter().map(|(name, value)| (*name, value.map_leaves(other)));
+                Self::Record(Rc::new(Record { of: record.of, fields: fields.collect() }))
             }
             leaf => other(leaf),
         }

@@ -36,3 +36,20 @@ pub fn value_of<T: crate::Real>(function: Function, arguments: &[T]) -> Option<T
 pub fn number_of<N: crate::Number>(function: Function, arguments: &[N]) -> Option<N> {
     Some(called!(function, arguments))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An elementary function without an arm above would have no value in the interpreter, and be unknown in certificates.
+    #[test]
+    fn every_elementary_function_has_a_value() {
+        for &function in Function::ALL {
+            let arguments = &[0.5; 3][..function.arity()];
+            assert!(value_of(function, arguments).is_some(), "{function:?}");
+            // It compares.
+            let is_number = function != Function::IfNonzero;
+            assert_eq!(number_of(function, arguments).is_some(), is_number, "{function:?}");
+        }
+    }
+}

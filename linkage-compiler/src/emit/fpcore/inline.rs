@@ -4,21 +4,23 @@
 
 use std::collections::HashMap;
 
+use linkage_ir::code::{self, Code, Names, Pattern, Signed, Statement};
+use linkage_ir::{Slot, ValueId};
+
 use super::operations::{Check, Operations};
 use super::value::{Given, Role, Value};
 use crate::graph::Function as Elementary;
-use crate::lower::{self, Block, Code, Pattern, Signed, Statement, ValueId};
 use crate::model::Mechanism;
 use crate::program::{
-    Arguments, CheckKind, Entry, Family, Function, Functions, Intrinsic, Meaning, Order, Passed, Receiver, Signatures,
-    Type,
+    Arguments, CheckKind, Entry, Family, Function, Functions, Intrinsic, Meaning, Order, Passed, Program, Receiver,
+    Signatures, Type,
 };
 
 /// The functions of a type.
 pub(super) struct Owner<'a> {
     pub(super) functions: &'a Functions<Code>,
-    /// The mechanism, and the functions of its driver.
-    pub(super) declared: (&'a Mechanism, &'a Signatures),
+    /// The mechanism, and the program of its driver.
+    pub(super) declared: (&'a Mechanism, &'a Program<Code>),
     arguments: &'a Arguments,
     /// Those of the mechanism of a scene.
     inner: Option<&'a Owner<'a>>,
@@ -28,7 +30,7 @@ impl<'a> Owner<'a> {
     pub(super) fn new(
         functions: &'a Functions<Code>,
         arguments: &'a Arguments,
-        declared: (&'a Mechanism, &'a Signatures),
+        declared: (&'a Mechanism, &'a Program<Code>),
         inner: Option<&'a Owner<'a>>,
     ) -> Self {
         Self { functions, declared, arguments, inner }
@@ -56,8 +58,13 @@ impl<'a> Owner<'a> {
 struct Scope<'a> {
     of: &'a Owner<'a>,
     code: &'a Code,
-    arguments: Vec<Value>,
-    bound: HashMap<ValueId, Value>,
+    bound: HashMap<Slot, Value>,
+}
+
+impl<'a> Scope<'a> {
+    fn names(&self) -> &'a Names {
+        &self.of.declared.1.names
+    }
 }
 
 #[derive(Default)]
@@ -89,7 +96,9 @@ impl Inlined {
 
     fn call(&mut self, of: &Owner<'_>, function: &Function<Code>, arguments: Vec<Value>) -> Value {
         let Some(code) = &function.body else { return Value::Unknown };
-        let mut scope = Scope { of, code, arguments, bound: HashMap::new() };
+        let arguments = arguments.into_iter().enumerate().map(|(place, value)| (Slot::of_argument(place), value));
+        let bound = arguments.chain([(Slot::ITSELF, Value::given(Role::Parameters))]).collect();
+        let mut scope = Scope { of, code, bound };
         match self.statements(&code.statements, &mut scope) {
             true => self.value(code.value.literal(), &mut scope),
             false => Value::Unknown,
@@ -104,10 +113,7 @@ impl Inlined {
     fn statement(&mut self, statement: &Statement, scope: &mut Scope<'_>) -> bool {
         match statement {
             Statement::Let(pattern, value) | Statement::LetElse(pattern, value, _) => {
-                let value = match pattern {
-                    Pattern::Bound(bound) if bound == value => self.computed(*value, scope),
-                    _ => self.value(*value, scope),
-                };
+                let value = self.value(*value, scope);
                 self.bind(pattern, value, scope);
             }
             Statement::Do(value) => {
@@ -115,11 +121,14 @@ impl Inlined {
             }
             Statement::Assign(place, _) => {
                 // A variable has no formula.
-                scope.bound.insert(root(scope.code, *place), Value::Unknown);
+                if let Some(root) = root(scope.code, *place) {
+                    scope.bound.insert(root, Value::Unknown);
+                }
             }
             Statement::Unless(conditions, _) => conditions.iter().for_each(|condition| {
                 self.value(*condition, scope);
             }),
+            Statement::Store(inside) => return self.statement(inside, scope),
             Statement::Return(_) => return false,
         }
         true
@@ -128,7 +137,7 @@ impl Inlined {
     fn bind(&mut self, pattern: &Pattern, value: Value, scope: &mut Scope<'_>) {
         match pattern {
             Pattern::Bound(bound) | Pattern::Mutable(bound) | Pattern::Typed(bound, _) => {
-                let name = scope.code.name(*bound).unwrap_or_default();
+                let name = scope.code.name(*bound);
                 let value = match value {
                     // An entry of an argument has the name that the code gives it.
                     Value::Given(Given { role: role @ Role::Other(_), path }) if !path.is_empty() => {
@@ -149,6 +158,7 @@ impl Inlined {
             }
             Pattern::Struct { fields, .. } => {
                 for (field, pattern) in fields {
+                    let field = scope.names().text(*field);
                     self.bind(pattern, value.field(field), scope);
                 }
             }
@@ -157,18 +167,11 @@ impl Inlined {
     }
 
     fn value(&mut self, id: ValueId, scope: &mut Scope<'_>) -> Value {
-        match scope.bound.get(&id) {
-            Some(value) => value.clone(),
-            None => self.computed(id, scope),
-        }
-    }
-
-    fn computed(&mut self, id: ValueId, scope: &mut Scope<'_>) -> Value {
-        use lower::Value as V;
+        use code::Value as V;
         let code = scope.code;
         match code.operation(id) {
-            V::Itself => Value::given(Role::Parameters),
-            V::Argument(place) => scope.arguments.get(*place).cloned().unwrap_or(Value::Unknown),
+            V::Given(slot) => scope.bound.get(slot).cloned().unwrap_or(Value::Unknown),
+            V::Turn(number, count, parts) => self.made(V::Turn(*number, *count, *parts)),
             V::Constant(number) | V::Exact(number) => self.made(V::Constant(*number)),
             V::Sum(terms) => {
                 let terms = terms.iter().map(|term| Some(Signed { value: self.number(term.value, scope)?, ..*term }));
@@ -196,14 +199,18 @@ impl Inlined {
                 let arguments: Option<Vec<Signed>> = arguments.iter().map(|one| self.signed(*one, scope)).collect();
                 self.result_of(arguments.map(|arguments| V::Call(*function, arguments)))
             }
-            V::Text(text) => Value::Text(text.clone()),
-            V::Field(of, name) => self.value(*of, scope).field(name),
+            V::Text(text) => Value::Text(text.to_string()),
+            V::Field(of, name) => self.value(*of, scope).field(scope.names().text(*name)),
+            V::Member(of, place) => self.value(*of, scope).field(&place.to_string()),
+            V::Columns(of) => self.value(*of, scope).field("data").field("0"),
             V::Index(of, place) => self.value(*of, scope).index(*place),
             V::List(values) | V::Tuple(values) => Value::list(self.values(values, scope)),
             V::Struct(_, members, rest) => {
-                let rest = rest.map(|rest| self.value(rest, scope));
-                let mut members: Vec<(String, Value)> =
-                    members.iter().map(|(name, value)| (name.clone(), self.value(*value, scope))).collect();
+                let (names, rest) = (scope.names(), rest.map(|rest| self.value(rest, scope)));
+                let mut members: Vec<(String, Value)> = members
+                    .iter()
+                    .map(|(name, value)| (names.text(*name).to_owned(), self.value(*value, scope)))
+                    .collect();
                 if let Some(Value::Members(others)) = rest {
                     let others = others.iter().filter(|(name, _)| members.iter().all(|(other, _)| other != name));
                     let others: Vec<_> = others.cloned().collect();
@@ -213,7 +220,7 @@ impl Inlined {
             }
             V::Intrinsic(of, of_type, arguments) => {
                 let arguments = self.values(arguments, scope);
-                self.intrinsic(scope.of.declared.1, (*of, of_type.as_ref()), &arguments)
+                self.intrinsic(&scope.of.declared.1.signatures, (*of, of_type.as_deref()), &arguments)
             }
             V::Own(receiver, function, arguments) => {
                 let arguments = self.values(arguments, scope);
@@ -228,8 +235,8 @@ impl Inlined {
             V::Try(value) | V::Borrowed(value) | V::MutablyBorrowed(value) | V::Dereferenced(value) => {
                 self.value(*value, scope)
             }
-            V::Block(Block { statements, value }) => match self.statements(statements, scope) {
-                true => self.value(*value, scope),
+            V::Block(block) => match self.statements(&block.statements, scope) {
+                true => self.value(block.value, scope),
                 false => Value::Unknown,
             },
             _ => Value::Unknown,
@@ -252,15 +259,15 @@ impl Inlined {
     fn signed(&mut self, signed: Signed, scope: &mut Scope<'_>) -> Option<Signed> {
         let number = self.number(signed.value, scope)?;
         let is_negative = signed.negative;
-        let number = if is_negative { self.operations.add(lower::Value::Negative(number)) } else { number };
+        let number = if is_negative { self.operations.add(code::Value::Negative(number)) } else { number };
         Some(Signed::positive(number))
     }
 
-    fn made(&mut self, operation: lower::Value) -> Value {
+    fn made(&mut self, operation: code::Value) -> Value {
         Value::Number(self.operations.add(operation))
     }
 
-    fn result_of(&mut self, operation: Option<lower::Value>) -> Value {
+    fn result_of(&mut self, operation: Option<code::Value>) -> Value {
         operation.map_or(Value::Unknown, |operation| self.made(operation))
     }
 
@@ -333,7 +340,7 @@ impl Inlined {
         let Some(angle) = self.place(angle) else { return Value::Unknown };
         let angle = vec![Signed::positive(angle)];
         let both = [Elementary::Sin, Elementary::Cos];
-        Value::list(both.map(|function| self.made(lower::Value::Call(function, angle.clone()))))
+        Value::list(both.map(|function| self.made(code::Value::Call(function, angle.clone()))))
     }
 
     fn check(&mut self, kind: CheckKind, of: &[&Value]) {
@@ -353,28 +360,28 @@ impl Inlined {
     fn chord(&mut self, factors: &Value, side: &Value) -> Value {
         let factors = self.places(&[&factors.index(0), &factors.index(1)]);
         let Some((factors, side)) = factors.zip(self.place(side)) else { return Value::Unknown };
-        let radicand = self.operations.add(lower::Value::Product(factors));
+        let radicand = self.operations.add(code::Value::Product(factors));
         self.check(CheckKind::Moderate, &[&Value::Number(radicand)]);
-        let root = lower::Value::Call(Elementary::Sqrt, vec![Signed::positive(radicand)]);
+        let root = code::Value::Call(Elementary::Sqrt, vec![Signed::positive(radicand)]);
         let root = self.operations.add(root);
-        self.made(lower::Value::Product(vec![side, root]))
+        self.made(code::Value::Product(vec![side, root]))
     }
 }
 
 /// The variable that a value is a part of.
-fn root(code: &Code, place: ValueId) -> ValueId {
+fn root(code: &Code, place: ValueId) -> Option<Slot> {
     match code.operation(place) {
-        _ if code.name(place).is_some() => place,
-        lower::Value::Field(of, _) | lower::Value::Index(of, _) | lower::Value::Dereferenced(of) => root(code, *of),
-        _ => place,
+        code::Value::Given(slot) => Some(*slot),
+        code::Value::Field(of, _) | code::Value::Index(of, _) | code::Value::Dereferenced(of) => root(code, *of),
+        _ => None,
     }
 }
 
 /// True for the field of a scene that holds its mechanism.
 fn is_part_of_self(code: &Code, id: ValueId) -> bool {
     match code.operation(id) {
-        lower::Value::Itself => true,
-        lower::Value::Field(of, _) | lower::Value::Borrowed(of) | lower::Value::Dereferenced(of) => {
+        code::Value::Given(slot) => *slot == Slot::ITSELF,
+        code::Value::Field(of, _) | code::Value::Borrowed(of) | code::Value::Dereferenced(of) => {
             is_part_of_self(code, *of)
         }
         _ => false,

@@ -1,13 +1,12 @@
 //! Operations as formulas: steps, checks and results, in the order of the code.
 
+use linkage_ir::{ValueId, code};
+
 use super::name::{ascii, reserved, symbol};
 use super::operations::{Check, Operations};
 use super::value::{Role, Value};
 use crate::document::{KernelCode, Node, Number, Table};
-use crate::emit::numbers::parts_of_pi;
 use crate::graph;
-use crate::ids::Id;
-use crate::lower::{self, ValueId};
 use crate::model::Mechanism;
 use crate::program::{Order, Taken};
 
@@ -116,7 +115,7 @@ impl Names<'_> {
         let is_new = |id: &ValueId| uses.is_used(*id) && self.nodes[id.index()].is_none();
         let others: Vec<ValueId> = self.operations.ids().filter(is_new).collect();
         for id in others {
-            if matches!(self.operations.operation(id), lower::Value::Bound) {
+            if matches!(self.operations.operation(id), code::Value::Given(_)) {
                 let name = self.unique(self.operations.preferred(id).unwrap_or_default());
                 self.nodes[id.index()] = Some(name);
             }
@@ -139,9 +138,10 @@ impl Names<'_> {
 
     /// The formula of an operation whose operands have formulas.
     fn formula(&mut self, id: ValueId) -> Number {
-        use lower::Value as V;
+        use code::Value as V;
         let node = match self.operations.operation(id) {
             V::Constant(number) => return self.constant(*number),
+            V::Turn(_, count, parts) => return self.turn(*count, *parts),
             V::Sum(terms) => Node::Sum(terms.iter().map(|term| (term.negative, self.node(term.value))).collect()),
             V::Product(factors) => Node::Product(self.all(factors)),
             V::Quotient(above, below) => Node::Quotient(self.node(*above), self.node(*below)),
@@ -155,20 +155,22 @@ impl Names<'_> {
         self.table.add(node)
     }
 
+    /// A multiple of pi as emitted code computes it.
+    fn turn(&mut self, count: i32, parts: u32) -> Number {
+        let mut multiple = self.table.add(Node::Pi);
+        if count != 1 {
+            let count = self.table.decimal(count.into());
+            multiple = self.table.add(Node::Product(vec![multiple, count]));
+        }
+        if parts != 1 {
+            let parts = self.table.decimal(parts.into());
+            multiple = self.table.add(Node::Quotient(multiple, parts));
+        }
+        multiple
+    }
+
     /// The constant as emitted code computes it.
     fn constant(&mut self, number: graph::Number) -> Number {
-        if let Some((count, parts)) = parts_of_pi(number) {
-            let mut multiple = self.table.add(Node::Pi);
-            if count != 1.0 {
-                let count = self.table.decimal(count);
-                multiple = self.table.add(Node::Product(vec![multiple, count]));
-            }
-            if parts != 1.0 {
-                let parts = self.table.decimal(parts);
-                multiple = self.table.add(Node::Quotient(multiple, parts));
-            }
-            return multiple;
-        }
         let value = number.to_f64();
         match number {
             graph::Number::Ratio(n, d) if format!("{value}").len() > 8 => {

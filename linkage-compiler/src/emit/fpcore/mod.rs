@@ -11,8 +11,9 @@ mod name;
 mod operations;
 mod value;
 
+use linkage_ir::code::Code;
+
 use crate::document::{KernelCode, Table};
-use crate::lower::Code;
 use crate::model::Mechanism;
 use crate::program::{Program, SceneProgram};
 use inline::{Inlined, Owner};
@@ -25,7 +26,7 @@ pub(super) struct Straight<'a> {
 impl<'a> Straight<'a> {
     pub(super) fn of_driver(mechanism: &'a Mechanism, program: &'a Program<Code>) -> Self {
         let signatures = &program.signatures;
-        Self { owner: Owner::new(&program.functions, &signatures.arguments, (mechanism, signatures), None) }
+        Self { owner: Owner::new(&program.functions, &signatures.arguments, (mechanism, program), None) }
     }
 
     /// The functions of a scene on this driver.

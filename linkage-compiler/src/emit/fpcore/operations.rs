@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::ids::{Id, Table};
-use crate::lower::{Value, ValueId};
+use linkage_ir::code::Value;
+use linkage_ir::{Slot, ValueId};
+
+use crate::ids::Table;
 use crate::program::CheckKind;
 
 /// A condition of the code on numbers, by its word.
@@ -32,7 +34,7 @@ impl Operations {
         if let Some(id) = self.arguments.get(&key) {
             return *id;
         }
-        let id = self.all.push((Value::Bound, Some(name.to_owned())));
+        let id = self.all.push((Value::Given(Slot::ITSELF), Some(name.to_owned())));
         self.arguments.insert(key, id);
         id
     }
@@ -53,7 +55,7 @@ impl Operations {
 
     /// True for an argument or a number, which is no operation.
     pub(super) fn is_leaf(&self, id: ValueId) -> bool {
-        matches!(self.operation(id), Value::Bound | Value::Constant(_))
+        matches!(self.operation(id), Value::Given(_) | Value::Constant(_) | Value::Turn(..))
     }
 
     /// Visits the operands of an operation, each as often as it is written.

@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use crate::lower::ValueId;
+use linkage_ir::ValueId;
+
 use crate::program::Order;
 
 #[derive(Debug, Clone)]

@@ -1,5 +1,6 @@
 //! The type of the branches.
 
+use linkage_ir::code::Code;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -7,7 +8,6 @@ use super::derives::derives;
 use super::parameters::MOST_ARGUMENTS;
 use crate::emit::Declared;
 use crate::emit::names::{comment, ident};
-use crate::lower::Code;
 use crate::program::{Modes, Position, Program, Side};
 
 /// The branch type: a field for each group with two solutions, one for each group whose positions have numbers, and, if

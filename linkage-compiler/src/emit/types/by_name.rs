@@ -38,7 +38,7 @@ pub(super) fn coordinates(
             quote!(#[doc = #text])
         }
     };
-    by_name(mechanism, &ident(names.of(order)), &title, members, &docs, root)
+    by_name(mechanism, &ident(order.type_of(names)), &title, members, &docs, root)
 }
 
 /// The unit of a derivative with respect to time, for a doc comment.

@@ -9,23 +9,24 @@ mod motion;
 mod parameters;
 mod pose;
 
+use linkage_ir::code::Code;
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Attribute;
 
 use super::Declared;
 use super::names::{comment, ident};
-use crate::lower::Code;
 use crate::model::{Coordinate, Guess, Mechanism, Request, TypeName};
-use crate::program::{Modes, Position, Program, TypeNames};
+use crate::program::{Modes, Position, Program, type_names};
 use branch::branch;
 use by_name::{by_name, conversions, coordinates, described, orders};
-pub(super) use derives::{derives, serde_of_parameters};
 use derives::{derives_of_pose, serde_alias};
 use fields::Fields;
+use parameters::parameters;
+
+pub(super) use derives::{derives, serde_of_parameters};
 pub(super) use fields::{docs, field, mark};
 pub use parameters::MOST_ARGUMENTS;
-use parameters::parameters;
 pub(super) use parameters::{default_of, docs_of_parameter, other_scalar};
 
 /// The types that all drivers of a mechanism share.
@@ -54,7 +55,7 @@ pub(super) fn shared(mechanism: &Mechanism, root: &TokenStream) -> TokenStream {
             }
         }
     }
-    let names = mechanism.drivers.first().map(|driver| TypeNames::new(mechanism, driver));
+    let names = mechanism.drivers.first().map(|driver| type_names(mechanism, driver));
     let Some(names) = names else { return tokens };
     let order = mechanism.drivers.first().map(|driver| mechanism.coordinate_order(driver)).unwrap_or_default();
     let members: Vec<&Coordinate> = order.iter().map(|&index| &mechanism.coordinates[index]).collect();
@@ -121,7 +122,7 @@ pub(super) fn of_driver(of: Declared<'_>, program: &Program<Code>, root: &TokenS
     let (names, count, mark) = (&fields.names, fields.count(), fields.mark());
     tokens.extend(conversions(&inputs, &fields, &quote!(#root::__rt::Column<T, #root::__rt::D<#count>>), root));
     for order in orders(mechanism) {
-        let all = ident(types.of(order));
+        let all = ident(order.type_of(types));
         tokens.extend(quote! {
             impl<T: #root::__rt::Real> ::core::convert::From<&#all<T>> for #inputs<T> {
                 fn from(all: &#all<T>) -> Self {

@@ -1,8 +1,7 @@
 //! Angles as sums of stored angles.
 
-use super::super::id::Signed;
 use super::super::schedule::Schedule;
-use super::super::value::Value;
+use super::super::value::{Leaf, Signed, Value};
 use crate::graph::{Graph, Node, NodeId, SymbolId};
 
 /// The number of an angle.
@@ -46,7 +45,9 @@ impl Angles {
     /// The angle that is the argument of a sine in the code.
     pub(super) fn of_value(&mut self, schedule: &Schedule, angle: Signed) -> Option<(AngleId, bool)> {
         let symbol = |part: &Signed| match schedule.value(part.value) {
-            Value::Symbol(symbol) => Some((*symbol, if part.negative != angle.negative { -1.0 } else { 1.0 })),
+            Value::Given(Leaf::Symbol(symbol)) => {
+                Some((*symbol, if part.negative != angle.negative { -1.0 } else { 1.0 }))
+            }
             _ => None,
         };
         let terms = match schedule.value(angle.value) {

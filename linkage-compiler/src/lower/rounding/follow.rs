@@ -1,10 +1,10 @@
 //! One pass over the values of a schedule.
 
+use linkage_ir::ValueId;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::super::id::{Signed, ValueId};
 use super::super::schedule::{Line, Schedule};
-use super::super::value::Value;
+use super::super::value::{Leaf, Signed, Value};
 use super::Roundings;
 use super::monomial::Factor;
 use super::tracked::Tracked;
@@ -47,7 +47,7 @@ impl<'a> Following<'a> {
     }
 
     fn known(&self, signed: Signed) -> Option<Tracked> {
-        let value = self.of[signed.value.0].clone().flatten()?;
+        let value = self.of[signed.value.index()].clone().flatten()?;
         Some(if signed.negative { value.negative() } else { value })
     }
 
@@ -56,18 +56,18 @@ impl<'a> Following<'a> {
         let mut stack = vec![(root, false)];
         let mut entered = FxHashSet::default();
         while let Some((id, is_ready)) = stack.pop() {
-            if self.of[id.0].is_some() {
+            if self.of[id.index()].is_some() {
                 continue;
             }
             // Names may be circular if the budget was exceeded.
             if is_ready || !entered.insert(id) {
-                self.of[id.0] = Some(self.value(id));
+                self.of[id.index()] = Some(self.value(id));
                 continue;
             }
             stack.push((id, true));
             let schedule = self.schedule;
             match schedule.value(id) {
-                Value::Symbol(symbol) => {
+                Value::Given(Leaf::Symbol(symbol)) => {
                     stack.extend(self.named.get(symbol).copied().flatten().map(|value| (value.value, false)));
                 }
                 value => value.each_part(|part| stack.push((part, false))),
@@ -78,12 +78,12 @@ impl<'a> Following<'a> {
     fn value(&mut self, id: ValueId) -> Option<Tracked> {
         let schedule = self.schedule;
         match schedule.value(id) {
-            Value::Symbol(symbol) => match (self.named.get(symbol), self.known.pose.get(symbol)) {
+            Value::Given(Leaf::Symbol(symbol)) => match (self.named.get(symbol), self.known.pose.get(symbol)) {
                 (Some(value), _) => self.known((*value)?),
                 (None, Some(of_pose)) => of_pose.clone(),
                 (None, None) => Some(Tracked::stored(Factor::Symbol(*symbol))),
             },
-            Value::Direction(function, angle) => {
+            Value::Given(Leaf::Direction(function, angle)) => {
                 let angle = self.known.angles.of_node(self.graph, *angle)?;
                 Tracked::sine(&self.known.angles, *function == Function::Sin, angle)
             }
@@ -117,8 +117,7 @@ impl<'a> Following<'a> {
 
     /// True if an angle is not a sum of arguments.
     fn has_computed(&self, angle: Signed) -> bool {
-        let is_computed =
-            |id: ValueId| matches!(self.schedule.value(id), Value::Symbol(symbol) if self.named.contains_key(symbol));
+        let is_computed = |id: ValueId| matches!(self.schedule.value(id), Value::Given(Leaf::Symbol(symbol)) if self.named.contains_key(symbol));
         let mut any = is_computed(angle.value);
         self.schedule.value(angle.value).each_part(|part| any |= is_computed(part));
         any

@@ -1,5 +1,7 @@
 //! The functions of a scene with frictions and stops: its contacts, and the equations of motion before they are solved.
 
+use linkage_ir::Intrinsic;
+
 use super::ScenePlan;
 use crate::derivation::{BearingRow, ContactFormula};
 use crate::graph::{NodeId, SymbolId};
@@ -9,7 +11,6 @@ use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Value, results};
 use crate::program::names::Order;
 use crate::program::plan::unnamed;
-use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     /// `contacts`: each friction and stop with its scalar s, the derivatives of s, and its limits.

@@ -1,5 +1,8 @@
 //! `drives` and `drive_forces`: the laws of driven inputs, and inverse dynamics.
 
+use linkage_ir::Intrinsic;
+use linkage_ir::Operations;
+
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
 use crate::graph::NodeId;
@@ -9,8 +12,6 @@ use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
 use crate::program::names::Arguments;
 use crate::program::plan::unnamed;
-use linkage_ir::Intrinsic;
-use linkage_ir::Operations;
 
 impl ScenePlan<'_, '_, '_> {
     /// The names of the driven inputs, for doc comments.

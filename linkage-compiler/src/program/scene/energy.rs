@@ -1,10 +1,11 @@
 //! `energy` and `power`.
 
+use linkage_ir::Intrinsic;
+
 use super::{ERRORS, ScenePlan};
 use crate::program::doc::lines;
 use crate::program::expression::{Expression, Type};
 use crate::program::function::{Body, Output, Value, results};
-use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn energy(&mut self) {

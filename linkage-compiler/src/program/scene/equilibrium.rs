@@ -1,5 +1,7 @@
 //! `equilibrium` and `balance`: static equilibrium.
 
+use linkage_ir::Intrinsic;
+
 use super::ScenePlan;
 use crate::derivation::{Form, needed};
 use crate::graph::NodeId;
@@ -8,7 +10,6 @@ use crate::program::doc::lines;
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
 use crate::program::names::Arguments;
-use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     /// Plans `balance` and `equilibrium`.
@@ -35,8 +36,8 @@ impl ScenePlan<'_, '_, '_> {
             Expression::own_call("balance", [Expression::name(&time), Expression::name(&q).borrowed()]).tried();
         let both = Expression::Tuple(vec![Expression::name(&q), balance]);
         let function = Expression::Closure {
-            arguments: vec![Pattern::List(free.into_iter().map(Pattern::name).collect())],
-            statements: vec![Statement::Let(Pattern::name(q), found)],
+            arguments: vec![Pattern::List(free.into_iter().map(Pattern::bound).collect())],
+            statements: vec![Statement::Let(Pattern::bound(q), found)],
             value: Box::new(Expression::call(Intrinsic::Ok, [both])),
             moves: false,
         };
@@ -45,7 +46,7 @@ impl ScenePlan<'_, '_, '_> {
         if !driven.is_empty() {
             let given_by_drives = driven.iter().map(Expression::name).collect();
             let laws = driven.into_iter().map(|input| {
-                let fields = vec![("value".to_owned(), Pattern::name(input.clone()))];
+                let fields = vec![("value".to_owned(), Pattern::bound(input.clone()))];
                 let of = Type::Runtime("Prescribed", Vec::new());
                 (input, Pattern::Struct { of, fields, is_whole: false })
             });

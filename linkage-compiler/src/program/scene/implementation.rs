@@ -1,5 +1,7 @@
 //! The trait by which simulations call the functions of a scene.
 
+use linkage_ir::{Constant, Intrinsic};
+
 use super::SceneSignatures;
 use crate::model::SceneRequest;
 use crate::program::expression::{Expression, Pattern, Statement, Type, Variable};
@@ -8,7 +10,6 @@ use crate::program::implementation::{
     Associated, ConstantValue, Implementation, Implemented, Kink, fallible_of_trait, of_trait,
 };
 use crate::program::names::Order;
-use linkage_ir::{Constant, Intrinsic};
 
 /// `Scene`, for a scene with inertia; `kinks` are those of its laws, and `has_change` says of which contacts the change of the gap
 /// is known.
@@ -74,12 +75,12 @@ fn parts_of_state() -> Statement {
 
 /// A pattern that binds all fields of a type of the runtime.
 fn taken_apart(of: &'static str, fields: [&str; 2]) -> Pattern<Variable> {
-    let fields = fields.map(|field| (field.to_owned(), Pattern::name(field.to_owned())));
+    let fields = fields.map(|field| (field.to_owned(), Pattern::bound(field.to_owned())));
     Pattern::Struct { of: Type::Runtime(of, Vec::new()), fields: fields.to_vec(), is_whole: true }
 }
 
 fn listed<'a>(names: impl IntoIterator<Item = &'a String>) -> Pattern<Variable> {
-    Pattern::List(names.into_iter().cloned().map(Pattern::name).collect())
+    Pattern::List(names.into_iter().cloned().map(Pattern::bound).collect())
 }
 
 impl OfScene<'_> {
@@ -96,7 +97,7 @@ impl OfScene<'_> {
     }
 
     fn coordinates(&self, name: &'static str, order: Order) -> (&'static str, Passed) {
-        (name, Passed::ByReference(Type::Own(self.0.types.of(order).to_owned())))
+        (name, Passed::ByReference(Type::Own(order.type_of(&self.0.types).to_owned())))
     }
 
     /// t, q and q'.
@@ -165,7 +166,7 @@ impl OfScene<'_> {
                 let motion = ["t", "q", "rates"].map(name).into_iter().chain([name("accelerations").borrowed()]);
                 let arguments = motion.chain(self.has_contacts().then_some(forces));
                 let let_accelerations =
-                    Statement::Let(Pattern::name("accelerations".to_owned()), self.accelerations_by_name());
+                    Statement::Let(Pattern::bound("accelerations".to_owned()), self.accelerations_by_name());
                 Body {
                     before: vec![let_accelerations],
                     ..Body::result(Expression::own_call("reactions_of", arguments))
@@ -261,7 +262,7 @@ impl OfScene<'_> {
         let mut body = Body::plain(Expression::List(all).converted());
         if !self.0.driven.is_empty() {
             let drives = Expression::own_call("drives", [name("t")]);
-            body.before.push(Statement::Let(Pattern::name("drives".to_owned()), drives));
+            body.before.push(Statement::Let(Pattern::bound("drives".to_owned()), drives));
         }
         let of = Type::Around("Option", Box::new(Type::Runtime("Prescribed", Vec::new())));
         of_trait("prescribed", [self.time()], Type::Column(Box::new(of), self.0.inputs.len()), body)

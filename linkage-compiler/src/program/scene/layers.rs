@@ -3,6 +3,8 @@
 
 use std::collections::BTreeSet;
 
+use linkage_ir::Intrinsic;
+
 use super::ScenePlan;
 use super::reads::Read;
 use super::signatures::layer;
@@ -13,7 +15,6 @@ use crate::program::expression::{Expression, Pattern, Receiver, Statement, Type}
 use crate::program::function::{Argument, Body, Function, Kernel, Output, Passed, Shape, Source, Value, results};
 use crate::program::names::{Order, name_of};
 use crate::program::plan::unnamed;
-use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     /// M, column by column.
@@ -161,14 +162,14 @@ impl ScenePlan<'_, '_, '_> {
         let arguments = &self.signatures.arguments;
         let input_rates = Expression::name(&arguments.input_rates);
         let mut body = Body::default();
-        let driver = Receiver::Type(Type::Bare(self.signatures.types.driver.clone()));
+        let driver = Receiver::Type(Box::new(Type::Bare(self.signatures.types.driver.clone())));
         if self.plan.signatures.is_open {
             if reads.contains(&Read::Pose) {
                 self.pose_at(&mut body);
             }
             if reads.contains(&Read::Rates) {
                 let call = Expression::called_on(driver, "coordinate_rates", [input_rates]);
-                body.before.push(Statement::Let(Pattern::name(arguments.rates.clone()), call));
+                body.before.push(Statement::Let(Pattern::bound(arguments.rates.clone()), call));
             }
             return body;
         }
@@ -180,7 +181,7 @@ impl ScenePlan<'_, '_, '_> {
                 (Read::Bias, "bias", &arguments.bias),
             ];
             let read = found.into_iter().filter(|(read, ..)| reads.contains(read));
-            let fields = read.map(|(_, field, name)| (field.to_owned(), Pattern::name(name.clone())));
+            let fields = read.map(|(_, field, name)| (field.to_owned(), Pattern::bound(name.clone())));
             let fields: Vec<_> = fields.collect();
             let of = Type::Runtime("ReducedMotion", Vec::new());
             let pattern = Pattern::Struct { of, is_whole: fields.len() == found.len(), fields };
@@ -191,13 +192,13 @@ impl ScenePlan<'_, '_, '_> {
         self.pose_at(&mut body);
         let call = self.driver_call("ratio_columns", vec![Expression::name(&arguments.pose).borrowed()]);
         body.before.push(match reads.contains(&Read::Ratios) || reads.contains(&Read::Rates) {
-            true => Statement::Let(Pattern::name(arguments.ratios.clone()), call),
+            true => Statement::Let(Pattern::bound(arguments.ratios.clone()), call),
             false => Statement::Do(call),
         });
         if reads.contains(&Read::Rates) {
             let on = [Expression::name(&arguments.ratios).borrowed(), input_rates];
             let call = Expression::called_on(driver, "coordinate_rates", on);
-            body.before.push(Statement::Let(Pattern::name(arguments.rates.clone()), call));
+            body.before.push(Statement::Let(Pattern::bound(arguments.rates.clone()), call));
         }
         body
     }

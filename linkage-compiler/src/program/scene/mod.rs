@@ -15,6 +15,8 @@ mod signatures;
 mod unreduced;
 mod validity;
 
+use linkage_ir::Intrinsic;
+
 use super::doc::without_singular;
 use super::expression::{Expression, Pattern, Receiver, Statement, Type};
 use super::function::{Body, Function, Kernel, Output, Shape, Source};
@@ -26,10 +28,10 @@ use crate::derivation::{self, Scene, Step};
 use crate::graph::NodeId;
 use crate::ids::SceneId;
 use crate::model::{self, SceneRequest};
-pub(super) use implementation::of_scene as implementation;
-use linkage_ir::Intrinsic;
-pub use reactions::MULTIPLIERS;
 use reads::{Layers, Read};
+
+pub(super) use implementation::of_scene as implementation;
+pub use reactions::MULTIPLIERS;
 pub use signatures::{Joint, SceneSignatures};
 
 const ERRORS: [&str; 4] = [
@@ -161,7 +163,7 @@ impl ScenePlan<'_, '_, '_> {
     fn pose_at(&self, body: &mut Body) {
         let (q, pose) = (&self.signatures.arguments.q, &self.signatures.arguments.pose);
         let call = self.mechanism().driver_call("pose_at", [Expression::name(q)]);
-        body.before.push(Statement::Let(Pattern::name(pose.clone()), call));
+        body.before.push(Statement::Let(Pattern::bound(pose.clone()), call));
     }
 
     /// The name of a function of the driver in call lists.
@@ -200,7 +202,11 @@ impl ScenePlan<'_, '_, '_> {
         let call = if is_method {
             self.mechanism().driver_call(function, on)
         } else {
-            Expression::called_on(Receiver::Type(Type::Bare(self.signatures.types.driver.clone())), function, on)
+            Expression::called_on(
+                Receiver::Type(Box::new(Type::Bare(self.signatures.types.driver.clone()))),
+                function,
+                on,
+            )
         };
         if is_fallible { call.tried() } else { call }
     }
@@ -222,7 +228,7 @@ impl ScenePlan<'_, '_, '_> {
             let check_effects = Expression::own_call("check_effects", state.map(Expression::name));
             let error = Expression::call(Intrinsic::Err, [Expression::name("error").converted()]);
             Expression::Closure {
-                arguments: vec![Pattern::name("error".to_owned())],
+                arguments: vec![Pattern::bound("error".to_owned())],
                 statements: Vec::new(),
                 value: Box::new(Expression::call(Intrinsic::And, [check_effects, error])),
                 moves: false,

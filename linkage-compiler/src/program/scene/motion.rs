@@ -1,5 +1,8 @@
 //! M, Q and the accelerations of a scene.
 
+use linkage_ir::Intrinsic;
+use linkage_ir::Operations;
+
 use super::reads::Read;
 use super::{ERRORS, ScenePlan};
 use crate::derivation::Prescribed;
@@ -9,8 +12,6 @@ use crate::program::doc::{fenced, lines};
 use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Value, results};
 use crate::program::plan::unnamed;
-use linkage_ir::Intrinsic;
-use linkage_ir::Operations;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn mass_matrix(&mut self) {
@@ -95,7 +96,7 @@ impl ScenePlan<'_, '_, '_> {
         let columns = Expression::List(Expression::nested(entries, &[count]));
         let arguments = [Expression::mechanism(), texts, columns, Expression::List(sides)];
         let pattern = names.iter().filter_map(|name| match name {
-            Expression::Local(index) => Some(Pattern::local(*index)),
+            Expression::Local(index) => Some(Pattern::bound(*index)),
             _ => None,
         });
         let pattern = Pattern::List(pattern.collect());

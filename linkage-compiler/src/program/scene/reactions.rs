@@ -1,5 +1,7 @@
 //! `reactions`: the forces in joints, and the Lagrange multipliers of the loop equations and constraints.
 
+use linkage_ir::Intrinsic;
+
 use super::{ERRORS, Joint, ScenePlan};
 use crate::derivation::{Reactions, Step, needed};
 use crate::graph::SymbolId;
@@ -9,7 +11,6 @@ use crate::program::expression::{Expression, Pattern, Statement, Type};
 use crate::program::function::{Body, Output, Shape, Source, Value, results};
 use crate::program::names::{Arguments, Order};
 use crate::program::plan::unnamed;
-use linkage_ir::Intrinsic;
 
 /// The field of the multipliers.
 pub const MULTIPLIERS: &str = "multipliers";
@@ -110,7 +111,7 @@ impl ScenePlan<'_, '_, '_> {
         if takes_rates {
             let on = [Expression::name(&pose).borrowed(), Expression::name(&input_rates)];
             let all = self.mechanism().driver_call("velocity", on).tried();
-            body.before.push(Statement::Let(Pattern::name(rates), all));
+            body.before.push(Statement::Let(Pattern::bound(rates), all));
         }
         Body { value: Value::Plain(value), ..body }
     }
@@ -126,14 +127,14 @@ impl ScenePlan<'_, '_, '_> {
             return Body { value: Value::Result(Expression::call(Intrinsic::Reactions, state)), ..body };
         }
         let fields = [("rates", rates), ("input_accelerations", input_accelerations)];
-        let fields = fields.map(|(field, name)| (field.to_owned(), Pattern::name(name.clone()))).to_vec();
+        let fields = fields.map(|(field, name)| (field.to_owned(), Pattern::bound(name.clone()))).to_vec();
         let both = Pattern::Struct { of: Type::Runtime("StateRates", Vec::new()), fields, is_whole: true };
         let moving = Expression::own_call("rates", [at(time), at(q), at(input_rates)]).tried();
         body.before.push(Statement::Let(both, moving));
         self.pose_at(&mut body);
         let on = [at(pose).borrowed(), at(rates).borrowed(), at(input_accelerations)];
         let all = self.mechanism().driver_call("acceleration", on).tried();
-        body.before.push(Statement::Let(Pattern::name(accelerations.clone()), all));
+        body.before.push(Statement::Let(Pattern::bound(accelerations.clone()), all));
         let motion = [at(time), at(q), at(rates).borrowed(), at(accelerations).borrowed()];
         Body { value: Value::Result(Expression::own_call("reactions_of", motion)), ..body }
     }

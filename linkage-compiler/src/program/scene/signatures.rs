@@ -7,7 +7,7 @@ use crate::ids::{CoordinateId, InputId, SceneId, Table};
 use crate::model::{Driver, Load, LoadKind, Mechanism, SceneRequest};
 use crate::program::expression::Type;
 use crate::program::function::{Access, Argument, Body, Function, Passed};
-use crate::program::names::{Arguments, Order, TypeNames, argument};
+use crate::program::names::{Arguments, Order, TypeNames, argument, type_names};
 use crate::program::signatures::{Parameter, fallible, total};
 
 /// The functions of one scene, without bodies: plain data, as that of a driver.
@@ -84,7 +84,7 @@ impl SceneSignatures {
             has_inertia: scene.inertia.is_some(),
             contacts: scene.contacts.iter().map(|contact| contact.bearing.is_some()).collect(),
             joints: scene.loads.iter().map(|&place| Joint::of(place, &loads[place])).collect(),
-            types: TypeNames { itself: scene.name.to_string(), ..TypeNames::new(mechanism, driver) },
+            types: TypeNames { itself: scene.name.to_string(), ..type_names(mechanism, driver) },
             arguments: Arguments::new(mechanism),
             field: argument(mechanism, "mechanism"),
             inputs: inputs.collect(),
@@ -298,7 +298,7 @@ impl SceneSignatures {
     }
 
     fn coordinates_type(&self, order: Order) -> Type {
-        Type::Own(self.types.of(order).to_owned())
+        Type::Own(order.type_of(&self.types).to_owned())
     }
 }
 

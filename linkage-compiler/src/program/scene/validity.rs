@@ -1,5 +1,7 @@
 //! `check`: the ranges of masses, inertias, frictions and stops.
 
+use linkage_ir::Intrinsic;
+
 use super::ScenePlan;
 use crate::derivation::ContactFormula;
 use crate::graph::NodeId;
@@ -7,7 +9,6 @@ use crate::program::doc::lines;
 use crate::program::expression::{Expression, Statement};
 use crate::program::function::{Body, Value};
 use crate::program::plan::unnamed;
-use linkage_ir::Intrinsic;
 
 impl ScenePlan<'_, '_, '_> {
     pub(super) fn check(&mut self) {

@@ -10,7 +10,7 @@ mod position;
 use super::branch::Position;
 use super::expression::Type;
 use super::function::{Argument, Body, Function, Passed};
-use super::names::{Arguments, Order, TypeNames};
+use super::names::{Arguments, Order, TypeNames, type_names};
 use crate::ids::{ColumnId, InputId, Table, UnknownId};
 use crate::model::{Driver, Mechanism, Request};
 use std::collections::BTreeSet;
@@ -68,7 +68,7 @@ impl Signatures {
             is_open: mechanism.is_open(),
             has_scenes: mechanism.scenes_of(driver).next().is_some(),
             drawn_forces: mechanism.drawn_forces(),
-            types: TypeNames::new(mechanism, driver),
+            types: type_names(mechanism, driver),
             arguments: Arguments::new(mechanism),
         }
     }
@@ -182,6 +182,6 @@ impl Signatures {
     }
 
     pub fn coordinates_type(&self, order: Order) -> Type {
-        Type::Own(self.types.of(order).to_owned())
+        Type::Own(order.type_of(&self.types).to_owned())
     }
 }

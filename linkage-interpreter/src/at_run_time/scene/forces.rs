@@ -40,7 +40,7 @@ impl<'p, V> JointForcesAtRunTime<'p, V> {
             None => (*field, next()),
             Some(length) => (*field, Value::list((0..*length).map(|_| next()))),
         });
-        Value::record(scene.types.scene, fields.collect::<Vec<_>>())
+        Value::record(fields.collect::<Vec<_>>())
     }
 }
 

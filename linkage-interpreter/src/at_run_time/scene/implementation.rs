@@ -171,7 +171,7 @@ impl<'p, V: Dim> Scene for SceneAtRunTime<'p, V> {
             (of.inputs, list(accelerations.inputs.as_slice())),
         ];
         let [t, q, rates] = self.moving(t, q, rates);
-        let accelerations = Value::record(self.prepared.scene.types.state, fields);
+        let accelerations = Value::record(fields);
         let given = [t, q, rates, accelerations, list(contact_forces.as_slice())];
         let found = self.prepared.result("reactions", given)?;
         Ok(JointForcesAtRunTime::read(&self.prepared.joints, &found))

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use linkage_dynamics::MotionError;
+use linkage_ir::Name;
+use linkage_ir::code::Function;
 use linkage_runtime::{Dim, Joint};
 
 use super::{MOST_CONTACTS, MOST_JOINTS, SceneAtRunTime};
 use crate::at_run_time::{NotPrepared, Prepared};
 use crate::call_error::CallError;
-use crate::code::{Function, Name};
 use crate::error::Error;
 use crate::machine::{Algorithms, Defect, Failure, Kind, Machine, Of, User, Value};
 use crate::program::{Driver, Scene};

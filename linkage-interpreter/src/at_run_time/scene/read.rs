@@ -3,12 +3,12 @@
 use linkage_dynamics::{
     Bearing, Contact, ContactCoordinate, ContactLaw, Equations, Prescribed, ReactionRow, Unreduced,
 };
+use linkage_ir::Name;
 use linkage_runtime::{Build as _, Column, Dim};
 
 use super::{ContactCount, SceneAtRunTime};
 use crate::at_run_time::Count;
 use crate::at_run_time::read::{field, matrix, number, numbers};
-use crate::code::Name;
 use crate::machine::Value;
 
 /// The numbers of a field, as many as there are of a kind.
@@ -68,7 +68,7 @@ impl<'p, V: Dim> SceneAtRunTime<'p, V> {
         let mechanism = &self.prepared.mechanism;
         let along = field(value, Name::ALONG);
         let name = field(value, Name::NAME).as_text().map_or("", |name| mechanism.name_of(name));
-        let case = field(value, Name::LAW).as_record().map_or("", |law| mechanism.driver.names.text(law.of));
+        let case = field(value, Name::LAW).as_record().map_or("", |law| law.of);
         Contact {
             name,
             along: ContactCoordinate {

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use linkage_ir::Name;
 use linkage_runtime::__rt::Triangle;
 use linkage_runtime::Elbow;
 
-use crate::code::Name;
 use crate::machine::defect::Defect;
 use crate::machine::groups::numbers;
 use crate::machine::scalar::{Scalar, Single};

@@ -1,8 +1,9 @@
 //! All branches, and the positions on those that exist.
 
+use linkage_ir::Name;
+use linkage_ir::code::Code;
 use linkage_runtime::PositionError;
 
-use crate::code::{Function, Name};
 use crate::error::Error;
 use crate::machine::Machine;
 use crate::machine::defect::Defect;
@@ -14,7 +15,7 @@ const MOST_COMBINATIONS: usize = 1 << 20;
 
 impl<'c> Machine<'c> {
     /// A value for each list of numbers below these counts.
-    pub(super) fn combinations(&mut self, code: &'c Function, counts: &Value, of: &Value) -> Evaluated<Value> {
+    pub(super) fn combinations(&mut self, code: &'c Code, counts: &Value, of: &Value) -> Evaluated<Value> {
         let counts = counts.as_list()?.iter().map(Value::as_count).collect::<Result<Vec<_>, _>>()?;
         let all = counts.iter().try_fold(1_usize, |all, count| all.checked_mul(*count));
         let all = all.filter(|all| *all <= MOST_COMBINATIONS).ok_or_else(|| Defect::new("too many branches"))?;
@@ -32,13 +33,13 @@ impl<'c> Machine<'c> {
     }
 
     /// The positions on those of these branches that exist.
-    pub(super) fn existing(&mut self, code: &'c Function, branches: &Value, assemble: &Value) -> Evaluated<Value> {
+    pub(super) fn existing(&mut self, code: &'c Code, branches: &Value, assemble: &Value) -> Evaluated<Value> {
         let mut found = Vec::new();
         for branch in branches.as_list()? {
             match self.closure(code, assemble, [branch.clone()], true) {
                 Ok(pose) => {
                     let fields = [(Name::BRANCH, branch.clone()), (Name::POSE, pose)];
-                    found.push(Value::record(self.driver.types.assembled, fields));
+                    found.push(Value::record(fields));
                 }
                 Err(failure) => match *failure {
                     Failure::Error(Error::Position(

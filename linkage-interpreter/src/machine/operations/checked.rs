@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use linkage_dynamics::__rt::{self as dynamics, Contact, ContactCoordinate, ContactLaw};
 use linkage_ir::Intrinsic;
+use linkage_ir::Name;
 use linkage_runtime::__rt as rt;
 use linkage_runtime::{Column, D, PositionError};
 
 use super::arguments::{Arguments, are_finite, number};
-use crate::code::Name;
 use crate::error::Error;
 use crate::machine::Machine;
 use crate::machine::defect::Defect;
@@ -28,16 +28,16 @@ impl Machine<'_> {
             let value = arguments.at(place)?;
             if are_finite(value) { Ok(value) } else { Err(not_finite(arguments.names()?).into()) }
         };
-        let points = |all: &Value| self.named(self.driver.types.points, &self.driver.points, entries(all)?);
-        let outputs = |all: &Value| self.named(self.driver.types.outputs, &self.driver.outputs, entries(all)?);
-        let motions = |of: Name, names: [Name; 3]| {
+        let points = |all: &Value| self.named(&self.driver.points, entries(all)?);
+        let outputs = |all: &Value| self.named(&self.driver.outputs, entries(all)?);
+        let motions = |names: [Name; 3]| {
             let all = arguments.at(1)?;
             if !are_finite(all) {
                 return Err(Box::from(not_finite([arguments.at(0)?.as_text()?, &"motion".into()])));
             }
             let motion = |value: &Value| {
                 let parts = value.as_list()?.iter().cloned();
-                Ok::<_, Defect>(Value::record(of, names.into_iter().zip(parts)))
+                Ok::<_, Defect>(Value::record(names.into_iter().zip(parts)))
             };
             let all = all.as_list()?.iter().map(motion).collect::<Result<Vec<_>, _>>()?;
             Ok(Value::list(all))
@@ -65,12 +65,8 @@ impl Machine<'_> {
                 let all = matrices(checked(2)?)?;
                 if arguments.at(1)?.as_text()?.starts_with("point") { points(&all)? } else { outputs(&all)? }
             }
-            Intrinsic::PointMotions => {
-                points(&motions(self.driver.types.point_motion, [Name::POSITION, Name::VELOCITY, Name::ACCELERATION])?)?
-            }
-            Intrinsic::OutputMotions => {
-                outputs(&motions(self.driver.types.output_motion, [Name::VALUE, Name::RATE, Name::ACCELERATION])?)?
-            }
+            Intrinsic::PointMotions => points(&motions([Name::POSITION, Name::VELOCITY, Name::ACCELERATION])?)?,
+            Intrinsic::OutputMotions => outputs(&motions([Name::VALUE, Name::RATE, Name::ACCELERATION])?)?,
             Intrinsic::Countable => {
                 let mechanism = arguments.at(0)?.as_text()?;
                 for guess in arguments.at(1)?.as_list()? {
@@ -133,7 +129,7 @@ impl Machine<'_> {
             bias,
         };
         let of_law = |name| number(law.get(name).unwrap_or(&Value::Absent));
-        let law = match self.driver.names.text(law.of) {
+        let law = match law.of {
             "ContactLaw::Friction" => ContactLaw::Friction { limit: of_law(Name::LIMIT)? },
             "ContactLaw::Bearing" => ContactLaw::Bearing { factor: of_law(Name::FACTOR)? },
             _ => ContactLaw::Stop {

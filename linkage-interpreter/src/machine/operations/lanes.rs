@@ -1,9 +1,9 @@
 //! The forms of operations over lanes, which are recorded on a tape.
 
 use linkage_ir::Intrinsic;
+use linkage_ir::Name;
 
 use super::arguments::{Arguments, side};
-use crate::code::Name;
 use crate::machine::defect::Defect;
 use crate::machine::failure::Evaluated;
 use crate::machine::scalar::Scalar as _;

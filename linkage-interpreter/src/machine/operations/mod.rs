@@ -10,6 +10,8 @@ mod scenes;
 use std::sync::Arc;
 
 use linkage_ir::Intrinsic;
+use linkage_ir::code::{Code, Type, Value as Operation};
+use linkage_ir::{Name, ValueId};
 use linkage_runtime::__rt::{self as rt, Wide};
 use linkage_runtime::PositionError;
 use linkage_runtime::{Elbow, Ranged};
@@ -20,10 +22,10 @@ use super::groups::{MOST_UNKNOWNS, each, factorised, list, numbers, pivots, size
 use super::scalar::Single;
 use super::value::Value;
 use super::{Kind, Load, Machine};
-use crate::code::{Function, Id, Name};
 use crate::error::Error;
-use arguments::{Arguments, number as number_of, side, triangle};
+use arguments::{Arguments, are_finite, number as number_of, side, triangle};
 use lanes::in_lanes;
+
 pub(super) use parts::of_runtime;
 
 /// A chord and whether its triangle is well conditioned.
@@ -37,7 +39,13 @@ fn perhaps<S: Single>(found: Option<S>) -> Value {
 
 impl<'c> Machine<'c> {
     /// Applies a function of the runtime: the value of its success, or its value.
-    pub(super) fn operation(&mut self, code: &'c Function, of: Intrinsic, arguments: &'c [Id]) -> Evaluated<Value> {
+    pub(super) fn operation(
+        &mut self,
+        code: &'c Code,
+        of: Intrinsic,
+        of_type: Option<&'c Type>,
+        arguments: &'c [ValueId],
+    ) -> Evaluated<Value> {
         // Those that evaluate an argument in a way of their own.
         match (of, arguments) {
             (Intrinsic::Ok, [value]) => return self.value(code, *value),
@@ -54,6 +62,21 @@ impl<'c> Machine<'c> {
                 self.success(code, *one)?;
                 return self.success(code, *other);
             }
+            // The value itself.
+            (Intrinsic::Into | Intrinsic::Iter | Intrinsic::Copied | Intrinsic::EachSized, [value, ..]) => {
+                return self.value(code, *value);
+            }
+            (Intrinsic::From, [value]) => {
+                let value = self.value(code, *value)?;
+                return Ok(self.from(of_type, value)?);
+            }
+            (Intrinsic::Zeros, []) => return zeros(of_type),
+            (Intrinsic::OnlyBranch, []) => return Ok(Value::record([])),
+            // Of each number.
+            (Intrinsic::AreAll, [all, _]) => return Ok(Value::Flag(are_finite(&self.value(code, *all)?))),
+            (Intrinsic::Map, [all, function]) if is_widened(code, *function) => {
+                return self.operation(code, Intrinsic::Widened, None, std::slice::from_ref(all));
+            }
             // The last is a function.
             (Intrinsic::Limits, [arguments @ .., _]) => return self.limits(code, arguments),
             _ => {}
@@ -69,12 +92,7 @@ impl<'c> Machine<'c> {
         }
     }
 
-    fn applied<S: Single + 'static>(
-        &mut self,
-        code: &'c Function,
-        of: Intrinsic,
-        values: &[Value],
-    ) -> Evaluated<Value> {
+    fn applied<S: Single + 'static>(&mut self, code: &'c Code, of: Intrinsic, values: &[Value]) -> Evaluated<Value> {
         let arguments = Arguments(values);
         if let Some(value) = self.of_values(of, &arguments)? {
             return Ok(value);
@@ -252,6 +270,19 @@ impl<'c> Machine<'c> {
     }
 }
 
+/// True for the function that takes a number to twice the precision.
+fn is_widened(code: &Code, id: ValueId) -> bool {
+    matches!(code.values.get(id.index()), Some(Operation::Function(Intrinsic::Widened, _)))
+}
+
+/// The matrix of a type whose entries are zero.
+fn zeros(of_type: Option<&Type>) -> Evaluated<Value> {
+    let Some(&Type::Runtime(_, ref sizes)) = of_type else { return Err(Defect::new("zeros of no matrix").into()) };
+    let &[rows, columns] = sizes.as_slice() else { return Err(Defect::new("zeros of no matrix").into()) };
+    let column = Value::list(std::iter::repeat_n(Value::Number(0.0), rows));
+    Ok(Value::Matrix(std::iter::repeat_n(column, columns).collect()))
+}
+
 /// A value with a range.
 fn ranged(arguments: &Arguments, made: impl Fn(f64, Option<f64>, Option<f64>) -> Ranged<f64>) -> Result<Value, Defect> {
     let end = |place| match arguments.at(place)? {
@@ -260,70 +291,50 @@ fn ranged(arguments: &Arguments, made: impl Fn(f64, Option<f64>, Option<f64>) ->
     };
     let Ranged { value, least, most, is_direction } = made(arguments.number(0)?, end(1)?, end(2)?);
     let end = |end: Option<f64>| end.map_or(Value::Absent, Value::Number);
-    Ok(Value::record(
-        Name::RANGED,
-        [
-            (Name::VALUE, Value::Number(value)),
-            (Name::LEAST, end(least)),
-            (Name::MOST, end(most)),
-            (Name::IS_DIRECTION, Value::Flag(is_direction)),
-        ],
-    ))
+    Ok(Value::record([
+        (Name::VALUE, Value::Number(value)),
+        (Name::LEAST, end(least)),
+        (Name::MOST, end(most)),
+        (Name::IS_DIRECTION, Value::Flag(is_direction)),
+    ]))
 }
 
 #[cfg(all(test, feature = "compiler"))]
 mod tests {
+    use linkage_ir::code::{Readable, Returned};
+
     use super::*;
     use crate::Program;
-    use crate::code::{Access, Expression, Returned, Shape};
     use crate::machine::Failure;
 
-    /// The intrinsics that are other expressions of compiled code, and those that it does not call.
-    const TRANSLATED: [Intrinsic; 14] = [
-        Intrinsic::Into,
-        Intrinsic::Iter,
-        Intrinsic::Copied,
-        Intrinsic::EachSized,
-        Intrinsic::From,
-        Intrinsic::Zeros,
-        Intrinsic::OnlyBranch,
-        Intrinsic::All,
-        Intrinsic::Coordinates,
-        Intrinsic::Square,
-        Intrinsic::AreAll,
-        Intrinsic::Sum,
-        Intrinsic::Pi,
-        Intrinsic::Unknown,
-    ];
+    /// Those that have cases where values are computed: functions of poses and branches, and a square; and those that code of a
+    /// scalar does not call.
+    const ELSEWHERE: [Intrinsic; 6] =
+        [Intrinsic::All, Intrinsic::Coordinates, Intrinsic::Square, Intrinsic::Sum, Intrinsic::Pi, Intrinsic::Unknown];
 
     /// Each row of the table has its case here: none ends as one that the machine does not know.
     #[test]
     fn every_intrinsic_is_run() {
         let program = Program::compile("mechanism M { input x; output y = x; }").unwrap();
         let driver = program.mechanisms()[0].driver();
-        let code = Function {
-            name: String::new(),
-            access: Access::Private,
-            is_method: false,
-            is_fallible: true,
-            arguments: Vec::new(),
-            returns: Shape::Number,
+        let code = Code {
             slots: 1,
-            expressions: vec![Expression::Absent],
+            values: vec![Operation::List(Vec::new())],
             statements: Vec::new(),
-            value: Returned::Plain(Id(0)),
+            value: Returned::Plain(ValueId::new(0)),
+            readable: Readable::default(),
         };
         let is_known = |of: Intrinsic| {
-            let arguments = vec![Id(0); of.row().roles.len()];
+            let arguments = vec![ValueId::new(0); of.row().roles.len()];
             [Kind::Double, Kind::Traced].into_iter().any(|kind| {
-                let result = Machine::new(driver, None, &[], kind).operation(&code, of, &arguments);
+                let result = Machine::new(driver, None, &[], kind).operation(&code, of, None, &arguments);
                 let unknown = Defect::new(format!("{of:?} in a function"));
                 !matches!(result.map_err(|failure| *failure), Err(Failure::Defect(defect)) if defect == unknown)
             })
         };
         // `Equations::at` is called by scenes of the runtime only.
         for &of in Intrinsic::ALL.iter().filter(|of| **of != Intrinsic::EquationsAt) {
-            assert_eq!(is_known(of), !TRANSLATED.contains(&of), "{of:?}");
+            assert_eq!(is_known(of), !ELSEWHERE.contains(&of), "{of:?}");
         }
     }
 }

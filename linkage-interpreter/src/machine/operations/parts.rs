@@ -2,16 +2,16 @@
 
 use std::rc::Rc;
 
-use linkage_ir::{Constant, Intrinsic};
+use linkage_ir::code::Type;
+use linkage_ir::{Constant, Intrinsic, Name};
 use linkage_runtime::AssemblyMode;
 
 use super::arguments::{Arguments, are_finite};
-use crate::code::{Made, Name};
 use crate::machine::Machine;
 use crate::machine::defect::Defect;
 use crate::machine::failure::Evaluated;
 use crate::machine::scalar::Scalar as _;
-use crate::machine::value::{Record, Turning, Value};
+use crate::machine::value::{Turning, Value};
 
 /// A constant of the runtime.
 pub(crate) fn of_runtime(of: Constant) -> Result<Value, Defect> {
@@ -47,11 +47,10 @@ impl Machine<'_> {
             Intrinsic::IsFinite => Value::Flag(are_finite(value()?)),
             Intrinsic::Unit => Value::list([value()?.clone(), arguments.at(1)?.clone()]),
             Intrinsic::Parts => {
-                let scene = self.scene.ok_or_else(|| Defect::new("a state without a scene"))?;
                 let mut all = value()?.as_list()?.iter().cloned();
-                let q = self.named(self.driver.types.coordinates, &self.driver.coordinates, |_| all.next())?;
-                let rates = self.named(self.driver.types.inputs, &self.driver.inputs, |_| all.next())?;
-                Value::record(scene.types.state, [(Name::Q, q), (Name::INPUT_RATES, rates)])
+                let q = self.named(&self.driver.coordinates, |_| all.next())?;
+                let rates = self.named(&self.driver.inputs, |_| all.next())?;
+                Value::record([(Name::Q, q), (Name::INPUT_RATES, rates)])
             }
             Intrinsic::At => {
                 Value::At(arguments.at(1)?.as_list()?.iter().map(|value| f64::of(value).unwrap_or(f64::NAN)).collect())
@@ -91,38 +90,39 @@ impl Machine<'_> {
         }))
     }
 
-    /// A value of this form with the numbers of another.
-    pub(crate) fn made(&self, of: Made, value: &Value) -> Result<Value, Defect> {
-        Ok(match of {
-            Made::List => match value {
+    /// A value of a type from one with the same numbers.
+    pub(super) fn from(&self, of_type: Option<&Type>, value: Value) -> Result<Value, Defect> {
+        let types = &self.driver.types;
+        Ok(match of_type {
+            Some(Type::List(..)) => match &value {
                 Value::Record(record) => Value::list(record.fields.iter().map(|(_, value)| value.clone())),
                 other => Value::list(other.as_list()?.iter().cloned()),
             },
-            Made::Matrix => Value::Matrix(value.as_list()?.into()),
-            Made::Inputs => {
+            Some(Type::Runtime("SMatrix" | "Matrix", _) | Type::Sized("Matrix", _)) => {
+                Value::Matrix(value.as_list()?.into())
+            }
+            // The inputs of coordinates by name.
+            Some(Type::Bare(name)) if *name == types.inputs => {
                 let all = value.as_record()?;
-                self.named(self.driver.types.inputs, &self.driver.inputs, |name| all.get(name).cloned())?
+                self.named(&self.driver.inputs, |name| all.get(name).cloned())?
             }
-            Made::Mechanism => {
+            // A mechanism from the list of its parameters.
+            Some(Type::Bare(name)) if *name == types.driver => {
                 let mut all = value.as_list()?.iter().cloned();
-                self.named(self.driver.types.mechanism, &self.driver.parameters, |_| all.next())?
+                self.named(&self.driver.parameters, |_| all.next())?
             }
+            Some(Type::Runtime(..) | Type::Sized(..) | Type::Tuple(_) | Type::Column(..)) => value,
+            other => return Err(Defect::new(format!("a value of {other:?}"))),
         })
     }
 
     /// A record with these fields.
-    pub(super) fn named(
-        &self,
-        of: Name,
-        names: &[Name],
-        mut value: impl FnMut(Name) -> Option<Value>,
-    ) -> Result<Value, Defect> {
+    pub(super) fn named(&self, names: &[Name], mut value: impl FnMut(Name) -> Option<Value>) -> Result<Value, Defect> {
         let fields = names.iter().map(|name| {
             let value = value(*name).ok_or_else(|| Defect::new("a field that is not given"))?;
             Ok((*name, value))
         });
-        let fields = fields.collect::<Result<Vec<_>, _>>()?;
-        Ok(Value::Record(Rc::new(Record { of, fields })))
+        Ok(Value::record(fields.collect::<Result<Vec<_>, _>>()?))
     }
 }
 

@@ -4,9 +4,10 @@ use std::cell::RefCell;
 
 use linkage_dynamics::__rt::{self as dynamics, Balance};
 use linkage_dynamics::MotionError;
+use linkage_ir::Name;
+use linkage_ir::code::Code;
 
 use super::arguments::Arguments;
-use crate::code::{Function, Name};
 use crate::error::Error;
 use crate::machine::Machine;
 use crate::machine::defect::Defect;
@@ -16,7 +17,7 @@ use crate::machine::value::Value;
 
 impl<'c> Machine<'c> {
     /// The position at rest near the start.
-    pub(super) fn equilibrium(&mut self, code: &'c Function, arguments: &Arguments) -> Evaluated<Value> {
+    pub(super) fn equilibrium(&mut self, code: &'c Code, arguments: &Arguments) -> Evaluated<Value> {
         let (scene, start, evaluation) = (arguments.at(0)?.as_text()?, arguments.at(1)?, arguments.at(2)?);
         sized!(start.as_list()?.len(), N => {
             let start = numbers::<f64, N>(start)?;
@@ -43,7 +44,7 @@ impl<'c> Machine<'c> {
     /// A position and the balance of its forces.
     fn balance<const N: usize>(
         &mut self,
-        code: &'c Function,
+        code: &'c Code,
         evaluation: &Value,
         at: [f64; N],
     ) -> Evaluated<(Value, Balance<f64, N>)> {

@@ -1,24 +1,40 @@
-//! The formulas over numbers of any kind, from the compiler's lowered functions to operations on registers. They are straight
-//! lines: lists, fields and patterns are resolved here, once.
+//! The formulas over numbers of any kind, from compiled functions to operations on registers. They are straight lines: lists,
+//! fields and patterns are resolved here, once.
 
 use std::collections::BTreeMap;
 
-use linkage_compiler::Lowered;
-use linkage_compiler::graph::{Function, Number};
-use linkage_compiler::lower::{Code, Pattern, Statement, Value, ValueId};
-use linkage_compiler::program::{self, AnyNumber, Constant as Path, Family, Intrinsic, Signatures};
+use std::fmt::{self, Display, Formatter};
 
-use super::{Translated, Untranslated};
-use crate::formulas::{Binary, Constant, Formula, Formulas, Instruction, Range, Register, Unary};
+use linkage_compiler::Lowered;
+use linkage_compiler::program::{AnyNumber, Family, Program};
+use linkage_ir::code::{Argument, Code, Function, Names, Passed, Pattern, Statement, Value};
+use linkage_ir::{Constant as Path, ElementaryFunction, Intrinsic, Number, Slot, ValueId};
+
+use super::{Binary, Constant, Formula, Formulas, Instruction, Range, Register, Unary};
+
+type Translated<T> = Result<T, String>;
+
+/// Something in compiled code that is no formula over numbers of any kind: a mistake of the compiler.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Untranslated {
+    function: String,
+    what: String,
+}
+
+impl Display for Untranslated {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { function, what } = self;
+        write!(f, "the code of `{function}` has {what}, which is not run: this is a mistake of the compiler")
+    }
+}
 
 /// The formulas of a driver that has them.
 pub(crate) fn formulas(lowered: &Lowered) -> Result<Option<Formulas>, Untranslated> {
-    let Some(any) = &lowered.program.any_number else { return Ok(None) };
-    let signatures = &lowered.program.signatures;
-    let of = |name: &str| formula(any, signatures, name, Form::numbers);
+    let Program { any_number: Some(any), signatures, .. } = &lowered.program else { return Ok(None) };
+    let of = |name: &str| formula(any, &lowered.program, name, Form::numbers);
     let ranges = match signatures.ranges.is_empty() {
         true => Formula::default(),
-        false => formula(any, signatures, "ranged", Form::ranges)?,
+        false => formula(any, &lowered.program, "ranged", Form::ranges)?,
     };
     let quantities = [Family::Points, Family::Outputs].into_iter();
     Ok(Some(Formulas {
@@ -36,7 +52,7 @@ pub(crate) fn formulas(lowered: &Lowered) -> Result<Option<Formulas>, Untranslat
 /// A function of `Formulas` by its name.
 fn formula<R>(
     any: &AnyNumber<Code>,
-    signatures: &Signatures,
+    program: &Program<Code>,
     name: &str,
     results: impl FnOnce(Form) -> Translated<R>,
 ) -> Result<Formula<R>, Untranslated> {
@@ -44,7 +60,7 @@ fn formula<R>(
     let function = any.functions.iter().find(|function| function.name == name);
     let function = function.ok_or_else(|| untranslated("no such name".to_owned()))?;
     let code = function.body.as_ref().ok_or_else(|| untranslated("no body".to_owned()))?;
-    let mut line = Line::of(code, function, signatures);
+    let mut line = Line::of(code, function, program);
     let results = line.value_of(code).and_then(results).map_err(untranslated)?;
     Ok(Formula { instructions: line.instructions, results })
 }
@@ -94,10 +110,10 @@ impl Form {
 /// The translation of a function.
 struct Line<'l> {
     code: &'l Code,
+    names: &'l Names,
     parameters: BTreeMap<&'l str, Register>,
-    arguments: Vec<Form>,
-    /// The values that statements bind, and those that are known without a name.
-    bound: BTreeMap<ValueId, Form>,
+    /// `self`, the arguments, and what statements bind.
+    bound: BTreeMap<Slot, Form>,
     done: BTreeMap<ValueId, Form>,
     instructions: Vec<Instruction>,
     /// The next register.
@@ -105,7 +121,8 @@ struct Line<'l> {
 }
 
 impl<'l> Line<'l> {
-    fn of(code: &'l Code, function: &program::Function<Code>, signatures: &'l Signatures) -> Self {
+    fn of(code: &'l Code, function: &Function, program: &'l Program<Code>) -> Self {
+        let Program { signatures, names, .. } = program;
         let mut next = 0;
         let mut given = || {
             next += 1;
@@ -115,24 +132,21 @@ impl<'l> Line<'l> {
         let parameters = fields.map(|field| (field, given())).collect();
         // Unknowns and inputs, or these and their rates.
         let mut counts = [signatures.unknowns.len(), signatures.inputs.len()].into_iter().cycle();
-        let mut argument = |of: &program::Argument| match of.passed {
-            program::Passed::ByValue(_) => Form::Place,
+        let mut argument = |of: &Argument| match of.passed {
+            Passed::ByValue(_) => Form::Place,
             _ => Form::List((0..counts.next().unwrap_or_default()).map(|_| Form::Number(given())).collect()),
         };
-        let arguments = function.arguments.iter().map(&mut argument).collect();
-        let [bound, done] = [BTreeMap::new(), BTreeMap::new()];
-        Self { code, parameters, arguments, bound, done, instructions: Vec::new(), next }
+        let arguments = function.arguments.iter().map(&mut argument).collect::<Vec<_>>();
+        let arguments = arguments.into_iter().enumerate().map(|(place, form)| (Slot::of_argument(place), form));
+        let bound = arguments.chain([(Slot::ITSELF, Form::Itself)]).collect();
+        Self { code, names, parameters, bound, done: BTreeMap::new(), instructions: Vec::new(), next }
     }
 
     /// Translates the statements and the value.
     fn value_of(&mut self, code: &Code) -> Translated<Form> {
         for statement in &code.statements {
             let Statement::Let(pattern, value) = statement else { return Err(format!("{statement:?}")) };
-            let form = match pattern {
-                // The pattern gives the value its name.
-                Pattern::Bound(bound) if bound == value => self.computed(*value)?,
-                _ => self.value(*value)?,
-            };
+            let form = self.value(*value)?;
             self.bind(pattern, form)?;
         }
         self.value(code.value.literal())
@@ -155,23 +169,11 @@ impl<'l> Line<'l> {
             Pattern::Struct { fields, .. } => {
                 let Form::Itself = form else { return Err(format!("fields of {form:?}")) };
                 fields.iter().try_for_each(|(name, pattern)| {
-                    let parameter = Form::Number(self.parameter(name)?);
+                    let parameter = Form::Number(self.parameter(self.names.text(*name))?);
                     self.bind(pattern, parameter)
                 })
             }
             Pattern::Case(..) => Err("a pattern that may not match".to_owned()),
-        }
-    }
-
-    /// A value by its name, or computed where it is used.
-    fn value(&mut self, id: ValueId) -> Translated<Form> {
-        if self.code.name(id).is_none() {
-            return self.computed(id);
-        }
-        match self.code.operation(id) {
-            Value::Itself => Ok(Form::Itself),
-            Value::Argument(place) => self.arguments.get(*place).cloned().ok_or_else(|| "no argument".to_owned()),
-            other => self.bound.get(&id).cloned().ok_or_else(|| format!("{other:?} before it is bound")),
         }
     }
 
@@ -183,7 +185,11 @@ impl<'l> Line<'l> {
         self.value(id)?.number()
     }
 
-    fn computed(&mut self, id: ValueId) -> Translated<Form> {
+    /// A value by its slot, or computed where it is used.
+    fn value(&mut self, id: ValueId) -> Translated<Form> {
+        if let Value::Given(slot) = self.code.operation(id) {
+            return self.bound.get(slot).cloned().ok_or_else(|| format!("{slot:?} before it is bound"));
+        }
         if let Some(done) = self.done.get(&id) {
             return Ok(done.clone());
         }
@@ -255,7 +261,9 @@ impl<'l> Line<'l> {
                 let all = all.iter().map(|value| self.value(*value)).collect::<Translated<_>>()?;
                 return Ok(Form::List(all));
             }
-            Value::Field(of, name) if matches!(code.operation(*of), Value::Itself) => self.parameter(name)?,
+            Value::Field(of, name) if matches!(code.operation(*of), Value::Given(Slot::ITSELF)) => {
+                self.parameter(self.names.text(*name))?
+            }
             Value::Repeated(value, count) => return Ok(Form::List(vec![self.value(*value)?; *count])),
             Value::Path(Path::None) => return Ok(Form::Absent),
             Value::Borrowed(of) | Value::Dereferenced(of) => return self.value(*of),
@@ -274,23 +282,23 @@ impl<'l> Line<'l> {
     /// The negative of a value as emitted code computes it: `-a * b` is (-a)*b.
     fn negative(&mut self, id: ValueId) -> Translated<Register> {
         let code = self.code;
-        match Some(code.operation(id)).filter(|_| code.name(id).is_none()) {
-            Some(Value::Product(factors)) => {
+        match code.operation(id) {
+            Value::Product(factors) => {
                 let (first, others) = factors.split_first().ok_or_else(|| "a product of nothing".to_owned())?;
                 let first = self.negative(*first)?;
                 self.product(first, others)
             }
-            Some(Value::Square(base)) => {
+            Value::Square(base) => {
                 let (first, second) = (self.negative(*base)?, self.number(*base)?);
                 Ok(self.binary(Binary::Times, first, second))
             }
-            Some(Value::Quotient(above, below)) => {
+            Value::Quotient(above, below) => {
                 let (above, below) = (self.negative(*above)?, self.number(*below)?);
                 Ok(self.binary(Binary::Over, above, below))
             }
-            Some(Value::Exact(number)) => Ok(self.exact(*number, true)),
+            Value::Exact(number) => Ok(self.exact(*number, true)),
             // Two signs are none.
-            Some(Value::Negative(inside)) => self.number(*inside),
+            Value::Negative(inside) => self.number(*inside),
             _ => {
                 let inside = self.number(id)?;
                 Ok(self.unary(Unary::Negative, inside))
@@ -319,9 +327,9 @@ impl<'l> Line<'l> {
         }
     }
 
-    fn call(&mut self, function: Function, arguments: &[Register]) -> Translated<Register> {
+    fn call(&mut self, function: ElementaryFunction, arguments: &[Register]) -> Translated<Register> {
         match (function, arguments) {
-            (Function::IfNonzero, _) => Err("a comparison".to_owned()),
+            (ElementaryFunction::IfNonzero, _) => Err("a comparison".to_owned()),
             (_, &[of]) => Ok(self.add(Instruction::Of(function, of))),
             (_, &[one, other]) => Ok(self.add(Instruction::OfTwo(function, one, other))),
             _ => Err(format!("{function:?} of {arguments:?}")),
