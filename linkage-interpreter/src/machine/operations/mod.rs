@@ -277,7 +277,7 @@ fn is_widened(code: &Code, id: ValueId) -> bool {
 
 /// The matrix of a type whose entries are zero.
 fn zeros(of_type: Option<&Type>) -> Evaluated<Value> {
-    let Some(&Type::Runtime(_, ref sizes)) = of_type else { return Err(Defect::new("zeros of no matrix").into()) };
+    let Some(Type::Runtime(_, sizes)) = of_type else { return Err(Defect::new("zeros of no matrix").into()) };
     let &[rows, columns] = sizes.as_slice() else { return Err(Defect::new("zeros of no matrix").into()) };
     let column = Value::list(std::iter::repeat_n(Value::Number(0.0), rows));
     Ok(Value::Matrix(std::iter::repeat_n(column, columns).collect()))
