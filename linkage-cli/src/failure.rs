@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io::{self, ErrorKind};
 use std::process::ExitCode;
 
-use linkage_lent::Unsound;
+use linkage_report::lend::Unsound;
 
 use crate::mistakes::Mistakes;
 use crate::terminal::printable;

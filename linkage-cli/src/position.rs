@@ -1,6 +1,6 @@
 //! The numbers and the picture of a sheet at one position.
 
-use linkage_lent::Documents;
+use linkage_compiler::document::Documents;
 use linkage_report::sheet::{MotionNumbers, MovingCoordinate, Sheet};
 use linkage_runtime::{OutputMotion, PointMotion};
 
@@ -34,7 +34,7 @@ impl Position {
         if numbers.set.is_empty() && !is_asked {
             return Ok(None);
         }
-        let (machine, documents) = Machine::with(numbers, Documents::of)?;
+        let (machine, documents) = Machine::with(numbers, |lowered| lowered.documents())?;
         let numbers = match Numbers::of(&machine, arguments, has_picture) {
             Err(Failure::Outside(why) | Failure::Argument(why)) if !is_asked => {
                 say!("the sheet has no numbers of a position: {why}");
@@ -45,7 +45,7 @@ impl Position {
         Ok(Some((Self { given: machine.parameters().to_vec(), numbers }, documents)))
     }
 
-    pub fn add_to<'s, 'd>(&self, sheet: &'s mut Sheet<'d>) -> &'s mut Sheet<'d> {
+    pub fn add_to(&self, sheet: &mut Sheet<'_>) {
         for (name, value) in &self.given {
             sheet.given(name, *value);
         }
@@ -55,7 +55,6 @@ impl Position {
                 sheet.picture(picture, caption);
             }
         }
-        sheet
     }
 }
 

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 use linkage_compiler::model::Request;
-use linkage_lent::Lender;
 use linkage_report::Notation;
+use linkage_report::lend::Lender;
 use linkage_runtime::derivation::{Kernel, KernelCode};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::quote;
@@ -116,7 +116,7 @@ fn write(body: TokenStream, texts: &mut BTreeMap<&'static str, String>) {
         for document in &documents {
             let derivation = lender.derivation(document).unwrap();
             code(fpcore, derivation.mechanism, derivation.kernels);
-            for scene in scenes.iter().filter(|scene| scene.mechanism == document.mechanism) {
+            for scene in scenes.iter().filter(|scene| scene.record.mechanism == document.record.mechanism) {
                 let scene = lender.scene(scene).unwrap();
                 code(fpcore, scene.scene, scene.kernels);
             }

@@ -31,7 +31,7 @@ use quote::quote;
 use budget::{Budget, Spent};
 use derivation::Derivation;
 use diagnostics::Diagnostics;
-use document::{Document, SceneDocument, SheetDocument};
+use document::{Documents, DriverDocument, SceneDocument, SheetDocument};
 use emit::Declared;
 use model::{Driver, Mechanism};
 use program::{Operations, Program};
@@ -132,6 +132,22 @@ pub struct Lowered<'m> {
     pub program: Program<Code>,
     /// The largest rounding errors that its functions can have.
     pub bounds: lower::Bounds,
+}
+
+impl Lowered<'_> {
+    /// Its documents: of the driver, of the analysis by hand where formulas for it exist, and of the scenes, with the formulas of
+    /// functions as `derive fpcore` adds them.
+    #[must_use]
+    pub fn documents(&self) -> Documents {
+        let Declared { mechanism, driver: declared } = self.declared;
+        let (driver, scenes) = emit::documents(self.declared, &self.program, &self.derivation);
+        let has_formulas = self.derivation.groups.iter().all(|group| group.determinant.is_some());
+        let by_hand = has_formulas.then(|| document::of_sheet(mechanism, declared, &self.derivation));
+        let parameters = self.program.signatures.parameters.iter();
+        let defaults = parameters.filter_map(|parameter| Some((parameter.name.text.clone(), parameter.default?)));
+        let about = document::paragraphs(&mechanism.documentation());
+        Documents { driver, by_hand, scenes, defaults: defaults.collect(), about }
+    }
 }
 
 /// Derives, checks, plans and lowers one driver; `None` after a mistake.
@@ -247,7 +263,7 @@ pub fn programs(mechanism: &Mechanism) -> Result<Vec<String>, Vec<String>> {
 ///
 /// # Errors
 /// As [`compile`].
-pub fn documents(mechanism: &Mechanism) -> Result<(Vec<Document>, Vec<SceneDocument>), Vec<String>> {
+pub fn documents(mechanism: &Mechanism) -> Result<(Vec<DriverDocument>, Vec<SceneDocument>), Vec<String>> {
     let (documents, scenes): (Vec<_>, Vec<_>) =
         each_driver(mechanism, |of| emit::documents(of.declared, &of.program, &of.derivation))?.into_iter().unzip();
     Ok((documents.into_iter().flatten().collect(), scenes.into_iter().flatten().collect()))

@@ -5,6 +5,8 @@
 //! not define: of the runtime, of the scalar, and of emitted types. A row of a table is what every reader of the form needs to
 //! know. What only one needs stays there: derivatives in the compiler, values in the runtime.
 //!
+//! [`document`] has the records of derivations: what documents print, in two storages.
+//!
 //! [`Ratio`] computes exactly: [`Number`]s, which are the constants of formulas, and factors of angles in certified motions.
 #![no_std]
 
@@ -13,6 +15,7 @@ extern crate alloc;
 
 #[cfg(feature = "code")]
 pub mod code;
+pub mod document;
 mod elementary;
 #[cfg(feature = "code")]
 mod ids;

@@ -1,18 +1,27 @@
 //! Operation counts of functions.
 
-/// Operation counts.
+/// The operation counts of a function.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Operations {
-    pub multiplications: usize,
-    pub additions: usize,
-    pub divisions: usize,
-    /// Elementary functions, including square roots. Sine and cosine of one angle count as one, and so do a user
-    /// function and its derivatives.
+    /// Calls of elementary functions such as sine, and square roots. Sine and cosine of one angle count as one, and so do a
+    /// user function and its derivatives.
     pub functions: usize,
+    /// Divisions.
+    pub divisions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Additions and subtractions.
+    pub additions: usize,
 }
 
 impl Operations {
+    /// The counts of functions, divisions, multiplications and additions.
+    #[must_use]
+    pub const fn new([functions, divisions, multiplications, additions]: [usize; 4]) -> Self {
+        Self { functions, divisions, multiplications, additions }
+    }
+
     /// Returns the sum of both.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {

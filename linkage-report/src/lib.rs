@@ -7,6 +7,7 @@
 //! - [`drawing`]: a linkage as SVG;
 //! - [`chart`]: curves over axes as SVG;
 //! - `price`: errors and times of a mechanism and of a scene, with the feature `double-double`;
+//! - `lend`: documents of mechanisms that were compiled while the program runs, with the feature `lend`;
 //! - [`table`]: motions, loads and simulations as columns, as CSV and JSON.
 
 #![warn(missing_docs)]
@@ -16,6 +17,8 @@ mod document;
 #[cfg(feature = "drawing")]
 pub mod drawing;
 mod fpcore;
+#[cfg(feature = "lend")]
+pub mod lend;
 mod notation;
 #[cfg(feature = "double-double")]
 pub mod price;

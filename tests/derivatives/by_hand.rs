@@ -6,8 +6,8 @@ use linkage::sheet::Values;
 use linkage_gallery::checks::each;
 use linkage_gallery::listed::{Analysed, ByHand, analysed};
 use linkage_gallery::source;
-use linkage_lent::Lender;
 use linkage_oracle::Oracle;
+use linkage_report::lend::Lender;
 use nalgebra::DMatrix;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -73,7 +73,7 @@ fn formulas_give_the_numbers() {
             without.fetch_add(1, Ordering::Relaxed);
             return;
         };
-        let document = documents.iter().find(|document| document.mechanism == of.name()).unwrap();
+        let document = documents.iter().find(|document| document.record.mechanism == of.name()).unwrap();
         let lender = Lender::default();
         let sheet = lender.sheet(document).unwrap();
         let oracle = Oracle::of(of);

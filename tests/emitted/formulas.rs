@@ -4,27 +4,46 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use linkage_compiler::document::{Document, Number, SceneDocument, Table};
+use linkage_compiler::document::{
+    Derivation, DriverDocument, FormulaId, FormulaNodes, Part, SceneDerivation, SceneDocument, Table,
+};
 use linkage_gallery::{FILES, source};
-use linkage_lent::Lender;
+use linkage_report::lend::Lender;
 
 /// The documents of a file of the gallery.
-fn documents(file: &str) -> (Vec<Document>, Vec<SceneDocument>) {
+fn documents(file: &str) -> (Vec<DriverDocument>, Vec<SceneDocument>) {
     linkage_compiler::documents(&linkage_compiler::read(source::tokens_of(file)).expect(file)[0]).expect(file)
 }
 
 /// Formulas in Unicode.
-fn texts(table: &Table, numbers: &[Number]) -> Vec<String> {
+fn texts(nodes: &FormulaNodes, formulas: &[FormulaId]) -> Vec<String> {
     let lender = Lender::default();
-    let table = lender.table(table).unwrap();
-    numbers.iter().map(|number| table.get(number.get()).unwrap().to_string()).collect()
+    let table = lender.table(nodes).unwrap();
+    formulas.iter().map(|id| table.get(id.get()).unwrap().to_string()).collect()
+}
+
+/// The formulas of a record, as often as they are shown.
+fn shown_in(mut record: impl Part) -> Vec<FormulaId> {
+    let mut formulas = Vec::new();
+    record.each(&mut |id| formulas.push(*id));
+    formulas
+}
+
+/// The formulas of a driver, without those of functions.
+fn of_driver(document: &DriverDocument) -> Vec<String> {
+    texts(&document.nodes, &shown_in(Derivation { kernels: Vec::new(), ..document.record.clone() }))
+}
+
+/// The formulas of a scene, without those of functions.
+fn of_scene(document: &SceneDocument) -> Vec<String> {
+    texts(&document.nodes, &shown_in(SceneDerivation { kernels: Vec::new(), ..document.record.clone() }))
 }
 
 /// A name in Unicode.
 fn shown(name: &str) -> String {
     let mut table = Table::default();
     let number = table.plain(name);
-    texts(&table, &[number]).concat()
+    texts(&table.nodes(), &[number]).concat()
 }
 
 /// The value of a number, a multiple of pi or a quotient of these; `None` for anything else.
@@ -150,9 +169,8 @@ fn no_function_of_numbers_is_rational() {
     let (mut count, mut wrong) = (0, Vec::new());
     for file in FILES {
         let (documents, scenes) = documents(file);
-        let of_drivers = documents.iter().map(|document| texts(&document.table, &document.formulas()));
-        let of_scenes = scenes.iter().map(|document| texts(&document.table, &document.formulas()));
-        let formulas: Vec<String> = of_drivers.chain(of_scenes).flatten().collect();
+        let formulas: Vec<String> =
+            documents.iter().map(of_driver).chain(scenes.iter().map(of_scene)).flatten().collect();
         count += formulas.len();
         let faults = formulas.iter().filter_map(|formula| {
             let fault = fault(formula).or_else(|| formula.contains("if_nonzero").then(|| "if_nonzero".to_owned()))?;
@@ -176,11 +194,11 @@ fn every_effect_is_in_its_document() {
         }
         let (_, documents) = documents(file);
         for scene in mechanism.scenes.iter() {
-            let document = documents.iter().find(|document| scene.name == document.scene.as_str());
+            let document = documents.iter().find(|document| scene.name == document.record.scene.as_str());
             let document = document.unwrap_or_else(|| panic!("{file}: {}", scene.name));
-            let texts = texts(&document.table, &document.formulas());
-            let of_effects = document.forces.iter().map(|effect| effect.name.as_str());
-            let of_contacts = document.frictions_and_stops.iter().map(|contact| contact.name.as_str());
+            let (texts, record) = (of_scene(document), &document.record);
+            let of_effects = record.forces.iter().map(|effect| effect.name.as_str());
+            let of_contacts = record.frictions_and_stops.iter().map(|contact| contact.name.as_str());
             let names: BTreeSet<&str> = of_effects.chain(of_contacts).collect();
             let laws = scene.laws.iter().map(|law| law.label.clone());
             let contacts = scene.contacts.iter().map(|contact| contact.label.clone());

@@ -100,11 +100,12 @@ fn equations_are_numbered_as_in_the_text() {
 
 #[test]
 fn large_matrices_are_lists_of_entries() {
-    let table = FormulaTable::checked(&[FormulaNode::Integer(1)], &[], &[]).unwrap();
-    let entries = [Entry { row: 6, column: 0, value: table.get(1).unwrap() }];
+    let table: &FormulaTable =
+        Box::leak(Box::new(FormulaTable::checked(&[FormulaNode::Integer(1)], &[], &[]).unwrap()));
+    let entries = Box::leak(Box::new([Entry { row: 6, column: 0, value: table.get(1).unwrap() }]));
     let mut large = *FourBar::DERIVATION;
     let name = FourBar::DERIVATION.jacobian_inputs.name;
-    large.jacobian_inputs = FormulaMatrix { name, factor: None, rows: 7, columns: 1, entries: &entries };
+    large.jacobian_inputs = FormulaMatrix { name, factor: None, rows: 7, columns: 1, entries };
     let html = Sheet::new(&large).to_html();
     assert_balanced(&html);
     assert!(html.contains("<mrow><mn>7</mn><mo>,</mo><mn>1</mn></mrow></msub><mo>=</mo><mn>1</mn>"));

@@ -11,7 +11,7 @@ use linkage::sheet::Values;
 use linkage::{Document, PointMotion, position};
 
 use linkage_gallery::four_bar::*;
-use linkage_lent::Lender;
+use linkage_report::lend::Lender;
 
 /// Relative error of a result against exact arithmetic.
 const EXACT: f64 = 1e-13;

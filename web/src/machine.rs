@@ -2,7 +2,7 @@
 
 use linkage_compiler::derivation::Reach;
 use linkage_interpreter::{Design, Mechanism, Prepared, Program};
-use linkage_lent::Documents;
+use linkage_ir::document::Documents;
 use serde::{Deserialize, Serialize};
 
 use crate::Refusal;

@@ -1,7 +1,7 @@
 //! The report of a mechanism.
 
 use linkage_interpreter::Prepared;
-use linkage_lent::Lender;
+use linkage_report::lend::Lender;
 use linkage_report::report::{MOST_MODES, Report, ReportOptions, ReportedModes};
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::{BorrowedName, Branches as _, Column, D, Mechanism as _, PathError};
@@ -15,8 +15,10 @@ use crate::question::At;
 /// The report as the sections of a page: with the motion through the position, or with the reason why there is none.
 pub fn report(machine: &Machine, at: &At) -> Result<String, Refusal> {
     let lender = Lender::default();
-    let derivation = machine.documents.derivation(&lender).map_err(Refusal::new)?;
-    let Some(derivation) = derivation else { return Err(Refusal::new("it has no formulas to report on")) };
+    let Some(driver) = &machine.documents.driver else {
+        return Err(Refusal::new("it has no formulas to report on"));
+    };
+    let derivation = lender.derivation(driver).map_err(Refusal::new)?;
     let design = machine.design(&at.parameters);
     let prepared = prepared(&design)?;
     let mechanism = moving(&prepared)?;

@@ -1,5 +1,6 @@
 //! The sheet with the numbers of a position.
 
+use linkage_report::lend::Lender;
 use linkage_report::sheet::MotionNumbers;
 use linkage_runtime::Kinematic as _;
 
@@ -12,21 +13,21 @@ use crate::question::{At, Form, Language};
 /// moved, or has no rates at the position, has a sheet without numbers.
 pub fn sheet(machine: &Machine, at: &At, rate: Option<f64>, language: Language, form: Form) -> Result<String, Refusal> {
     let numbers = numbers(machine, at, rate).ok();
-    let written = machine.documents.sheet(|sheet| {
-        sheet.language(language.of_sheet());
-        for (parameter, value) in machine.about.parameters.iter().zip(&at.parameters) {
-            sheet.given(&parameter.name, *value);
-        }
-        if let Some(numbers) = numbers {
-            sheet.motion(&numbers);
-        }
-        match form {
-            Form::Html => sheet.to_html_fragment(),
-            Form::Latex => sheet.to_latex(),
-            Form::Text => sheet.to_text(),
-        }
-    });
-    written.map_err(Refusal::new)?.ok_or_else(|| Refusal::new("it has no formulas"))
+    let lender = Lender::default();
+    let sheet = lender.whole(&machine.documents).map_err(Refusal::new)?;
+    let mut sheet = sheet.ok_or_else(|| Refusal::new("it has no formulas"))?;
+    sheet.language(language.of_sheet());
+    for (parameter, value) in machine.about.parameters.iter().zip(&at.parameters) {
+        sheet.given(&parameter.name, *value);
+    }
+    if let Some(numbers) = numbers {
+        sheet.motion(&numbers);
+    }
+    Ok(match form {
+        Form::Html => sheet.to_html_fragment(),
+        Form::Latex => sheet.to_latex(),
+        Form::Text => sheet.to_text(),
+    })
 }
 
 /// The numbers of a position.

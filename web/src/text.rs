@@ -13,7 +13,6 @@ use linkage_compiler::syntax::{EFFECTS, KEYWORDS, PROPERTIES};
 use linkage_compiler::text::Message;
 use linkage_compiler::{Lowered, emit};
 use linkage_interpreter::Program;
-use linkage_lent::Documents;
 use proc_macro2::TokenStream;
 use quote::quote;
 use serde::Serialize;
@@ -55,10 +54,10 @@ pub fn words() -> Words {
 /// The mechanisms of a text, or its mistakes.
 pub fn compile(text: &str) -> Result<Vec<Machine>, Vec<Mistake>> {
     let compiled = Program::compile_with_within(text, MOST_STEPS, &[Request::Drawing], |lowered| {
-        let documents = Documents::of(&lowered);
+        let documents = lowered.documents();
         let Declared { mechanism, driver } = lowered.declared;
         let reach = Reach::of(mechanism, driver, &lowered.derivation);
-        (About { paragraphs: documents.about().to_vec(), ..about(&lowered) }, documents, reach)
+        (About { paragraphs: documents.about.clone(), ..about(&lowered) }, documents, reach)
     });
     let compiled =
         compiled.map_err(|messages| messages.iter().map(|message| mistake(text, message)).collect::<Vec<_>>())?;

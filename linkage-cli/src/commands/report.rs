@@ -2,7 +2,7 @@
 //! motion from end to end.
 
 use linkage_interpreter::{CoordinatesAtRunTime, NotPrepared, Prepared};
-use linkage_lent::{Documents, Lender};
+use linkage_report::lend::Lender;
 use linkage_report::report::{ListedMode, Local, MOST_MODES, Modes, Report, ReportOptions, ReportedModes};
 use linkage_runtime::derivation::Derivation;
 use linkage_runtime::{BorrowedName, Column, D, Mechanism as _, PathError};
@@ -28,7 +28,7 @@ type Positions = Result<(Vec<(String, Motion)>, usize), String>;
 pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
     let arguments::Report { numbers, place, output } = arguments;
     let is_page = form(output, "a report", &FORMS)? == Some(1);
-    let (machine, documents) = &Machine::of_all(numbers, Documents::of)?;
+    let (machine, documents) = &Machine::of_all(numbers, |lowered| lowered.documents())?;
     let inputs = held(machine, &place.at, None)?;
     let prepared = machine.solver.design.prepared();
     let positions = positions(machine, &prepared, &inputs);
@@ -38,7 +38,8 @@ pub fn run(arguments: &arguments::Report) -> Result<(), Failure> {
         false => None,
     };
     let lender = Lender::default();
-    let Some(derivation) = documents.derivation(&lender)? else { return Ok(()) };
+    let Some(driver) = &documents.driver else { return Ok(()) };
+    let derivation = lender.derivation(driver)?;
     let pictures = match is_page {
         false => None,
         true => {
@@ -160,7 +161,7 @@ fn part(machine: &Machine, derivation: &Derivation<'_>, inputs: Vec<f64>, positi
         let (pose, jacobian) = (motion.pose(), machine.jacobian(motion));
         Local::new(derivation, are_angles, jacobian, move |rates| machine.gamma(&pose, rates))
     };
-    let at_modes: Vec<Local<'_>> = positions.iter().flat_map(|(all, _)| all).map(of_position).collect();
+    let at_modes: Vec<Local<'_, '_>> = positions.iter().flat_map(|(all, _)| all).map(of_position).collect();
     Report::of_data(derivation, is_angle, modes, &at_modes)
 }
 

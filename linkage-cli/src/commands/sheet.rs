@@ -1,6 +1,7 @@
 //! `linkage sheet`: the derivation for readers, also with numbers at a position.
 
-use linkage_lent::Documents;
+use linkage_compiler::document::Documents;
+use linkage_report::lend::Lender;
 use linkage_report::sheet::Sheet;
 
 use super::compiled::of_drivers;
@@ -51,26 +52,28 @@ pub fn run(arguments: &arguments::Sheet) -> Result<(), Failure> {
 
 /// The sheets of all mechanisms that are meant, or of one with numbers.
 fn sheets(arguments: &arguments::Sheet, format: SheetFormat) -> Result<String, Failure> {
-    let written = |sheet: &mut Sheet<'_>| {
+    let written = |documents: &Documents, add: &dyn Fn(&mut Sheet<'_>)| -> Result<String, Failure> {
+        let lender = Lender::default();
+        let Some(mut sheet) = lender.whole(documents)? else { return Ok(String::new()) };
+        add(&mut sheet);
         sheet.language(arguments.language.of_sheet());
-        match format {
+        Ok(match format {
             SheetFormat::Html => sheet.to_html(),
             SheetFormat::Latex => sheet.to_latex(),
             SheetFormat::Text => sheet.to_text(),
-        }
+        })
     };
     let text = match Position::of(arguments, format == SheetFormat::Html)? {
-        Some((position, documents)) => documents.sheet(|sheet| written(position.add_to(sheet)))?.unwrap_or_default(),
+        Some((position, documents)) => written(&documents, &|sheet| position.add_to(sheet))?,
         None => {
-            let all = of_drivers(&arguments.numbers.source, |lowered| Documents::of(&lowered))?;
+            let all = of_drivers(&arguments.numbers.source, |lowered| lowered.documents())?;
             if let (SheetFormat::Html, [_, _, ..]) = (format, all.as_slice()) {
                 let of = listed(&all.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>());
                 let message = format!("a page has one mechanism, and the file has {of}: write --mechanism NAME");
                 return Err(Failure::Argument(message));
             }
-            let all: Result<Vec<_>, _> = all.iter().map(|(_, one)| one.sheet(written)).collect();
-            let all: Vec<String> = all?.into_iter().map(Option::unwrap_or_default).collect();
-            all.join("\n")
+            let all: Result<Vec<String>, _> = all.iter().map(|(_, one)| written(one, &|_| ())).collect();
+            all?.join("\n")
         }
     };
     let [begin, end] = LATEX;

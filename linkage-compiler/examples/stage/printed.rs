@@ -3,7 +3,7 @@
 use linkage_compiler::model::Mechanism;
 use linkage_compiler::program::{Code, Function};
 use linkage_compiler::{documents, emit};
-use linkage_lent::{Lender, Unsound};
+use linkage_report::lend::{Lender, Unsound};
 use linkage_report::{Document, FpCore};
 use quote::{ToTokens, quote};
 use syn::{Expr, File, ImplItem, ImplItemFn, Item, ItemFn, ItemImpl, Stmt, parse_quote};

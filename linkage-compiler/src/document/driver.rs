@@ -2,15 +2,21 @@
 
 use std::ops::Deref;
 
-use super::data::{Chain, Document, Equation, Group, Kernel, Matrix, Method, Quantity, Root, Sensitivity, Symbol};
+use linkage_ir::document::{Entry, FormulaId, GroupForm, GroupMethod};
+
+use super::data::{
+    self, ChainJoint, ChainLink, DriverDocument, Equation, Group, Kernel, KinematicChain, Matrix, Quantity, Root,
+    Sensitivity, Symbol, with,
+};
 use super::layout::Layout;
 use super::name::{Name, names, texts};
-use super::table::{Number, Table};
+use super::table::Table;
 use crate::derivation::{self, ClosedForm, Derivation, Inverse, QuantityFormulas, Row};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{self, GroupId, Id, InputId, UnknownId};
-use crate::model::{ChainJoint, ChainLink, Driver, KinematicChain, Mechanism};
+use crate::model::{self, Driver, Mechanism};
 use crate::program::Derived;
+use crate::structure::GroupKind;
 
 /// The document of a driver; `kernels` adds its functions.
 #[must_use]
@@ -20,7 +26,7 @@ pub fn of_driver(
     derivation: &Derivation,
     derived: &Derived,
     kernels: &dyn Fn(&mut Table) -> Vec<Kernel>,
-) -> Document {
+) -> DriverDocument {
     let Derived { formulas, closed_forms, .. } = derived;
     let (inputs, unknowns) = (texts(mechanism, &driver.inputs), texts(mechanism, &driver.unknowns));
     let names = names(mechanism, derivation, &inputs, &unknowns);
@@ -39,8 +45,7 @@ pub fn of_driver(
     let groups = formulas.inverses.enumerated();
     let points: Vec<&str> = mechanism.points.iter().map(|point| point.name.text.as_str()).collect();
     let outputs: Vec<&str> = mechanism.outputs.iter().map(|output| output.name.text.as_str()).collect();
-    let document = Document {
-        table: Table::default(),
+    let record = data::Derivation {
         mechanism: driver.name.to_string(),
         parameters: writer.symbols(&parameters),
         inputs: writer.symbols(&inputs),
@@ -68,14 +73,38 @@ pub fn of_driver(
         points: writer.quantities(&points, &["x_", "y_"], &derivation.points, &formulas.points),
         outputs: writer.quantities(&outputs, &[""], &derivation.outputs, &formulas.outputs),
         conditions: formulas.conditions.iter().map(|&condition| writer.layout.condition(condition)).collect(),
-        chain: KinematicChain::of(mechanism, inputs.len()).map(|KinematicChain { links, joints, conditions }| Chain {
-            links: links.into_iter().map(|ChainLink { name, turns_with, .. }| (name, turns_with)).collect(),
-            joints: joints.into_iter().map(|ChainJoint { links, slides_along }| (links, slides_along)).collect(),
-            conditions,
-        }),
+        chain: model::KinematicChain::of(mechanism, inputs.len()).map(chain),
         kernels: kernels(&mut writer.layout.table),
     };
-    document.with(writer.layout.table)
+    with(record, writer.layout.table)
+}
+
+fn chain(model::KinematicChain { links, joints, conditions }: model::KinematicChain) -> KinematicChain {
+    let link = |model::ChainLink { name, turns_with, .. }| ChainLink { name, turns_with };
+    let joint = |model::ChainJoint { links, slides_along }| ChainJoint { links, slides_along };
+    KinematicChain {
+        links: links.into_iter().map(link).collect(),
+        joints: joints.into_iter().map(joint).collect(),
+        conditions,
+    }
+}
+
+/// The form of a kind of group as documents have it.
+fn form(kind: GroupKind) -> GroupForm {
+    match kind {
+        GroupKind::Rrr => GroupForm::TwoAngles,
+        GroupKind::Rrp => GroupForm::AngleAndLength,
+        GroupKind::Rpr => GroupForm::AngleAndTurningLength,
+        GroupKind::Sliders => GroupForm::TwoLengths,
+        GroupKind::Circles => GroupForm::TwoDistances,
+        GroupKind::LinkToCircle => GroupForm::AngleAndDistance,
+        GroupKind::SliderToCircle => GroupForm::LengthAndDistance,
+        GroupKind::Angle => GroupForm::OneAngle,
+        GroupKind::Linear => GroupForm::OneLinear,
+        GroupKind::Loops(2) => GroupForm::TwoLoops,
+        GroupKind::Loops(_) => GroupForm::ThreeLoops,
+        GroupKind::Scalar | GroupKind::Pair | GroupKind::Irreducible(..) => GroupForm::Other,
+    }
 }
 
 /// The formulas, `None` for those that are zero.
@@ -126,11 +155,11 @@ impl<'a> Writer<'a> {
         self.parameters.iter().map(|&by| By::One(by)).collect()
     }
 
-    pub(super) fn plain(&mut self, name: &str) -> Number {
+    pub(super) fn plain(&mut self, name: &str) -> FormulaId {
         self.layout.table.plain(name)
     }
 
-    pub(super) fn formula(&mut self, node: NodeId) -> Number {
+    pub(super) fn formula(&mut self, node: NodeId) -> FormulaId {
         self.layout.formula(node)
     }
 
@@ -140,7 +169,7 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn equation(&mut self, left: Name, right: NodeId) -> Equation {
-        [self.layout.table.name(left), self.formula(right)]
+        Equation { left: self.layout.table.name(left), right: self.formula(right) }
     }
 
     /// name_1 = …, name_2 = …
@@ -160,7 +189,9 @@ impl<'a> Writer<'a> {
         let factor = factor.map(|factor| self.formula(factor));
         let mut entries = Vec::new();
         for (row, of_row) in rows.iter().enumerate() {
-            entries.extend(of_row.iter().map(|(&column, &node)| ([row, column.index()], self.formula(node))));
+            let entry =
+                |(&column, &node): (&C, &NodeId)| Entry { row, column: column.index(), value: self.formula(node) };
+            entries.extend(of_row.iter().map(entry));
         }
         Matrix { name, factor, rows: rows.len(), columns, entries }
     }
@@ -172,12 +203,20 @@ impl<'a> Writer<'a> {
         Group {
             unknowns: group.unknowns.iter().map(|&index| self.plain(self.unknowns[index])).collect(),
             equations: group.equations.iter().map(|&equation| equation.index()).collect(),
-            kind: group.kind,
-            method: if determinant.is_some() { Method::ClosedForm } else { Method::Factorization },
+            kind: group.kind.description(),
+            form: form(group.kind),
+            method: if determinant.is_some() { GroupMethod::ClosedForm } else { GroupMethod::Factorization },
             determinant: determinant.map(|value| self.equation(Name::Determinant(number), value)),
             inverse: inverse.map(|(factor, rows)| self.matrix(Name::Inverse(number), Some(*factor), rows, rows.len())),
-            root: position.root.map(|(root, choice)| Root { formula: self.formula(root), choice }),
-            position: position.equations.iter().map(|sides| sides.map(|side| self.formula(side))).collect(),
+            root: position.root.map(|(root, choice)| Root {
+                formula: self.formula(root),
+                branches: choice.variants().map(str::to_owned),
+            }),
+            position: position
+                .equations
+                .iter()
+                .map(|&[left, right]| Equation { left: self.formula(left), right: self.formula(right) })
+                .collect(),
         }
     }
 

@@ -1,7 +1,9 @@
 //! Layout of a formula: terms, fractions and factors in the usual order of mathematics.
 
 use super::name::Name;
-use super::table::{Node, Number, Table};
+use linkage_ir::document::FormulaId;
+
+use super::table::{Node, Table};
 use crate::graph::{self, Condition, Function, Graph, NodeId, SymbolId};
 
 /// The largest length of a formula, in bytes with the names of the `linkage!` language (`theta3` is 6); an ellipsis
@@ -21,7 +23,7 @@ pub struct Layout<'a> {
     names: &'a dyn Fn(SymbolId) -> Name<'a>,
     longest: usize,
     /// The laid out subexpressions, by node index.
-    parts: Vec<Option<Number>>,
+    parts: Vec<Option<FormulaId>>,
 }
 
 impl<'a> Layout<'a> {
@@ -38,7 +40,7 @@ impl<'a> Layout<'a> {
     }
 
     /// The formula of a condition such as l₄ ≠ 0.
-    pub fn condition(&mut self, condition: Condition) -> Number {
+    pub fn condition(&mut self, condition: Condition) -> FormulaId {
         let node = match condition {
             Condition::NonZero(node) => Node::NonZero(self.formula(node)),
             Condition::Defined(node) => Node::Exists(self.formula(node)),
@@ -47,7 +49,7 @@ impl<'a> Layout<'a> {
     }
 
     /// The formula of a node; all its subexpressions are laid out.
-    pub fn formula(&mut self, root: NodeId) -> Number {
+    pub fn formula(&mut self, root: NodeId) -> FormulaId {
         // Children have smaller ids than their parents.
         if self.parts.len() <= root.index() {
             self.parts.resize_with(root.index() + 1, || None);
@@ -67,7 +69,7 @@ impl<'a> Layout<'a> {
     }
 
     /// Lays out one node, whose children are laid out already.
-    fn laid_out(&mut self, id: NodeId) -> Number {
+    fn laid_out(&mut self, id: NodeId) -> FormulaId {
         let graph = self.graph;
         match graph.node(id) {
             graph::Node::Pi => self.table.add(Node::Pi),
@@ -97,7 +99,7 @@ impl<'a> Layout<'a> {
     }
 
     /// The terms of a sum, positive ones first, to avoid a leading minus.
-    fn terms(&mut self, constant: graph::Number, terms: &[(graph::Number, NodeId)]) -> Number {
+    fn terms(&mut self, constant: graph::Number, terms: &[(graph::Number, NodeId)]) -> FormulaId {
         let (negative, positive): (Vec<_>, Vec<_>) =
             terms.iter().partition(|(coefficient, _)| coefficient.is_negative());
         let mut all = Vec::new();
@@ -114,7 +116,7 @@ impl<'a> Layout<'a> {
         self.table.sum(all)
     }
 
-    fn part(&mut self, id: NodeId) -> Number {
+    fn part(&mut self, id: NodeId) -> FormulaId {
         self.parts[id.index()].unwrap_or_else(|| self.table.add(Node::Ellipsis))
     }
 
@@ -123,12 +125,12 @@ impl<'a> Layout<'a> {
         matches!(self.table.node(part), Node::Ellipsis)
     }
 
-    fn arguments(&mut self, arguments: &[NodeId]) -> Vec<Number> {
+    fn arguments(&mut self, arguments: &[NodeId]) -> Vec<FormulaId> {
         arguments.iter().map(|&argument| self.part(argument)).collect()
     }
 
     /// A product as a term: true if it is negative, and its fraction or factors.
-    fn term(&mut self, coefficient: graph::Number, factors: &[(NodeId, i32)]) -> (bool, Number) {
+    fn term(&mut self, coefficient: graph::Number, factors: &[(NodeId, i32)]) -> (bool, FormulaId) {
         let (number, divisor) = split(coefficient.absolute());
         let number = (!number.is_one()).then_some(number);
         let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, exponent)| *exponent > 0);
@@ -147,9 +149,9 @@ impl<'a> Layout<'a> {
     }
 
     /// A number and powers, in the usual order of mathematics.
-    fn factors(&mut self, number: Option<graph::Number>, mut powers: Vec<(NodeId, i32)>) -> Vec<Number> {
+    fn factors(&mut self, number: Option<graph::Number>, mut powers: Vec<(NodeId, i32)>) -> Vec<FormulaId> {
         powers.sort_by_key(|&(base, _)| self.place(base));
-        let mut factors: Vec<Number> = number.map(|number| self.number(number)).into_iter().collect();
+        let mut factors: Vec<FormulaId> = number.map(|number| self.number(number)).into_iter().collect();
         for (base, exponent) in powers {
             let part = self.part(base);
             match (self.table.node(part), exponent.unsigned_abs()) {
@@ -162,7 +164,7 @@ impl<'a> Layout<'a> {
     }
 
     /// A number that is not negative.
-    fn number(&mut self, number: graph::Number) -> Number {
+    fn number(&mut self, number: graph::Number) -> FormulaId {
         match number.as_integer().and_then(|integer| u64::try_from(integer).ok()) {
             Some(integer) => self.table.add(Node::Integer(integer)),
             None => self.table.decimal(number.to_f64()),

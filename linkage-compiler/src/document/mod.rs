@@ -1,67 +1,27 @@
 //! Formulas for readers: the derivation of a driver or of a scene as plain data.
 //!
-//! `layout` converts nodes of the graph to terms, fractions and factors. They are nodes of one flat table (`table`), and
-//! a document (`data`) refers to formulas by their numbers. The runtime and `linkage-report` print them.
+//! `layout` converts nodes of the graph to terms, fractions and factors. They are nodes of one table (`table`), and the records
+//! (`linkage_ir::document`, as `data` names them) refer to formulas by their numbers. The runtime and `linkage-report` print them.
 
+mod about;
 mod data;
 mod driver;
 mod layout;
 mod name;
-#[cfg(feature = "serde")]
-mod read;
 mod scene;
 mod sheet;
 mod table;
 
+pub(crate) use about::paragraphs;
 pub use data::{
-    Chain, ContactEffect, Document, DriverChoice, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix,
-    Method, PointVectors, Quantity, Root, SceneDocument, Sensitivity, SheetDocument, Symbol, Turning, Vector,
+    ChainJoint, ChainLink, ContactEffect, Derivation, DriverChoice, DriverDocument, Effect, Equation, Group,
+    JointForce, Kernel, KernelCheck, KernelCode, KernelResult, KinematicChain, Matrix, PointVectors, Quantity, Root,
+    SceneDerivation, SceneDocument, Sensitivity, SheetDerivation, SheetDocument, Symbol, Turning, Vector,
 };
 pub use driver::of_driver;
 pub use layout::{LONGEST, Layout};
+pub use linkage_ir::document::{Documents, FormulaId, FormulaNode, FormulaNodes, Part};
 pub use name::Name;
 pub use scene::of_scene;
 pub use sheet::of_sheet;
-pub use table::{Node, Number, Table};
-
-use table::Numbers;
-
-impl Document {
-    /// The numbers of its formulas, as often as they are shown, without those of functions.
-    #[must_use]
-    pub fn formulas(&self) -> Vec<Number> {
-        let mut numbers = Vec::new();
-        Self { kernels: Vec::new(), ..self.clone() }.each(&mut |number| numbers.push(*number));
-        numbers
-    }
-
-    /// This document with the nodes that it needs of a table.
-    fn with(mut self, table: Table) -> Self {
-        let table = table.reduced(&mut self);
-        Self { table, ..self }
-    }
-}
-
-impl SceneDocument {
-    /// The numbers of its formulas, as often as they are shown, without those of functions.
-    #[must_use]
-    pub fn formulas(&self) -> Vec<Number> {
-        let mut numbers = Vec::new();
-        Self { kernels: Vec::new(), ..self.clone() }.each(&mut |number| numbers.push(*number));
-        numbers
-    }
-
-    /// This document with the nodes that it needs of a table.
-    fn with(mut self, table: Table) -> Self {
-        let table = table.reduced(&mut self);
-        Self { table, ..self }
-    }
-}
-
-impl SheetDocument {
-    /// This document with the nodes that it needs of a table.
-    fn with(mut self, table: Table) -> Self {
-        let table = table.reduced(&mut self);
-        Self { table, ..self }
-    }
-}
+pub use table::{Node, Table};

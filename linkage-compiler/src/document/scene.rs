@@ -1,8 +1,9 @@
 //! The document of a scene: its equations of motion.
 
+use linkage_ir::document::FormulaId;
 use rustc_hash::FxHashMap;
 
-use super::data::{ContactEffect, Effect, Equation, JointForce, Kernel, SceneDocument, Symbol};
+use super::data::{ContactEffect, Effect, Equation, JointForce, Kernel, SceneDerivation, SceneDocument, Symbol, with};
 use super::driver::Writer;
 use super::layout::Layout;
 use super::name::{Name, names, texts};
@@ -81,8 +82,7 @@ pub fn of_scene(
     let multipliers = reactions.iter().flat_map(|reactions| reactions.multipliers.names.iter());
     let multipliers = multipliers.filter(|symbol| !joints.is_empty() && used.contains(symbol));
     let multipliers = multipliers.map(|&symbol| writer.plain(graph.symbol_name(symbol))).collect();
-    let document = SceneDocument {
-        table: table::Table::default(),
+    let record = SceneDerivation {
         scene: scene.name.to_string(),
         mechanism: driver.name.to_string(),
         parameters: writer.symbols(&own),
@@ -96,7 +96,7 @@ pub fn of_scene(
         contacts,
         kernels: kernels(&mut writer.layout.table),
     };
-    document.with(writer.layout.table)
+    with(record, writer.layout.table)
 }
 
 impl Writer<'_> {
@@ -134,7 +134,7 @@ impl Writer<'_> {
 
     /// `Q = 0`.
     fn no_forces(&mut self) -> Vec<Equation> {
-        vec![[self.plain("Q"), self.layout.table.add(Node::Integer(0))]]
+        vec![Equation { left: self.plain("Q"), right: self.layout.table.add(Node::Integer(0)) }]
     }
 }
 
@@ -227,7 +227,7 @@ impl<'a> Contacts<'a> {
         let contacts = derived.contacts.iter().zip(&scene.contacts).zip(&self.shown).zip(names);
         let contacts = contacts.map(|(((contact, model), shown), (force, scalar))| {
             let [force, scalar] = [force, scalar].map(|name| writer.plain(name));
-            let bounds: Vec<table::Number> = shown.bounds.iter().map(|&bound| writer.formula(bound)).collect();
+            let bounds: Vec<FormulaId> = shown.bounds.iter().map(|&bound| writer.formula(bound)).collect();
             let bearing = model.bearing.map(|load| name_of_joint(&mechanism.opened.loads[load].kind));
             // The force in the joint that limits a friction.
             let bearing = bearing.map(|name| Symbol { name, formula: writer.plain("R") });
@@ -248,7 +248,7 @@ impl<'a> Contacts<'a> {
             ContactEffect {
                 name: contact.label.clone(),
                 force,
-                along: [scalar, writer.formula(contact.value)],
+                along: Equation { left: scalar, right: writer.formula(contact.value) },
                 bound: writer.layout.table.add(Node::AtMost(bound)),
                 bearing,
                 rebound: shown.rebound.map(|factor| writer.formula(factor)),
@@ -264,7 +264,7 @@ impl<'a> Contacts<'a> {
 
 impl Writer<'_> {
     /// |x|.
-    fn modulus(&mut self, inside: table::Number) -> table::Number {
+    fn modulus(&mut self, inside: FormulaId) -> FormulaId {
         self.layout.table.add(Node::Call(Function::Abs, vec![inside]))
     }
 }

@@ -1,10 +1,14 @@
 //! The document of an analysis by hand, line by line.
 
-use super::data::{DriverChoice, Matrix, PointVectors, SheetDocument, Turning, Vector};
+use linkage_ir::document::Entry;
+
+use super::data::{
+    DriverChoice, Equation, Matrix, PointVectors, SheetDerivation, SheetDocument, Turning, Vector, with,
+};
 use super::driver::Writer;
 use super::layout::{LONGEST, Layout};
 use super::name::{Name, names, texts};
-use super::table::{Node, Table};
+use super::table::Node;
 use crate::derivation::{self, Derivation, PolarVector, Row, Sheet};
 use crate::graph::{NodeId, SymbolId};
 use crate::ids::{ColumnId, Id, UnknownId};
@@ -40,8 +44,7 @@ pub fn of_sheet(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation)
     let [gamma_u, gamma_v, gamma_uv] = &sheet.gamma;
     let [h1, h2, h3, h0] = &sheet.terms;
     let (vectors, of_points) = each_once(&sheet.points);
-    let document = SheetDocument {
-        table: Table::default(),
+    let record = SheetDerivation {
         mechanism: driver.name.to_string(),
         jacobian_rates: [
             writer.matrix(Name::Rate("J"), None, &sheet.jacobian_rates.0, rows),
@@ -67,7 +70,10 @@ pub fn of_sheet(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation)
                 DriverChoice {
                     determinant: determinant.map(|node| {
                         let matrix = writer.plain(&format!("J_{}", names.join("_")));
-                        [writer.layout.table.add(Node::Determinant(matrix)), writer.formula(node)]
+                        Equation {
+                            left: writer.layout.table.add(Node::Determinant(matrix)),
+                            right: writer.formula(node),
+                        }
                     }),
                     inputs: names.iter().map(|name| writer.plain(name)).collect(),
                 }
@@ -84,7 +90,7 @@ pub fn of_sheet(mechanism: &Mechanism, driver: &Driver, derivation: &Derivation)
             .collect(),
         conditions: conditions.into_iter().map(|condition| writer.layout.condition(condition)).collect(),
     };
-    document.with(writer.layout.table)
+    with(record, writer.layout.table)
 }
 
 impl Writer<'_> {
@@ -117,7 +123,7 @@ impl Writer<'_> {
                 factor: None,
                 rows: 2,
                 columns: 2,
-                entries: vec![([0, 1], minus), ([1, 0], number)],
+                entries: vec![Entry { row: 0, column: 1, value: minus }, Entry { row: 1, column: 0, value: number }],
             }
         };
         Turning { rate: skew("Omega", of.rate), acceleration: skew("alpha", of.acceleration), with }
@@ -145,7 +151,7 @@ impl Writer<'_> {
         let velocities = factors.into_iter().map(|pair| (false, table.product(pair.to_vec()))).collect();
         let sums =
             [(Name::Plain(name), positions), (Name::Rate(name), velocities), (Name::Acceleration(name), accelerations)];
-        let sums = sums.map(|(left, terms)| [table.name(left), table.sum(terms)]);
+        let sums = sums.map(|(left, terms)| Equation { left: table.name(left), right: table.sum(terms) });
         PointVectors { name: name.to_owned(), vectors, sums }
     }
 }

@@ -1,99 +1,57 @@
 //! The nodes of formulas, each once.
 
+use linkage_ir::document::{FormulaId, FormulaNode, FormulaNodes, Part};
 use rustc_hash::FxHashMap;
 
 use super::name::Name;
 use crate::graph::Function;
 
-/// The number of a node in its table, from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Number(u32);
-
-/// A node, as the runtime prints it.
+/// A node as a key: with its names and parts.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Node {
     Name(String),
-    Rate(Number),
-    Acceleration(Number),
-    Ratio(Number, Number),
-    RatioDerivative(Number, [Number; 2]),
-    Determinant(Number),
-    Inverse(Number),
+    Rate(FormulaId),
+    Acceleration(FormulaId),
+    Ratio(FormulaId, FormulaId),
+    RatioDerivative(FormulaId, [FormulaId; 2]),
+    Determinant(FormulaId),
+    Inverse(FormulaId),
     Integer(u64),
     /// A number by its bits.
     Decimal(u64),
     Pi,
     Ellipsis,
     /// Terms, each with true if it is subtracted.
-    Sum(Vec<(bool, Number)>),
-    Product(Vec<Number>),
-    Quotient(Number, Number),
-    Power(Number, u32),
-    Call(Function, Vec<Number>),
+    Sum(Vec<(bool, FormulaId)>),
+    Product(Vec<FormulaId>),
+    Quotient(FormulaId, FormulaId),
+    Power(FormulaId, u32),
+    Call(Function, Vec<FormulaId>),
     /// A user function and the order of its derivative.
-    External(String, usize, Vec<Number>),
+    External(String, usize, Vec<FormulaId>),
     /// A product of two with a sign between them in every notation.
-    Multiple(Number, Number),
-    AtMost(Vec<Number>),
-    NonZero(Number),
-    Exists(Number),
+    Multiple(FormulaId, FormulaId),
+    AtMost(Vec<FormulaId>),
+    NonZero(FormulaId),
+    Exists(FormulaId),
 }
 
 /// A flat table of nodes, each of which refers to nodes before it.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     nodes: Vec<Node>,
-    numbers: FxHashMap<Node, Number>,
+    numbers: FxHashMap<Node, FormulaId>,
     /// The length of each node in bytes with the names of the `linkage!` language: `-l3*sin(theta3 - theta4)` is 24.
     lengths: Vec<usize>,
 }
 
-/// The largest length of a formula that is read, in bytes and in nodes; the longest of the gallery has 2359 bytes.
-#[cfg(feature = "serde")]
-const LONGEST: usize = 1 << 14;
-
-/// The largest number of nodes within nodes of a formula that is read; the deepest of the gallery has 13.
-#[cfg(feature = "serde")]
-const DEEPEST: usize = 256;
-
-/// A value with numbers in it.
-pub(super) trait Numbers {
-    /// Visits each number once.
-    fn each(&mut self, visit: &mut dyn FnMut(&mut Number));
-}
-
-impl Number {
-    /// The number itself.
-    #[must_use]
-    pub fn get(self) -> u32 {
-        self.0
-    }
-
-    fn index(self) -> usize {
-        self.0 as usize - 1
-    }
-}
-
 impl Table {
-    /// The nodes in the order of their numbers.
-    pub fn nodes(&self) -> impl ExactSizeIterator<Item = &Node> {
-        self.nodes.iter()
-    }
-
-    /// True if a node is this name.
-    #[must_use]
-    pub fn is_name(&self, number: Number, name: &str) -> bool {
-        matches!(self.nodes.get((number.0 as usize).wrapping_sub(1)), Some(Node::Name(text)) if text == name)
-    }
-
     /// The number of a node, which is added if it is new.
-    pub fn add(&mut self, node: Node) -> Number {
+    pub fn add(&mut self, node: Node) -> FormulaId {
         if let Some(number) = self.numbers.get(&node) {
             return *number;
         }
-        let number = Number(u32::try_from(self.nodes.len() + 1).unwrap_or(u32::MAX));
+        let number = FormulaId::new(self.nodes.len());
         let length = self.length_of(&node);
         self.numbers.insert(node.clone(), number);
         self.nodes.push(node);
@@ -101,56 +59,21 @@ impl Table {
         number
     }
 
-    /// The table of these nodes; none if one refers to a node that is not before it, or is too large to be written.
-    #[cfg(feature = "serde")]
-    pub(super) fn of(nodes: Vec<Node>) -> Option<Self> {
-        let mut table = Self::default();
-        // Of each node how deep it is, and how many nodes it has, with a power as that many factors.
-        let mut sizes: Vec<[usize; 2]> = Vec::new();
-        for mut node in nodes {
-            let (mut is_sound, mut depth, mut count) = (true, 0, 1_usize);
-            node.each(&mut |part| {
-                let inside = (part.0 as usize).checked_sub(1).and_then(|index| sizes.get(index));
-                is_sound &= inside.is_some();
-                let [deep, many] = inside.copied().unwrap_or_default();
-                (depth, count) = (depth.max(deep + 1), count.saturating_add(many));
-            });
-            count = match node {
-                Node::Power(_, exponent) => {
-                    count.saturating_mul(usize::try_from(exponent).unwrap_or(usize::MAX).max(1))
-                }
-                Node::External(_, order, _) => count.saturating_add(order),
-                _ => count,
-            };
-            if !is_sound || depth > DEEPEST || count > LONGEST {
-                return None;
-            }
-            let length = table.length_of(&node);
-            if length > LONGEST {
-                return None;
-            }
-            table.nodes.push(node);
-            table.lengths.push(length);
-            sizes.push([depth, count]);
-        }
-        Some(table)
+    pub(super) fn node(&self, number: FormulaId) -> &Node {
+        &self.nodes[index(number)]
     }
 
-    pub(super) fn node(&self, number: Number) -> &Node {
-        &self.nodes[number.index()]
-    }
-
-    pub(super) fn length(&self, number: Number) -> usize {
-        self.lengths[number.index()]
+    pub(super) fn length(&self, number: FormulaId) -> usize {
+        self.lengths[index(number)]
     }
 
     /// A quantity.
-    pub fn plain(&mut self, name: &str) -> Number {
+    pub fn plain(&mut self, name: &str) -> FormulaId {
         self.add(Node::Name(name.to_owned()))
     }
 
     /// A name, or a derivative of one.
-    pub fn name(&mut self, name: Name<'_>) -> Number {
+    pub fn name(&mut self, name: Name<'_>) -> FormulaId {
         match name {
             Name::Plain(name) => self.plain(name),
             Name::Rate(name) => {
@@ -181,12 +104,12 @@ impl Table {
     }
 
     /// A number that is printed as a decimal.
-    pub fn decimal(&mut self, value: f64) -> Number {
+    pub fn decimal(&mut self, value: f64) -> FormulaId {
         self.add(Node::Decimal(value.to_bits()))
     }
 
     /// The terms; a single one that is not subtracted is the sum.
-    pub(super) fn sum(&mut self, terms: Vec<(bool, Number)>) -> Number {
+    pub(super) fn sum(&mut self, terms: Vec<(bool, FormulaId)>) -> FormulaId {
         match terms.as_slice() {
             [(false, only)] => *only,
             _ => self.add(Node::Sum(terms)),
@@ -194,49 +117,58 @@ impl Table {
     }
 
     /// The factors; a single one is the product.
-    pub(super) fn product(&mut self, factors: Vec<Number>) -> Number {
+    pub(super) fn product(&mut self, factors: Vec<FormulaId>) -> FormulaId {
         match factors.as_slice() {
             [only] => *only,
             _ => self.add(Node::Product(factors)),
         }
     }
 
-    /// The nodes that these numbers need, in the same order; the numbers change.
-    pub(super) fn reduced(self, numbers: &mut impl Numbers) -> Self {
+    /// The nodes that a record needs, in the same order; its numbers change.
+    pub(super) fn reduced(self, record: &mut impl Part) -> FormulaNodes {
         let mut is_needed = vec![false; self.nodes.len()];
-        numbers.each(&mut |number| is_needed[number.index()] = true);
-        for (index, node) in self.nodes.iter().enumerate().rev() {
-            if is_needed[index] {
-                node.clone().each(&mut |part| is_needed[part.index()] = true);
+        record.each(&mut |id| is_needed[index(*id)] = true);
+        for (at, node) in self.nodes.iter().enumerate().rev() {
+            if is_needed[at] {
+                node.clone().each(&mut |part| is_needed[index(*part)] = true);
             }
         }
         let mut count = 0;
-        let indices: Vec<Number> = is_needed
+        let ids: Vec<FormulaId> = is_needed
             .iter()
             .map(|is_needed| {
-                count += u32::from(*is_needed);
-                Number(count)
+                let id = FormulaId::new(count);
+                count += usize::from(*is_needed);
+                id
             })
             .collect();
-        let mut table = Self::default();
-        let kept = self.nodes.into_iter().zip(self.lengths).zip(is_needed);
-        for (mut node, length) in kept.filter_map(|(node, is_needed)| is_needed.then_some(node)) {
-            node.each(&mut |part| *part = indices[part.index()]);
-            table.nodes.push(node);
-            table.lengths.push(length);
+        let mut nodes = FormulaNodes::default();
+        for (mut node, is_needed) in self.nodes.into_iter().zip(is_needed) {
+            if is_needed {
+                node.each(&mut |part| *part = ids[index(*part)]);
+                add(&mut nodes, node);
+            }
         }
-        numbers.each(&mut |number| *number = indices[number.index()]);
-        table
+        record.each(&mut |id| *id = ids[index(*id)]);
+        nodes
+    }
+
+    /// All nodes.
+    #[must_use]
+    pub fn nodes(&self) -> FormulaNodes {
+        let mut nodes = FormulaNodes::default();
+        self.nodes.iter().for_each(|node| add(&mut nodes, node.clone()));
+        nodes
     }
 
     /// The length of a formula.
     fn length_of(&self, node: &Node) -> usize {
-        let length = |number: &Number| self.length(*number);
-        let list = |parts: &[Number], length: &dyn Fn(&Number) -> usize, between: &str| {
+        let length = |number: &FormulaId| self.length(*number);
+        let list = |parts: &[FormulaId], length: &dyn Fn(&FormulaId) -> usize, between: &str| {
             parts.iter().map(length).sum::<usize>() + between.len() * parts.len().saturating_sub(1)
         };
-        let arguments = |arguments: &[Number]| list(arguments, &length, ", ") + "()".len();
-        let factor = |number: &Number| self.within_brackets(*number, |node| matches!(node, Node::Product(_)));
+        let arguments = |arguments: &[FormulaId]| list(arguments, &length, ", ") + "()".len();
+        let factor = |number: &FormulaId| self.within_brackets(*number, |node| matches!(node, Node::Product(_)));
         match node {
             Node::Name(name) => name.len(),
             Node::Rate(of) => length(of) + "'".len(),
@@ -251,7 +183,7 @@ impl Table {
             Node::Ellipsis => "…".len(),
             Node::Sum(terms) => {
                 // A fraction in a sum has no brackets.
-                let term = |(_, number): &(bool, Number)| match self.node(*number) {
+                let term = |(_, number): &(bool, FormulaId)| match self.node(*number) {
                     Node::Sum(_) => length(number) + "()".len(),
                     _ => length(number),
                 };
@@ -262,7 +194,7 @@ impl Table {
             }
             Node::Product(factors) => list(factors, &factor, "*"),
             Node::Quotient(above, below) => {
-                let side = |number: &Number| match self.node(*number) {
+                let side = |number: &FormulaId| match self.node(*number) {
                     Node::Product(_) => length(number),
                     _ => factor(number),
                 };
@@ -283,7 +215,7 @@ impl Table {
     }
 
     /// The length of a node, in brackets if it is a sum, a fraction or one of these.
-    fn within_brackets(&self, number: Number, has_brackets: fn(&Node) -> bool) -> usize {
+    fn within_brackets(&self, number: FormulaId, has_brackets: fn(&Node) -> bool) -> usize {
         let node = self.node(number);
         let brackets = if matches!(node, Node::Sum(_) | Node::Quotient(..)) || has_brackets(node) { "()" } else { "" };
         self.length(number) + brackets.len()
@@ -292,7 +224,7 @@ impl Table {
 
 impl Node {
     /// Visits the numbers of its parts.
-    fn each(&mut self, visit: &mut dyn FnMut(&mut Number)) {
+    fn each(&mut self, visit: &mut dyn FnMut(&mut FormulaId)) {
         match self {
             Self::Name(_) | Self::Integer(_) | Self::Decimal(_) | Self::Pi | Self::Ellipsis => {}
             Self::Rate(part)
@@ -315,6 +247,71 @@ impl Node {
             }
         }
     }
+}
+
+/// Adds a node: its name and its parts go into lists of their own.
+fn add(all: &mut FormulaNodes, node: Node) {
+    let FormulaNodes { nodes, names, parts } = all;
+    let mut named = |name: String| {
+        names.push(name);
+        short(names.len() - 1)
+    };
+    let mut listed = |terms: Vec<(bool, FormulaId)>| {
+        let first = parts.len();
+        // A longer table is an error where it is checked.
+        let number = |id: FormulaId| i32::try_from(id.get()).unwrap_or(i32::MAX);
+        parts.extend(terms.into_iter().map(|(is_negative, id)| if is_negative { -number(id) } else { number(id) }));
+        [short(first), short(parts.len() - first)]
+    };
+    let unsigned = |ids: Vec<FormulaId>| ids.into_iter().map(|id| (false, id)).collect::<Vec<_>>();
+    nodes.push(match node {
+        Node::Name(name) => FormulaNode::Name(named(name)),
+        Node::Rate(name) => FormulaNode::Rate(name.get()),
+        Node::Acceleration(name) => FormulaNode::Acceleration(name.get()),
+        Node::Ratio(of, by) => FormulaNode::Ratio(of.get(), by.get()),
+        Node::RatioDerivative(of, [one, other]) => FormulaNode::RatioDerivative(of.get(), one.get(), other.get()),
+        Node::Determinant(matrix) => FormulaNode::Determinant(matrix.get()),
+        Node::Inverse(matrix) => FormulaNode::Inverse(matrix.get()),
+        Node::Integer(value) => FormulaNode::Integer(value),
+        Node::Decimal(bits) => FormulaNode::Decimal(f64::from_bits(bits)),
+        Node::Pi => FormulaNode::Pi,
+        Node::Ellipsis => FormulaNode::Ellipsis,
+        Node::Sum(terms) => {
+            let [first, count] = listed(terms);
+            FormulaNode::Sum(first, count)
+        }
+        Node::Product(factors) => {
+            let [first, count] = listed(unsigned(factors));
+            FormulaNode::Product(first, count)
+        }
+        Node::Quotient(above, below) => FormulaNode::Quotient(above.get(), below.get()),
+        Node::Power(base, exponent) => FormulaNode::Power(base.get(), exponent),
+        Node::Call(function, arguments) => {
+            let [first, count] = listed(unsigned(arguments));
+            FormulaNode::Call(function, first, count)
+        }
+        Node::External(name, order, arguments) => {
+            let (name, [first, count]) = (named(name), listed(unsigned(arguments)));
+            FormulaNode::External(name, short(order), first, count)
+        }
+        Node::Multiple(one, other) => FormulaNode::Multiple(one.get(), other.get()),
+        Node::AtMost(all) => {
+            let [first, count] = listed(unsigned(all));
+            FormulaNode::AtMost(first, count)
+        }
+        Node::NonZero(inside) => FormulaNode::NonZero(inside.get()),
+        Node::Exists(inside) => FormulaNode::Exists(inside.get()),
+    });
+}
+
+/// A longer table is an error where it is checked.
+fn short(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX)
+}
+
+/// The place of a node of a table; its numbers count from 1.
+fn index(id: FormulaId) -> usize {
+    id.get() as usize - 1
 }
 
 /// The name of J, or of the block of J with this number.

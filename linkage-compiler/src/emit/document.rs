@@ -1,43 +1,44 @@
 //! `DERIVATION`: a document as constants of the runtime.
 
-use proc_macro2::{Literal, TokenStream};
+use std::fmt;
+
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::names::string;
 use super::numbers::{separated, separated_integer};
 use crate::document::{
-    Chain, ContactEffect, Document, DriverChoice, Effect, Equation, Group, JointForce, Kernel, KernelCode, Matrix,
-    Method, Node, Number, PointVectors, Quantity, Root, SceneDocument, Sensitivity, SheetDocument, Symbol, Table,
-    Turning, Vector,
+    ChainJoint, ChainLink, ContactEffect, DriverChoice, DriverDocument, Effect, Equation, FormulaId, FormulaNode,
+    FormulaNodes, Group, JointForce, Kernel, KernelCheck, KernelCode, KernelResult, KinematicChain, Matrix,
+    PointVectors, Quantity, Root, SceneDocument, Sensitivity, SheetDocument, Symbol, Turning, Vector,
 };
 use crate::model::TypeName;
 use crate::program::Operations;
-use crate::structure::GroupKind;
 
 /// The constant `DERIVATION` of a driver.
-pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream) -> TokenStream {
-    let mut lists = Lists::default();
-    let mechanism = string(&document.mechanism);
-    let [parameters, inputs, unknowns] = [&document.parameters, &document.inputs, &document.unknowns]
-        .map(|symbols| lists.symbols(&document.table, symbols));
+pub(super) fn of_driver(name: &TypeName, document: &DriverDocument, root: &TokenStream) -> TokenStream {
+    let (record, mut lists) = (&document.record, Lists::default());
+    let mechanism = string(&record.mechanism);
+    let [parameters, inputs, unknowns] =
+        [&record.parameters, &record.inputs, &record.unknowns].map(|symbols| lists.symbols(&document.nodes, symbols));
     let [residual, implied, ratios, gamma] =
-        [&document.residual, &document.implied, &document.ratios, &document.gamma].map(|all| lists.equations(all));
+        [&record.residual, &record.implied, &record.ratios, &record.gamma].map(|all| lists.equations(all));
     let [jacobian_unknowns, jacobian_inputs] =
-        [&document.jacobian_unknowns, &document.jacobian_inputs].map(|matrix| lists.matrix(matrix));
-    let groups = list(document.groups.iter().map(|group| lists.group(group)));
-    let determinant = option(document.determinant.as_ref().map(equation));
-    let second = option(document.ratio_derivatives.as_deref().map(|all| lists.equations(all)));
-    let jerk = option(document.jerk.as_deref().map(|all| lists.equations(all)));
-    let sensitivity = option(document.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
+        [&record.jacobian_unknowns, &record.jacobian_inputs].map(|matrix| lists.matrix(matrix));
+    let groups = list(record.groups.iter().map(|group| lists.group(group)));
+    let determinant = option(record.determinant.as_ref().map(equation));
+    let second = option(record.ratio_derivatives.as_deref().map(|all| lists.equations(all)));
+    let jerk = option(record.jerk.as_deref().map(|all| lists.equations(all)));
+    let sensitivity = option(record.sensitivity.as_ref().map(|Sensitivity { jacobian, formulas }| {
         let (jacobian, formulas) = (lists.matrix(jacobian), lists.equations(formulas));
         quote!(Sensitivity { jacobian: #jacobian, formulas: #formulas })
     }));
     let [points, outputs] =
-        [&document.points, &document.outputs].map(|all| list(all.iter().map(|one| lists.quantity(one))));
-    let conditions = lists.formulas(&document.conditions);
-    let chain = option(document.chain.as_ref().map(chain));
-    let kernels = list(document.kernels.iter().map(|kernel| lists.kernel(kernel)));
-    let table = table(&document.table, &lists);
+        [&record.points, &record.outputs].map(|all| list(all.iter().map(|one| lists.quantity(one))));
+    let conditions = lists.formulas(&record.conditions);
+    let chain = option(record.chain.as_ref().map(chain));
+    let kernels = list(record.kernels.iter().map(|kernel| lists.kernel(kernel)));
+    let table = table(&document.nodes, &lists);
     quote! {
         impl #name {
             /// The derivation as data: every formula, the order of solution and the operations of each function. If it
@@ -74,24 +75,24 @@ pub(super) fn of_driver(name: &TypeName, document: &Document, root: &TokenStream
 
 /// The constant `DERIVATION` of a scene: its equations of motion.
 pub(super) fn of_scene(name: &TypeName, document: &SceneDocument, root: &TokenStream) -> TokenStream {
-    let mut lists = Lists::default();
-    let [scene, mechanism] = [&document.scene, &document.mechanism].map(|name| string(name));
+    let (record, mut lists) = (&document.record, Lists::default());
+    let [scene, mechanism] = [&record.scene, &record.mechanism].map(|name| string(name));
     let [parameters, contacts] =
-        [&document.parameters, &document.contacts].map(|symbols| lists.symbols(&document.table, symbols));
-    let [mass_matrix, drives] = [&document.mass_matrix, &document.drives].map(|all| lists.equations(all));
-    let forces = list(document.forces.iter().map(|Effect { name, forces }| {
+        [&record.parameters, &record.contacts].map(|symbols| lists.symbols(&document.nodes, symbols));
+    let [mass_matrix, drives] = [&record.mass_matrix, &record.drives].map(|all| lists.equations(all));
+    let forces = list(record.forces.iter().map(|Effect { name, forces }| {
         let (name, forces) = (string(name), lists.equations(forces));
         quote!(Effect { name: #name, forces: #forces })
     }));
-    let frictions_and_stops = list(document.frictions_and_stops.iter().map(|contact| lists.contact(contact)));
-    let potential = option(document.potential.as_ref().map(equation));
-    let joints = list(document.joints.iter().map(|JointForce { name, components }| {
+    let frictions_and_stops = list(record.frictions_and_stops.iter().map(|contact| lists.contact(contact)));
+    let potential = option(record.potential.as_ref().map(equation));
+    let joints = list(record.joints.iter().map(|JointForce { name, components }| {
         let (name, [first, second]) = (string(name), components.each_ref().map(equation));
         quote!(JointForce { name: #name, components: [#first, #second] })
     }));
-    let multipliers = lists.formulas(&document.multipliers);
-    let kernels = list(document.kernels.iter().map(|kernel| lists.kernel(kernel)));
-    let table = table(&document.table, &lists);
+    let multipliers = lists.formulas(&record.multipliers);
+    let kernels = list(record.kernels.iter().map(|kernel| lists.kernel(kernel)));
+    let table = table(&document.nodes, &lists);
     quote! {
         impl #name {
             /// The equations of motion as data: every formula, and the operations of each function. If it is not used, it
@@ -120,33 +121,33 @@ pub(super) fn of_scene(name: &TypeName, document: &SceneDocument, root: &TokenSt
 
 /// The constant `SHEET` of a driver: its analysis by hand.
 pub(super) fn of_sheet(name: &TypeName, document: &SheetDocument, root: &TokenStream) -> TokenStream {
-    let mut lists = Lists::default();
-    let mechanism = string(&document.mechanism);
+    let (record, mut lists) = (&document.record, Lists::default());
+    let mechanism = string(&record.mechanism);
     let mut matrices = |all: &[Matrix]| {
         let all = all.iter().map(|matrix| lists.matrix(matrix));
         quote!([#(#all),*])
     };
     let [jacobian_rates, jacobians_of_rates] =
-        [&document.jacobian_rates, &document.jacobians_of_rates].map(|pair| matrices(pair));
-    let [terms, gamma] = [matrices(&document.terms), matrices(&document.gamma)];
-    let [first, second] = document.accelerations.each_ref().map(|all| lists.equations(all));
-    let choices = list(document.choices.iter().map(|DriverChoice { inputs, determinant }| {
+        [&record.jacobian_rates, &record.jacobians_of_rates].map(|pair| matrices(pair));
+    let [terms, gamma] = [matrices(&record.terms), matrices(&record.gamma)];
+    let [first, second] = record.accelerations.each_ref().map(|all| lists.equations(all));
+    let choices = list(record.choices.iter().map(|DriverChoice { inputs, determinant }| {
         let (inputs, determinant) = (lists.formulas(inputs), option(determinant.as_ref().map(equation)));
         quote!(DriverChoice { inputs: #inputs, determinant: #determinant })
     }));
-    let turning = list(document.turning.iter().map(|Turning { with, rate, acceleration }| {
+    let turning = list(record.turning.iter().map(|Turning { with, rate, acceleration }| {
         let with = with.iter().map(|name| string(name));
         let [rate, acceleration] = [rate, acceleration].map(|matrix| lists.matrix(matrix));
         quote!(Turning { with: &[#(#with),*], rate: #rate, acceleration: #acceleration })
     }));
-    let vectors = list(document.vectors.iter().map(|vector| lists.vector(vector)));
-    let points = list(document.points.iter().map(|PointVectors { name, vectors, sums }| {
+    let vectors = list(record.vectors.iter().map(|vector| lists.vector(vector)));
+    let points = list(record.points.iter().map(|PointVectors { name, vectors, sums }| {
         let (name, vectors) = (string(name), vectors.iter().map(|place| Literal::usize_unsuffixed(*place)));
         let sums = sums.iter().map(equation);
         quote!(PointVectors { name: #name, vectors: &[#(#vectors),*], sums: [#(#sums),*] })
     }));
-    let conditions = lists.formulas(&document.conditions);
-    let table = table(&document.table, &lists);
+    let conditions = lists.formulas(&record.conditions);
+    let table = table(&document.nodes, &lists);
     quote! {
         impl #name {
             /// The analysis by hand as data, line by line. If it is not used, it is not in the program.
@@ -171,20 +172,14 @@ pub(super) fn of_sheet(name: &TypeName, document: &SheetDocument, root: &TokenSt
     }
 }
 
-impl ToTokens for Number {
-    fn to_tokens(&self, tokens: &mut TokenStream) {
-        Literal::u32_unsuffixed(self.get()).to_tokens(tokens);
-    }
-}
-
 /// The table of formulas and all lists of formulas, `T`.
-fn table(table: &Table, lists: &Lists) -> TokenStream {
-    let mut parts = Parts::default();
-    let nodes: Vec<TokenStream> = table.nodes().map(|node| self::node(node, &mut parts)).collect();
-    let names = parts.names.iter().map(|name| string(name));
-    let parts = parts.all.iter().map(|(is_negative, part)| {
-        let minus = is_negative.then(|| quote!(-));
-        quote!(#minus #part)
+fn table(FormulaNodes { nodes, names, parts }: &FormulaNodes, lists: &Lists) -> TokenStream {
+    let nodes = nodes.iter().map(node);
+    let names = names.iter().map(|name| string(name));
+    let parts = parts.iter().map(|part| {
+        let minus = part.is_negative().then(|| quote!(-));
+        let number = Literal::u32_unsuffixed(part.unsigned_abs());
+        quote!(#minus #number)
     });
     let Lists { formulas, symbols, equations, entries } = lists;
     let counts = [formulas.len(), symbols.len(), equations.len(), entries.len()].map(Literal::usize_unsuffixed);
@@ -200,85 +195,43 @@ fn table(table: &Table, lists: &Lists) -> TokenStream {
     }
 }
 
-/// The names, terms, factors and arguments of all nodes.
-#[derive(Default)]
-struct Parts<'a> {
-    names: Vec<&'a str>,
-    all: Vec<(bool, Number)>,
-}
-
-impl<'a> Parts<'a> {
-    /// Adds a name: its place.
-    fn name(&mut self, name: &'a str) -> Literal {
-        self.names.push(name);
-        Literal::usize_unsuffixed(self.names.len() - 1)
-    }
-
-    /// Adds parts: the first place and the count.
-    fn add(&mut self, parts: impl IntoIterator<Item = (bool, Number)>) -> TokenStream {
-        let first = self.all.len();
-        self.all.extend(parts);
-        let [first, count] = [first, self.all.len() - first].map(Literal::usize_unsuffixed);
-        quote!(#first, #count)
-    }
-
-    fn unsigned(&mut self, parts: &[Number]) -> TokenStream {
-        self.add(parts.iter().map(|part| (false, *part)))
-    }
-}
-
-fn node<'a>(node: &'a Node, parts: &mut Parts<'a>) -> TokenStream {
-    match node {
-        Node::Name(name) => {
-            let name = parts.name(name);
-            quote!(Name(#name))
+fn node(node: &FormulaNode) -> TokenStream {
+    use FormulaNode as N;
+    let (name, numbers): (_, &[u32]) = match *node {
+        N::Pi => return quote!(Pi),
+        N::Ellipsis => return quote!(Ellipsis),
+        N::Integer(value) => {
+            let value = separated_integer(value);
+            return quote!(Integer(#value));
         }
-        Node::Rate(name) => quote!(Rate(#name)),
-        Node::Acceleration(name) => quote!(Acceleration(#name)),
-        Node::Ratio(of, by) => quote!(Ratio(#of, #by)),
-        Node::RatioDerivative(of, [first, second]) => quote!(RatioDerivative(#of, #first, #second)),
-        Node::Determinant(matrix) => quote!(Determinant(#matrix)),
-        Node::Inverse(matrix) => quote!(Inverse(#matrix)),
-        Node::Integer(value) => {
-            let value = separated_integer(*value);
-            quote!(Integer(#value))
+        N::Decimal(value) => {
+            let value = decimal(value);
+            return quote!(Decimal(#value));
         }
-        Node::Decimal(bits) => {
-            let value = decimal(f64::from_bits(*bits));
-            quote!(Decimal(#value))
+        N::Call(function, first, count) => {
+            let [first, count] = [first, count].map(Literal::u32_unsuffixed);
+            let function = variant(&function);
+            return quote!(Call(#function, #first, #count));
         }
-        Node::Pi => quote!(Pi),
-        Node::Ellipsis => quote!(Ellipsis),
-        Node::Sum(terms) => {
-            let terms = parts.add(terms.iter().copied());
-            quote!(Sum(#terms))
-        }
-        Node::Product(factors) => {
-            let factors = parts.unsigned(factors);
-            quote!(Product(#factors))
-        }
-        Node::Quotient(above, below) => quote!(Quotient(#above, #below)),
-        Node::Power(base, exponent) => {
-            let exponent = Literal::u32_unsuffixed(*exponent);
-            quote!(Power(#base, #exponent))
-        }
-        Node::Call(function, arguments) => {
-            let (function, arguments) = (format_ident!("{function:?}"), parts.unsigned(arguments));
-            quote!(Call(#function, #arguments))
-        }
-        Node::External(name, order, arguments) => {
-            let (name, order) = (parts.name(name), Literal::usize_unsuffixed(*order));
-            let arguments = parts.unsigned(arguments);
-            quote!(External(#name, #order, #arguments))
-        }
-        Node::Multiple(one, other) => quote!(Multiple(#one, #other)),
-        Node::AtMost(all) => {
-            let all = parts.unsigned(all);
-            quote!(AtMost(#all))
-        }
-        Node::NonZero(inside) => quote!(NonZero(#inside)),
-        Node::Exists(inside) => quote!(Exists(#inside)),
-    }
+        N::Name(name) => ("Name", &[name]),
+        N::Rate(of) => ("Rate", &[of]),
+        N::Acceleration(of) => ("Acceleration", &[of]),
+        N::Ratio(of, by) => ("Ratio", &[of, by]),
+        N::RatioDerivative(of, one, other) => ("RatioDerivative", &[of, one, other]),
+        N::Determinant(matrix) => ("Determinant", &[matrix]),
+        N::Inverse(matrix) => ("Inverse", &[matrix]),
+        N::Sum(first, count) => ("Sum", &[first, count]),
+        N::Product(first, count) => ("Product", &[first, count]),
+        N::Quotient(above, below) => ("Quotient", &[above, below]),
+        N::Power(base, exponent) => ("Power", &[base, exponent]),
+        N::External(name, order, first, count) => ("External", &[name, order, first, count]),
+        N::Multiple(one, other) => ("Multiple", &[one, other]),
+        N::AtMost(first, count) => ("AtMost", &[first, count]),
+        N::NonZero(inside) => ("NonZero", &[inside]),
+        N::Exists(inside) => ("Exists", &[inside]),
+    };
+    let (name, numbers) = (format_ident!("{name}"), numbers.iter().map(|number| Literal::u32_unsuffixed(*number)));
+    quote!(#name(#(#numbers),*))
 }
 
 fn decimal(value: f64) -> TokenStream {
@@ -291,6 +244,11 @@ fn decimal(value: f64) -> TokenStream {
             quote!(#minus #size)
         }
     }
+}
+
+/// The name of a variant without fields.
+fn variant(of: &impl fmt::Debug) -> Ident {
+    format_ident!("{}", format!("{of:?}"))
 }
 
 /// `&[first, second]`
@@ -306,20 +264,26 @@ fn option(value: Option<TokenStream>) -> TokenStream {
     }
 }
 
-fn formula(number: &Number) -> TokenStream {
+fn number(id: FormulaId) -> Literal {
+    Literal::u32_unsuffixed(id.get())
+}
+
+fn formula(id: &FormulaId) -> TokenStream {
+    let number = number(*id);
     quote!(T.formula(#number))
 }
 
-fn equation([left, right]: &Equation) -> TokenStream {
+fn equation(Equation { left, right }: &Equation) -> TokenStream {
+    let [left, right] = [*left, *right].map(number);
     quote!(T.equation(#left, #right))
 }
 
-fn chain(Chain { links, joints, conditions }: &Chain) -> TokenStream {
-    let links = list(links.iter().map(|(name, turns_with)| {
+fn chain(KinematicChain { links, joints, conditions }: &KinematicChain) -> TokenStream {
+    let links = list(links.iter().map(|ChainLink { name, turns_with }| {
         let (name, turns_with) = (string(name), turns_with.iter().map(|name| string(name)));
         quote!(ChainLink { name: #name, turns_with: &[#(#turns_with),*] })
     }));
-    let joints = list(joints.iter().map(|(of, slides_along)| {
+    let joints = list(joints.iter().map(|ChainJoint { links: of, slides_along }| {
         let of = of.map(Literal::usize_unsuffixed);
         let slides_along = option(slides_along.as_deref().map(|name| string(name).to_token_stream()));
         quote!(ChainJoint { links: [#(#of),*], slides_along: #slides_along })
@@ -356,18 +320,18 @@ fn added<N>(kind: &str, all: &mut Vec<N>, more: impl IntoIterator<Item = N>) -> 
 
 impl Lists {
     /// `&[Formula]`.
-    fn formulas(&mut self, all: &[Number]) -> TokenStream {
+    fn formulas(&mut self, all: &[FormulaId]) -> TokenStream {
         added("formulas", &mut self.formulas, all.iter().map(|number| number.get()))
     }
 
     /// `&[Equation]`.
     fn equations(&mut self, all: &[Equation]) -> TokenStream {
-        added("equations", &mut self.equations, all.iter().map(|sides| sides.map(|side| side.get())))
+        added("equations", &mut self.equations, all.iter().map(|Equation { left, right }| [left.get(), right.get()]))
     }
 
     /// `&[Symbol]`; a name is its own formula, but for forces.
-    fn symbols(&mut self, table: &Table, symbols: &[Symbol]) -> TokenStream {
-        if symbols.iter().all(|symbol| table.is_name(symbol.formula, &symbol.name)) {
+    fn symbols(&mut self, nodes: &FormulaNodes, symbols: &[Symbol]) -> TokenStream {
+        if symbols.iter().all(|symbol| nodes.name(symbol.formula) == Some(&symbol.name)) {
             return added("symbols", &mut self.symbols, symbols.iter().map(|symbol| symbol.formula.get()));
         }
         list(symbols.iter().map(symbol))
@@ -377,9 +341,9 @@ impl Lists {
         let (name, factor) = (formula(name), option(factor.as_ref().map(formula)));
         let [rows, columns] = [*rows, *columns].map(Literal::usize_unsuffixed);
         // A place is less than the number of nodes.
-        let numbers = entries.iter().map(|(place, value)| {
-            let [row, column] = place.map(|index| u32::try_from(index).unwrap_or(u32::MAX));
-            [row, column, value.get()]
+        let numbers = entries.iter().map(|entry| {
+            let [row, column] = [entry.row, entry.column].map(|index| u32::try_from(index).unwrap_or(u32::MAX));
+            [row, column, entry.value.get()]
         });
         let entries = added("entries", &mut self.entries, numbers);
         quote!(FormulaMatrix { name: #name, factor: #factor, rows: #rows, columns: #columns, entries: #entries })
@@ -387,30 +351,13 @@ impl Lists {
 
     fn group(&mut self, group: &Group) -> TokenStream {
         let (unknowns, position) = (self.formulas(&group.unknowns), self.equations(&group.position));
-        let kind = string(&group.kind.description());
-        let form = match group.kind {
-            GroupKind::Rrr => quote!(TwoAngles),
-            GroupKind::Rrp => quote!(AngleAndLength),
-            GroupKind::Rpr => quote!(AngleAndTurningLength),
-            GroupKind::Sliders => quote!(TwoLengths),
-            GroupKind::Circles => quote!(TwoDistances),
-            GroupKind::LinkToCircle => quote!(AngleAndDistance),
-            GroupKind::SliderToCircle => quote!(LengthAndDistance),
-            GroupKind::Angle => quote!(OneAngle),
-            GroupKind::Linear => quote!(OneLinear),
-            GroupKind::Loops(2) => quote!(TwoLoops),
-            GroupKind::Loops(_) => quote!(ThreeLoops),
-            GroupKind::Scalar | GroupKind::Pair | GroupKind::Irreducible(..) => quote!(Other),
-        };
+        let (kind, form) = (string(&group.kind), variant(&group.form));
         let of_group = group.equations.iter().map(|equation| Literal::usize_unsuffixed(*equation));
-        let root = option(group.root.as_ref().map(|Root { formula, choice }| {
-            let (root, branches) = (self::formula(formula), choice.variants());
+        let root = option(group.root.as_ref().map(|Root { formula, branches }| {
+            let (root, branches) = (self::formula(formula), branches.iter().map(|branch| string(branch)));
             quote!(Root { formula: #root, branches: [#(#branches),*] })
         }));
-        let method = match group.method {
-            Method::ClosedForm => quote!(ClosedForm),
-            Method::Factorization => quote!(Factorization),
-        };
+        let method = variant(&group.method);
         let determinant = option(group.determinant.as_ref().map(equation));
         let inverse = option(group.inverse.as_ref().map(|matrix| self.matrix(matrix)));
         quote! {
@@ -480,12 +427,19 @@ impl Lists {
             return quote!(Kernel::new(#function, [#(#operations),*]));
         }
         let steps = self.equations(steps);
-        let checks = list(checks.iter().map(|(kind, of)| {
-            let check = format_ident!("{kind:?}");
-            let of = of.iter().map(formula);
-            quote!(KernelCheck::#check([#(#of),*]))
+        let checks = list(checks.iter().map(|check| {
+            let of = check.of().iter().map(formula);
+            let name = match check {
+                KernelCheck::Regular(_) => quote!(Regular),
+                KernelCheck::Nonzero(_) => quote!(Nonzero),
+                KernelCheck::Positive(_) => quote!(Positive),
+                KernelCheck::Apart(_) => quote!(Apart),
+                KernelCheck::Moderate(_) => quote!(Moderate),
+                KernelCheck::Open(_) => quote!(Open),
+            };
+            quote!(KernelCheck::#name([#(#of),*]))
         }));
-        let results = list(results.iter().map(|(place, value)| {
+        let results = list(results.iter().map(|KernelResult { place, value }| {
             let (place, value) = (string(place), formula(value));
             quote!(KernelResult { place: #place, value: #value })
         }));

@@ -31,7 +31,7 @@ use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 
 use crate::derivation::Derivation;
-use crate::document::{Document, SceneDocument, Table};
+use crate::document::{DriverDocument, SceneDocument, Table};
 use crate::model::{Driver, Mechanism, Request, TypeName};
 use crate::program::{self, Access, Function, Functions, Implemented, Operations, Program};
 use fpcore::Straight;
@@ -193,7 +193,7 @@ pub fn documents(
     Declared { mechanism, driver }: Declared<'_>,
     program: &Program<Code>,
     derivation: &Derivation,
-) -> (Option<Document>, Vec<SceneDocument>) {
+) -> (Option<DriverDocument>, Vec<SceneDocument>) {
     let straight = Straight::of_driver(mechanism, program);
     let of_driver = program.derived.as_ref().map(|derived| {
         let kernels = |table: &mut Table| kernels(&program.functions, Some(&straight), table);

@@ -2,8 +2,8 @@
 
 use linkage_compiler::document::{self, LONGEST, Layout, Name};
 use linkage_compiler::graph::{Condition, External, Function, Graph, NodeId, Number, SymbolId, written};
-use linkage_lent::Lender;
 use linkage_report::Notation;
+use linkage_report::lend::Lender;
 
 /// A formula in all notations.
 struct Formula {
@@ -13,9 +13,9 @@ struct Formula {
 }
 
 impl Formula {
-    fn of(table: &document::Table, number: document::Number) -> Self {
+    fn of(table: &document::Table, number: document::FormulaId) -> Self {
         let lender = Lender::default();
-        let table = lender.table(table).unwrap();
+        let table = lender.table(&table.nodes()).unwrap();
         let formula = table.get(number.get()).unwrap();
         Self { text: formula.to_string(), latex: formula.to_latex(), mathml: formula.to_mathml() }
     }

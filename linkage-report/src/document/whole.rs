@@ -8,7 +8,7 @@ use crate::sheet::Sheet;
 
 /// Writes all parts of a sheet but its pictures and properties: equations are numbered through.
 pub(super) fn write_whole(sheet: &Sheet<'_>, pen: &mut dyn Pen) -> fmt::Result {
-    let (derivation, words) = (sheet.derivation, sheet.language.words());
+    let (derivation, words) = (&sheet.derivation, sheet.language.words());
     let mut number = 0;
     pen.title(sheet.title.as_deref().unwrap_or(derivation.mechanism))?;
     sheet.about.iter().try_for_each(|paragraph| pen.lead(paragraph))?;
@@ -25,7 +25,7 @@ pub(super) fn write_whole(sheet: &Sheet<'_>, pen: &mut dyn Pen) -> fmt::Result {
         }
         _ => solved(derivation, pen, &mut number)?,
     }
-    if let Some(by_hand) = sheet.by_hand {
+    if let Some(by_hand) = &sheet.by_hand {
         by_hand::write(by_hand, pen, &mut number)?;
     }
 

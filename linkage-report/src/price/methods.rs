@@ -53,13 +53,13 @@ pub(super) struct Work<'a> {
 /// The methods for one mechanism at the same inputs.
 pub(super) struct Methods<'a, M: Mechanism> {
     samples: &'a [Sample<M>],
-    counts: Counts<'a>,
+    counts: Counts<'static>,
     machine: Machine,
     pub(super) works: Vec<Work<'a>>,
 }
 
 impl<'a, M: Kinematic<Scalar = f64, Name = &'static str, V = D<1>>> Methods<'a, M> {
-    pub(super) fn new(samples: &'a [Sample<M>], counts: Counts<'a>) -> Self {
+    pub(super) fn new(samples: &'a [Sample<M>], counts: Counts<'static>) -> Self {
         Self { samples, counts, machine: Machine::measured(), works: Vec::new() }
     }
 

@@ -44,7 +44,7 @@ enum Directions {
 
 impl Dyad {
     /// The dyad of a group, if it is one.
-    fn of(local: &Local<'_>, group: usize) -> Option<Self> {
+    fn of(local: &Local<'_, '_>, group: usize) -> Option<Self> {
         let form = local.form(group)?;
         let (&[first, second], &[one, other]) = (local.equations(group), local.unknowns(group)) else { return None };
         let (rows, unknowns) = ([first, second], [one, other]);
@@ -62,7 +62,7 @@ impl Dyad {
 
     /// All dyads, each with its groups, in the order in which these are solved. A link and a slider whose guide is along an
     /// axis are two groups: the angle of the link follows from one coordinate, the slider from the other.
-    pub(super) fn all(local: &Local<'_>) -> Vec<(Vec<usize>, Self)> {
+    pub(super) fn all(local: &Local<'_, '_>) -> Vec<(Vec<usize>, Self)> {
         let groups = 0..local.derivation.groups.len();
         let sliders = |link: usize| {
             let mut found = groups.clone().filter_map(move |slider| {
@@ -83,7 +83,7 @@ impl Dyad {
 
     /// True for a length along a line through a pivot, whose angle is in no other equation and in no output: a cylinder. Its
     /// angle with the normal of its own line is 90 degrees everywhere, and no force is transmitted across it.
-    pub(super) fn is_cylinder(local: &Local<'_>, group: usize) -> bool {
+    pub(super) fn is_cylinder(local: &Local<'_, '_>, group: usize) -> bool {
         let (&[first, second], &[one, other]) = (local.equations(group), local.unknowns(group)) else { return false };
         if local.form(group) != Some(GroupForm::AngleAndTurningLength) {
             return false;
@@ -101,7 +101,7 @@ impl Dyad {
     }
 
     /// The dyad of a link and a slider, each solved alone from one row of a loop.
-    fn of_slider(local: &Local<'_>, groups: [usize; 2]) -> Option<Self> {
+    fn of_slider(local: &Local<'_, '_>, groups: [usize; 2]) -> Option<Self> {
         let forms = groups.map(|group| local.form(group));
         let [link, slider] = groups;
         let (&[row], &[angle]) = (local.equations(link), local.unknowns(link)) else { return None };
@@ -127,7 +127,7 @@ impl Dyad {
     }
 
     /// The angle between 0 and pi, with its first derivative at these rates of unknowns and inputs; the second is not known.
-    pub(super) fn angle(&self, local: &Local<'_>, rates: &[f64]) -> OutputMotion {
+    pub(super) fn angle(&self, local: &Local<'_, '_>, rates: &[f64]) -> OutputMotion {
         let column = |unknown: usize| local.column(unknown, self.rows);
         let moved = |unknown: usize| local.mixed(&local.unit(unknown), rates, self.rows);
         let [columns, derivatives] = [self.unknowns.map(column), self.unknowns.map(moved)];
@@ -152,7 +152,7 @@ impl Dyad {
 }
 
 /// The directions of two angles: the links are a and b with the angles alpha + k beta and beta.
-fn of_angles(local: &Local<'_>, rows: [usize; 2], unknowns: [usize; 2]) -> Directions {
+fn of_angles(local: &Local<'_, '_>, rows: [usize; 2], unknowns: [usize; 2]) -> Directions {
     let [one, other] = unknowns.map(|unknown| local.column(unknown, rows));
     let units = unknowns.map(|unknown| local.unit(unknown));
     let second = |a: usize, b: usize| local.mixed(&units[a], &units[b], rows);

@@ -83,7 +83,7 @@ impl fmt::Display for GrashofClass {
 }
 
 /// The loop of four turning joints that a dyad closes, if it does: two links from one that turns about the ground.
-pub(super) fn of_dyad(local: &Local<'_>, dyad: &Dyad) -> Option<FourBarLoop> {
+pub(super) fn of_dyad(local: &Local<'_, '_>, dyad: &Dyad) -> Option<FourBarLoop> {
     let derivation = local.derivation;
     let chain = derivation.chain.filter(|_| dyad.kind == DyadKind::Rrr)?;
     let names: Vec<&str> = derivation.unknowns.iter().chain(derivation.inputs).map(|symbol| symbol.name).collect();

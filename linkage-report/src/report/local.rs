@@ -10,8 +10,8 @@ pub(super) type Vector = [f64; 2];
 type OfRates<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + 'a>;
 
 /// The numbers of a mechanism at a position, for [`Report::of_data`](super::Report::of_data).
-pub struct Local<'a> {
-    pub(super) derivation: &'a Derivation<'a>,
+pub struct Local<'a, 'd> {
+    pub(super) derivation: &'a Derivation<'d>,
     are_angles: Vec<bool>,
     /// J, row by row.
     jacobian: Vec<f64>,
@@ -20,11 +20,11 @@ pub struct Local<'a> {
     groups: Vec<[Vec<usize>; 2]>,
 }
 
-impl<'a> Local<'a> {
+impl<'a, 'd> Local<'a, 'd> {
     /// The mechanism of a derivation at a position: true for each unknown that is an angle, J row by row, and gamma at the rates
     /// of all unknowns, then of all inputs.
     pub fn new(
-        derivation: &'a Derivation<'a>,
+        derivation: &'a Derivation<'d>,
         are_angles: Vec<bool>,
         jacobian: Vec<f64>,
         gamma: impl Fn(&[f64]) -> Vec<f64> + 'a,
@@ -42,7 +42,7 @@ impl<'a> Local<'a> {
     /// An emitted mechanism at a position.
     pub(super) fn of<M: Kinematic<Scalar = f64>>(
         mechanism: &'a M,
-        derivation: &'a Derivation<'a>,
+        derivation: &'a Derivation<'d>,
         q: &M::Coordinates,
     ) -> Self {
         let pose = mechanism.pose_at(q);

@@ -113,7 +113,7 @@ impl Report {
         derivation: &Derivation<'_>,
         is_angle: impl Fn(&str) -> bool,
         mut modes: ReportedModes,
-        at_modes: &[Local<'_>],
+        at_modes: &[Local<'_, '_>],
     ) -> Self {
         if let ReportedModes::Listed(modes) = &mut modes {
             for (mode, local) in modes.modes.iter_mut().zip(at_modes) {
@@ -121,7 +121,7 @@ impl Report {
                 mode.unknowns = local.rounded(&mode.unknowns);
             }
         }
-        let of_loop = |local: &Local<'_>| {
+        let of_loop = |local: &Local<'_, '_>| {
             Dyad::all(local).iter().filter_map(|(_, dyad)| four_bar::of_dyad(local, dyad)).collect()
         };
         let four_bars = at_modes.first().map(of_loop).unwrap_or_default();

@@ -41,7 +41,7 @@ pub struct NoTransmission {
 }
 
 /// The acute angle of each dyad at a position, with the unknowns of the dyad.
-pub(super) fn at(local: &Local<'_>) -> Vec<(String, f64)> {
+pub(super) fn at(local: &Local<'_, '_>) -> Vec<(String, f64)> {
     let rest = vec![0.0; local.derivation.unknowns.len() + local.derivation.inputs.len()];
     let name = |group: &usize| {
         let unknowns = local.unknowns(*group).iter().filter_map(|&unknown| local.derivation.unknowns.get(unknown));

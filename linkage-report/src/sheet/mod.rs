@@ -81,11 +81,11 @@ type Symbols<'a> = Vec<(Formula<'a>, Option<f64>)>;
 /// A builder for a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet<'a> {
-    pub(crate) derivation: &'a Derivation<'a>,
+    pub(crate) derivation: Derivation<'a>,
     pub(crate) language: Language,
     pub(crate) title: Option<String>,
-    pub(crate) scenes: Vec<&'a SceneDerivation<'a>>,
-    pub(crate) by_hand: Option<&'a SheetDerivation<'a>>,
+    pub(crate) scenes: Vec<SceneDerivation<'a>>,
+    pub(crate) by_hand: Option<SheetDerivation<'a>>,
     pub(crate) values: Option<Values>,
     pub(crate) about: Vec<String>,
     given: Vec<(String, f64)>,
@@ -97,9 +97,9 @@ pub struct Sheet<'a> {
 impl<'a> Sheet<'a> {
     /// Creates the sheet of a derivation, without numbers or pictures.
     #[must_use]
-    pub fn new(derivation: &'a Derivation<'a>) -> Self {
+    pub fn new(derivation: &Derivation<'a>) -> Self {
         Self {
-            derivation,
+            derivation: *derivation,
             language: Language::default(),
             title: None,
             scenes: Vec::new(),
@@ -126,14 +126,14 @@ impl<'a> Sheet<'a> {
     }
 
     /// Adds the equations of motion of a scene of this mechanism, after the kinematics.
-    pub fn scene(&mut self, scene: &'a SceneDerivation<'a>) -> &mut Self {
-        self.scenes.push(scene);
+    pub fn scene(&mut self, scene: &SceneDerivation<'a>) -> &mut Self {
+        self.scenes.push(*scene);
         self
     }
 
     /// Adds the analysis by hand of this mechanism, line by line: `SHEET` of a mechanism with `derive sheet`.
-    pub fn by_hand(&mut self, by_hand: &'a SheetDerivation<'a>) -> &mut Self {
-        self.by_hand = Some(by_hand);
+    pub fn by_hand(&mut self, by_hand: &SheetDerivation<'a>) -> &mut Self {
+        self.by_hand = Some(*by_hand);
         self
     }
 
@@ -215,7 +215,7 @@ impl<'a> Sheet<'a> {
 
     /// The parameters with their values, the inputs and the unknowns, each kind with its heading.
     pub(crate) fn roles(&self) -> Vec<(&'static str, Symbols<'a>)> {
-        let (words, Derivation { parameters, inputs, unknowns, .. }) = (self.language.words(), *self.derivation);
+        let (words, Derivation { parameters, inputs, unknowns, .. }) = (self.language.words(), self.derivation);
         let value = |name: &str| self.given.iter().rfind(|(other, _)| other == name).map(|(_, value)| *value);
         let roles = [(words.given, parameters), (words.driven, inputs), (words.unknown, unknowns)];
         let listed = roles.into_iter().filter(|(_, symbols)| !symbols.is_empty());

@@ -32,7 +32,7 @@ pub(super) fn html(sheet: &Sheet<'_>) -> String {
 
 /// The content of the page.
 pub(super) fn body(sheet: &Sheet<'_>) -> String {
-    let derivation = sheet.derivation;
+    let derivation = &sheet.derivation;
     let words = sheet.language.words();
     let mut page = Page { words, body: String::new(), equations: 0, values: sheet.values.clone() };
     page.header(sheet);
@@ -47,7 +47,7 @@ pub(super) fn body(sheet: &Sheet<'_>) -> String {
         page.requests(derivation);
     }
     page.properties(derivation, &sheet.properties);
-    if let Some(by_hand) = sheet.by_hand {
+    if let Some(by_hand) = &sheet.by_hand {
         page.by_hand(by_hand);
     }
     page.quantities(words.points, derivation.points);
@@ -141,7 +141,7 @@ impl Page {
     }
 
     fn header(&mut self, sheet: &Sheet<'_>) {
-        let derivation = sheet.derivation;
+        let derivation = &sheet.derivation;
         let (over, title) = match &sheet.title {
             Some(title) => (escape(derivation.mechanism), escape(title)),
             None => (self.words.kinematics.to_owned(), escape(derivation.mechanism)),

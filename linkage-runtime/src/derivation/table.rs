@@ -3,56 +3,9 @@
 use core::fmt;
 
 use linkage_ir::ElementaryFunction;
+use linkage_ir::document::FormulaNode;
 
 use super::notation::Name;
-
-/// A node of a [`FormulaTable`]. It refers to nodes before it by their numbers, which count from 1, and to several by a
-/// place in the list of parts and a count.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FormulaNode {
-    /// A quantity by the place of its name in the `linkage!` language: `theta3`.
-    Name(u32),
-    /// The first derivative of a name with respect to time.
-    Rate(u32),
-    /// The second derivative of a name with respect to time.
-    Acceleration(u32),
-    /// The derivative of the first name with respect to the second.
-    Ratio(u32, u32),
-    /// The second derivative of the first name with respect to the others.
-    RatioDerivative(u32, u32, u32),
-    /// The determinant of a matrix by its name.
-    Determinant(u32),
-    /// The inverse of a matrix by its name.
-    Inverse(u32),
-    /// A whole number.
-    Integer(u64),
-    /// A number.
-    Decimal(f64),
-    /// π.
-    Pi,
-    /// The place of a part that is too long to be printed.
-    Ellipsis,
-    /// Terms from left to right; the number of a term that is subtracted has a minus sign.
-    Sum(u32, u32),
-    /// Factors from left to right.
-    Product(u32, u32),
-    /// A numerator and a denominator.
-    Quotient(u32, u32),
-    /// A power of the first with the second, a number by itself, as the exponent.
-    Power(u32, u32),
-    /// An elementary function and its arguments.
-    Call(ElementaryFunction, u32, u32),
-    /// A user function by the place of its name, the order of its derivative, and its arguments.
-    External(u32, u32, u32, u32),
-    /// A product of two with a sign between them in every notation.
-    Multiple(u32, u32),
-    /// a ≤ b ≤ ….
-    AtMost(u32, u32),
-    /// a ≠ 0.
-    NonZero(u32),
-    /// The statement that a formula has a value.
-    Exists(u32),
-}
 
 /// The nodes of the formulas of one derivation. Each refers to nodes before it only, so that a formula ends.
 #[derive(Clone, Copy, PartialEq)]

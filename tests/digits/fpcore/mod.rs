@@ -14,7 +14,7 @@ use linkage::derivation::Derivation;
 use linkage_gallery::checks::each;
 use linkage_gallery::listed::{Listed, all};
 use linkage_gallery::source;
-use linkage_lent::Lender;
+use linkage_report::lend::Lender;
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
 
@@ -27,7 +27,7 @@ const WITHOUT: [&str; 2] = ["ThreeTogether", "Block"];
 fn with_code<'a>(lender: &'a Lender, file: &str, derivation: &Derivation) -> Derivation<'a> {
     let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
     let (documents, _) = linkage_compiler::documents(&mechanism).unwrap();
-    let document = documents.iter().find(|document| document.mechanism == derivation.mechanism).unwrap();
+    let document = documents.iter().find(|document| document.record.mechanism == derivation.mechanism).unwrap();
     lender.derivation(document).unwrap()
 }
 
@@ -137,7 +137,7 @@ fn agrees(listed: &dyn Listed<f64>) {
 fn functions_without_formulas() {
     let functions = |file: &str| {
         let mechanism = linkage_compiler::read(source::tokens_of(file)).unwrap().remove(0);
-        let kernels = linkage_compiler::documents(&mechanism).unwrap().0.remove(0).kernels.into_iter();
+        let kernels = linkage_compiler::documents(&mechanism).unwrap().0.remove(0).record.kernels.into_iter();
         let with_code = kernels.filter(|kernel| !kernel.code.results.is_empty());
         with_code.map(|kernel| kernel.function).collect::<Vec<_>>()
     };

@@ -1,11 +1,12 @@
 //! Operations as formulas: steps, checks and results, in the order of the code.
 
+use linkage_ir::document::FormulaId;
 use linkage_ir::{ValueId, code};
 
 use super::name::{ascii, reserved, symbol};
 use super::operations::{Check, Operations};
 use super::value::{Role, Value};
-use crate::document::{KernelCode, Node, Number, Table};
+use crate::document::{Equation, KernelCheck, KernelCode, KernelResult, Node, Table};
 use crate::graph;
 use crate::model::Mechanism;
 use crate::program::{Order, Taken};
@@ -34,7 +35,7 @@ pub(super) fn code(
         let formula = names.formula(id);
         names.nodes[id.index()] = Some(if uses.has_line[id.index()] {
             let name = names.unique(operations.preferred(id).unwrap_or("value"));
-            steps.push([name, formula]);
+            steps.push(Equation { left: name, right: formula });
             name
         } else {
             formula
@@ -42,8 +43,11 @@ pub(super) fn code(
     }
     KernelCode {
         steps,
-        checks: checks.iter().map(|Check { kind, of }| (*kind, names.all(of))).collect(),
-        results: results.into_iter().map(|(path, id)| (ascii(&path), names.node(id))).collect(),
+        checks: checks.iter().filter_map(|Check { kind, of }| KernelCheck::new(*kind, &names.all(of))).collect(),
+        results: results
+            .into_iter()
+            .map(|(path, id)| KernelResult { place: ascii(&path), value: names.node(id) })
+            .collect(),
     }
 }
 
@@ -94,7 +98,7 @@ struct Names<'a> {
     operations: &'a Operations,
     table: &'a mut Table,
     taken: Taken<'a>,
-    nodes: Vec<Option<Number>>,
+    nodes: Vec<Option<FormulaId>>,
 }
 
 impl Names<'_> {
@@ -122,22 +126,22 @@ impl Names<'_> {
         }
     }
 
-    fn unique(&mut self, preferred: &str) -> Number {
+    fn unique(&mut self, preferred: &str) -> FormulaId {
         let name = self.taken.unique(&symbol(preferred));
         self.table.plain(&name)
     }
 
     /// The formula or name of an operation before; operands come before their operations.
-    fn node(&mut self, id: ValueId) -> Number {
+    fn node(&mut self, id: ValueId) -> FormulaId {
         self.nodes[id.index()].unwrap_or_else(|| self.table.decimal(f64::NAN))
     }
 
-    fn all(&mut self, ids: &[ValueId]) -> Vec<Number> {
+    fn all(&mut self, ids: &[ValueId]) -> Vec<FormulaId> {
         ids.iter().map(|id| self.node(*id)).collect()
     }
 
     /// The formula of an operation whose operands have formulas.
-    fn formula(&mut self, id: ValueId) -> Number {
+    fn formula(&mut self, id: ValueId) -> FormulaId {
         use code::Value as V;
         let node = match self.operations.operation(id) {
             V::Constant(number) => return self.constant(*number),
@@ -156,7 +160,7 @@ impl Names<'_> {
     }
 
     /// A multiple of pi as emitted code computes it.
-    fn turn(&mut self, count: i32, parts: u32) -> Number {
+    fn turn(&mut self, count: i32, parts: u32) -> FormulaId {
         let mut multiple = self.table.add(Node::Pi);
         if count != 1 {
             let count = self.table.decimal(count.into());
@@ -170,7 +174,7 @@ impl Names<'_> {
     }
 
     /// The constant as emitted code computes it.
-    fn constant(&mut self, number: graph::Number) -> Number {
+    fn constant(&mut self, number: graph::Number) -> FormulaId {
         let value = number.to_f64();
         match number {
             graph::Number::Ratio(n, d) if format!("{value}").len() > 8 => {
@@ -182,7 +186,7 @@ impl Names<'_> {
     }
 
     /// An integer, which a double may not hold.
-    fn integer(&mut self, value: i64) -> Number {
+    fn integer(&mut self, value: i64) -> FormulaId {
         let is_exact = value as f64 as i64 == value;
         match u64::try_from(value) {
             Ok(value) => self.table.add(Node::Integer(value)),

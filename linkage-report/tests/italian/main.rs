@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use linkage_lent::Lender;
+use linkage_report::lend::Lender;
 use linkage_report::sheet::{Language, Sheet};
 use proc_macro2::{TokenStream, TokenTree};
 

@@ -4,10 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use linkage_compiler::budget::Budget;
-use linkage_compiler::document::Table;
+use linkage_compiler::document::{Documents, FormulaNodes};
 use linkage_compiler::text;
-use linkage_lent::{Documents, Unsound};
 use linkage_report::Document;
+use linkage_report::lend::{Lender, Unsound};
 use linkage_report::report::Mobility;
 use linkage_report::sheet::Language;
 use serde_json::Value;
@@ -28,18 +28,21 @@ const TEXT: &str = "mechanism FourBar {
 }";
 
 fn documents(text: &str) -> Vec<Documents> {
-    let compiled = text::compile(text, &Budget::default(), |lowered| Documents::of(&lowered)).unwrap();
+    let compiled = text::compile(text, &Budget::default(), |lowered| lowered.documents()).unwrap();
     compiled.into_iter().flat_map(|compiled| compiled.drivers).collect()
 }
 
 /// Everything that is written of documents.
 fn sheets(documents: &Documents) -> Result<Vec<String>, Unsound> {
     let mut all = Vec::new();
-    documents.sheet(|sheet| {
+    let lender = Lender::default();
+    if let Some(mut sheet) = lender.whole(documents)? {
         all.extend([sheet.to_html(), sheet.to_latex(), sheet.to_text(), sheet.language(Language::Italian).to_text()]);
-    })?;
-    documents.each(|document| all.extend(document.fpcore().iter().map(ToString::to_string)))?;
-    if let Some(derivation) = documents.derivation(&linkage_lent::Lender::default())? {
+    }
+    let (driver, scenes) = lender.with_functions(documents)?;
+    let functions = scenes.iter().flat_map(|scene| scene.fpcore());
+    all.extend(driver.iter().flat_map(|driver| driver.fpcore()).chain(functions).map(|core| core.to_string()));
+    if let Some(derivation) = driver {
         all.push(format!("{:?}", Mobility::of(&derivation)));
         all.push(derivation.to_text());
     }
@@ -100,16 +103,30 @@ fn damaged_documents_do_not_panic() {
     assert!(rejected > 10 && unsound > 10 && written_all > 10, "{rejected} {unsound} {written_all} of {}", all.len());
 }
 
-fn is_read(nodes: &str) -> bool {
-    serde_json::from_str::<Table>(nodes).is_ok()
+/// A number of formulas in a check that its kind does not have.
+#[test]
+fn a_check_without_formulas_is_rejected() {
+    let mut written = serde_json::to_value(&documents(TEXT)[0]).unwrap();
+    let kernels = written.pointer_mut("/driver/record/kernels").unwrap().as_array_mut().unwrap();
+    let mut checks = kernels.iter_mut().filter_map(|kernel| kernel["code"]["checks"].get_mut(0));
+    let check = checks.next().unwrap().as_object_mut().unwrap();
+    check.values_mut().next().unwrap().as_array_mut().unwrap().clear();
+    assert!(serde_json::from_value::<Documents>(written).is_err());
+}
+
+fn is_read(nodes: &str, parts: &str) -> bool {
+    serde_json::from_str::<FormulaNodes>(&format!(r#"{{"nodes": {nodes}, "names": ["f"], "parts": {parts}}}"#)).is_ok()
 }
 
 #[test]
 fn tables_with_nodes_out_of_order_are_rejected() {
-    assert!(is_read(r#"["Pi", {"Power": [1, 2]}]"#));
-    assert!(!is_read(r#"["Pi", {"Power": [0, 2]}]"#));
-    assert!(!is_read(r#"["Pi", {"Power": [2, 2]}]"#));
-    assert!(!is_read(r#"["Pi", {"Sum": [[false, 3]]}]"#));
+    assert!(is_read(r#"["Pi", {"Power": [1, 2]}]"#, "[]"));
+    assert!(!is_read(r#"["Pi", {"Power": [0, 2]}]"#, "[]"));
+    assert!(!is_read(r#"["Pi", {"Power": [2, 2]}]"#, "[]"));
+    assert!(is_read(r#"["Pi", {"Sum": [0, 1]}]"#, "[-1]"));
+    assert!(!is_read(r#"["Pi", {"Sum": [0, 1]}]"#, "[3]"));
+    assert!(!is_read(r#"["Pi", {"Sum": [0, 2]}]"#, "[1]"));
+    assert!(!is_read(r#"[{"Name": 1}]"#, "[]"));
 }
 
 /// Each node twice in the next one is a short file and a formula without end; one in one, a formula of any depth.
@@ -117,17 +134,18 @@ fn tables_with_nodes_out_of_order_are_rejected() {
 fn tables_of_formulas_without_end_are_rejected() {
     let nested = |count: usize, of: &dyn Fn(usize) -> String| {
         let nodes: Vec<String> = (1..count).map(of).collect();
-        format!(r#"["Pi", {}]"#, nodes.join(", "))
+        let parts: Vec<String> = (1..count).map(|number| number.to_string()).collect();
+        is_read(&format!(r#"["Pi", {}]"#, nodes.join(", ")), &format!("[{}]", parts.join(", ")))
     };
     let doubled = |number: usize| format!(r#"{{"Quotient": [{number}, {number}]}}"#);
-    assert!(is_read(&nested(8, &doubled)));
-    assert!(!is_read(&nested(64, &doubled)));
-    let single = |number: usize| format!(r#"{{"Product": [{number}]}}"#);
-    assert!(is_read(&nested(200, &single)));
-    assert!(!is_read(&nested(100_000, &single)));
+    assert!(nested(8, &doubled));
+    assert!(!nested(64, &doubled));
+    let single = |number: usize| format!(r#"{{"Product": [{}, 1]}}"#, number - 1);
+    assert!(nested(200, &single));
+    assert!(!nested(100_000, &single));
     let squared = |number: usize| format!(r#"{{"Power": [{number}, 2]}}"#);
-    assert!(is_read(&nested(8, &squared)));
-    assert!(!is_read(&nested(64, &squared)));
-    assert!(!is_read(r#"["Pi", {"Power": [1, 4294967295]}]"#));
-    assert!(!is_read(r#"["Pi", {"External": ["f", 18446744073709551615, [1]]}]"#));
+    assert!(nested(8, &squared));
+    assert!(!nested(64, &squared));
+    assert!(!is_read(r#"["Pi", {"Power": [1, 4294967295]}]"#, "[]"));
+    assert!(!is_read(r#"["Pi", {"External": [0, 4294967295, 0, 1]}]"#, "[1]"));
 }

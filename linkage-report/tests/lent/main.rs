@@ -1,8 +1,8 @@
 //! A document that does not hold together is an error; what is lent of a sound one outlives it.
 
-use linkage_compiler::document::{Document, Node, SceneDocument, SheetDocument, Table};
-use linkage_lent::{Lender, Unsound};
+use linkage_compiler::document::{DriverDocument, FormulaNodes, Node, SceneDocument, SheetDocument, Table};
 use linkage_report::Document as _;
+use linkage_report::lend::{Lender, Unsound};
 
 const TEXT: &str = "mechanism FourBar {
     param l1 = 80, l2 = 20, l3 = 50, l4 = 70, m = 2;
@@ -15,7 +15,7 @@ const TEXT: &str = "mechanism FourBar {
     derive sheet;
 }";
 
-fn documents() -> (Document, SceneDocument, SheetDocument) {
+fn documents() -> (DriverDocument, SceneDocument, SheetDocument) {
     let mechanism = linkage_compiler::read(TEXT.parse().unwrap()).unwrap().remove(0);
     let (mut drivers, mut scenes) = linkage_compiler::documents(&mechanism).unwrap();
     let mut sheets = linkage_compiler::sheets(&mechanism).unwrap();
@@ -38,13 +38,16 @@ fn what_is_lent_outlives_its_document() {
 #[test]
 fn a_missing_formula_is_an_error() {
     let (driver, scene, sheet) = documents();
-    let mut table = Table::default();
-    table.plain("theta2");
+    let nodes: FormulaNodes = {
+        let mut table = Table::default();
+        table.plain("theta2");
+        table.nodes()
+    };
     let lender = Lender::default();
     let missing = |error: Unsound| matches!(error, Unsound::Formula(number) if number > 1);
-    assert!(missing(lender.derivation(&Document { table: table.clone(), ..driver }).unwrap_err()));
-    assert!(missing(lender.scene(&SceneDocument { table: table.clone(), ..scene }).unwrap_err()));
-    assert!(missing(lender.sheet(&SheetDocument { table, ..sheet }).unwrap_err()));
+    assert!(missing(lender.derivation(&DriverDocument { nodes: nodes.clone(), ..driver }).unwrap_err()));
+    assert!(missing(lender.scene(&SceneDocument { nodes: nodes.clone(), ..scene }).unwrap_err()));
+    assert!(missing(lender.sheet(&SheetDocument { nodes, ..sheet }).unwrap_err()));
 }
 
 #[test]
@@ -52,30 +55,23 @@ fn a_derivative_of_no_name_is_an_error() {
     let mut table = Table::default();
     let pi = table.add(Node::Pi);
     table.add(Node::Rate(pi));
-    assert_eq!(Lender::default().table(&table).unwrap_err(), Unsound::Table);
+    assert_eq!(Lender::default().table(&table.nodes()).unwrap_err(), Unsound::Table);
 }
 
 #[test]
 fn a_missing_place_is_an_error() {
     let (mut driver, _, mut sheet) = documents();
     let lender = Lender::default();
-    driver.groups[0].equations[1] = 2;
+    driver.record.groups[0].equations[1] = 2;
     let error = lender.derivation(&driver).unwrap_err();
     assert_eq!(error, Unsound::Place { list: "equations", place: 2 });
     assert_eq!(error.to_string(), "the document has no item 2 in its list of equations");
-    driver.groups[0].equations[1] = 1;
-    driver.chain.as_mut().unwrap().joints[0].0[1] = 9;
+    driver.record.groups[0].equations[1] = 1;
+    driver.record.chain.as_mut().unwrap().joints[0].links[1] = 9;
     assert_eq!(lender.derivation(&driver).unwrap_err(), Unsound::Place { list: "links", place: 9 });
-    sheet.points[0].vectors.push(2);
+    driver.record.chain.as_mut().unwrap().joints[0].links[1] = 1;
+    driver.record.jacobian_inputs.entries[0].column = 1;
+    assert_eq!(lender.derivation(&driver).unwrap_err(), Unsound::Place { list: "columns", place: 1 });
+    sheet.record.points[0].vectors.push(2);
     assert_eq!(lender.sheet(&sheet).unwrap_err(), Unsound::Place { list: "vectors", place: 2 });
-}
-
-#[test]
-fn a_check_without_formulas_is_an_error() {
-    let (mut driver, ..) = documents();
-    let checks = driver.kernels.iter_mut().map(|kernel| &mut kernel.code.checks);
-    let check = checks.into_iter().find_map(|checks| checks.first_mut()).unwrap();
-    check.1.clear();
-    let kind = check.0;
-    assert_eq!(Lender::default().derivation(&driver).unwrap_err(), Unsound::Check(kind));
 }

@@ -2,16 +2,12 @@
 
 use std::fmt;
 
-use linkage_compiler::program::CheckKind;
-
 /// A document refers to what it does not have. Those that the compiler makes are sound.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unsound {
     /// A node of the table does not refer to nodes before it, or to a name where a derivative needs one.
     Table,
-    /// The table is longer than its numbers reach.
-    TooLong,
     /// The table has no node with this number.
     Formula(u32),
     /// A list has no item at this place, counted from 0.
@@ -21,18 +17,14 @@ pub enum Unsound {
         /// The place.
         place: usize,
     },
-    /// A check of this kind has another number of formulas.
-    Check(CheckKind),
 }
 
 impl fmt::Display for Unsound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Table => f.write_str("a formula of the document refers to one that is not before it"),
-            Self::TooLong => f.write_str("the document has more formulas than their numbers reach"),
             Self::Formula(number) => write!(f, "the document has no formula {number}"),
             Self::Place { list, place } => write!(f, "the document has no item {place} in its list of {list}"),
-            Self::Check(kind) => write!(f, "a check of the document has too few or too many formulas: {kind:?}"),
         }
     }
 }
@@ -40,7 +32,7 @@ impl fmt::Display for Unsound {
 impl std::error::Error for Unsound {}
 
 /// An error if a list of this length has not all of these places.
-pub(crate) fn places(list: &'static str, places: &[usize], length: usize) -> Result<(), Unsound> {
+pub(super) fn places(list: &'static str, places: &[usize], length: usize) -> Result<(), Unsound> {
     let outside = places.iter().copied().find(|place| *place >= length);
     outside.map_or(Ok(()), |place| Err(Unsound::Place { list, place }))
 }
