@@ -1,5 +1,5 @@
 //! Nanoseconds for position, velocity and acceleration: emitted code and the same mechanism at run time, one position by its
-//! name and columns of many; medians of alternating rounds. Milliseconds from the text to the mechanism.
+//! name, rows of numbers, and columns of many; medians of alternating rounds. Milliseconds from the text to the mechanism.
 //!
 //! `cargo bench --bench interpreted`
 
@@ -61,6 +61,17 @@ impl AtRunTime {
         }
     }
 
+    fn rows(&self, inputs: &[f64]) {
+        let found: Vec<&str> = self.found.iter().map(String::as_str).collect();
+        let rate = [format!("{}_rate", self.input), format!("{}_acceleration", self.input)];
+        let given = [self.input.as_str(), &rate[0], &rate[1]];
+        let mut row = self.design.row(&given, &self.branch, &found).expect("a row");
+        let mut numbers = vec![0.0; found.len()];
+        for input in inputs {
+            let _ = black_box(row.find(&[*input, 1.0, 0.5], black_box(&mut numbers)));
+        }
+    }
+
     fn columns(&self, inputs: &[f64]) {
         let found: Vec<&str> = self.found.iter().map(String::as_str).collect();
         let rate = [format!("{}_rate", self.input), format!("{}_acceleration", self.input)];
@@ -77,19 +88,23 @@ impl AtRunTime {
 fn rows(title: &str, file: &str, emitted: impl Fn(&[f64])) {
     let own = AtRunTime::of(file);
     let inputs: Vec<f64> = (0..COUNT).map(|place| place as f64 * 0.001).collect();
-    let (mut emitted_times, mut by_name, mut columns, mut compiled) = (vec![], vec![], vec![], vec![]);
+    let (mut emitted_times, mut by_name, mut in_rows, mut columns, mut compiled) =
+        (vec![], vec![], vec![], vec![], vec![]);
     for _ in 0..ROUNDS {
         emitted_times.push(time(COUNT, || emitted(&inputs)));
         by_name.push(time(BY_NAME, || own.by_name(&inputs[..BY_NAME])));
+        in_rows.push(time(COUNT, || own.rows(&inputs)));
         columns.push(time(COUNT, || own.columns(&inputs)));
         compiled.push(time(1, || {
             let _ = black_box(Program::compile(&own.text));
         }));
     }
-    let [emitted, by_name, columns, compiled] = [emitted_times, by_name, columns, compiled].map(median);
+    let [emitted, by_name, in_rows, columns, compiled] =
+        [emitted_times, by_name, in_rows, columns, compiled].map(median);
     println!("{title}");
     println!("  emitted, one position     {emitted:8.1} ns");
     println!("  at run time, by its name  {by_name:8.1} ns, {:.1} times", by_name / emitted);
+    println!("  at run time, as a row     {in_rows:8.1} ns, {:.1} times", in_rows / emitted);
     println!("  at run time, in a column  {columns:8.1} ns, {:.1} times", columns / emitted);
     println!("  from text                 {:8.1} ms", compiled / 1e6);
 }

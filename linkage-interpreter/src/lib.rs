@@ -30,7 +30,8 @@
 //!
 //! Numbers have the bits of the emitted code, since the functions of the runtime that it calls are called here: a compiled
 //! function is read expression by expression, in the order of emitted code. Columns are computed in blocks, as `derive lanes`
-//! does, which hides the cost of reading.
+//! does, which hides the cost of reading. [`Design::row`] computes one position after the other by the same tape, from lists of
+//! numbers: a call by name, whose values have names and places in memory of their own, takes ten times as long.
 //!
 //! A [`Program`] is written and read by serde, so that a mechanism runs without its text; without the feature `compiler` it
 //! runs without the compiler.
@@ -61,7 +62,7 @@ pub use at_run_time::{
     Prepared, PreparedScene, QuantityCount, SceneAtRunTime, StateCount, WithFormulas,
 };
 pub use call_error::CallError;
-pub use columns::{Columns, Rejected, Values};
+pub use columns::{Columns, Rejected, Row, Values};
 pub use data::Data;
 pub use error::{Error, Mistake};
 #[cfg(feature = "compiler")]

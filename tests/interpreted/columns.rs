@@ -1,4 +1,4 @@
-//! Columns of positions: each has the bits of the function for one position, or its error.
+//! Columns and rows of positions: each has the bits of the function for one position, or its error.
 
 use linkage_gallery::FILES;
 use linkage_interpreter::{CallError, Columns, Data, Design, Values};
@@ -22,6 +22,7 @@ fn columns_have_the_bits_of_one_position() {
                 let design = mechanism.design();
                 let all = Given::drawn(&design, &mut drawn, has_columns_of_parameters);
                 let columns = all.computed(&design, &branch);
+                all.each_row_is_that_of(&columns, &design, &branch);
                 let mut left = columns.rejected.iter().peekable();
                 for place in 0..POSITIONS {
                     let alone = all.alone(&design, &branch, place);
@@ -75,6 +76,27 @@ impl Given {
         design.columns(&given, branch, &found).expect("columns")
     }
 
+    /// Some of the same positions one at a time.
+    fn each_row_is_that_of(&self, columns: &Columns, design: &Design, branch: &Data) {
+        let [names, found] = [&self.names, &self.found].map(|all| all.iter().map(String::as_str).collect::<Vec<_>>());
+        let mut row = design.row(&names, branch, &found).expect("a row");
+        let mut numbers = vec![0.0; found.len()];
+        for place in (0..POSITIONS).step_by(11) {
+            let rejected = columns.rejected.iter().find(|rejected| rejected.place == place);
+            let given: Vec<f64> = self.values.iter().map(|values| values[place]).collect();
+            match (row.find(&given, &mut numbers), rejected) {
+                (Ok(()), None) => {
+                    let expected = columns.columns.iter().map(|column| column[place].to_bits());
+                    assert!(expected.eq(numbers.iter().map(|number| number.to_bits())), "{place}");
+                }
+                (Err(CallError::Function(error)), Some(one)) => {
+                    assert_eq!(format!("{error:?}"), format!("{:?}", one.error), "{place}");
+                }
+                (alone, one) => panic!("{place}: {alone:?} {one:?}"),
+            }
+        }
+    }
+
     fn alone(&self, design: &Design, branch: &Data, place: usize) -> Result<Data, CallError> {
         let at =
             |from: usize, to: usize| -> Vec<f64> { self.values[from..to].iter().map(|values| values[place]).collect() };
@@ -104,4 +126,37 @@ fn same(given: &Given, columns: &Columns, place: usize, alone: &Data, mechanism:
         }
     }
     compared
+}
+
+/// The mistakes of a row, and numbers that it takes as constants.
+#[test]
+fn a_row_has_the_numbers_that_it_asks_for() {
+    let mechanism = mechanisms("four_bar").remove(0);
+    let design = mechanism.design();
+    let branch = Data::fields([("theta3_theta4", "left".into())]);
+    let mistake = |result: Result<(), CallError>| match result {
+        Err(CallError::Mistake(mistake)) => mistake.to_string(),
+        other => panic!("{other:?}"),
+    };
+    let row = |given: &[&str], found: &[&str]| design.row(given, &branch, found).map(|_| ());
+    assert_eq!(
+        mistake(row(&[], &["theta3_rate"])),
+        mistake(design.columns(&[], &branch, &["theta3_rate"]).map(|_| ()))
+    );
+    assert!(mistake(row(&["theta5"], &["theta3_rate"])).contains("theta5"));
+    assert!(mistake(row(&["theta2"], &["theta5_rate"])).contains("theta5_rate"));
+
+    let mut row = design.row(&["theta2_rate", "theta2"], &branch, &["theta4_rate", "theta3_rate"]).unwrap();
+    let mut found = [0.0; 2];
+    assert_eq!(mistake(row.find(&[1.0], &mut found)), "the list of given numbers has 1 of 2");
+    assert_eq!(mistake(row.find(&[1.0, 0.5], &mut found[..1])), "the list of found numbers has 1 of 2");
+    row.find(&[2.0, 0.5], &mut found).unwrap();
+    let given = [("theta2", Values::Same(0.5)), ("theta2_rate", Values::Same(2.0))];
+    let columns = design.columns(&given, &branch, &["theta4_rate", "theta3_rate"]).unwrap();
+    assert_eq!(found.as_slice(), columns.columns.concat());
+    // A position after one that does not exist.
+    assert!(matches!(row.find(&[1.0, f64::NAN], &mut found), Err(CallError::Function(_))));
+    let before = found;
+    row.find(&[2.0, 0.5], &mut found).unwrap();
+    assert_eq!(found, before);
 }

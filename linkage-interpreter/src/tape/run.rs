@@ -1,53 +1,61 @@
 //! Running a tape on blocks of lanes.
 
+use super::Tape;
 use super::instruction::{Binary, Chord, Instruction, Ternary, Test, Unary};
 use super::traced::{Flag, Traced, binary, chord, ternary, test, unary};
-use super::{Tape, WIDTH};
 
-/// The registers of a tape.
+/// The registers of a tape, for a number of lanes.
 #[derive(Debug)]
-pub(crate) struct Block<'t> {
-    tape: &'t Tape,
-    numbers: Vec<[f64; WIDTH]>,
-    flags: Vec<[bool; WIDTH]>,
+pub(crate) struct Block<const LANES: usize> {
+    tape: Tape,
+    registers: Registers<LANES>,
 }
 
-impl<'t> Block<'t> {
-    pub(crate) fn new(tape: &'t Tape) -> Self {
-        let mut numbers = vec![[0.0; WIDTH]; tape.numbers];
+#[derive(Debug)]
+struct Registers<const LANES: usize> {
+    numbers: Vec<[f64; LANES]>,
+    flags: Vec<[bool; LANES]>,
+}
+
+impl<const LANES: usize> Block<LANES> {
+    pub(crate) fn new(tape: Tape) -> Self {
+        let mut numbers = vec![[0.0; LANES]; tape.numbers];
         for (value, register) in &tape.constants {
-            numbers[*register as usize] = [*value; WIDTH];
+            numbers[*register as usize] = [*value; LANES];
         }
-        Self { tape, numbers, flags: vec![[false; WIDTH]; tape.flags] }
+        let registers = Registers { numbers, flags: vec![[false; LANES]; tape.flags] };
+        Self { tape, registers }
     }
 
     /// Computes a block from these numbers of the given columns.
-    pub(crate) fn run(&mut self, given: impl Fn(usize, &mut [f64; WIDTH])) {
+    pub(crate) fn run(&mut self, given: impl Fn(usize, &mut [f64; LANES])) {
         for (column, register) in &self.tape.given {
-            given(*column, &mut self.numbers[*register as usize]);
+            given(*column, &mut self.registers.numbers[*register as usize]);
         }
         for instruction in &self.tape.instructions {
-            self.step(instruction);
+            self.registers.step(instruction);
         }
     }
 
     /// The numbers of a wanted column.
-    pub(crate) fn found(&self, place: usize) -> [f64; WIDTH] {
+    pub(crate) fn found(&self, place: usize) -> [f64; LANES] {
         match self.tape.found.get(place) {
-            Some(Traced::Register(_, register)) => self.numbers[*register as usize],
-            Some(Traced::Constant(value)) => [*value; WIDTH],
-            None => [f64::NAN; WIDTH],
+            Some(Traced::Register(_, register)) => self.registers.numbers[*register as usize],
+            Some(Traced::Constant(value)) => [*value; LANES],
+            None => [f64::NAN; LANES],
         }
     }
 
     /// True in the lanes whose results are right.
-    pub(crate) fn accepted(&self) -> [bool; WIDTH] {
+    pub(crate) fn accepted(&self) -> [bool; LANES] {
         match &self.tape.accepted {
-            Flag::Register(_, register) => self.flags[*register as usize],
-            Flag::Constant(flag) => [*flag; WIDTH],
+            Flag::Register(_, register) => self.registers.flags[*register as usize],
+            Flag::Constant(flag) => [*flag; LANES],
         }
     }
+}
 
+impl<const LANES: usize> Registers<LANES> {
     fn step(&mut self, instruction: &Instruction) {
         match *instruction {
             // One loop for each function, which the compiler vectorises.
@@ -73,15 +81,15 @@ impl<'t> Block<'t> {
                 let to = &mut self.numbers[to as usize];
                 match of {
                     Ternary::IfNonzero => {
-                        (0..WIDTH).for_each(|i| to[i] = ternary(Ternary::IfNonzero, [x[i], y[i], z[i]]))
+                        (0..LANES).for_each(|i| to[i] = ternary(Ternary::IfNonzero, [x[i], y[i], z[i]]))
                     }
-                    Ternary::InRange => (0..WIDTH).for_each(|i| to[i] = ternary(Ternary::InRange, [x[i], y[i], z[i]])),
+                    Ternary::InRange => (0..LANES).for_each(|i| to[i] = ternary(Ternary::InRange, [x[i], y[i], z[i]])),
                 }
             }
             Instruction::SineCosine([sine, cosine], from) => {
                 let registers = [sine, cosine, from].map(|register| register as usize);
                 if let Ok([sine, cosine, from]) = self.numbers.get_disjoint_mut(registers) {
-                    for i in 0..WIDTH {
+                    for i in 0..LANES {
                         (sine[i], cosine[i]) = linkage_runtime::__rt::lane::sine_cosine(from[i]);
                     }
                 }
@@ -97,7 +105,7 @@ impl<'t> Block<'t> {
                 macro_rules! each {
                     ($($test:ident),*) => {
                         match of {
-                            $(Test::$test => (0..WIDTH).for_each(|i| flag[i] = test(Test::$test, x[i], y[i])),)*
+                            $(Test::$test => (0..LANES).for_each(|i| flag[i] = test(Test::$test, x[i], y[i])),)*
                         }
                     };
                 }
@@ -106,7 +114,7 @@ impl<'t> Block<'t> {
             Instruction::And(flag, from) => {
                 let [x, y] = from.map(|from| self.flags[from as usize]);
                 let flag = &mut self.flags[flag as usize];
-                (0..WIDTH).for_each(|i| flag[i] = x[i] & y[i]);
+                (0..LANES).for_each(|i| flag[i] = x[i] & y[i]);
             }
         }
     }
@@ -116,7 +124,7 @@ impl<'t> Block<'t> {
         let Some(from) = from.first_chunk::<N>() else { return };
         let numbers = from.map(|from| self.numbers[from as usize]);
         let (to, flag) = (&mut self.numbers[to as usize], &mut self.flags[flag as usize]);
-        for i in 0..WIDTH {
+        for i in 0..LANES {
             (to[i], flag[i]) = f(numbers.each_ref().map(|numbers| numbers[i]));
         }
     }
